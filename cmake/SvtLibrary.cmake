@@ -1,0 +1,39 @@
+# svt_library(<folder> [LINK <folders>...] [PRIVATE_LINK <targets>...])
+#   svt/<folder>/*.cpp      -> static library svt_<folder>, alias svt::<folder>
+#   svt/<folder>/*_test.cpp -> test program svt_<folder>_test, its cases registered with ctest
+function(svt_library folder)
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/svt/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/svt/${folder}/*.hpp)
+  set(tests ${sources})
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_test\\.(cpp|hpp)$")
+  add_library(svt_${folder} STATIC ${sources})
+  add_library(svt::${folder} ALIAS svt_${folder})
+  set_target_properties(svt_${folder} PROPERTIES LINKER_LANGUAGE CXX)
+  target_include_directories(svt_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_compile_features(svt_${folder} PUBLIC cxx_std_20)
+  list(TRANSFORM ARG_LINK PREPEND svt::)
+  target_link_libraries(svt_${folder} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  svt_warnings(svt_${folder})
+  if(SVT_TESTS AND tests)
+    svt_test(svt_${folder}_test SOURCES ${tests} LINK svt::${folder} ${ARG_PRIVATE_LINK})
+  endif()
+endfunction()
+
+# svt_test(<name> SOURCES ... LINK ...): a GoogleTest program, its cases registered with ctest.
+function(svt_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gtest_main)
+  svt_warnings(${name})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+
+# Warnings, and arithmetic that gives the same bits with every compiler and on every machine:
+# no contraction into fused multiply-add, no value-changing optimizations.
+function(svt_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic -ffp-contract=off)
+  if(SVT_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()

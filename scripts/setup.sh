@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# Installs what SVT needs to build and test on Debian 12. Does nothing when all is there.
+#   scripts/setup.sh          what `make build`, `make test` and `make demo` need
+#   scripts/setup.sh peers    also the peers that only `make bench` compares with
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build pkg-config
+  libpugixml-dev libsimdjson-dev nlohmann-json3-dev libglu1-mesa-dev libproj-dev libtbb-dev
+  libfmt-dev libcli11-dev libexpected-dev zlib1g-dev libpng-dev
+  libgtest-dev libxml2-utils unzip python3 ccache
+)
+peers=(libvtk9-dev libopenvdb-dev libcitygml-dev libopenexr-dev libbenchmark-dev)
+[ "${1:-}" = peers ] && packages+=("${peers[@]}")
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+sudo=
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "setup: need root or sudo to install: ${missing[*]}" >&2; exit 1; }
+  sudo=sudo
+fi
+echo "setup: installing ${#missing[@]} packages: ${missing[*]}"
+log=$(mktemp)
+run() {
+  if ! $sudo env DEBIAN_FRONTEND=noninteractive "$@" >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "setup: '$*' failed; see above" >&2
+    exit 1
+  fi
+}
+run apt-get update -q
+run apt-get install -y -q --no-install-recommends "${missing[@]}"
+rm -f "$log"

@@ -1,0 +1,86 @@
+#include <svt/core/error.hpp>
+
+#include <fmt/format.h>
+
+namespace svt {
+
+std::string_view codeName(Code code) noexcept {
+    switch (code) {
+#define SVT_CASE(name) \
+    case Code::name: return #name
+        SVT_CASE(CannotOpen);
+        SVT_CASE(BadXml);
+        SVT_CASE(UnknownFormat);
+        SVT_CASE(InputTooBig);
+        SVT_CASE(BadJson);
+        SVT_CASE(UnknownVersion);
+        SVT_CASE(DtdRefused);
+        SVT_CASE(BadEncoding);
+        SVT_CASE(EmptyModel);
+        SVT_CASE(DanglingReference);
+        SVT_CASE(ReferenceCycle);
+        SVT_CASE(DuplicateId);
+        SVT_CASE(MissingId);
+        SVT_CASE(BadValue);
+        SVT_CASE(ExternalReference);
+        SVT_CASE(UnknownElement);
+        SVT_CASE(MixedCrs);
+        SVT_CASE(GeographicCrs);
+        SVT_CASE(BadIndex);
+        SVT_CASE(TooFewPoints);
+        SVT_CASE(BadCoordinate);
+        SVT_CASE(ZeroArea);
+        SVT_CASE(DuplicateFace);
+        SVT_CASE(SelfTouchingRing);
+        SVT_CASE(NonPlanar);
+        SVT_CASE(ShellNotClosed);
+        SVT_CASE(TJunction);
+        SVT_CASE(ShellCapped);
+        SVT_CASE(WindingFilled);
+        SVT_CASE(FaceFlipped);
+        SVT_CASE(TriangulationFailed);
+        SVT_CASE(NoGeometry);
+        SVT_CASE(FacesComplemented);
+        SVT_CASE(BadDimension);
+        SVT_CASE(GridTooLarge);
+        SVT_CASE(TooManyLabels);
+        SVT_CASE(BadPattern);
+        SVT_CASE(BadStyle);
+        SVT_CASE(ThinObject);
+        SVT_CASE(Overlap);
+        SVT_CASE(BadVolume);
+        SVT_CASE(BadChecksum);
+        SVT_CASE(VolumeVersion);
+        SVT_CASE(CannotWrite);
+        SVT_CASE(DiskFull);
+        SVT_CASE(BadImage);
+        SVT_CASE(BadNrrd);
+        SVT_CASE(BadCamera);
+        SVT_CASE(BadFrame);
+        SVT_CASE(BadQuery);
+        SVT_CASE(NothingSelected);
+        SVT_CASE(Cancelled);
+        SVT_CASE(BadArgument);
+        SVT_CASE(Internal);
+#undef SVT_CASE
+    }
+    return "Unknown";
+}
+
+std::string codeTag(Code code) { return fmt::format("E{:03}", static_cast<unsigned>(code)); }
+
+std::string Place::toString() const {
+    std::string text = file;
+    if (line != 0) text += fmt::format("{}line {}", text.empty() ? "" : ":", line);
+    if (line != 0 && !file.empty()) text = fmt::format("{}:{}", file, line);
+    if (column != 0) text += fmt::format(":{}", column);
+    if (!id.empty()) text += fmt::format("{}(id '{}')", text.empty() ? "" : " ", id);
+    return text;
+}
+
+std::string Error::toString() const {
+    const std::string place = where_.toString();
+    return fmt::format("{} {}: {}{}{}", codeTag(code_), codeName(code_), place, place.empty() ? "" : ": ", message_);
+}
+
+}  // namespace svt

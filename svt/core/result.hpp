@@ -1,0 +1,63 @@
+#pragma once
+/// \file
+/// A value or an error. Every public function that can fail returns one;
+/// no exception leaves the library except std::bad_alloc.
+
+#include <svt/core/error.hpp>
+
+#include <cassert>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace svt {
+
+/// Holds either a `T` or an `Error`, like C++23 std::expected<T, Error>.
+///
+///     Result<Grid> grid = Grid::fromDimension(box, {800, 700, 400});
+///     if (!grid) return grid.error();
+///     use(*grid);
+template <class T>
+class [[nodiscard]] Result {
+public:
+    Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+    Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+    [[nodiscard]] bool hasValue() const noexcept { return state_.index() == 0; }
+    [[nodiscard]] explicit operator bool() const noexcept { return hasValue(); }
+
+    /// The value. Only where hasValue().
+    [[nodiscard]] T& value() & { return *std::get_if<0>(&state_); }
+    [[nodiscard]] const T& value() const& { return *std::get_if<0>(&state_); }
+    [[nodiscard]] T&& value() && { return std::move(*std::get_if<0>(&state_)); }
+    [[nodiscard]] T& operator*() & { return value(); }
+    [[nodiscard]] const T& operator*() const& { return value(); }
+    [[nodiscard]] T&& operator*() && { return std::move(*this).value(); }
+    [[nodiscard]] T* operator->() { return &value(); }
+    [[nodiscard]] const T* operator->() const { return &value(); }
+
+    /// The error. Only where not hasValue().
+    [[nodiscard]] const Error& error() const& { return *std::get_if<1>(&state_); }
+    [[nodiscard]] Error&& error() && { return std::move(*std::get_if<1>(&state_)); }
+
+private:
+    std::variant<T, Error> state_;
+};
+
+/// Done, or an error.
+template <>
+class [[nodiscard]] Result<void> {
+public:
+    Result() = default;
+    Result(Error error) : error_(std::move(error)), failed_(true) {}
+
+    [[nodiscard]] bool hasValue() const noexcept { return !failed_; }
+    [[nodiscard]] explicit operator bool() const noexcept { return hasValue(); }
+    [[nodiscard]] const Error& error() const { return error_; }
+
+private:
+    Error error_;
+    bool failed_ = false;
+};
+
+}  // namespace svt

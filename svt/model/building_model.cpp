@@ -1,0 +1,70 @@
+#include <svt/model/building_model.hpp>
+
+#include <cmath>
+
+namespace svt::model {
+
+FeatureIndex BuildingModel::addFeature(Feature feature, FeatureIndex parent) {
+    const auto index = static_cast<FeatureIndex>(features.size());
+    feature.parent = parent;
+    features.push_back(std::move(feature));
+    if (parent == kNoFeature)
+        roots.push_back(index);
+    else
+        features[parent].children.push_back(index);
+    return index;
+}
+
+PolygonIndex BuildingModel::addPolygon(Polygon polygon) {
+    polygons.push_back(std::move(polygon));
+    return static_cast<PolygonIndex>(polygons.size() - 1);
+}
+
+std::vector<FeatureIndex> BuildingModel::treeOrder() const {
+    std::vector<FeatureIndex> order;
+    order.reserve(features.size());
+    std::vector<FeatureIndex> stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+        const FeatureIndex index = stack.back();
+        stack.pop_back();
+        order.push_back(index);
+        const auto& children = features[index].children;
+        stack.insert(stack.end(), children.rbegin(), children.rend());
+    }
+    return order;
+}
+
+Box3d BuildingModel::bounds(const Geometry& geometry) const {
+    Box3d box;
+    const auto addUses = [&](const std::vector<SurfaceUse>& uses) {
+        for (const SurfaceUse& use : uses)
+            for (const Vec3d& point : polygons[use.polygon].points) box.add(point);
+    };
+    addUses(geometry.surfaces);
+    for (const Solid& solid : geometry.solids) {
+        addUses(solid.exterior);
+        for (const auto& interior : solid.interiors) addUses(interior);
+    }
+    return box;
+}
+
+int LodChoice::choose(const Feature& feature) const {
+    int best = -1;
+    for (int i = 0; i < static_cast<int>(feature.geometries.size()); ++i) {
+        const Geometry& candidate = feature.geometries[i];
+        if (candidate.solids.empty() && candidate.surfaces.empty()) continue;
+        if (lod >= 0 && std::floor(candidate.lod) > lod && candidate.lod > lod) continue;
+        if (best < 0) {
+            best = i;
+            continue;
+        }
+        const Geometry& current = feature.geometries[best];
+        const bool isFiner = candidate.lod > current.lod;
+        const bool isSolidOfSameLod = candidate.lod == current.lod && candidate.kind == GeometryKind::Solid &&
+                                      current.kind != GeometryKind::Solid;
+        if (isFiner || isSolidOfSameLod) best = i;
+    }
+    return best;
+}
+
+}  // namespace svt::model

@@ -1,0 +1,132 @@
+#pragma once
+/// \file
+/// The semantic tree that every reader fills: features with attributes, parents, groups,
+/// and their geometry as the file gives it (rings, shells, solids; world space, metres).
+/// Data only; nothing here is repaired, closed or triangulated.
+
+#include <svt/core/attribute.hpp>
+#include <svt/core/vec.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace svt::model {
+
+using FeatureIndex = std::uint32_t;   ///< into BuildingModel::features
+using PolygonIndex = std::uint32_t;   ///< into BuildingModel::polygons
+inline constexpr FeatureIndex kNoFeature = 0xFFFFFFFFu;
+
+/// A polygon with holes, as read. World space, double.
+///
+///     points:   e0 e1 e2 e3 h0 h1 h2        one exterior ring of 4, one hole of 3
+///     ringEnds:             4        7      ends of the rings in `points`; first ring = exterior
+///
+/// Rings keep the file's order and direction; a closing point equal to the first is dropped.
+/// Counter-clockwise seen from outside where the file is right.
+struct Polygon {
+    std::vector<Vec3d> points;
+    std::vector<std::uint32_t> ringEnds;
+    std::string id;               ///< gml:id, or empty
+    std::int32_t material = -1;   ///< into BuildingModel::materials, -1: none
+};
+
+/// One use of a polygon. A wall face shared by two rooms is one polygon with two uses,
+/// one of them reversed (gml:OrientableSurface "-").
+struct SurfaceUse {
+    PolygonIndex polygon = 0;
+    bool isReversed = false;
+    friend bool operator==(const SurfaceUse&, const SurfaceUse&) = default;
+};
+
+/// Exterior shell and shells of voids.
+struct Solid {
+    std::string id;
+    std::vector<SurfaceUse> exterior;
+    std::vector<std::vector<SurfaceUse>> interiors;
+};
+
+enum class GeometryKind : std::uint8_t {
+    Solid,             ///< gml:Solid, CompositeSolid, MultiSolid: `solids` is filled
+    Surface,           ///< MultiSurface, CompositeSurface, Surface, TIN, ...: `surfaces` is filled
+};
+
+/// One geometry of a feature in one level of detail.
+struct Geometry {
+    GeometryKind kind = GeometryKind::Surface;
+    double lod = -1;                     ///< 0..4, CityJSON 2.2 as 2.2; -1: not stated
+    std::string id;                      ///< gml:id of the solid or (multi)surface, or empty
+    std::vector<Solid> solids;
+    std::vector<SurfaceUse> surfaces;
+};
+
+/// A semantic object: building, storey, room, wall, window, table, parcel, tree.
+struct Feature {
+    std::string id;          ///< unique in the model; made from the path where the file has none
+    std::string className;   ///< CityGML 3.0 local name where one exists: Building, BuildingRoom, WallSurface (see classes.hpp)
+    std::string name;        ///< gml:name, or empty
+    std::vector<Attribute> attributes;
+    FeatureIndex parent = kNoFeature;
+    std::vector<FeatureIndex> children;  ///< in document order
+    std::vector<Geometry> geometries;    ///< every level of detail that the file has
+    std::uint64_t line = 0;              ///< 1-based line of the input, 0: unknown
+};
+
+/// Aggregation beside the hierarchy: a storey, unit or CityObjectGroup that points at its members.
+struct Membership {
+    FeatureIndex group = kNoFeature;
+    FeatureIndex member = kNoFeature;
+    std::string role;
+    friend bool operator==(const Membership&, const Membership&) = default;
+};
+
+/// Colour of a surface (X3DMaterial, CityJSON material).
+struct Material {
+    std::string name;
+    Vec3f diffuse{0.8f, 0.8f, 0.8f};  ///< sRGB, 0..1
+    float transparency = 0;           ///< 0 opaque .. 1 invisible
+};
+
+/// Coordinate reference system as the file names it. Coordinates are never reprojected;
+/// axes are brought to (east, north, up) order.
+struct Crs {
+    std::string name;             ///< srsName or referenceSystem, or empty
+    int epsg = 0;                 ///< horizontal EPSG code where the name has one, else 0
+    bool axesSwapped = false;     ///< the file's order was (north, east); the model's is (east, north)
+};
+
+/// A whole model. Index-based: features and polygons refer to each other by index.
+struct BuildingModel {
+    std::string source;        ///< path or name as the caller gave it
+    std::string format;        ///< "CityGML 2.0", "CityJSON 1.1", "CityJSONSeq 2.0"
+    Crs crs;
+    std::string name;          ///< name of the whole model, or empty
+    std::vector<Feature> features;        ///< a parent stands before its children
+    std::vector<FeatureIndex> roots;      ///< features without parent, in document order
+    std::vector<Membership> memberships;
+    std::vector<Polygon> polygons;
+    std::vector<Material> materials;
+
+    /// Adds a feature under `parent` (kNoFeature: a root) and returns its index.
+    FeatureIndex addFeature(Feature feature, FeatureIndex parent);
+    /// Adds a polygon and returns its index.
+    PolygonIndex addPolygon(Polygon polygon);
+    /// Features in tree order (depth first, children in document order). Cost: O(features).
+    [[nodiscard]] std::vector<FeatureIndex> treeOrder() const;
+    /// Box around all points of `geometry`; empty for none. World space, metres.
+    [[nodiscard]] Box3d bounds(const Geometry& geometry) const;
+};
+
+/// Which level of detail to use of a feature that has several.
+struct LodChoice {
+    double lod = -1;  ///< -1: the finest that each feature has; else the finest not above this (2 takes 2.2: compared by floor)
+    [[nodiscard]] static LodChoice finest() { return {}; }
+
+    /// Index into `feature.geometries` of the geometry to use, or -1 for none. Among geometries of
+    /// the same level solids come before surfaces.
+    [[nodiscard]] int choose(const Feature& feature) const;
+};
+
+}  // namespace svt::model

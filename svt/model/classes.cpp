@@ -1,0 +1,83 @@
+#include <svt/model/classes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace svt::model {
+namespace {
+
+using std::string_view;
+
+template <std::size_t N>
+bool isIn(const std::array<string_view, N>& names, string_view name) noexcept {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool endsWith(string_view text, string_view tail) noexcept {
+    return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
+}
+
+constexpr std::array<std::pair<string_view, string_view>, 12> kAliases{{
+    {"Room", "BuildingRoom"},
+    {"IntBuildingInstallation", "BuildingInstallation"},
+    {"BuildingStorey", "Storey"},
+    {"IntBridgeInstallation", "BridgeInstallation"},
+    {"IntTunnelInstallation", "TunnelInstallation"},
+    {"BridgeConstructionElement", "BridgeConstructiveElement"},
+    {"TunnelConstructionElement", "TunnelConstructiveElement"},
+    {"TINRelief", "TINRelief"},
+    {"GenericCityObject", "GenericOccupiedSpace"},
+    {"HollowSpace", "HollowSpace"},
+    {"BridgeConstructiveElement", "BridgeConstructiveElement"},
+    {"TunnelHollowSpace", "HollowSpace"},
+}};
+
+constexpr std::array<string_view, 4> kFillings{"Door", "Window", "DoorSurface", "WindowSurface"};
+constexpr std::array<string_view, 4> kRooms{"BuildingRoom", "BridgeRoom", "HollowSpace", "TunnelRoom"};
+constexpr std::array<string_view, 8> kBuildings{"Building", "BuildingPart", "Bridge",         "BridgePart",
+                                                "Tunnel",   "TunnelPart",   "OtherConstruction", "+NoiseBuilding"};
+// Thematic surfaces of every module; waterbody and transportation surfaces bound spaces too.
+constexpr std::array<string_view, 16> kBoundaries{
+    "WallSurface",         "RoofSurface",    "GroundSurface",       "FloorSurface",
+    "CeilingSurface",      "ClosureSurface", "InteriorWallSurface", "OuterFloorSurface",
+    "OuterCeilingSurface", "WaterSurface",   "WaterGroundSurface",  "WaterClosureSurface",
+    "TrafficArea",         "AuxiliaryTrafficArea", "GenericThematicSurface", "HoleSurface"};
+constexpr std::array<string_view, 8> kSurfaceOnly{"TINRelief",   "ReliefFeature", "LandUse",         "CityObjectGroup",
+                                                  "BreaklineRelief", "RasterRelief", "MassPointRelief", "CityModel"};
+
+}  // namespace
+
+std::string canonicalClassName(string_view sourceName) {
+    for (const auto& [alias, name] : kAliases)
+        if (alias == sourceName) return std::string(name);
+    return std::string(sourceName);
+}
+
+ClassRank classRank(string_view className) noexcept {
+    if (endsWith(className, "Furniture") || className == "SolitaryVegetationObject" || className == "PlantCover")
+        return ClassRank::Furniture;
+    if (isFilling(className)) return ClassRank::Filling;
+    if (endsWith(className, "Installation")) return ClassRank::Installation;
+    if (endsWith(className, "ConstructiveElement") || isBoundarySurface(className)) return ClassRank::Element;
+    if (isIn(kRooms, className)) return ClassRank::Room;
+    if (className == "BuildingUnit") return ClassRank::Unit;
+    if (className == "Storey") return ClassRank::Storey;
+    if (isIn(kBuildings, className)) return ClassRank::Building;
+    return ClassRank::Other;
+}
+
+bool isBoundarySurface(string_view className) noexcept { return isIn(kBoundaries, className); }
+
+bool isFilling(string_view className) noexcept { return isIn(kFillings, className); }
+
+bool isSpace(string_view className) noexcept {
+    return isIn(kRooms, className) || className == "BuildingUnit" || className == "Storey";
+}
+
+bool hasSolidMeaning(string_view className) noexcept {
+    if (isBoundarySurface(className) || className == "DoorSurface" || className == "WindowSurface") return false;
+    return !isIn(kSurfaceOnly, className);
+}
+
+}  // namespace svt::model

@@ -1,0 +1,131 @@
+#pragma once
+/// \file
+/// The canonical form of a label volume: columns of runs, shared per tile. Lossless, and its
+/// size grows with the surface of what is inside, not with the volume.
+///
+/// The (x, y) plane is cut into tiles of 64 x 64 columns at full height. A tile holds a dictionary of
+/// its distinct columns and of its distinct rows of columns:
+///
+///     rowOf       [ 0 0 0 1 1 2 ... ]            64 rows of the tile -> row of the dictionary
+///     rowColumns  [ 0 0 0 1 1 1 2 ... | ... ]    each dictionary row: `width` column numbers
+///     columnStart [ 0 1 4 9 ... ]                each column: its stretch of `runs`, last entry = runs.size()
+///     runs        [ {end 163, scalar 0} | {end 10, 7} {end 80, 0} {end 163, 0} | ... ]
+///
+/// A run reaches from the end of the one before (0 for the first) up to, not including, `end`; the last ends at
+/// nz; neighbours differ in scalar. Columns and rows are numbered by first use (rows bottom up, x ascending), so equal
+/// volumes have equal bytes.
+
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace svt::volume {
+
+/// Value of a voxel; 0 is background. Stored with 32 bits, see LabelTable::scalarBits() for what a dense copy needs.
+using Scalar = std::uint32_t;
+
+/// A stretch of a column with one scalar. k from the previous run's end to `end` - 1.
+struct Run {
+    std::uint32_t end = 0;
+    Scalar scalar = 0;
+    friend bool operator==(const Run&, const Run&) = default;
+};
+
+/// Views of one tile's arrays; the volume's storage owns them.
+struct ColumnTile {
+    std::span<const std::uint8_t> rowOf;          ///< height entries
+    std::span<const std::uint16_t> rowColumns;    ///< width * (distinct rows) entries
+    std::span<const std::uint32_t> columnStart;   ///< distinct columns + 1 entries
+    std::span<const Run> runs;
+
+    [[nodiscard]] std::span<const Run> column(std::uint32_t number) const noexcept {
+        return runs.subspan(columnStart[number], columnStart[number + 1] - columnStart[number]);
+    }
+};
+
+/// One tile's arrays as a builder owns them.
+struct ColumnTileData {
+    std::vector<std::uint8_t> rowOf;
+    std::vector<std::uint16_t> rowColumns;
+    std::vector<std::uint32_t> columnStart;
+    std::vector<Run> runs;
+    [[nodiscard]] ColumnTile view() const noexcept { return {rowOf, rowColumns, columnStart, runs}; }
+};
+
+/// A label volume, immutable and cheap to copy (shares its storage). Thread-safe to read.
+class ColumnVolume {
+public:
+    static constexpr std::int32_t kTileSize = 64;  ///< columns along x and y
+
+    ColumnVolume() = default;
+
+    /// From tiles in row order (x fastest), as a voxelizer makes them. Takes the tiles as they are.
+    [[nodiscard]] static ColumnVolume fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles);
+
+    /// From views of memory that `storage` keeps alive (a mapped file). Everything is checked: sizes, indices, ascending
+    /// ends, last end, scalars below `scalarCount`.
+    /// \return the volume, or BadVolume that names the tile
+    [[nodiscard]] static Result<ColumnVolume> fromViews(Vec3i dimension, std::vector<ColumnTile> tiles, Scalar scalarCount,
+                                                        std::shared_ptr<const void> storage);
+
+    /// From a dense array, x fastest, then y, then z (index i + nx * (j + ny * k)).
+    [[nodiscard]] static ColumnVolume fromDense(Vec3i dimension, std::span<const Scalar> scalars);
+
+    [[nodiscard]] Vec3i dimension() const noexcept { return dimension_; }
+    [[nodiscard]] std::int32_t tilesX() const noexcept { return (dimension_.x + kTileSize - 1) / kTileSize; }
+    [[nodiscard]] std::int32_t tilesY() const noexcept { return (dimension_.y + kTileSize - 1) / kTileSize; }
+    [[nodiscard]] std::span<const ColumnTile> tiles() const noexcept { return tiles_; }  ///< x fastest
+    [[nodiscard]] std::int32_t tileWidth(std::int32_t tileX) const noexcept;
+    [[nodiscard]] std::int32_t tileHeight(std::int32_t tileY) const noexcept;
+
+    /// Runs of column (i, j), bottom up. Cost O(1).
+    [[nodiscard]] std::span<const Run> column(std::int32_t i, std::int32_t j) const noexcept;
+    /// Scalar of sample (i, j, k). Cost O(log runs).
+    [[nodiscard]] Scalar scalarAt(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept;
+
+    /// Voxels per scalar; entry s of `scalarCount` entries. Cost O(distinct columns' runs + rows).
+    [[nodiscard]] std::vector<std::uint64_t> countVoxels(Scalar scalarCount) const;
+    /// Bytes of all arrays.
+    [[nodiscard]] std::size_t sizeBytes() const noexcept;
+
+    /// Same dimension and same scalar at every sample (the canonical form makes that a comparison of arrays).
+    friend bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept;
+
+private:
+    Vec3i dimension_{};
+    std::vector<ColumnTile> tiles_;
+    std::shared_ptr<const void> storage_;
+};
+
+/// Makes one tile row by row, sharing equal columns and equal rows.
+class ColumnTileBuilder {
+public:
+    explicit ColumnTileBuilder(std::int32_t width);
+
+    /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in scalar.
+    [[nodiscard]] std::uint16_t addColumn(std::span<const Run> runs);
+    /// The next row: `width` column numbers.
+    void addRow(std::span<const std::uint16_t> columns);
+    /// The next row is equal to the one before.
+    void repeatRow();
+    /// Number of rows added so far.
+    [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(data_.rowOf.size()); }
+    /// The finished tile; numbered by first use where addColumn was called in order of first use.
+    [[nodiscard]] ColumnTileData finish();
+
+private:
+    void grow();
+
+    std::int32_t width_;
+    ColumnTileData data_;
+    std::vector<std::uint32_t> columnTable_;  // open addressing: column number + 1, 0 = free
+    std::vector<std::uint64_t> rowHashes_;
+    std::uint32_t columnCount_ = 0;
+};
+
+}  // namespace svt::volume

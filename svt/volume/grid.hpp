@@ -1,0 +1,65 @@
+#pragma once
+/// \file
+/// Where the samples of a volume lie. The paper's node grid (section 3.2):
+/// spacing[i] = envelope[i] / (dimension[i] - 1); the first and last samples lie on the envelope.
+///
+///      envelope                        index space: sample (i, j, k) stands at (i, j, k) and is
+///      x---x---x---x   dimension 4     the centre of its voxel [i-1/2, i+1/2] x ...
+///      |   spacing                     x runs fastest, then y, then z:
+///      x---x---x---x                   linear index = i + nx * (j + ny * k)
+
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+
+#include <array>
+#include <cstdint>
+
+namespace svt::volume {
+
+/// World space = origin + axes * (index * spacing). `axes` is a rotation: identity for the
+/// world-axis box, a turn about z for a building's own frame.
+class Grid {
+public:
+    static constexpr std::int32_t kMaxDimension = 65535;
+
+    /// A grid of `dimension` samples over `envelope` (world space, metres; local to `axes` where given).
+    /// \return the grid, or BadDimension where a dimension is outside 2..65535, GridTooLarge where the count of
+    ///         columns nx * ny is over 2^31, BadDimension where the envelope is empty. An axis without
+    ///         extent is widened to one thousandth of the largest (at least 1 mm).
+    [[nodiscard]] static Result<Grid> fromDimension(const Box3d& envelope, Vec3i dimension);
+
+    /// A grid with `spacing` metres between samples (> 0) along each axis; the envelope is widened evenly on both
+    /// sides to whole steps. Errors as fromDimension.
+    [[nodiscard]] static Result<Grid> fromSpacing(const Box3d& envelope, Vec3d spacing);
+
+    /// As stored: checked, then taken as it is.
+    [[nodiscard]] static Result<Grid> fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin, const std::array<Vec3d, 3>& axes);
+
+    [[nodiscard]] Vec3i dimension() const noexcept { return dimension_; }
+    [[nodiscard]] Vec3d spacing() const noexcept { return spacing_; }    ///< metres
+    [[nodiscard]] Vec3d origin() const noexcept { return origin_; }      ///< sample (0, 0, 0), world space
+    [[nodiscard]] const std::array<Vec3d, 3>& axes() const noexcept { return axes_; }  ///< unit vectors of i, j, k in world space
+    [[nodiscard]] std::uint64_t sampleCount() const noexcept;
+    [[nodiscard]] double voxelVolume() const noexcept { return spacing_.x * spacing_.y * spacing_.z; }  ///< m3
+    [[nodiscard]] bool isAxisParallel() const noexcept;
+
+    [[nodiscard]] Vec3d worldFromIndex(Vec3d index) const noexcept;
+    [[nodiscard]] Vec3d indexFromWorld(Vec3d world) const noexcept;
+    /// Direction without the offset; not normalized.
+    [[nodiscard]] Vec3d worldFromIndexDirection(Vec3d index) const noexcept;
+    [[nodiscard]] Vec3d indexFromWorldDirection(Vec3d world) const noexcept;
+
+    /// The same grid turned: `axes` replaces the identity; the box given to fromDimension was measured along these axes
+    /// from `pivot` (world space).
+    [[nodiscard]] Grid turned(const std::array<Vec3d, 3>& axes, Vec3d pivot) const;
+
+    friend bool operator==(const Grid&, const Grid&) = default;
+
+private:
+    Vec3i dimension_{2, 2, 2};
+    Vec3d spacing_{1, 1, 1};
+    Vec3d origin_{};
+    std::array<Vec3d, 3> axes_{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+};
+
+}  // namespace svt::volume

@@ -1,0 +1,22 @@
+#pragma once
+/// \file
+/// A semantic volume texture: grid, labels and columns together. What `svt build` makes and a `.svt` file holds.
+
+#include <svt/volume/column_volume.hpp>
+#include <svt/volume/grid.hpp>
+#include <svt/volume/label_table.hpp>
+
+#include <string>
+
+namespace svt::volume {
+
+struct SemanticVolume {
+    Grid grid;
+    LabelTable labels;
+    ColumnVolume columns;
+    std::string crsName;    ///< srsName or referenceSystem of the model, or empty
+    std::string modelName;  ///< name of the model, or empty
+    std::string source;     ///< file name (without folder) of the model
+};
+
+}  // namespace svt::volume
