@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// Where tests find the real models that are not part of the repository.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace svt::test {
+
+/// $SVT_DATA_DIR, else ../shared/data beside the checkout.
+inline std::filesystem::path dataDir() {
+    if (const char* dir = std::getenv("SVT_DATA_DIR")) return dir;
+    return std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
+}
+
+}  // namespace svt::test
+
+/// Skips the test where `file` of the data directory is absent; else declares `path`.
+#define SVT_NEEDS_DATA(path, file)                                                                      \
+    const std::filesystem::path path = ::svt::test::dataDir() / (file);                                 \
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set SVT_DATA_DIR to run this test"
