@@ -1,0 +1,251 @@
+#include <svt/volume/column_volume.hpp>
+
+#include <svt/core/check.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace svt::volume {
+namespace {
+
+// Multiply-xorshift mix of 64-bit words: cheap, and good enough for tables that compare in full afterwards.
+std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
+    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+    return hash ^ (hash >> 32);
+}
+
+std::uint64_t hashRuns(std::span<const Run> runs) noexcept {
+    std::uint64_t hash = runs.size();
+    for (const Run& run : runs) hash = mix(hash, (std::uint64_t(run.end) << 32) | run.scalar);
+    return hash;
+}
+
+std::uint64_t hashRow(std::span<const std::uint16_t> columns) noexcept {
+    std::uint64_t hash = columns.size();
+    std::size_t i = 0;
+    for (; i + 4 <= columns.size(); i += 4) {
+        std::uint64_t word;
+        std::memcpy(&word, columns.data() + i, sizeof word);
+        hash = mix(hash, word);
+    }
+    for (; i < columns.size(); ++i) hash = mix(hash, columns[i]);
+    return hash;
+}
+
+template <class T>
+bool isEqual(std::span<const T> a, std::span<const T> b) noexcept {
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+}
+
+// Everything that column() and scalarAt() rely on.
+Result<void> checkTile(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t nz, Scalar scalarCount,
+                       std::size_t number) {
+    const auto bad = [&](std::string_view what) {
+        return Error(Code::BadVolume, fmt::format("tile {}: {}; the file is damaged, build it again", number, what));
+    };
+    if (tile.rowOf.size() != static_cast<std::size_t>(height)) return bad("wrong count of rows");
+    if (tile.columnStart.size() < 2 || tile.columnStart.size() > std::size_t(1) + 65536) return bad("wrong count of columns");
+    if (tile.columnStart.front() != 0 || tile.columnStart.back() != tile.runs.size()) return bad("column starts do not cover the runs");
+    if (tile.rowColumns.empty() || tile.rowColumns.size() % static_cast<std::size_t>(width) != 0)
+        return bad("wrong count of row entries");
+    const std::size_t rows = tile.rowColumns.size() / static_cast<std::size_t>(width);
+    const std::size_t columns = tile.columnStart.size() - 1;
+    for (const std::uint8_t row : tile.rowOf)
+        if (row >= rows) return bad("row number out of range");
+    for (const std::uint16_t column : tile.rowColumns)
+        if (column >= columns) return bad("column number out of range");
+    for (std::size_t column = 0; column < columns; ++column) {
+        const std::uint32_t begin = tile.columnStart[column];
+        const std::uint32_t end = tile.columnStart[column + 1];
+        if (end <= begin || end > tile.runs.size()) return bad("column starts do not ascend");
+        std::uint32_t previous = 0;
+        for (std::uint32_t r = begin; r < end; ++r) {
+            const Run& run = tile.runs[r];
+            if (run.end <= previous || run.end > static_cast<std::uint32_t>(nz)) return bad("run ends do not ascend");
+            if (run.scalar >= scalarCount) return bad(fmt::format("scalar {} is in no label's range", run.scalar));
+            previous = run.end;
+        }
+        if (previous != static_cast<std::uint32_t>(nz)) return bad("a column does not reach the top");
+    }
+    return {};
+}
+
+}  // namespace
+
+ColumnVolume ColumnVolume::fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles) {
+    ColumnVolume volume;
+    volume.dimension_ = dimension;
+    SVT_CHECK(tiles.size() == std::size_t(volume.tilesX()) * std::size_t(volume.tilesY()));
+    auto storage = std::make_shared<std::vector<ColumnTileData>>(std::move(tiles));
+    volume.tiles_.reserve(storage->size());
+    for (const ColumnTileData& tile : *storage) volume.tiles_.push_back(tile.view());
+    volume.storage_ = std::move(storage);
+    return volume;
+}
+
+Result<ColumnVolume> ColumnVolume::fromViews(Vec3i dimension, std::vector<ColumnTile> tiles, Scalar scalarCount,
+                                             std::shared_ptr<const void> storage) {
+    ColumnVolume volume;
+    volume.dimension_ = dimension;
+    const std::size_t expected = std::size_t(volume.tilesX()) * std::size_t(volume.tilesY());
+    if (tiles.size() != expected)
+        return Error(Code::BadVolume, fmt::format("{} tiles found, {} expected", tiles.size(), expected));
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const auto tileX = static_cast<std::int32_t>(t % std::size_t(volume.tilesX()));
+        const auto tileY = static_cast<std::int32_t>(t / std::size_t(volume.tilesX()));
+        if (auto checked = checkTile(tiles[t], volume.tileWidth(tileX), volume.tileHeight(tileY), dimension.z, scalarCount, t);
+            !checked)
+            return checked.error();
+    }
+    volume.tiles_ = std::move(tiles);
+    volume.storage_ = std::move(storage);
+    return volume;
+}
+
+ColumnVolume ColumnVolume::fromDense(Vec3i dimension, std::span<const Scalar> scalars) {
+    ColumnVolume shape;
+    shape.dimension_ = dimension;
+    std::vector<ColumnTileData> tiles;
+    std::vector<Run> runs;
+    const std::size_t nx = std::size_t(dimension.x), ny = std::size_t(dimension.y);
+    for (std::int32_t tileY = 0; tileY < shape.tilesY(); ++tileY) {
+        for (std::int32_t tileX = 0; tileX < shape.tilesX(); ++tileX) {
+            const std::int32_t width = shape.tileWidth(tileX);
+            ColumnTileBuilder builder(width);
+            std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+            for (std::int32_t y = 0; y < shape.tileHeight(tileY); ++y) {
+                for (std::int32_t x = 0; x < width; ++x) {
+                    const std::size_t base = std::size_t(tileX * kTileSize + x) + nx * std::size_t(tileY * kTileSize + y);
+                    runs.clear();
+                    for (std::int32_t k = 0; k < dimension.z; ++k) {
+                        const Scalar scalar = scalars[base + nx * ny * std::size_t(k)];
+                        if (runs.empty() || runs.back().scalar != scalar) runs.push_back({0, scalar});
+                        runs.back().end = static_cast<std::uint32_t>(k + 1);
+                    }
+                    row[std::size_t(x)] = builder.addColumn(runs);
+                }
+                builder.addRow(row);
+            }
+            tiles.push_back(builder.finish());
+        }
+    }
+    return fromTiles(dimension, std::move(tiles));
+}
+
+std::int32_t ColumnVolume::tileWidth(std::int32_t tileX) const noexcept {
+    return std::min(kTileSize, dimension_.x - tileX * kTileSize);
+}
+
+std::int32_t ColumnVolume::tileHeight(std::int32_t tileY) const noexcept {
+    return std::min(kTileSize, dimension_.y - tileY * kTileSize);
+}
+
+std::span<const Run> ColumnVolume::column(std::int32_t i, std::int32_t j) const noexcept {
+    const std::int32_t tileX = i / kTileSize;
+    const ColumnTile& tile = tiles_[std::size_t(tileX) + std::size_t(tilesX()) * std::size_t(j / kTileSize)];
+    const std::size_t row = tile.rowOf[std::size_t(j % kTileSize)];
+    return tile.column(tile.rowColumns[row * std::size_t(tileWidth(tileX)) + std::size_t(i % kTileSize)]);
+}
+
+Scalar ColumnVolume::scalarAt(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept {
+    const auto runs = column(i, j);
+    const auto found = std::upper_bound(runs.begin(), runs.end(), static_cast<std::uint32_t>(k),
+                                        [](std::uint32_t at, const Run& run) { return at < run.end; });
+    return found->scalar;
+}
+
+std::vector<std::uint64_t> ColumnVolume::countVoxels(Scalar scalarCount) const {
+    std::vector<std::uint64_t> counts(scalarCount, 0);
+    std::vector<std::uint64_t> uses;
+    std::vector<std::uint64_t> rowUses;
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+        const ColumnTile& tile = tiles_[t];
+        const auto width = static_cast<std::size_t>(tileWidth(static_cast<std::int32_t>(t % std::size_t(tilesX()))));
+        rowUses.assign(tile.rowColumns.size() / width, 0);
+        for (const std::uint8_t row : tile.rowOf) ++rowUses[row];
+        uses.assign(tile.columnStart.size() - 1, 0);
+        for (std::size_t e = 0; e < tile.rowColumns.size(); ++e) uses[tile.rowColumns[e]] += rowUses[e / width];
+        for (std::size_t c = 0; c < uses.size(); ++c) {
+            std::uint32_t begin = 0;
+            for (const Run& run : tile.column(static_cast<std::uint32_t>(c))) {
+                counts[run.scalar] += uses[c] * (run.end - begin);
+                begin = run.end;
+            }
+        }
+    }
+    return counts;
+}
+
+std::size_t ColumnVolume::sizeBytes() const noexcept {
+    std::size_t bytes = tiles_.size() * sizeof(ColumnTile);
+    for (const ColumnTile& tile : tiles_)
+        bytes += tile.rowOf.size_bytes() + tile.rowColumns.size_bytes() + tile.columnStart.size_bytes() + tile.runs.size_bytes();
+    return bytes;
+}
+
+bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept {
+    if (a.dimension_ != b.dimension_) return false;
+    for (std::size_t t = 0; t < a.tiles_.size(); ++t) {
+        const ColumnTile& s = a.tiles_[t];
+        const ColumnTile& u = b.tiles_[t];
+        if (!isEqual(s.rowOf, u.rowOf) || !isEqual(s.rowColumns, u.rowColumns) || !isEqual(s.columnStart, u.columnStart) ||
+            !isEqual(s.runs, u.runs))
+            return false;
+    }
+    return true;
+}
+
+ColumnTileBuilder::ColumnTileBuilder(std::int32_t width) : width_(width), columnTable_(128, 0) {
+    data_.rowOf.reserve(static_cast<std::size_t>(ColumnVolume::kTileSize));
+    data_.columnStart.push_back(0);
+}
+
+void ColumnTileBuilder::grow() {
+    std::vector<std::uint32_t> table(columnTable_.size() * 2, 0);
+    const std::size_t mask = table.size() - 1;
+    for (std::uint32_t column = 0; column < columnCount_; ++column) {
+        std::size_t slot = hashRuns(data_.view().column(column)) & mask;
+        while (table[slot] != 0) slot = (slot + 1) & mask;
+        table[slot] = column + 1;
+    }
+    columnTable_ = std::move(table);
+}
+
+std::uint16_t ColumnTileBuilder::addColumn(std::span<const Run> runs) {
+    const std::size_t mask = columnTable_.size() - 1;
+    std::size_t slot = hashRuns(runs) & mask;
+    while (columnTable_[slot] != 0) {
+        const std::uint32_t column = columnTable_[slot] - 1;
+        if (isEqual<Run>(data_.view().column(column), runs)) return static_cast<std::uint16_t>(column);
+        slot = (slot + 1) & mask;
+    }
+    const std::uint32_t column = columnCount_++;
+    columnTable_[slot] = column + 1;
+    data_.runs.insert(data_.runs.end(), runs.begin(), runs.end());
+    data_.columnStart.push_back(static_cast<std::uint32_t>(data_.runs.size()));
+    if (columnCount_ * 2 > columnTable_.size()) grow();
+    return static_cast<std::uint16_t>(column);
+}
+
+void ColumnTileBuilder::addRow(std::span<const std::uint16_t> columns) {
+    const std::uint64_t hash = hashRow(columns);
+    const std::size_t width = static_cast<std::size_t>(width_);
+    for (std::size_t row = 0; row < rowHashes_.size(); ++row) {
+        const std::span<const std::uint16_t> known(data_.rowColumns.data() + row * width, width);
+        if (rowHashes_[row] == hash && isEqual(known, columns)) {
+            data_.rowOf.push_back(static_cast<std::uint8_t>(row));
+            return;
+        }
+    }
+    data_.rowOf.push_back(static_cast<std::uint8_t>(rowHashes_.size()));
+    rowHashes_.push_back(hash);
+    data_.rowColumns.insert(data_.rowColumns.end(), columns.begin(), columns.end());
+}
+
+void ColumnTileBuilder::repeatRow() { data_.rowOf.push_back(data_.rowOf.back()); }
+
+ColumnTileData ColumnTileBuilder::finish() { return std::move(data_); }
+
+}  // namespace svt::volume
