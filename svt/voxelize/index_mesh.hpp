@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// Objects in index space, snapped to the integer lattice on which everything is decided.
+
+#include <svt/mesh/mesh_scene.hpp>
+#include <svt/volume/grid.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace svt::voxelize {
+
+/// 512 quanta a voxel. Vertices lie on even quanta, sample i at 512 * i + 1.
+inline constexpr int kQuantaBits = 9;
+inline constexpr std::int64_t kQuanta = std::int64_t{1} << kQuantaBits;
+
+/// First sample at or above `quanta` (an even coordinate never meets one).
+[[nodiscard]] constexpr std::int64_t firstSampleAbove(std::int64_t quanta) noexcept {
+    return (quanta + kQuanta - 2) >> kQuantaBits;
+}
+
+using QuantaPoint = std::array<std::int32_t, 3>;
+
+/// One object on the lattice.
+struct IndexMesh {
+    std::vector<QuantaPoint> points;   ///< per vertex of the mesh
+    const mesh::ObjectMesh* mesh = nullptr;
+};
+
+/// From local space of a scene to index space of a grid: index = (axes^T * (local - shift)) / spacing.
+class IndexFromLocal {
+public:
+    IndexFromLocal(const mesh::MeshScene& scene, const volume::Grid& grid);
+    [[nodiscard]] Vec3d point(Vec3d local) const noexcept;
+    [[nodiscard]] Vec3d direction(Vec3d local) const noexcept;
+    /// Snapped; coordinates far outside the grid are clamped to +-2^28 quanta.
+    [[nodiscard]] QuantaPoint quanta(Vec3d local) const noexcept;
+    /// True where z of index space depends on z of local space alone, so that planes over (x, y) carry over.
+    [[nodiscard]] bool keepsVertical() const noexcept { return keepsVertical_; }
+    /// A plane z = a x + b y + c of local space in index space (quanta of z per voxel of x and y).
+    [[nodiscard]] mesh::Plane plane(const mesh::Plane& local) const noexcept;
+
+private:
+    std::array<Vec3d, 3> rows_;  // index = rows * local + offset
+    Vec3d offset_;
+    bool keepsVertical_ = true;
+};
+
+[[nodiscard]] IndexMesh makeIndexMesh(const mesh::ObjectMesh& mesh, const IndexFromLocal& indexFromLocal);
+
+}  // namespace svt::voxelize

@@ -1,0 +1,178 @@
+#include <svt/voxelize/tile_columns.hpp>
+
+#include <algorithm>
+#include <bit>
+
+namespace svt::voxelize {
+namespace {
+
+std::uint32_t clampToDepth(std::int32_t k, std::int32_t depth) noexcept {
+    return static_cast<std::uint32_t>(k < 0 ? 0 : k > depth ? depth : k);
+}
+
+}  // namespace
+
+void TileColumns::collectSpans(const TileInput& input) {
+    for (std::int32_t row = 0; row < input.height; ++row) rows_[row].clear();
+    for (const std::uint32_t index : input.triangleIndices) {
+        const ScanTriangle& t = input.triangles[index];
+        const bool isFlat = t.height.isFlat();
+        const std::int32_t flatK = isFlat ? sampleAbove(t, t.height.base) : 0;
+        scanRows(t, input.firstRow, input.firstRow + input.height, input.firstColumn, input.firstColumn + input.width,
+                 [&](std::int32_t j, std::int32_t begin, std::int32_t end) {
+                     Span span{begin - input.firstColumn, end - input.firstColumn, t.claim, t.sign, flatK, 0, 0, 0, 0};
+                     if (!isFlat) {
+                         span.base = t.height.base + t.height.slopeY * j + t.height.slopeX * input.firstColumn;
+                         span.slope = t.height.slopeX;
+                         if (span.slope == 0) {
+                             span.flatK = sampleAbove(t, span.base);
+                             span.base = 0;
+                         } else {
+                             span.lowest = t.lowest;
+                             span.highest = t.highest;
+                         }
+                     }
+                     rows_[j - input.firstRow].push_back(span);
+                 });
+    }
+    for (const ClaimedBox& box : input.boxes) {
+        const std::int32_t begin = std::max(box.begin - input.firstColumn, 0);
+        const std::int32_t end = std::min(box.end - input.firstColumn, input.width);
+        if (begin >= end) continue;
+        auto& spans = rows_[box.j - input.firstRow];
+        spans.push_back({begin, end, box.claim, 1, box.low, 0, 0, 0, 0});
+        spans.push_back({begin, end, box.claim, -1, box.high, 0, 0, 0, 0});
+    }
+}
+
+// Joins neighbours on the same plane, so that the row reads the same however faces were triangulated.
+void TileColumns::mergeSpans(std::vector<Span>& spans) {
+    std::sort(spans.begin(), spans.end(), [](const Span& p, const Span& q) {
+        return std::tie(p.claim, p.sign, p.flatK, p.slope, p.base, p.begin, p.end) <
+               std::tie(q.claim, q.sign, q.flatK, q.slope, q.base, q.begin, q.end);
+    });
+    std::size_t kept = 0;
+    for (std::size_t s = 1; s < spans.size(); ++s) {
+        Span& last = spans[kept];
+        const Span& next = spans[s];
+        if (last.claim == next.claim && last.sign == next.sign && last.flatK == next.flatK && last.slope == next.slope &&
+            last.base == next.base && last.lowest == next.lowest && last.highest == next.highest && last.end == next.begin)
+            last.end = next.end;
+        else
+            spans[++kept] = next;
+    }
+    if (!spans.empty()) spans.resize(kept + 1);
+}
+
+void TileColumns::changeWinding(std::uint32_t claim, std::int32_t sign) {
+    const std::int32_t before = winding_[claim];
+    winding_[claim] += sign;
+    if (before <= 0 && winding_[claim] > 0)
+        active_.insert(std::lower_bound(active_.begin(), active_.end(), claim), claim);
+    else if (before > 0 && winding_[claim] <= 0)
+        active_.erase(std::lower_bound(active_.begin(), active_.end(), claim));
+}
+
+// crossings_ to runs_; `columns` equal columns stand side by side.
+void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
+    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& p, const Crossing& q) { return p.k < q.k; });
+    runs_.clear();
+    const auto depth = static_cast<std::uint32_t>(input.depth);
+    std::uint32_t from = 0;
+    const auto emit = [&](std::uint32_t to) {
+        if (to == from) return;
+        const volume::Scalar scalar = active_.empty() ? 0 : input.claims[active_.front()].scalar;
+        if (!runs_.empty() && runs_.back().scalar == scalar)
+            runs_.back().end = to;
+        else
+            runs_.push_back({to, scalar});
+        for (std::size_t a = 0; a + 1 < active_.size(); ++a) {
+            if (!input.claims[active_[a]].isSolid) continue;
+            for (std::size_t b = a + 1; b < active_.size(); ++b)
+                if (input.claims[active_[b]].isSolid) rowShared_.push_back({active_[a], active_[b], (to - from) * columns});
+        }
+        from = to;
+    };
+    for (const Crossing& crossing : crossings_) {
+        emit(crossing.k);
+        changeWinding(crossing.claim, crossing.sign);
+    }
+    emit(depth);
+    for (const Crossing& crossing : crossings_) winding_[crossing.claim] = 0;
+    active_.clear();
+}
+
+// spans_ to a row of columns.
+void TileColumns::addRow(const TileInput& input, std::vector<SharedCount>& shared) {
+    const auto width = static_cast<std::size_t>(input.width);
+    rowShared_.clear();
+    // Bit x is set where some crossing begins, ends or changes its sample.
+    std::uint64_t breaks = 1;
+    heights_.clear();
+    for (Span& span : spans_) {
+        breaks |= std::uint64_t{1} << span.begin;
+        if (span.end < 64) breaks |= std::uint64_t{1} << span.end;
+        if (span.slope == 0) continue;
+        const std::size_t first = heights_.size();
+        heights_.resize(first + width);
+        std::int64_t height = span.base + span.slope * span.begin - (std::int64_t{1} << Height::kBits);
+        std::int32_t previous = 0;
+        for (std::int32_t x = span.begin; x < span.end; ++x, height += span.slope) {
+            const std::int64_t above = (height >> (Height::kBits + kQuantaBits)) + 1;
+            const auto k = static_cast<std::int32_t>(std::clamp<std::int64_t>(above, span.lowest, span.highest));
+            if (x != span.begin && k != previous) breaks |= std::uint64_t{1} << x;
+            previous = heights_[first + std::size_t(x)] = k;
+        }
+    }
+    if (input.width < 64) breaks &= (std::uint64_t{1} << input.width) - 1;
+
+    row_.resize(width);
+    while (breaks != 0) {
+        const int x = std::countr_zero(breaks);
+        breaks &= breaks - 1;
+        const int next = breaks != 0 ? std::countr_zero(breaks) : input.width;
+        crossings_.clear();
+        std::size_t sloped = 0;
+        for (const Span& span : spans_) {
+            const std::size_t heights = sloped;
+            if (span.slope != 0) sloped += width;
+            if (x < span.begin || x >= span.end) continue;
+            const std::int32_t k = span.slope == 0 ? span.flatK : heights_[heights + std::size_t(x)];
+            crossings_.push_back({clampToDepth(k, input.depth), span.claim, span.sign});
+        }
+        sweepColumn(input, static_cast<std::uint64_t>(next - x));
+        const std::uint16_t column = builder_->addColumn(runs_);
+        std::fill(row_.begin() + x, row_.begin() + next, column);
+    }
+    builder_->addRow(row_);
+    shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
+}
+
+volume::ColumnTileData TileColumns::make(const TileInput& input, std::vector<SharedCount>& shared) {
+    winding_.resize(input.claims.size(), 0);  // all zero between columns
+    collectSpans(input);
+    volume::ColumnTileBuilder builder(input.width);
+    builder_ = &builder;
+    for (std::int32_t row = 0; row < input.height; ++row) {
+        // Most rows repeat the one before: as they come, or once faces are joined.
+        if (row > 0 && rows_[row] == previousRaw_) {
+            builder.repeatRow();
+            shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
+            continue;
+        }
+        spans_ = rows_[row];
+        mergeSpans(spans_);
+        if (row > 0 && spans_ == previousSpans_) {
+            builder.repeatRow();
+            shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
+        } else {
+            addRow(input, shared);
+            std::swap(previousSpans_, spans_);
+        }
+        previousRaw_ = rows_[row];
+    }
+    builder_ = nullptr;
+    return builder.finish();
+}
+
+}  // namespace svt::voxelize

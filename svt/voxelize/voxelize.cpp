@@ -1,0 +1,277 @@
+#include <svt/voxelize/voxelize.hpp>
+
+#include <svt/core/check.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/voxelize/rewrite.hpp>
+#include <svt/voxelize/sheets.hpp>
+#include <svt/voxelize/tile_columns.hpp>
+#include <svt/voxelize/winding.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <numeric>
+
+namespace svt::voxelize {
+namespace {
+
+using volume::ColumnVolume;
+
+// Every object claims twice: as a solid, and with its thin parts or as a sheet.
+struct Claims {
+    std::vector<OrderedClaim> ordered;
+    std::vector<std::uint32_t> solidOrder, thinOrder;  // per object
+};
+
+Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> claims) {
+    struct Entry {
+        std::uint32_t object;
+        bool isThin;
+    };
+    std::vector<Entry> entries;
+    for (std::uint32_t o = 0; o < claims.size(); ++o) {
+        entries.push_back({o, false});
+        entries.push_back({o, true});
+    }
+    // The finer component first; at equal rank what is truly inside before what is only near, then the smaller, then the id.
+    std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
+        const auto key = [&](const Entry& e) {
+            return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t>(
+                claims[e.object].rank, e.isThin, scene.objects[e.object].volume, claims[e.object].id, e.object);
+        };
+        return key(p) < key(q);
+    });
+    Claims result;
+    result.solidOrder.resize(claims.size());
+    result.thinOrder.resize(claims.size());
+    for (std::uint32_t order = 0; order < entries.size(); ++order) {
+        const Entry& entry = entries[order];
+        (entry.isThin ? result.thinOrder : result.solidOrder)[entry.object] = order;
+        const bool isSolid = !entry.isThin && scene.objects[entry.object].closure != mesh::Closure::Surface;
+        result.ordered.push_back({claims[entry.object].scalar, entry.object, isSolid});
+    }
+    return result;
+}
+
+// Numbers of what touches each tile, tile after tile, in ascending order within one.
+struct TileBins {
+    std::vector<std::uint32_t> first, items;
+    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t tile) const {
+        return std::span(items).subspan(first[tile], first[tile + 1] - first[tile]);
+    }
+};
+
+// `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n.
+template <class RangeOf>
+TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, RangeOf&& rangeOf) {
+    TileBins bins;
+    bins.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
+    const auto forEach = [&](auto&& body) {
+        for (std::uint32_t n = 0; n < count; ++n) {
+            std::int32_t x0, x1, y0, y1;
+            rangeOf(n, x0, x1, y0, y1);
+            for (std::int32_t y = y0; y < y1; ++y)
+                for (std::int32_t x = x0; x < x1; ++x) body(n, std::size_t(x) + std::size_t(tilesX) * std::size_t(y));
+        }
+    };
+    forEach([&](std::uint32_t, std::size_t tile) { ++bins.first[tile + 1]; });
+    std::partial_sum(bins.first.begin(), bins.first.end(), bins.first.begin());
+    bins.items.resize(bins.first.back());
+    std::vector<std::uint32_t> next(bins.first.begin(), bins.first.end() - 1);
+    forEach([&](std::uint32_t n, std::size_t tile) { bins.items[next[tile]++] = n; });
+    return bins;
+}
+
+void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std::int32_t& tileFirst, std::int32_t& tileEnd) {
+    first = std::clamp(first, 0, dimension);
+    end = std::clamp(end, 0, dimension);
+    tileFirst = first / ColumnVolume::kTileSize;
+    tileEnd = first < end ? (end - 1) / ColumnVolume::kTileSize + 1 : tileFirst;
+}
+
+// What one object brings to the sweep.
+struct Prepared {
+    IndexMesh index;
+    std::vector<ScanTriangle> triangles;
+    std::vector<ClaimedBox> boxes;
+    std::uint64_t thinVoxels = 0;
+    std::uint64_t uncertainVoxels = 0;
+};
+
+void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const mesh::Plane> planes,
+                   const IndexFromLocal& indexFromLocal, const Claims& claims, const VoxelizeOptions& options, std::uint32_t object,
+                   Prepared& out) {
+    const mesh::ObjectMesh& mesh = scene.objects[object];
+    out.index = makeIndexMesh(mesh, indexFromLocal);
+    if (mesh.closure == mesh::Closure::Surface) {
+        const auto addSheet = options.sheets == SheetMode::Thin ? addThinSheet : addConservativeSheet;
+        addSheet(out.index, grid.dimension(), claims.thinOrder[object], out.boxes);
+        return;
+    }
+    if (!mesh.isSolid()) return;  // open: filled by winding number, all cores on one object
+    const Vec3i dimension = grid.dimension();
+    out.triangles.reserve(mesh.triangles.size() / 2);
+    for (const mesh::Triangle& triangle : mesh.triangles) {
+        ScanTriangle scan;
+        const mesh::Plane* plane =
+            triangle.plane != mesh::kNoPlane && indexFromLocal.keepsVertical() ? &planes[triangle.plane] : nullptr;
+        if (!setUpScan(out.index.points[triangle.corners[0]], out.index.points[triangle.corners[1]],
+                       out.index.points[triangle.corners[2]], kScanAxes[2], plane, scan))
+            continue;
+        if (scan.endRow <= 0 || scan.endColumn <= 0 || scan.firstRow >= dimension.y || scan.firstColumn >= dimension.x) continue;
+        scan.claim = claims.solidOrder[object];
+        out.triangles.push_back(scan);
+    }
+    if (options.keepThinParts)
+        out.thinVoxels = addThinParts(out.index, indexFromLocal, dimension, claims.thinOrder[object], out.boxes);
+}
+
+void addPairs(std::vector<SharedCount>& pairs) {
+    std::sort(pairs.begin(), pairs.end(),
+              [](const SharedCount& p, const SharedCount& q) { return std::tie(p.first, p.second) < std::tie(q.first, q.second); });
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < pairs.size(); ++i) {
+        if (pairs[kept].first == pairs[i].first && pairs[kept].second == pairs[i].second)
+            pairs[kept].voxels += pairs[i].voxels;
+        else
+            pairs[++kept] = pairs[i];
+    }
+    if (!pairs.empty()) pairs.resize(kept + 1);
+}
+
+// Objects that lost every voxel get the one nearest to the middle of their first face, if no other object lives by it alone.
+ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
+                          std::span<const ObjectClaim> claims, std::vector<std::uint64_t>& thinVoxels, int threads) {
+    volume::Scalar scalarCount = 1;
+    for (const ObjectClaim& claim : claims) scalarCount = std::max(scalarCount, claim.scalar + 1);
+    std::vector<std::uint64_t> counts = columns.countVoxels(scalarCount);
+    std::vector<VoxelEdit> edits;
+    const Vec3i dimension = grid.dimension();
+    for (std::uint32_t o = 0; o < claims.size(); ++o) {
+        if (counts[claims[o].scalar] != 0) continue;
+        const mesh::ObjectMesh& mesh = scene.objects[o];
+        for (const mesh::Triangle& triangle : mesh.triangles) {
+            const Vec3d center = (mesh.vertices[triangle.corners[0]] + mesh.vertices[triangle.corners[1]] +
+                                  mesh.vertices[triangle.corners[2]]) / 3.0;
+            const Vec3d index = indexFromLocal.point(center);
+            const Vec3i voxel{static_cast<std::int32_t>(std::lrint(std::clamp(index.x, -1.0, 1e6))),
+                              static_cast<std::int32_t>(std::lrint(std::clamp(index.y, -1.0, 1e6))),
+                              static_cast<std::int32_t>(std::lrint(std::clamp(index.z, -1.0, 1e6)))};
+            if (voxel.x < 0 || voxel.y < 0 || voxel.z < 0 || voxel.x >= dimension.x || voxel.y >= dimension.y || voxel.z >= dimension.z)
+                continue;
+            const bool isTaken = std::any_of(edits.begin(), edits.end(), [&](const VoxelEdit& edit) { return edit.voxel == voxel; });
+            const volume::Scalar owner = columns.scalarAt(voxel.x, voxel.y, voxel.z);
+            if (isTaken || (owner != 0 && counts[owner] <= 1)) continue;
+            if (owner != 0) --counts[owner];
+            edits.push_back({voxel, claims[o].scalar});
+            ++thinVoxels[o];
+            break;
+        }
+    }
+    return edits.empty() ? columns : editVoxels(columns, std::move(edits), threads);
+}
+
+}  // namespace
+
+Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const ObjectClaim> claims,
+                                const VoxelizeOptions& options) {
+    SVT_CHECK(claims.size() == scene.objects.size());
+    Progress::tell(options.progress, "voxelize", 0);
+    const Vec3i dimension = grid.dimension();
+    const IndexFromLocal indexFromLocal(scene, grid);
+    const Claims ordered = orderClaims(scene, claims);
+    std::vector<mesh::Plane> planes(scene.planes.size());
+    if (indexFromLocal.keepsVertical())
+        for (std::size_t p = 0; p < planes.size(); ++p) planes[p] = indexFromLocal.plane(scene.planes[p]);
+
+    std::vector<Prepared> prepared(scene.objects.size());
+    parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t o = begin; o < end; ++o)
+            prepareObject(scene, grid, planes, indexFromLocal, ordered, options, static_cast<std::uint32_t>(o), prepared[o]);
+    });
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+        if (scene.objects[o].closure != mesh::Closure::Open) continue;
+        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
+        prepared[o].uncertainVoxels =
+            addWindingFill(prepared[o].index, scene, grid, ordered.solidOrder[o], options.threads, prepared[o].boxes);
+    }
+
+    std::vector<ScanTriangle> triangles;
+    std::vector<ClaimedBox> boxes;
+    VoxelizeResult result;
+    std::size_t triangleCount = 0, boxCount = 0;
+    for (const Prepared& object : prepared) {
+        triangleCount += object.triangles.size();
+        boxCount += object.boxes.size();
+    }
+    triangles.reserve(triangleCount);
+    boxes.reserve(boxCount);
+    for (Prepared& object : prepared) {
+        triangles.insert(triangles.end(), object.triangles.begin(), object.triangles.end());
+        boxes.insert(boxes.end(), object.boxes.begin(), object.boxes.end());
+        result.thinVoxels.push_back(object.thinVoxels);
+        result.uncertainVoxels.push_back(object.uncertainVoxels);
+        object = {};
+    }
+
+    const std::int32_t tilesX = (dimension.x + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
+    const std::int32_t tilesY = (dimension.y + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
+    const TileBins triangleBins =
+        fillBins(triangles.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+            tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
+            tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
+        });
+    const TileBins boxBins = fillBins(boxes.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+        tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
+        tileRange(boxes[n].j, boxes[n].j + 1, dimension.y, y0, y1);
+    });
+
+    const std::size_t tileCount = std::size_t(tilesX) * std::size_t(tilesY);
+    std::vector<volume::ColumnTileData> tiles(tileCount);
+    std::vector<std::vector<SharedCount>> shared(tileCount);
+    std::atomic<std::size_t> done{0};
+    std::mutex reporting;
+    parallelFor(tileCount, 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        TileColumns maker;
+        std::vector<ClaimedBox> tileBoxes;
+        for (std::size_t tile = begin; tile < end; ++tile) {
+            if (Progress::isCancelled(options.progress)) return;
+            const auto tileX = static_cast<std::int32_t>(tile % std::size_t(tilesX));
+            const auto tileY = static_cast<std::int32_t>(tile / std::size_t(tilesX));
+            tileBoxes.clear();
+            for (const std::uint32_t n : boxBins.of(tile)) tileBoxes.push_back(boxes[n]);
+            TileInput input;
+            input.firstColumn = tileX * ColumnVolume::kTileSize;
+            input.firstRow = tileY * ColumnVolume::kTileSize;
+            input.width = std::min(ColumnVolume::kTileSize, dimension.x - input.firstColumn);
+            input.height = std::min(ColumnVolume::kTileSize, dimension.y - input.firstRow);
+            input.depth = dimension.z;
+            input.triangles = triangles;
+            input.triangleIndices = triangleBins.of(tile);
+            input.boxes = tileBoxes;
+            input.claims = ordered.ordered;
+            tiles[tile] = maker.make(input, shared[tile]);
+            addPairs(shared[tile]);
+            const std::size_t count = ++done;
+            if (options.progress != nullptr && count % 16 == 0) {
+                const std::lock_guard lock(reporting);
+                Progress::tell(options.progress, "voxelize", double(count) / double(tileCount));
+            }
+        }
+    });
+    if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
+
+    std::vector<SharedCount> all;
+    for (const auto& pairs : shared) all.insert(all.end(), pairs.begin(), pairs.end());
+    addPairs(all);
+    for (const SharedCount& pair : all)
+        result.overlaps.push_back({ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
+    std::sort(result.overlaps.begin(), result.overlaps.end(),
+              [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
+    result.columns = keepVanished(ColumnVolume::fromTiles(dimension, std::move(tiles)), scene, grid, indexFromLocal, claims,
+                                  result.thinVoxels, options.threads);
+    Progress::tell(options.progress, "voxelize", 1);
+    return result;
+}
+
+}  // namespace svt::voxelize
