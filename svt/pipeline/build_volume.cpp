@@ -1,0 +1,237 @@
+#include <svt/pipeline/build_volume.hpp>
+
+#include <svt/model/classes.hpp>
+#include <svt/pipeline/labels.hpp>
+#include <svt/readers/read_model.hpp>
+#include <svt/voxelize/bodies.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <unordered_set>
+
+namespace svt::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// Appends `from` to `into`; ids that exist already get the number of the file.
+void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size_t number, Diagnostics* log) {
+    const auto firstFeature = static_cast<model::FeatureIndex>(into.features.size());
+    const auto firstPolygon = static_cast<model::PolygonIndex>(into.polygons.size());
+    const auto firstMaterial = static_cast<std::int32_t>(into.materials.size());
+    std::unordered_set<std::string> known;
+    for (const model::Feature& feature : into.features) known.insert(feature.id);
+    if (into.crs.name != from.crs.name && log != nullptr)
+        log->add(Severity::Warning, Code::MixedCrs,
+                 fmt::format("'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are", from.source, from.crs.name,
+                             into.crs.name),
+                 {from.source, 0, 0, {}});
+    for (model::Polygon& polygon : from.polygons) {
+        if (polygon.material >= 0) polygon.material += firstMaterial;
+        into.polygons.push_back(std::move(polygon));
+    }
+    const auto shift = [&](std::vector<model::SurfaceUse>& uses) {
+        for (model::SurfaceUse& use : uses) use.polygon += firstPolygon;
+    };
+    for (model::Feature& feature : from.features) {
+        if (!known.insert(feature.id).second) {
+            feature.id = fmt::format("{}@{}", feature.id, number + 1);
+            if (log != nullptr)
+                log->add(Severity::Warning, Code::DuplicateId, fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
+                         {from.source, feature.line, 0, feature.id});
+        }
+        if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
+        for (model::FeatureIndex& child : feature.children) child += firstFeature;
+        for (model::Geometry& geometry : feature.geometries) {
+            shift(geometry.surfaces);
+            for (model::Solid& solid : geometry.solids) {
+                shift(solid.exterior);
+                for (auto& interior : solid.interiors) shift(interior);
+            }
+        }
+        into.features.push_back(std::move(feature));
+    }
+    for (const model::FeatureIndex root : from.roots) into.roots.push_back(root + firstFeature);
+    for (model::Membership& membership : from.memberships)
+        into.memberships.push_back({membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
+    into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
+}
+
+// Buildings whose material between hull and rooms has only boundary surfaces to belong to.
+std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshScene& scene, const Labelling& labelling) {
+    std::vector<std::uint32_t> objectOf(labelling.table.labels.size(), volume::kNoLabel);
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) objectOf[labelling.labelOfObject[o]] = o;
+    std::vector<voxelize::BodyGroup> groups;
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+        const std::uint32_t l = labelling.labelOfObject[o];
+        const volume::Label& building = labelling.table.labels[l];
+        if (model::classRank(building.className) != model::ClassRank::Building || scene.objects[o].closure == mesh::Closure::Surface)
+            continue;
+        voxelize::BodyGroup group;
+        group.from = building.first;
+        bool hasRooms = false;
+        for (std::uint32_t below = l + 1; below < building.subtreeEnd; ++below) {
+            if (objectOf[below] == volume::kNoLabel) continue;
+            const volume::Label& label = labelling.table.labels[below];
+            hasRooms = hasRooms || model::classRank(label.className) == model::ClassRank::Room;
+            if (!model::isBoundarySurface(label.className)) continue;
+            group.surfaces.push_back(objectOf[below]);
+            group.scalars.push_back(label.first);
+        }
+        if (hasRooms && !group.surfaces.empty()) groups.push_back(std::move(group));
+    }
+    return groups;
+}
+
+bool isAncestor(const volume::LabelTable& table, std::uint32_t ancestor, std::uint32_t label) {
+    return ancestor < label && label < table.labels[ancestor].subtreeEnd;
+}
+
+bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_t label) {
+    const auto& groups = table.labels[label].groups;
+    return std::binary_search(groups.begin(), groups.end(), group);
+}
+
+void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimPair>& pairs, volume::LabelTable& table) {
+    for (const voxelize::ClaimPair& pair : pairs) {
+        const std::uint32_t a = labelling.labelOfObject[pair.a], b = labelling.labelOfObject[pair.b];
+        const bool isNested = isAncestor(table, a, b) || isAncestor(table, b, a) || isMember(table, a, b) || isMember(table, b, a);
+        table.overlaps.push_back({a, b, pair.voxels, isNested});
+    }
+    std::sort(table.overlaps.begin(), table.overlaps.end(),
+              [](const volume::Overlap& p, const volume::Overlap& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
+}
+
+}  // namespace
+
+Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads, const Progress* progress, Diagnostics* log) {
+    if (files.empty()) return Error(Code::BadArgument, "no input file");
+    model::BuildingModel all;
+    for (std::size_t f = 0; f < files.size(); ++f) {
+        readers::ReadOptions options;
+        options.threads = threads;
+        options.progress = progress;
+        auto model = readers::readModel(files[f], options, log);
+        if (!model) return model.error();
+        if (f == 0)
+            all = std::move(*model);
+        else
+            mergeModel(all, std::move(*model), f, log);
+    }
+    return all;
+}
+
+Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions& options) {
+    Box3d box;
+    std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+    if (options.frame == FrameKind::Building) {
+        // All objects together have a dominant direction as one has.
+        mesh::ObjectMesh all;
+        for (const mesh::ObjectMesh& object : scene.objects) {
+            const auto first = static_cast<std::uint32_t>(all.vertices.size());
+            all.vertices.insert(all.vertices.end(), object.vertices.begin(), object.vertices.end());
+            for (mesh::Triangle triangle : object.triangles) {
+                for (std::uint32_t& corner : triangle.corners) corner += first;
+                all.triangles.push_back(triangle);
+            }
+        }
+        axes = voxelize::dominantFrame(all).axes;
+        for (const Vec3d& vertex : all.vertices) box.add({dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
+    } else {
+        box.min = scene.bounds.min + scene.origin;
+        box.max = scene.bounds.max + scene.origin;
+    }
+    Vec3d spacing = options.spacing.value_or(Vec3d{});
+    if (!options.dimension && !options.spacing) {
+        const Vec3d size = box.size();
+        const double step = std::max({size.x, size.y, size.z, 1e-3}) / (BuildOptions::kDefaultSamples - 1);
+        spacing = {step, step, step};
+    }
+    auto grid = options.dimension ? volume::Grid::fromDimension(box, *options.dimension) : volume::Grid::fromSpacing(box, spacing);
+    if (grid && options.frame == FrameKind::Building) return grid->turned(axes, scene.origin);
+    return grid;
+}
+
+Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
+    BuildOutput output;
+    BuildReport& report = output.report;
+    auto start = Clock::now();
+    mesh::MeshOptions meshOptions;
+    meshOptions.lod = options.lod;
+    meshOptions.threads = options.threads;
+    meshOptions.progress = options.progress;
+    const auto scene = mesh::buildMeshes(model, meshOptions, log);
+    if (!scene) return scene.error();
+    const auto grid = chooseGrid(*scene, options);
+    if (!grid) return grid.error();
+    addCapFeatures(model, *scene);
+    std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
+    if (options.style != nullptr) sheets.push_back(options.style);
+    auto labelling = makeLabels(model, *scene, sheets);
+    if (!labelling) return labelling.error();
+    report.seconds.mesh = secondsSince(start);
+
+    start = Clock::now();
+    voxelize::VoxelizeOptions voxelizeOptions;
+    voxelizeOptions.sheets = options.sheets;
+    voxelizeOptions.keepThinParts = options.keepThinParts;
+    voxelizeOptions.threads = options.threads;
+    voxelizeOptions.progress = options.progress;
+    auto voxels = voxelize::voxelize(*scene, *grid, labelling->claims, voxelizeOptions);
+    if (!voxels) return voxels.error();
+    std::vector<voxelize::BodyGroup> groups;
+    if (options.giveThematicBodies) groups = findBodyGroups(*scene, *labelling);
+    if (!groups.empty()) voxels->columns = voxelize::giveThematicBodies(voxels->columns, *grid, *scene, groups, options.threads);
+    if (!labelling->patterns.empty())
+        voxels->columns = voxelize::layPatterns(voxels->columns, *grid, scene->origin, labelling->patterns, options.threads);
+    report.seconds.voxelize = secondsSince(start);
+
+    start = Clock::now();
+    volume::LabelTable& table = labelling->table;
+    fillOverlaps(*labelling, voxels->overlaps, table);
+    const std::vector<std::uint64_t> counts = voxels->columns.countVoxels(table.scalarCount());
+    for (volume::Label& label : table.labels)
+        for (volume::Scalar s = 0; s < label.count; ++s) label.voxels += counts[label.first + s];
+    for (std::size_t o = 0; o < scene->objects.size(); ++o) {
+        volume::Label& label = table.labels[labelling->labelOfObject[o]];
+        label.thinVoxels = voxels->thinVoxels[o];
+        label.uncertainVoxels = voxels->uncertainVoxels[o];
+        const mesh::ObjectMesh& object = scene->objects[o];
+        if (object.closure != mesh::Closure::Surface && object.leakCount != 0) ++report.open;
+        if (object.closure == mesh::Closure::TJunctions) ++report.tJunctions;
+    }
+    for (const voxelize::BodyGroup& group : groups)
+        for (const std::uint32_t surface : group.surfaces) {
+            volume::Label& label = table.labels[labelling->labelOfObject[surface]];
+            label.filling = volume::Filling::Body;
+            label.volume = double(label.voxels) * grid->voxelVolume();
+        }
+    report.objects = scene->objects.size();
+    report.triangles = scene->triangleCount();
+    output.volume.grid = *grid;
+    output.volume.labels = std::move(table);
+    output.volume.columns = std::move(voxels->columns);
+    output.volume.crsName = model.crs.name;
+    output.volume.modelName = model.name;
+    output.volume.source = std::filesystem::path(model.source).filename().string();
+    report.seconds.pack = secondsSince(start);
+    return output;
+}
+
+Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options, Diagnostics* log) {
+    const auto start = Clock::now();
+    auto model = readModels(files, options.threads, options.progress, log);
+    if (!model) return model.error();
+    const double readSeconds = secondsSince(start);
+    auto output = buildVolume(*model, options, log);
+    if (!output) return output.error();
+    output->report.seconds.read = readSeconds;
+    output->report.seconds.total = secondsSince(start);
+    return output;
+}
+
+}  // namespace svt::pipeline

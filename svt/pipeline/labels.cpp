@@ -1,0 +1,138 @@
+#include <svt/pipeline/labels.hpp>
+
+#include <svt/model/classes.hpp>
+#include <svt/pipeline/rows.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace svt::pipeline {
+namespace {
+
+using model::FeatureIndex;
+
+volume::Filling fillingOf(mesh::Closure closure) noexcept {
+    switch (closure) {
+        case mesh::Closure::Closed: return volume::Filling::Solid;
+        case mesh::Closure::TJunctions: return volume::Filling::TJunctions;
+        case mesh::Closure::Complemented: return volume::Filling::Complemented;
+        case mesh::Closure::Capped: return volume::Filling::Capped;
+        case mesh::Closure::Open: return volume::Filling::Winding;
+        case mesh::Closure::Surface: return volume::Filling::Surface;
+    }
+    return volume::Filling::None;
+}
+
+// Labels in tree order, without scalars; and the label of each feature.
+std::vector<std::uint32_t> numberFeatures(const model::BuildingModel& model, volume::LabelTable& table) {
+    std::vector<std::uint32_t> labelOf(model.features.size(), volume::kNoLabel);
+    for (const FeatureIndex index : model.treeOrder()) {
+        const model::Feature& feature = model.features[index];
+        labelOf[index] = static_cast<std::uint32_t>(table.labels.size());
+        volume::Label label;
+        label.id = feature.id;
+        label.className = feature.className;
+        label.name = feature.name;
+        label.attributes = feature.attributes;
+        if (feature.parent != model::kNoFeature) label.parent = labelOf[feature.parent];
+        label.subtreeEnd = labelOf[index] + 1;
+        table.labels.push_back(std::move(label));
+    }
+    for (std::size_t i = table.labels.size(); i-- > 0;) {
+        const volume::Label& label = table.labels[i];
+        if (label.parent != volume::kNoLabel) {
+            std::uint32_t& end = table.labels[label.parent].subtreeEnd;
+            end = std::max(end, label.subtreeEnd);
+        }
+    }
+    for (const model::Membership& membership : model.memberships) {
+        if (labelOf[membership.member] == volume::kNoLabel || labelOf[membership.group] == volume::kNoLabel) continue;
+        table.labels[labelOf[membership.member]].groups.push_back(labelOf[membership.group]);
+    }
+    for (volume::Label& label : table.labels) {
+        std::sort(label.groups.begin(), label.groups.end());
+        label.groups.erase(std::unique(label.groups.begin(), label.groups.end()), label.groups.end());
+    }
+    return labelOf;
+}
+
+// The colour that most of the feature's polygons have.
+std::optional<Vec3f> materialColor(const model::BuildingModel& model, const model::Feature& feature) {
+    std::map<std::int32_t, std::size_t> uses;
+    const auto count = [&](const std::vector<model::SurfaceUse>& surfaces) {
+        for (const model::SurfaceUse& use : surfaces)
+            if (const std::int32_t material = model.polygons[use.polygon].material; material >= 0) ++uses[material];
+    };
+    for (const model::Geometry& geometry : feature.geometries) {
+        count(geometry.surfaces);
+        for (const model::Solid& solid : geometry.solids) count(solid.exterior);
+    }
+    if (uses.empty()) return std::nullopt;
+    const auto best = std::max_element(uses.begin(), uses.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
+    return model.materials[std::size_t(best->first)].diffuse;
+}
+
+}  // namespace
+
+void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene) {
+    for (const mesh::ObjectMesh& object : scene.objects) {
+        for (std::size_t c = 0; c < object.caps.size(); ++c) {
+            model::Feature cap;
+            cap.id = fmt::format("{}_cap_{}", model.features[object.feature].id, c + 1);
+            cap.className = "ClosureSurface";
+            cap.attributes.push_back({"generated", true, ""});
+            cap.attributes.push_back({"area", object.caps[c].area, "m2"});
+            model.addFeature(std::move(cap), object.feature);
+        }
+    }
+}
+
+Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::MeshScene& scene, std::span<const StyleSheet* const> sheets) {
+    Labelling result;
+    volume::LabelTable& table = result.table;
+    const std::vector<std::uint32_t> labelOf = numberFeatures(model, table);
+    std::vector<std::optional<Vec3f>> colors(table.labels.size());
+    for (FeatureIndex f = 0; f < model.features.size(); ++f)
+        if (labelOf[f] != volume::kNoLabel) colors[labelOf[f]] = materialColor(model, model.features[f]);
+
+    std::vector<std::uint32_t> objectOf(table.labels.size(), volume::kNoLabel);
+    result.labelOfObject.resize(scene.objects.size());
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+        const std::uint32_t l = labelOf[scene.objects[o].feature];
+        objectOf[l] = o;
+        result.labelOfObject[o] = l;
+        table.labels[l].filling = fillingOf(scene.objects[o].closure);
+        table.labels[l].volume = scene.objects[o].isSolid() ? scene.objects[o].volume : 0;
+    }
+    const std::vector<ResolvedStyle> styles = resolveStyles(rowsOf(table), sheets, colors);
+
+    std::uint64_t next = 1;
+    bool hasPattern = false;
+    for (std::size_t l = 0; l < table.labels.size(); ++l) {
+        volume::Label& label = table.labels[l];
+        label.color = styles[l].color;
+        label.opacity = styles[l].opacity;
+        if (objectOf[l] == volume::kNoLabel) continue;
+        label.first = static_cast<volume::Scalar>(next);
+        label.count = styles[l].pattern.phaseCount();
+        next += label.count;
+        hasPattern = hasPattern || label.count > 1;
+        if (next > 0xFFFFFFFFull) return Error(Code::TooManyLabels, "the objects and their patterns need more than 2^32 - 1 scalars");
+    }
+    if (hasPattern) table.phaseColors.resize(next);
+    result.claims.resize(scene.objects.size());
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+        const std::uint32_t l = result.labelOfObject[o];
+        const volume::Label& label = table.labels[l];
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(model::classRank(label.className)), label.id};
+        if (hasPattern)
+            for (volume::Scalar s = 0; s < label.count; ++s)
+                table.phaseColors[label.first + s] = s < styles[l].phaseColors.size() ? styles[l].phaseColors[s] : label.color;
+        if (label.count > 1) result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantFrame(scene.objects[o])});
+    }
+    return result;
+}
+
+}  // namespace svt::pipeline

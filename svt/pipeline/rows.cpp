@@ -1,0 +1,26 @@
+#include <svt/pipeline/rows.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::pipeline {
+
+std::vector<model::QueryRow> rowsOf(const volume::LabelTable& table) {
+    std::vector<model::QueryRow> rows;
+    rows.reserve(table.labels.size());
+    for (const volume::Label& label : table.labels)
+        rows.push_back({label.id, label.className, label.name, label.parent, label.attributes, label.groups, label.volume, label.voxels});
+    return rows;
+}
+
+Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& table, std::string_view text) {
+    const auto query = model::Query::parse(text);
+    if (!query) return query.error();
+    const std::vector<model::QueryRow> rows = rowsOf(table);
+    std::vector<std::uint32_t> selected = query->select(rows);
+    if (!selected.empty()) return selected;
+    const std::string reason = query->unknownValue(rows);
+    return Error(Code::NothingSelected,
+                 fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
+}
+
+}  // namespace svt::pipeline

@@ -1,0 +1,260 @@
+#include <svt/pipeline/style_sheet.hpp>
+
+#include <svt/pipeline/default_style.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace svt::pipeline {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::pair<std::string_view, std::uint32_t>, 36> kColorNames{{
+    {"black", 0x000000},     {"white", 0xFFFFFF},      {"gray", 0x808080},       {"grey", 0x808080},      {"silver", 0xC0C0C0},
+    {"red", 0xFF0000},       {"maroon", 0x800000},     {"orange", 0xFFA500},     {"gold", 0xFFD700},      {"yellow", 0xFFFF00},
+    {"olive", 0x808000},     {"lime", 0x00FF00},       {"green", 0x008000},      {"teal", 0x008080},      {"cyan", 0x00FFFF},
+    {"aqua", 0x00FFFF},      {"blue", 0x0000FF},       {"navy", 0x000080},       {"purple", 0x800080},    {"magenta", 0xFF00FF},
+    {"fuchsia", 0xFF00FF},   {"pink", 0xFFC0CB},       {"brown", 0xA52A2A},      {"beige", 0xF5F5DC},     {"ivory", 0xFFFFF0},
+    {"tan", 0xD2B48C},       {"salmon", 0xFA8072},     {"tomato", 0xFF6347},     {"coral", 0xFF7F50},     {"crimson", 0xDC143C},
+    {"turquoise", 0x40E0D0}, {"skyblue", 0x87CEEB},    {"steelblue", 0x4682B4},  {"slategray", 0x708090}, {"indigo", 0x4B0082},
+    {"violet", 0xEE82EE},
+}};
+
+Vec3f fromBytes(std::uint32_t rgb) {
+    return {float((rgb >> 16) & 255) / 255.0f, float((rgb >> 8) & 255) / 255.0f, float(rgb & 255) / 255.0f};
+}
+
+Error badStyle(std::string_view path, std::string_view what) {
+    return Error(Code::BadStyle, fmt::format("style {}: {}", path, what));
+}
+
+// Every member must be known: a typing error must not pass in silence.
+Result<void> checkMembers(const json& object, std::string_view path, std::initializer_list<std::string_view> known) {
+    if (!object.is_object()) return badStyle(path, fmt::format("expected an object, found {}", object.type_name()));
+    for (const auto& [key, value] : object.items()) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        return badStyle(path, fmt::format("unknown member '{}'; possible are {}", key, fmt::join(known, ", ")));
+    }
+    return {};
+}
+
+Result<double> numberOf(const json& value, const std::string& path) {
+    if (!value.is_number()) return badStyle(path, fmt::format("expected a number, found {}", value.dump().substr(0, 40)));
+    return value.get<double>();
+}
+
+Result<std::vector<Vec3f>> colorsOf(const json& value, const std::string& path) {
+    if (!value.is_array() || value.size() > 64) return badStyle(path, "expected an array of at most 64 colours");
+    std::vector<Vec3f> colors;
+    for (const json& entry : value) {
+        if (!entry.is_string()) return badStyle(path, "expected colours as text, such as \"#c8b49b\"");
+        auto color = parseColor(entry.get<std::string>());
+        if (!color) return badStyle(path, color.error().message());
+        colors.push_back(*color);
+    }
+    return colors;
+}
+
+Result<Vec3d> vectorOf(const json& value, const std::string& path) {
+    if (value.is_number()) {
+        const double v = value.get<double>();
+        return Vec3d{v, v, v};
+    }
+    if (!value.is_array() || value.size() != 3 || !value[0].is_number() || !value[1].is_number() || !value[2].is_number())
+        return badStyle(path, "expected a number or [length, width, height] in metres");
+    return Vec3d{value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
+Result<void> readCells(const json& value, const std::string& path, const std::filesystem::path& folder, voxelize::Pattern& pattern) {
+    if (!value.contains("file")) return {};
+    if (!value["file"].is_string()) return badStyle(path + ".file", "expected a file name");
+    const std::filesystem::path file = folder / value["file"].get<std::string>();
+    if (pattern.kind == voxelize::PatternKind::Image) {
+        auto cells = voxelize::readPatternImage(file);
+        if (!cells) return cells.error();
+        pattern.cells = *cells;
+        return {};
+    }
+    if (pattern.kind != voxelize::PatternKind::Raw) return badStyle(path + ".file", "only the types image and raw read a file");
+    if (!value.contains("dimension")) return badStyle(path, "type raw needs \"dimension\": [x, y, z]");
+    const auto dimension = vectorOf(value["dimension"], path + ".dimension");
+    if (!dimension) return dimension.error();
+    const auto whole = [](double v) { return v >= 1 && v <= 1024 ? static_cast<std::int32_t>(v) : 0; };
+    auto cells = voxelize::readPatternRaw(file, {whole(dimension->x), whole(dimension->y), whole(dimension->z)});
+    if (!cells) return cells.error();
+    pattern.cells = *cells;
+    return {};
+}
+
+Result<void> readPattern(const json& value, const std::string& path, const std::filesystem::path& folder, StyleRule& rule) {
+    if (auto checked = checkMembers(value, path, {"type", "size", "line", "angle", "seed", "colors", "file", "dimension"}); !checked)
+        return checked.error();
+    voxelize::Pattern pattern;
+    if (!value.contains("type") || !value["type"].is_string() || !voxelize::patternFromName(value["type"].get<std::string>(), pattern.kind)) {
+        std::vector<std::string_view> names;
+        for (int k = 0; k < voxelize::kPatternKinds; ++k) names.push_back(voxelize::patternName(static_cast<voxelize::PatternKind>(k)));
+        return badStyle(path + ".type", fmt::format("expected one of {}", fmt::join(names, ", ")));
+    }
+    if (value.contains("size")) {
+        const auto size = vectorOf(value["size"], path + ".size");
+        if (!size) return size.error();
+        pattern.size = *size;
+    }
+    for (const auto& [name, target] : {std::pair<const char*, double*>{"line", &pattern.line}, {"angle", &pattern.angleDegrees}}) {
+        if (!value.contains(name)) continue;
+        const auto number = numberOf(value[name], path + "." + name);
+        if (!number) return number.error();
+        *target = *number;
+    }
+    if (value.contains("seed")) {
+        if (!value["seed"].is_number_unsigned()) return badStyle(path + ".seed", "expected a whole number from 0");
+        pattern.seed = static_cast<std::uint32_t>(value["seed"].get<std::uint64_t>());
+    }
+    if (auto cells = readCells(value, path, folder, pattern); !cells) return cells.error();
+    auto made = voxelize::makePattern(std::move(pattern));
+    if (!made) return made.error();
+    if (value.contains("colors")) {
+        auto colors = colorsOf(value["colors"], path + ".colors");
+        if (!colors) return colors.error();
+        rule.patternColors = std::move(*colors);
+    }
+    rule.pattern = std::move(*made);
+    return {};
+}
+
+Result<StyleRule> readRule(const json& value, const std::string& path, const std::filesystem::path& folder) {
+    if (auto checked = checkMembers(value, path, {"select", "color", "opacity", "pattern", "comment"}); !checked) return checked.error();
+    if (!value.contains("select") || !value["select"].is_string()) return badStyle(path, "expected \"select\" with a query");
+    auto query = model::Query::parse(value["select"].get<std::string>());
+    if (!query) return badStyle(path + ".select", query.error().message());
+    StyleRule rule{std::move(*query), {}, {}, {}, {}};
+    if (value.contains("color")) {
+        if (!value["color"].is_string()) return badStyle(path + ".color", "expected text such as \"#c8b49b\"");
+        const auto color = parseColor(value["color"].get<std::string>());
+        if (!color) return badStyle(path + ".color", color.error().message());
+        rule.color = *color;
+    }
+    if (value.contains("opacity")) {
+        const auto opacity = numberOf(value["opacity"], path + ".opacity");
+        if (!opacity) return opacity.error();
+        if (!(*opacity >= 0 && *opacity <= 1)) return badStyle(path + ".opacity", fmt::format("{} is out of range; 0 to 1 are possible", *opacity));
+        rule.opacity = static_cast<float>(*opacity);
+    }
+    if (value.contains("pattern"))
+        if (auto read = readPattern(value["pattern"], path + ".pattern", folder, rule); !read) return read.error();
+    return rule;
+}
+
+StyleSheet builtIn(std::initializer_list<const char*> texts) {
+    StyleSheet all;
+    for (const char* text : texts) {
+        auto sheet = parseStyleSheet(text, {});
+        if (sheet) all.rules.insert(all.rules.end(), sheet->rules.begin(), sheet->rules.end());
+    }
+    return all;
+}
+
+// Shades for phases that a sheet gives no colour for: each a little darker.
+Vec3f shade(Vec3f color, std::size_t phase) {
+    const float factor = 1.0f / (1.0f + 0.35f * float(phase));
+    return color * factor;
+}
+
+void apply(const StyleRule& rule, ResolvedStyle& style) {
+    if (rule.color) style.color = *rule.color;
+    if (rule.opacity) style.opacity = *rule.opacity;
+    if (rule.pattern) {
+        style.pattern = *rule.pattern;
+        style.phaseColors = rule.patternColors;
+        if (style.phaseColors.empty() && style.pattern.cells != nullptr) style.phaseColors = style.pattern.cells->colors;
+    }
+}
+
+}  // namespace
+
+Result<Vec3f> parseColor(std::string_view text) {
+    for (const auto& [name, rgb] : kColorNames)
+        if (name == text) return fromBytes(rgb);
+    const bool isHex = text.size() > 1 && text[0] == '#' &&
+                       text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string_view::npos;
+    if (isHex && (text.size() == 7 || text.size() == 4)) {
+        std::uint32_t rgb = 0;
+        for (const char c : text.substr(1)) {
+            const auto digit = static_cast<std::uint32_t>(c <= '9' ? c - '0' : (c | 32) - 'a' + 10);
+            rgb = text.size() == 7 ? rgb << 4 | digit : rgb << 8 | digit * 17;
+        }
+        return fromBytes(rgb);
+    }
+    std::string names;
+    for (const auto& entry : kColorNames) names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.first);
+    return Error(Code::BadStyle, fmt::format("'{}' is no colour; write #rrggbb, #rgb or one of {}", text, names));
+}
+
+const StyleSheet& defaultStyle(bool withPatterns) {
+    static const StyleSheet plain = builtIn({kDefaultStyleJson});
+    static const StyleSheet patterned = builtIn({kDefaultStyleJson, kDefaultPatternsJson});
+    return withPatterns ? patterned : plain;
+}
+
+Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem::path& folder) {
+    // Depth first: a parser that recurses must not meet more than it can bear.
+    int depth = 0, deepest = 0;
+    for (const char c : text) {
+        depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+        deepest = std::max(deepest, depth);
+    }
+    if (deepest > 64) return badStyle("file", fmt::format("nested {} deep; 64 levels are possible", deepest));
+    const json root = json::parse(text.begin(), text.end(), nullptr, false);
+    if (root.is_discarded()) return badStyle("file", "not well-formed JSON");
+    if (auto checked = checkMembers(root, "file", {"rules", "$schema", "comment"}); !checked) return checked.error();
+    if (!root.contains("rules") || !root["rules"].is_array()) return badStyle("file", "expected \"rules\": [...]");
+    StyleSheet sheet;
+    for (std::size_t r = 0; r < root["rules"].size(); ++r) {
+        auto rule = readRule(root["rules"][r], fmt::format("rules[{}]", r), folder);
+        if (!rule) return rule.error();
+        sheet.rules.push_back(std::move(*rule));
+    }
+    return sheet;
+}
+
+Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
+    std::string text;
+    constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+    text.resize(kMostBytes + 1);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMostBytes) return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
+    auto sheet = parseStyleSheet(text, file.parent_path());
+    if (!sheet) return Error(sheet.error().code(), sheet.error().message(), {file.string(), 0, 0, {}});
+    return sheet;
+}
+
+std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows, std::span<const StyleSheet* const> sheets,
+                                         std::span<const std::optional<Vec3f>> materialColors) {
+    std::vector<ResolvedStyle> styles(rows.size());
+    for (std::size_t s = 0; s < sheets.size(); ++s) {
+        for (const StyleRule& rule : sheets[s]->rules)
+            for (const std::uint32_t row : rule.select.select(rows)) apply(rule, styles[row]);
+        if (s == 0)
+            for (std::size_t row = 0; row < rows.size() && row < materialColors.size(); ++row)
+                if (materialColors[row]) styles[row].color = *materialColors[row];
+    }
+    for (ResolvedStyle& style : styles) {
+        const std::size_t phases = style.pattern.phaseCount();
+        if (phases == 1) style.phaseColors.clear();
+        for (std::size_t p = style.phaseColors.size(); phases > 1 && p < phases; ++p) style.phaseColors.push_back(shade(style.color, p));
+    }
+    return styles;
+}
+
+}  // namespace svt::pipeline

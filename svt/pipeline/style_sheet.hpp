@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// Which class or query gets which colour, opacity and spatial pattern. A JSON file
+/// (docs/formats/style.schema.json); a good default for buildings is built in.
+
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+#include <svt/model/query.hpp>
+#include <svt/voxelize/patterns.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace svt::pipeline {
+
+/// One rule: what is set overrides what earlier rules set.
+struct StyleRule {
+    model::Query select;
+    std::optional<Vec3f> color;                 ///< sRGB, 0..1
+    std::optional<float> opacity;               ///< fraction of light stopped by 1 m, 0..1; 1: opaque
+    std::optional<voxelize::Pattern> pattern;
+    std::vector<Vec3f> patternColors;           ///< per phase; missing ones are shades of the colour
+};
+
+/// Rules in order; later ones win.
+struct StyleSheet {
+    std::vector<StyleRule> rules;
+};
+
+/// The built-in style: colours and opacities by class; with `withPatterns` also brick, block, concrete, timber, insulation
+/// by class and material.
+[[nodiscard]] const StyleSheet& defaultStyle(bool withPatterns);
+
+/// Reads a style file; files of image patterns are found relative to it.
+/// \return the sheet, or CannotOpen, BadStyle (with the JSON path, what was found and expected), BadPattern, BadImage
+[[nodiscard]] Result<StyleSheet> readStyleSheet(const std::filesystem::path& file);
+[[nodiscard]] Result<StyleSheet> parseStyleSheet(std::string_view json, const std::filesystem::path& folder);
+
+/// "#c8b49b", "#fff" or a basic CSS colour name ("tomato", "steelblue") -> sRGB, or BadStyle that lists the names.
+[[nodiscard]] Result<Vec3f> parseColor(std::string_view text);
+
+/// What one row ends up with.
+struct ResolvedStyle {
+    Vec3f color{0.8f, 0.8f, 0.8f};
+    float opacity = 1;
+    voxelize::Pattern pattern;
+    std::vector<Vec3f> phaseColors;  ///< pattern.phaseCount() entries
+};
+
+/// Applies the sheets one after the other; entry per row.
+/// \param materialColors  per row: the model's own colour, stronger than the built-in sheet (the first), weaker than the others
+[[nodiscard]] std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows, std::span<const StyleSheet* const> sheets,
+                                                       std::span<const std::optional<Vec3f>> materialColors);
+
+}  // namespace svt::pipeline
