@@ -140,7 +140,7 @@ Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions
             }
         }
         axes = voxelize::dominantFrame(all).axes;
-        for (const Vec3d& vertex : all.vertices) box.add({dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
+        for (const Vec3d& vertex : all.vertices) box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
     } else {
         box.min = scene.bounds.min + scene.origin;
         box.max = scene.bounds.max + scene.origin;
