@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace svt {
 
 std::string_view severityName(Severity severity) noexcept {
@@ -24,14 +27,13 @@ void Diagnostics::add(Severity severity, Code code, std::string message, Place w
 }
 
 void Diagnostics::append(const Diagnostics& other) {
+    std::map<Code, std::size_t> kept;
     for (const Diagnostic& item : other.items_) {
-        const std::size_t seen = count(item.code);
-        if (seen < kKeptPerCode) items_.push_back(item);
-        ++perCode_[item.code];
-        ++perSeverity_[static_cast<std::size_t>(item.severity)];
+        const auto place = kept.try_emplace(item.code, std::min(count(item.code), kKeptPerCode)).first;
+        if (place->second++ < kKeptPerCode) items_.push_back(item);
     }
-    for (const auto& [code, total] : other.perCode_)
-        if (total > kKeptPerCode) perCode_[code] += total - kKeptPerCode;
+    for (const auto& [code, total] : other.perCode_) perCode_[code] += total;
+    for (std::size_t s = 0; s < std::size(perSeverity_); ++s) perSeverity_[s] += other.perSeverity_[s];
 }
 
 std::size_t Diagnostics::count(Code code) const noexcept {

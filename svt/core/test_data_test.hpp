@@ -17,7 +17,7 @@ inline std::filesystem::path dataDir() {
 
 }  // namespace svt::test
 
-/// Skips the test where `file` of the data directory is absent; else declares `path`.
-#define SVT_NEEDS_DATA(path, file)                                                                      \
-    const std::filesystem::path path = ::svt::test::dataDir() / (file);                                 \
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; set SVT_DATA_DIR to run this test"
+/// Skips the test where `file` of the data directory is absent; else declares `variable`.
+#define SVT_NEEDS_DATA(variable, file)                                                                  \
+    const std::filesystem::path variable = ::svt::test::dataDir() / (file);                             \
+    if (!std::filesystem::exists(variable)) GTEST_SKIP() << variable << " is absent; set SVT_DATA_DIR to run this test"

@@ -29,6 +29,7 @@ struct Source {
     FeatureIndex feature = model::kNoFeature;
     double lod = -1;
     bool isAssembled = false;
+    bool hasSolidMeaning = false;  // an open shell is to be closed
     std::vector<SurfaceUse> uses;
 };
 
@@ -59,13 +60,17 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
     std::vector<Source> sources;
     for (const FeatureIndex index : model.treeOrder()) {
         const Feature& feature = model.features[index];
-        Source own{index, -1, false, {}};
+        Source own{index, -1, false, false, {}};
         if (const int chosen = lod.choose(feature); chosen >= 0) {
-            own.lod = feature.geometries[std::size_t(chosen)].lod;
-            appendUses(feature.geometries[std::size_t(chosen)], own.uses);
+            const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
+            own.lod = geometry.lod;
+            // Doors and windows are bodies in CityGML 3.0 and sheets in the openings of CityGML 2.0: the geometry tells.
+            own.hasSolidMeaning = model::isFilling(feature.className) ? geometry.kind == model::GeometryKind::Solid
+                                                                      : model::hasSolidMeaning(feature.className);
+            appendUses(geometry, own.uses);
         }
         if (model::hasSolidMeaning(feature.className)) {
-            Source assembled{index, -1, true, {}};
+            Source assembled{index, -1, true, true, {}};
             appendBoundary(model, index, lod, assembled);
             if (!assembled.uses.empty() && (own.uses.empty() || assembled.lod > own.lod)) own = std::move(assembled);
         }
@@ -150,6 +155,14 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
         mesh.openEdges = findOpenEdges(mesh.triangles);
     }
     if (!mesh.openEdges.empty()) {
+        std::vector<Triangle> single = mesh.triangles;
+        if (const std::uint32_t removed = removeDoubledFaces(single); removed != 0 && findOpenEdges(single).empty()) {
+            mesh.triangles = std::move(single);
+            mesh.openEdges.clear();
+            work.gathered.duplicateFaces += removed;
+        }
+    }
+    if (!mesh.openEdges.empty()) {
         // Two edges that run the same way are no leak but faces that disagree.
         mesh.flippedFaces = orientConsistently(mesh.triangles);
         if (mesh.flippedFaces != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
@@ -183,6 +196,17 @@ void finish(ObjectMesh& mesh) {
     }
 }
 
+// True where a closed mesh encloses nothing but rounding.
+bool isFlat(const ObjectMesh& mesh) {
+    if (!mesh.isSolid()) return false;
+    double area = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Vec3d a = mesh.vertices[triangle.corners[0]];
+        area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
+    }
+    return std::abs(signedVolume(mesh.vertices, mesh.triangles)) < 1e-6 * area * std::sqrt(area);
+}
+
 std::string leakText(const ObjectMesh& mesh, Vec3d origin) {
     std::string text;
     for (std::size_t i = 0; i < std::min<std::size_t>(mesh.leaks.size(), 3); ++i) {
@@ -209,20 +233,20 @@ void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work
             break;
         case Closure::Complemented:
             log.add(Severity::Warning, Code::FacesComplemented,
-                    fmt::format("the shell leaks at {} edges, such as {}; closed with {} faces of adjoining features", mesh.leakCount,
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such as {}; closed with {} faces of adjoining features", mesh.unmatchedEdges, mesh.leakCount,
                                 leaks, mesh.complementedFaces),
                     place);
             break;
         case Closure::Capped:
             log.add(Severity::Warning, Code::ShellCapped,
-                    fmt::format("the shell leaks at {} edges, such as {}; closed with {} planar caps", mesh.leakCount, leaks,
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such as {}; closed with {} planar caps", mesh.unmatchedEdges, mesh.leakCount, leaks,
                                 mesh.caps.size()),
                     place);
             break;
         case Closure::Open:
             log.add(Severity::Warning, Code::WindingFilled,
-                    fmt::format("the shell leaks at {} edges, such as {}; {} stay open, filled by generalized winding number",
-                                mesh.leakCount, leaks, mesh.openEdges.size()),
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such as {}; {} stay open, filled by generalized winding number",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.openEdges.size()),
                     place);
             break;
     }
@@ -279,7 +303,7 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
     std::optional<FaceFinder> finder;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         ObjectMesh& mesh = scene.objects[i];
-        if (mesh.openEdges.empty() || !model::hasSolidMeaning(model.features[mesh.feature].className)) continue;
+        if (mesh.openEdges.empty() || !sources[i].hasSolidMeaning) continue;
         if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while closing shells");
         if (!finder) finder.emplace(polygons, model);
         work[i].gathered.pointIds.resize(mesh.vertices.size(), kNoPoint);
@@ -288,8 +312,16 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
             mesh.closure = Closure::Complemented;
             continue;
         }
+        const std::vector<Triangle> uncapped = mesh.triangles;
         capPlanarHoles(mesh, options.capDeviation);
         mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
+        if (isFlat(mesh)) {
+            // A footprint or a single face: there is nothing to fill.
+            mesh.triangles = uncapped;
+            mesh.caps.clear();
+            mesh.openEdges = findOpenEdges(mesh.triangles);
+            mesh.closure = Closure::Surface;
+        }
     }
     Progress::tell(options.progress, "mesh", 0.7);
 

@@ -236,6 +236,41 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
     return count;
 }
 
+std::uint32_t removeDoubledFaces(std::vector<Triangle>& triangles) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;  // per directed edge
+    for (const Triangle& triangle : triangles)
+        for (std::size_t c = 0; c < 3; ++c) ++uses[{triangle.corners[c], triangle.corners[(c + 1) % 3]}];
+    std::vector<std::uint8_t> isGone(triangles.size(), 0);
+    std::uint32_t removed = 0;
+    for (bool hasChanged = true; hasChanged;) {
+        hasChanged = false;
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            if (isGone[t]) continue;
+            int excess = 0;
+            bool isDoubled = false;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t a = triangles[t].corners[c], b = triangles[t].corners[(c + 1) % 3];
+                const auto back = uses.find({b, a});
+                const int forward = uses[{a, b}], backward = back == uses.end() ? 0 : back->second;
+                excess += forward > backward;
+                isDoubled = isDoubled || (forward > backward && (backward > 0 || removed != 0));
+            }
+            if (excess < 2 || !isDoubled) continue;
+            for (std::size_t c = 0; c < 3; ++c) --uses[{triangles[t].corners[c], triangles[t].corners[(c + 1) % 3]}];
+            isGone[t] = 1;
+            ++removed;
+            hasChanged = true;
+        }
+    }
+    if (removed == 0) return 0;
+    std::vector<Triangle> kept;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (!isGone[t]) kept.push_back(triangles[t]);
+    if (kept.empty() || findOpenEdges(kept).size() >= findOpenEdges(triangles).size()) return 0;
+    triangles = std::move(kept);
+    return removed;
+}
+
 std::vector<std::uint32_t> findComponents(const std::vector<Triangle>& triangles) {
     UnionFind sets(triangles.size());
     const std::vector<EdgeUse> uses = collectEdgeUses(triangles);

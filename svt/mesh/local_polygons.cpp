@@ -54,8 +54,10 @@ void judge(const Triangulation& result, const model::Polygon& polygon, std::vect
     const std::string at = polygon.points.empty() ? "" : " near " + describe(polygon.points[0]);
     if (result.hasFailed)
         findings.push_back({Severity::Warning, Code::TriangulationFailed, "a polygon cannot be triangulated and is left out" + at});
-    else if (result.isZeroArea)
+    else if (result.isZeroArea && result.triangles.empty())
         findings.push_back({Severity::Warning, Code::ZeroArea, "a face has no area and is left out" + at});
+    else if (result.isZeroArea)
+        findings.push_back({Severity::Note, Code::ZeroArea, "a triangle has no area; it counts for the closing test only" + at});
     if (result.isSelfTouching)
         findings.push_back({Severity::Warning, Code::SelfTouchingRing, "the rings of a polygon touch or cross themselves" + at});
     if (result.planeDeviation > kReportedDeviation)

@@ -121,14 +121,13 @@ Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const 
     const Vec3d normal = newellNormal(exterior);
     double perimeter = 0;
     for (std::size_t i = 0; i < exterior.size(); ++i) perimeter += length(exterior[(i + 1) % exterior.size()] - exterior[i]);
-    if (!(length(normal) > 1e-12 * perimeter * perimeter)) {
-        result.isZeroArea = true;
-        return result;
-    }
+    result.isZeroArea = !(length(normal) > 1e-12 * perimeter * perimeter);
     if (points.size() == 3) {
+        // Kept even without area: tessellated models are full of such slivers, and their edges belong to the shell.
         result.triangles.push_back({0, 1, 2});
         return result;
     }
+    if (result.isZeroArea) return result;
     const Vec3d unit = normalized(normal);
     result.planeDeviation = deviationFromPlane(exterior, unit);
     if (ringEnds.size() == 1 && points.size() == 4 && isConvexQuad(exterior, normal)) {

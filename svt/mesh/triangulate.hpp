@@ -18,7 +18,7 @@ struct Triangulation {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< same direction as the exterior ring
     std::vector<Vec3d> extraPoints;
     double planeDeviation = 0;  ///< largest distance of a point from the polygon's mean plane, metres
-    bool isZeroArea = false;    ///< no triangles: all points on one line
+    bool isZeroArea = false;    ///< all points on one line; a triangle is kept for its edges, other polygons give nothing
     bool isSelfTouching = false;  ///< rings touch or cross themselves or each other
     bool hasFailed = false;     ///< the tessellator gave up
 };

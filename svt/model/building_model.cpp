@@ -53,7 +53,9 @@ int LodChoice::choose(const Feature& feature) const {
     for (int i = 0; i < static_cast<int>(feature.geometries.size()); ++i) {
         const Geometry& candidate = feature.geometries[i];
         if (candidate.solids.empty() && candidate.surfaces.empty()) continue;
-        if (lod >= 0 && std::floor(candidate.lod) > lod && candidate.lod > lod) continue;
+        // A whole level takes its refinements too, 2 takes 2.2; a refined one is meant as it is.
+        const bool isWhole = lod == std::floor(lod);
+        if (lod >= 0 && (isWhole ? std::floor(candidate.lod) : candidate.lod) > lod) continue;
         if (best < 0) {
             best = i;
             continue;

@@ -121,7 +121,9 @@ struct BuildingModel {
 
 /// Which level of detail to use of a feature that has several.
 struct LodChoice {
-    double lod = -1;  ///< -1: the finest that each feature has; else the finest not above this (2 takes 2.2: compared by floor)
+    /// -1: the finest that each feature has; else the finest not above this. A whole level takes its refinements
+    /// (2 takes 2.2), a refined one does not (2.1 leaves 2.2).
+    double lod = -1;
     [[nodiscard]] static LodChoice finest() { return {}; }
 
     /// Index into `feature.geometries` of the geometry to use, or -1 for none. Among geometries of

@@ -14,11 +14,17 @@ bool isIn(const std::array<string_view, N>& names, string_view name) noexcept {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool isSameWord(string_view a, string_view b) noexcept {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
 bool endsWith(string_view text, string_view tail) noexcept {
     return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
 }
 
-constexpr std::array<std::pair<string_view, string_view>, 12> kAliases{{
+constexpr std::array<std::pair<string_view, string_view>, 14> kAliases{{
     {"Room", "BuildingRoom"},
     {"IntBuildingInstallation", "BuildingInstallation"},
     {"BuildingStorey", "Storey"},
@@ -31,6 +37,8 @@ constexpr std::array<std::pair<string_view, string_view>, 12> kAliases{{
     {"HollowSpace", "HollowSpace"},
     {"BridgeConstructiveElement", "BridgeConstructiveElement"},
     {"TunnelHollowSpace", "HollowSpace"},
+    {"+Window", "Window"},  // CityJSON has no objects for openings; the generated models bring an extension
+    {"+Door", "Door"},
 }};
 
 constexpr std::array<string_view, 4> kFillings{"Door", "Window", "DoorSurface", "WindowSurface"};
@@ -38,19 +46,23 @@ constexpr std::array<string_view, 4> kRooms{"BuildingRoom", "BridgeRoom", "Hollo
 constexpr std::array<string_view, 8> kBuildings{"Building", "BuildingPart", "Bridge",         "BridgePart",
                                                 "Tunnel",   "TunnelPart",   "OtherConstruction", "+NoiseBuilding"};
 // Thematic surfaces of every module; waterbody and transportation surfaces bound spaces too.
-constexpr std::array<string_view, 16> kBoundaries{
+constexpr std::array<string_view, 17> kBoundaries{
     "WallSurface",         "RoofSurface",    "GroundSurface",       "FloorSurface",
     "CeilingSurface",      "ClosureSurface", "InteriorWallSurface", "OuterFloorSurface",
     "OuterCeilingSurface", "WaterSurface",   "WaterGroundSurface",  "WaterClosureSurface",
-    "TrafficArea",         "AuxiliaryTrafficArea", "GenericThematicSurface", "HoleSurface"};
-constexpr std::array<string_view, 8> kSurfaceOnly{"TINRelief",   "ReliefFeature", "LandUse",         "CityObjectGroup",
-                                                  "BreaklineRelief", "RasterRelief", "MassPointRelief", "CityModel"};
+    "TrafficArea",         "AuxiliaryTrafficArea", "GenericThematicSurface", "HoleSurface",
+    "Marking"};
+// Transportation objects are surfaces in CityGML 1.0 and 2.0, and spaces without a body of their own in 3.0.
+constexpr std::array<string_view, 14> kSurfaceOnly{
+    "TINRelief",       "ReliefFeature", "LandUse",         "CityObjectGroup", "BreaklineRelief",
+    "RasterRelief",    "MassPointRelief", "CityModel",     "TransportationComplex", "Road",
+    "Railway",         "Track",         "Square",          "Waterway"};
 
 }  // namespace
 
 std::string canonicalClassName(string_view sourceName) {
     for (const auto& [alias, name] : kAliases)
-        if (alias == sourceName) return std::string(name);
+        if (isSameWord(alias, sourceName)) return std::string(name);
     return std::string(sourceName);
 }
 

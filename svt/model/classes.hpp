@@ -11,7 +11,8 @@ namespace svt::model {
 
 /// One name for all formats: the CityGML 3.0 local name where one exists. "Room" gives "BuildingRoom",
 /// "IntBuildingInstallation" "BuildingInstallation", "BuildingStorey" "Storey"; an unknown name, a leading
-/// '+' (CityJSON extension) included, stays as it is.
+/// '+' (CityJSON extension) included, stays as it is, but "+Window" and "+Door" are windows and doors.
+/// Known old names are found without regard to ASCII case.
 [[nodiscard]] std::string canonicalClassName(std::string_view sourceName);
 
 /// Who wins a voxel that several objects claim: the finer component, that is the lower rank.

@@ -35,7 +35,7 @@ const char* const kDefaultStyleJson = R"json({
     {"select": "ifcType~Window", "color": "#7fa9c4"},
     {"select": "ifcType~Door", "color": "#8a5a33"},
     {"select": "ifcType~Stair or ifcType~Railing", "color": "#8f9aa3"},
-    {"select": "ifcType~Roof", "color": "#a8483a"},
+    {"select": "ifcType~Roof or name~'[Rr]oof' or name~'Dach'", "color": "#a8483a"},
     {"select": "material=brick", "color": "#c88d6b"},
     {"select": "material=concrete", "color": "#aaa69e"},
     {"select": "material=timber or material=wood", "color": "#b98a52"},

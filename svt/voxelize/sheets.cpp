@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <set>
+#include <tuple>
 
 namespace svt::voxelize {
 namespace {
@@ -23,22 +25,52 @@ void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std:
 
 // Joins neighbours in a row that lie at the same sample.
 template <class SampleAt>
-std::uint64_t addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::uint32_t claim,
+void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::uint32_t claim,
                               std::vector<ClaimedBox>& boxes, SampleAt&& sampleAt) {
     constexpr std::int32_t kNone = -1;
-    std::uint64_t count = 0;
     std::int32_t from = begin, current = kNone;
     for (std::int32_t x = begin; x <= end; ++x) {
         const std::int32_t sample = x < end ? sampleAt(x) : kNone;
         if (x < end && sample == current) continue;
-        if (current != kNone) {
-            addStretch(axes, row, from, x, current, claim, boxes);
-            count += std::uint64_t(x - from);
-        }
+        if (current != kNone) addStretch(axes, row, from, x, current, claim, boxes);
         from = x;
         current = sample;
     }
-    return count;
+}
+
+// The same voxels without repetition, as few boxes: runs along z, then equal runs side by side along x.
+std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, std::vector<ClaimedBox>& boxes) {
+    std::vector<std::uint64_t> voxels;
+    for (const ClaimedBox& box : raw)
+        for (std::int32_t i = box.begin; i < box.end; ++i)
+            for (std::int32_t k = box.low; k < box.high; ++k)
+                voxels.push_back((std::uint64_t(box.j) * std::uint64_t(dimension.x) + std::uint64_t(i)) * std::uint64_t(dimension.z) +
+                                 std::uint64_t(k));
+    std::sort(voxels.begin(), voxels.end());
+    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
+    std::vector<ClaimedBox> runs;
+    for (const std::uint64_t voxel : voxels) {
+        const auto k = static_cast<std::int32_t>(voxel % std::uint64_t(dimension.z));
+        const std::uint64_t column = voxel / std::uint64_t(dimension.z);
+        const auto i = static_cast<std::int32_t>(column % std::uint64_t(dimension.x));
+        const auto j = static_cast<std::int32_t>(column / std::uint64_t(dimension.x));
+        if (!runs.empty() && runs.back().j == j && runs.back().begin == i && runs.back().high == k)
+            ++runs.back().high;
+        else
+            runs.push_back({j, i, i + 1, k, k + 1, raw.front().claim});
+    }
+    std::sort(runs.begin(), runs.end(), [](const ClaimedBox& p, const ClaimedBox& q) {
+        return std::tie(p.j, p.low, p.high, p.begin) < std::tie(q.j, q.low, q.high, q.begin);
+    });
+    const std::size_t first = boxes.size();
+    for (const ClaimedBox& run : runs) {
+        ClaimedBox* last = boxes.size() > first ? &boxes.back() : nullptr;
+        if (last != nullptr && last->j == run.j && last->low == run.low && last->high == run.high && last->end == run.begin)
+            last->end = run.end;
+        else
+            boxes.push_back(run);
+    }
+    return voxels.size();
 }
 
 void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
@@ -136,7 +168,8 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
 
 std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension, std::uint32_t claim,
                            std::vector<ClaimedBox>& boxes) {
-    std::uint64_t count = 0;
+    std::vector<ClaimedBox> raw;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> rodEdges;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         if (!std::isfinite(triangle.thickness)) continue;
@@ -161,7 +194,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
             scanRows(scan, 0, along(dimension, axes.y), 0, along(dimension, axes.x),
                      [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
                          const std::int64_t base = scan.height.base + scan.height.slopeY * row;
-                         count += addRowOfSamples(axes, row, begin, end, claim, boxes, [&](std::int32_t x) {
+                         addRowOfSamples(axes, row, begin, end, claim, raw, [&](std::int32_t x) {
                              const std::int64_t entry = base + scan.height.slopeX * x;
                              const std::int64_t one = std::int64_t{1} << Height::kBits;
                              const auto above = [&](std::int64_t height) { return ((height - one) >> (Height::kBits + kQuantaBits)) + 1; };
@@ -171,24 +204,28 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
                          });
                      });
         }
-        // A rod: the face itself is narrower than a voxel, so sample lines may pass it by.
-        const Vec3d corner[3] = {indexFromLocal.point(a), indexFromLocal.point(b), indexFromLocal.point(c)};
-        int longest = 0;
+        // A rod: the face itself is narrower than a voxel, so sample lines may pass it by. One line along its longest edge, in
+        // the middle of the material, with one voxel per step of its dominant axis; the edge's other face need not repeat it.
+        const std::uint32_t corners[3] = {triangle.corners[0], triangle.corners[1], triangle.corners[2]};
+        const Vec3d points[3] = {a, b, c};
+        std::size_t longest = 0;
         double longestLength = 0;
-        for (int e = 0; e < 3; ++e) {
-            const double l = length(corner[(e + 1) % 3] - corner[e]);
+        for (std::size_t e = 0; e < 3; ++e) {
+            const double l = length(indexFromLocal.direction(points[(e + 1) % 3] - points[e]));
             if (l > longestLength) {
                 longestLength = l;
                 longest = e;
             }
         }
         if (!(longestLength > 0) || length(normal) / longestLength >= 1) continue;
-        const Vec3d from = corner[longest] + inward * 0.5, to = corner[(longest + 1) % 3] + inward * 0.5;
-        const int steps = 1 + static_cast<int>(std::min(longestLength * 2, 1e6));
-        for (int s = 0; s <= steps; ++s, ++count)
-            addNearest(from + (to - from) * (double(s) / steps), dimension, claim, boxes);
+        if (!rodEdges.insert(std::minmax(corners[longest], corners[(longest + 1) % 3])).second) continue;
+        const Vec3d from = indexFromLocal.point(points[longest]) + inward * 0.5;
+        const Vec3d way = indexFromLocal.direction(points[(longest + 1) % 3] - points[longest]);
+        const double reach = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+        const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
+        for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, raw);
     }
-    return count;
+    return appendUnique(raw, dimension, boxes);
 }
 
 }  // namespace svt::voxelize

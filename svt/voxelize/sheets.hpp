@@ -20,7 +20,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
 /// Parts of a solid thinner than a voxel: where a sample line along the dominant axis of a face meets less than a voxel
 /// of material and no sample in it, the nearest sample gets a voxel; rods thinner than a voxel in two directions
 /// get the voxels along their edges.
-/// \return count of voxels added (before priority; a voxel met twice counts twice)
+/// \return count of voxels added, before priority
 std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension, std::uint32_t claim,
                            std::vector<ClaimedBox>& boxes);
 

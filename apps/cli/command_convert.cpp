@@ -1,0 +1,46 @@
+#include "cli.hpp"
+
+#include <svt/volume/svt_file.hpp>
+#include <svt/writers/nrrd_writer.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path input, output;
+    std::string encoding = "gzip";
+    BuildArguments build;
+};
+
+int runConvert(const Arguments& arguments) {
+    const std::string extension = arguments.output.extension().string();
+    if (extension != ".nrrd")
+        return fail(Error(Code::BadArgument, fmt::format("'{}': cannot write '{}'; possible is .nrrd", arguments.output.string(), extension)));
+    Diagnostics diagnostics;
+    const TerminalProgress progress;
+    const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    if (!volume) return fail(volume.error());
+    writers::NrrdOptions options;
+    options.encoding = arguments.encoding == "raw" ? writers::NrrdEncoding::Raw : writers::NrrdEncoding::Gzip;
+    options.threads = arguments.build.threads;
+    options.progress = progress.get();
+    const auto bytes = writers::writeNrrd(*volume, arguments.output, options);
+    if (!bytes) return fail(bytes.error());
+    return kDone;
+}
+
+}  // namespace
+
+Run addConvertCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("convert", "Write a volume in another format");
+    command->add_option("input", arguments->input, "a .svt or a model file")->required();
+    command->add_option("output", arguments->output, "file to write; the extension tells the format: .nrrd")->required();
+    command->add_option("--encoding", arguments->encoding, "NRRD samples: gzip or raw")->check(CLI::IsMember({"gzip", "raw"}))->capture_default_str();
+    arguments->build.addTo(*command);
+    return [arguments] { return runConvert(*arguments); };
+}
+
+}  // namespace svt::cli

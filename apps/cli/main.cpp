@@ -1,0 +1,101 @@
+#include "cli.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <numeric>
+
+namespace {
+
+using namespace svt::cli;
+
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t distance = std::max<std::size_t>(3, word.size() / 2);
+    for (const std::string& candidate : known)
+        if (const std::size_t d = editDistance(word, candidate); d < distance) {
+            distance = d;
+            best = candidate;
+        }
+    return best;
+}
+
+// The option or command that the user may have meant.
+std::string suggestionFor(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> known;
+    const auto commands = app.get_subcommands();
+    if (word.rfind("-", 0) == 0) {
+        const CLI::App* scope = commands.empty() ? &app : commands.front();
+        for (const CLI::Option* option : scope->get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    } else if (commands.empty()) {
+        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) known.push_back(command->get_name());
+    }
+    const std::string found = nearest(word.substr(0, word.find('=')), known);
+    return found.empty() ? "" : fmt::format("; did you mean {}?", found);
+}
+
+int run(int argc, char** argv) {
+    CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
+    app.require_subcommand(0, 1);
+    app.set_version_flag("--version", "svt 0.1.0");
+    app.failure_message(CLI::FailureMessage::simple);
+    std::vector<std::pair<std::string, Run>> commands;
+    commands.emplace_back("sample", addSampleCommand(app));
+    commands.emplace_back("build", addBuildCommand(app));
+    commands.emplace_back("info", addInfoCommand(app));
+    commands.emplace_back("check", addCheckCommand(app));
+    commands.emplace_back("render", addRenderCommand(app));
+    commands.emplace_back("query", addQueryCommand(app));
+    commands.emplace_back("convert", addConvertCommand(app));
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+        app.exit(help);
+        return kDone;
+    } catch (const CLI::CallForVersion& version) {
+        app.exit(version);
+        return kDone;
+    } catch (const CLI::ParseError& error) {
+        std::string message = error.what();
+        for (const std::string& word : app.remaining(true)) message += suggestionFor(app, word);
+        const auto chosen = app.get_subcommands();
+        fmt::print(stderr, "svt: {}\nsvt: see 'svt {}--help'\n", message, chosen.empty() ? "" : chosen.front()->get_name() + " ");
+        return kUsage;
+    }
+    for (const auto& [name, command] : commands)
+        if (app.got_subcommand(name)) return command();
+    fmt::print("{}", app.help());
+    return kUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "svt: error: out of memory; choose a coarser --spacing or a smaller model\n");
+        return kLimit;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "svt: internal error: {}\n", error.what());
+        return kInternal;
+    }
+}

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Fails where an error code lacks its page, its row in the index or its name in the program, or a page its code.
+
+    scripts/check_error_pages.py [ROOT]
+"""
+import re
+import sys
+from pathlib import Path
+
+SECTIONS = ["## When", "## Example", "## What to do"]
+
+
+def findings(root: Path) -> list[str]:
+    header = (root / "svt/core/error.hpp").read_text(encoding="utf-8")
+    source = (root / "svt/core/error.cpp").read_text(encoding="utf-8")
+    folder = root / "docs/errors"
+    index = (folder / "README.md").read_text(encoding="utf-8")
+    enum = re.search(r"enum class Code[^{]*\{(.*?)\n\};", header, re.S)
+    if enum is None:
+        return ["svt/core/error.hpp: no 'enum class Code' found"]
+    codes = {name: f"E{number}" for name, number in re.findall(r"^\s*(\w+)\s*=\s*(\d{3})\b", enum[1], re.M)}
+    found = [] if codes else ["svt/core/error.hpp: no codes found"]
+    tags = list(codes.values())
+    found += [f"svt/core/error.hpp: {tag} stands for several codes" for tag in sorted(set(tags)) if tags.count(tag) > 1]
+
+    for name, tag in codes.items():
+        if f"SVT_CASE({name})" not in source:
+            found.append(f"svt/core/error.cpp: codeName() does not know {name}")
+        rows = re.findall(rf"^\| \[{tag}\]\({tag}\.md\) \| (\w+) \|", index, re.M)
+        if rows != [name]:
+            found.append(f"docs/errors/README.md: one row '| [{tag}]({tag}.md) | {name} |' expected, found {rows}")
+        page = folder / f"{tag}.md"
+        if not page.exists():
+            found.append(f"docs/errors/{tag}.md: missing, the page of {name}")
+            continue
+        text = page.read_text(encoding="utf-8")
+        if text.splitlines()[:1] != [f"# {tag} {name}"]:
+            found.append(f"docs/errors/{tag}.md: the title must be '# {tag} {name}'")
+        if f"\n{tag} {name}: " not in text:
+            found.append(f"docs/errors/{tag}.md: no example message that begins with '{tag} {name}: '")
+        found += [f"docs/errors/{tag}.md: no section '{part}'" for part in SECTIONS if f"\n{part}\n" not in text]
+
+    known = {f"{tag}.md" for tag in tags} | {"README.md"}
+    found += [f"docs/errors/{page.name}: no code has this page" for page in sorted(folder.iterdir()) if page.name not in known]
+    found += [
+        f"docs/errors/README.md: row {tag} has no code" for tag in re.findall(r"^\| \[(E\d+)\]", index, re.M) if tag not in tags
+    ]
+    return found
+
+
+def main() -> int:
+    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
+    problems = findings(root)
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,273 @@
+#include <svt/core/file.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+namespace svt {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBufferBytes = 256 * 1024;
+/// write() takes at most 0x7ffff000 bytes at once on Linux.
+constexpr std::size_t kMaxWriteBytes = std::size_t{1} << 30;
+
+std::string systemReason(int systemError) { return std::generic_category().message(systemError); }
+
+Error cannotOpen(const fs::path& path, std::string message) {
+    return Error(Code::CannotOpen, std::move(message), Place{path.string(), 0, 0, {}});
+}
+
+Error cannotOpen(const fs::path& path, int systemError) {
+    switch (systemError) {
+        case ENOENT: return cannotOpen(path, "the file does not exist; check the spelling and the folder");
+        case ENOTDIR: return cannotOpen(path, "a part of the path is a file, not a folder");
+        case EACCES:
+        case EPERM: return cannotOpen(path, "no permission to read the file; change its permissions or copy it");
+        case EMFILE:
+        case ENFILE: return cannotOpen(path, "too many files are open; close some or raise the limit (ulimit -n)");
+        default: return cannotOpen(path, "the file cannot be opened: " + systemReason(systemError));
+    }
+}
+
+Error cannotWrite(const fs::path& path, Code code, std::string message) {
+    return Error(code, std::move(message), Place{path.string(), 0, 0, {}});
+}
+
+Error cannotWrite(const fs::path& path, int systemError) {
+    const auto error = [&](Code code, std::string message) { return cannotWrite(path, code, std::move(message)); };
+    switch (systemError) {
+        case ENOSPC: return error(Code::DiskFull, "no space is left on the disk; free some or choose another folder");
+        case EDQUOT: return error(Code::DiskFull, "the disk quota is used up; free some or choose another folder");
+        case ENOENT:
+            return error(Code::CannotWrite,
+                         fmt::format("the folder {} does not exist; create it first",
+                                     path.has_parent_path() ? path.parent_path().string() : "of the file"));
+        case ENOTDIR: return error(Code::CannotWrite, "a part of the path is a file, not a folder");
+        case EISDIR: return error(Code::CannotWrite, "this is a folder; give the name of a file in it");
+        case EACCES:
+        case EPERM:
+            return error(Code::CannotWrite,
+                         "no permission to write here; change the permissions or choose another folder");
+        case EROFS: return error(Code::CannotWrite, "the file system is read-only; choose another folder");
+        case ENAMETOOLONG: return error(Code::CannotWrite, "the file name is too long; choose a shorter one");
+        case EFBIG:
+            return error(Code::CannotWrite,
+                         "the file is larger than this file system or the size limit (ulimit -f) allows");
+        case EPIPE: return error(Code::CannotWrite, "the reader at the other end of the pipe has closed it");
+        default: return error(Code::CannotWrite, "the file cannot be written: " + systemReason(systemError));
+    }
+}
+
+/// A name that no other writer uses; O_EXCL guards what is left to chance. Short, so that a long target name
+/// never makes it too long.
+std::string temporaryName() {
+    static std::atomic<std::uint32_t> counter{0};
+    const auto ticks = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+    return fmt::format(".svt-{:x}-{:x}-{:x}.tmp", static_cast<unsigned>(::getpid()), counter++, ticks);
+}
+
+int openRetrying(const char* path, int flags, mode_t mode = 0) noexcept {
+    for (;;) {
+        const int descriptor = ::open(path, flags | O_CLOEXEC, mode);
+        if (descriptor >= 0 || errno != EINTR) return descriptor;
+    }
+}
+
+}  // namespace
+
+Result<MappedFile> MappedFile::open(const fs::path& path) {
+    // Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
+    const int descriptor = openRetrying(path.c_str(), O_RDONLY | O_NONBLOCK);
+    if (descriptor < 0) return cannotOpen(path, errno);
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0) {
+        const int reason = errno;
+        ::close(descriptor);
+        return cannotOpen(path, reason);
+    }
+    if (!S_ISREG(status.st_mode)) {
+        ::close(descriptor);
+        return cannotOpen(path, S_ISDIR(status.st_mode)
+                                    ? "this is a folder; give the name of a file in it"
+                                    : "this is a pipe or device, which cannot be mapped; copy it to a file first");
+    }
+    if (static_cast<std::uint64_t>(status.st_size) > SIZE_MAX) {
+        ::close(descriptor);
+        return cannotOpen(path, EFBIG);
+    }
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* memory = nullptr;
+    int reason = 0;
+    if (size > 0) {
+        memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+        if (memory == MAP_FAILED) reason = errno;
+    }
+    ::close(descriptor);
+    if (reason != 0) return cannotOpen(path, reason);
+    return MappedFile(std::span(static_cast<const std::byte*>(memory), size));
+}
+
+MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+
+MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
+    std::swap(bytes_, other.bytes_);
+    return *this;
+}
+
+MappedFile::~MappedFile() {
+    if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
+Result<AtomicFile> AtomicFile::create(const fs::path& target) {
+    AtomicFile file;
+    file.path_ = target;
+    if (target.empty() || !target.has_filename())
+        return cannotWrite(target, Code::CannotWrite, "the name of the output file is empty");
+
+    // A link is followed, so that it stays a link; a dangling one names the file to make.
+    std::error_code ignored;
+    file.target_ = target;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(file.target_, ignored)); ++links) {
+        if (links == 40) return cannotWrite(target, ELOOP);
+        const fs::path next = fs::read_symlink(file.target_, ignored);
+        if (next.empty()) break;
+        file.target_ = next.is_absolute() ? next : file.target_.parent_path() / next;
+    }
+
+    struct stat status {};
+    const bool exists = ::stat(file.target_.c_str(), &status) == 0;
+    if (!exists && errno != ENOENT) return cannotWrite(target, errno);
+    if (exists && S_ISDIR(status.st_mode)) return cannotWrite(target, EISDIR);
+    if (exists && !S_ISREG(status.st_mode)) {
+        file.descriptor_ = openRetrying(file.target_.c_str(), O_WRONLY);
+        if (file.descriptor_ < 0) return cannotWrite(target, errno);
+        return file;
+    }
+    if (exists && ::access(file.target_.c_str(), W_OK) != 0)
+        return cannotWrite(target, Code::CannotWrite,
+                           "the file is write-protected; change that or choose another name");
+
+    do {
+        file.temporary_ = file.target_.parent_path() / temporaryName();
+        file.descriptor_ = openRetrying(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+    } while (file.descriptor_ < 0 && errno == EEXIST);
+    if (file.descriptor_ < 0) {
+        const int reason = errno;
+        file.temporary_.clear();
+        return cannotWrite(target, reason);
+    }
+    if (exists && ::fchmod(file.descriptor_, status.st_mode & 07777) != 0) return file.fail(errno);
+    return file;
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept { *this = std::move(other); }
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(target_, other.target_);
+    std::swap(temporary_, other.temporary_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(size_, other.size_);
+    std::swap(descriptor_, other.descriptor_);
+    std::swap(failed_, other.failed_);
+    return *this;
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::discard() noexcept {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    temporary_.clear();
+    buffer_.clear();
+}
+
+Error AtomicFile::fail(int systemError) {
+    if (failed_ == 0) failed_ = systemError;
+    discard();
+    return cannotWrite(path_, failed_);
+}
+
+Result<void> AtomicFile::writeThrough(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor_, bytes.data(), std::min(bytes.size(), kMaxWriteBytes));
+        if (written < 0) {
+            if (errno == EINTR) continue;
+            return fail(errno);
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    return {};
+}
+
+Result<void> AtomicFile::flush() {
+    auto done = writeThrough(buffer_);
+    buffer_.clear();
+    return done;
+}
+
+Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
+    if (descriptor_ < 0) return fail(failed_ != 0 ? failed_ : EBADF);
+    size_ += bytes.size();
+    if (buffer_.size() + bytes.size() > kBufferBytes)
+        if (auto flushed = flush(); !flushed) return flushed;
+    if (bytes.size() >= kBufferBytes) return writeThrough(bytes);
+    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+    return {};
+}
+
+Result<void> AtomicFile::write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
+
+Result<void> AtomicFile::writeZeros(std::uint64_t count) {
+    static constexpr std::byte kZeros[4096]{};
+    while (count > 0) {
+        const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(count, sizeof(kZeros)));
+        if (auto written = write(std::span(kZeros, piece)); !written) return written;
+        count -= piece;
+    }
+    return {};
+}
+
+Result<std::uint64_t> AtomicFile::commit() {
+    if (descriptor_ < 0) return fail(failed_ != 0 ? failed_ : EBADF);
+    if (auto flushed = flush(); !flushed) return flushed.error();
+    const bool isDirect = temporary_.empty();
+    // Without the force to disk, a crash after the rename could leave an empty file in place of the old one.
+    if (!isDirect && ::fsync(descriptor_) != 0) return fail(errno);
+    const int closed = ::close(std::exchange(descriptor_, -1));
+    if (closed != 0 && errno != EINTR) return fail(errno);
+    if (!isDirect && ::rename(temporary_.c_str(), target_.c_str()) != 0) return fail(errno);
+    temporary_.clear();
+    return size_;
+}
+
+Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::span<const std::span<const std::byte>> parts) {
+    Result<AtomicFile> file = AtomicFile::create(target);
+    if (!file) return file.error();
+    for (const std::span<const std::byte> part : parts)
+        if (auto written = file->write(part); !written) return written.error();
+    return file->commit();
+}
+
+Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::span<const std::byte> bytes) {
+    return writeFileAtomically(target, std::span(&bytes, 1));
+}
+
+Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::string_view text) {
+    return writeFileAtomically(target, std::as_bytes(std::span(text)));
+}
+
+}  // namespace svt

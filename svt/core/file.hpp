@@ -1,0 +1,98 @@
+#pragma once
+/// \file
+/// Files as the library needs them: read by mapping, written so that a failure leaves the old file untouched.
+
+#include <svt/core/result.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace svt {
+
+/// A regular file mapped read-only into memory. Move-only; the bytes stay valid as long as the object lives.
+/// Replacing the file by rename (what AtomicFile does) leaves the mapping intact; a file that another program
+/// cuts short in place while it is mapped raises SIGBUS on access, as with every mapping.
+class MappedFile {
+public:
+    /// Maps the whole file; an empty file gives an empty span. Cost: O(1), pages are read when touched.
+    /// \return the file, or CannotOpen that says why: missing, a folder, no permission, a pipe or device
+    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path);
+
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&& other) noexcept;
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+    ~MappedFile();
+
+    [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
+    /// The same bytes as characters; no encoding is checked.
+    [[nodiscard]] std::string_view text() const noexcept {
+        return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+    }
+
+private:
+    explicit MappedFile(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+
+    std::span<const std::byte> bytes_;
+};
+
+/// Writes a new file beside `target` and puts it in place at commit(), so that readers see the old file or the whole
+/// new one, never a part. Without commit() the new file is removed and the old one stays.
+/// A symbolic link is followed and stays; the permissions of an existing file are kept. A target that is no regular
+/// file (/dev/stdout, a pipe) is written directly.
+/// Threads: one object belongs to one thread at a time.
+class AtomicFile {
+public:
+    /// \return the writer, or CannotWrite where the folder is missing or not writable, or the target is a folder or
+    ///         write-protected; DiskFull
+    [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& target);
+
+    AtomicFile(AtomicFile&& other) noexcept;
+    AtomicFile& operator=(AtomicFile&& other) noexcept;
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+    ~AtomicFile();
+
+    /// Appends bytes; small pieces are gathered. \return DiskFull or CannotWrite; nothing more can be written then.
+    Result<void> write(std::span<const std::byte> bytes);
+    Result<void> write(std::string_view text);
+    /// Appends `count` zero bytes.
+    Result<void> writeZeros(std::uint64_t count);
+
+    /// Forces the bytes to the disk and renames the new file to the target. \return bytes written, or DiskFull or
+    /// CannotWrite; on failure the old file stays and the new one is removed.
+    Result<std::uint64_t> commit();
+
+    /// Bytes appended so far.
+    [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+
+private:
+    AtomicFile() = default;
+    Result<void> flush();
+    Result<void> writeThrough(std::span<const std::byte> bytes);
+    Error fail(int systemError);
+    void discard() noexcept;
+
+    std::filesystem::path path_;       // as the caller gave it, for messages
+    std::filesystem::path target_;     // with links followed
+    std::filesystem::path temporary_;  // empty where the target is written directly
+    std::vector<std::byte> buffer_;
+    std::uint64_t size_ = 0;
+    int descriptor_ = -1;
+    int failed_ = 0;  // errno of the first failure
+};
+
+/// Writes `parts` one after the other as the file `target`; all or nothing, see AtomicFile.
+/// \return bytes written, or CannotWrite or DiskFull
+[[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target,
+                                                        std::span<const std::span<const std::byte>> parts);
+[[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target,
+                                                        std::span<const std::byte> bytes);
+[[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target, std::string_view text);
+
+}  // namespace svt

@@ -1,0 +1,262 @@
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <string>
+#include <svt/core/file.hpp>
+#include <svt/core/temporary_folder_test.hpp>
+#include <vector>
+
+namespace svt {
+namespace {
+
+namespace fs = std::filesystem;
+using test::readText;
+using test::TemporaryFolder;
+using test::writeText;
+
+bool mentions(const Error& error, std::string_view words) { return error.toString().find(words) != std::string::npos; }
+
+TEST(MappedFile, ShowsTheBytesOfTheFile) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", std::string("one\0two", 7));
+    auto file = MappedFile::open(folder / "a");
+    ASSERT_TRUE(file) << file.error().toString();
+    EXPECT_EQ(file->text(), std::string_view("one\0two", 7));
+    EXPECT_EQ(file->bytes().size(), 7u);
+}
+
+TEST(MappedFile, MovingKeepsTheBytes) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "first");
+    writeText(folder / "b", "second");
+    auto a = MappedFile::open(folder / "a");
+    auto b = MappedFile::open(folder / "b");
+    ASSERT_TRUE(a && b);
+    MappedFile moved = std::move(*a);
+    EXPECT_EQ(moved.text(), "first");
+    moved = std::move(*b);
+    EXPECT_EQ(moved.text(), "second");
+}
+
+TEST(MappedFile, EmptyFileIsAnEmptySpan) {
+    const TemporaryFolder folder;
+    writeText(folder / "empty", "");
+    auto file = MappedFile::open(folder / "empty");
+    ASSERT_TRUE(file);
+    EXPECT_TRUE(file->bytes().empty());
+}
+
+TEST(MappedFile, SaysWhyItCannotOpen) {
+    const TemporaryFolder folder;
+    writeText(folder / "file", "x");
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    const struct {
+        fs::path path;
+        const char* reason;
+    } cases[] = {
+        {folder / "absent", "does not exist"},
+        {folder.path(), "is a folder"},
+        {folder / "file" / "below", "is a file, not a folder"},
+        {folder / "pipe", "pipe or device"},
+        {"/dev/zero", "pipe or device"},
+    };
+    for (const auto& c : cases) {
+        auto file = MappedFile::open(c.path);
+        ASSERT_FALSE(file) << c.path;
+        EXPECT_EQ(file.error().code(), Code::CannotOpen);
+        EXPECT_EQ(file.error().where().file, c.path.string());
+        EXPECT_TRUE(mentions(file.error(), c.reason)) << file.error().toString();
+    }
+}
+
+TEST(MappedFile, SaysThatPermissionIsMissing) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+    const TemporaryFolder folder;
+    writeText(folder / "secret", "x");
+    fs::permissions(folder / "secret", fs::perms::none);
+    auto file = MappedFile::open(folder / "secret");
+    ASSERT_FALSE(file);
+    EXPECT_TRUE(mentions(file.error(), "no permission")) << file.error().toString();
+}
+
+TEST(AtomicFile, OldFileStaysUntilCommit) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "old");
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(file) << file.error().toString();
+    ASSERT_TRUE(file->write("ne"));
+    ASSERT_TRUE(file->write("w"));
+    EXPECT_EQ(readText(folder / "a"), "old");
+    auto size = file->commit();
+    ASSERT_TRUE(size);
+    EXPECT_EQ(*size, 3u);
+    EXPECT_EQ(readText(folder / "a"), "new");
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(AtomicFile, WithoutCommitNothingIsLeft) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "old");
+    {
+        auto file = AtomicFile::create(folder / "a");
+        ASSERT_TRUE(file);
+        ASSERT_TRUE(file->write(std::string(1 << 20, 'x')));
+        EXPECT_EQ(folder.count(), 2);
+    }
+    EXPECT_EQ(readText(folder / "a"), "old");
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(AtomicFile, SmallAndLargePiecesStayInOrder) {
+    const TemporaryFolder folder;
+    std::string expected;
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    for (std::size_t size : {1ul, 0ul, 255ul * 1024, 2000ul, 300ul * 1024, 7ul, 256ul * 1024, 5ul}) {
+        const std::string piece(size, static_cast<char>('a' + expected.size() % 26));
+        ASSERT_TRUE(file->write(piece));
+        expected += piece;
+    }
+    ASSERT_TRUE(file->writeZeros(10000));
+    expected += std::string(10000, '\0');
+    EXPECT_EQ(file->size(), expected.size());
+    ASSERT_TRUE(file->commit());
+    EXPECT_TRUE(readText(folder / "a") == expected);
+}
+
+TEST(AtomicFile, KeepsThePermissionsAndTheLink) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "sub");
+    writeText(folder / "sub" / "real", "old");
+    fs::permissions(folder / "sub" / "real", fs::perms(0640));
+    fs::create_symlink("sub/real", folder / "link");
+    auto size = writeFileAtomically(folder / "link", "new");
+    ASSERT_TRUE(size) << size.error().toString();
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(readText(folder / "sub" / "real"), "new");
+    EXPECT_EQ(fs::status(folder / "sub" / "real").permissions(), fs::perms(0640));
+}
+
+TEST(AtomicFile, LinksInACircleAreRefused) {
+    const TemporaryFolder folder;
+    fs::create_symlink("b", folder / "a");
+    fs::create_symlink("a", folder / "b");
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code(), Code::CannotWrite);
+}
+
+TEST(AtomicFile, LongestFileNameCanBeWritten) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(writeFileAtomically(folder / std::string(255, 'n'), "x"));
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(AtomicFile, SaysWhyItCannotWrite) {
+    const TemporaryFolder folder;
+    writeText(folder / "file", "x");
+    const struct {
+        fs::path path;
+        const char* reason;
+    } cases[] = {
+        {folder / "absent" / "file", "does not exist; create it"},
+        {folder.path(), "is a folder"},
+        {folder / "file" / "below", "is a file, not a folder"},
+        {folder / std::string(300, 'n'), "name is too long"},
+        {"", "is empty"},
+    };
+    for (const auto& c : cases) {
+        auto file = AtomicFile::create(c.path);
+        ASSERT_FALSE(file) << c.path;
+        EXPECT_EQ(file.error().code(), Code::CannotWrite);
+        EXPECT_TRUE(mentions(file.error(), c.reason)) << file.error().toString();
+    }
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(AtomicFile, WriteProtectedFileAndFolderAreRespected) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root may write everything";
+    const TemporaryFolder folder;
+    writeText(folder / "file", "x");
+    fs::permissions(folder / "file", fs::perms(0444));
+    EXPECT_FALSE(AtomicFile::create(folder / "file"));
+    fs::permissions(folder.path(), fs::perms(0555));
+    EXPECT_FALSE(AtomicFile::create(folder / "other"));
+    fs::permissions(folder.path(), fs::perms(0755));
+}
+
+TEST(AtomicFile, FullDeviceIsDiskFull) {
+    if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    auto size = writeFileAtomically("/dev/full", "x");
+    ASSERT_FALSE(size);
+    EXPECT_EQ(size.error().code(), Code::DiskFull);
+    EXPECT_TRUE(mentions(size.error(), "no space")) << size.error().toString();
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(AtomicFile, DeviceIsWrittenNotReplaced) {
+    auto size = writeFileAtomically("/dev/null", "x");
+    ASSERT_TRUE(size) << size.error().toString();
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+/// Limits the size of files that this process may write, for one scope.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes) {
+        oldHandler_ = std::signal(SIGXFSZ, SIG_IGN);
+        ::getrlimit(RLIMIT_FSIZE, &old_);
+        const rlimit limit{bytes, old_.rlim_max};
+        isSet_ = ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
+    }
+    ~FileSizeLimit() {
+        ::setrlimit(RLIMIT_FSIZE, &old_);
+        std::signal(SIGXFSZ, oldHandler_);
+    }
+    [[nodiscard]] bool isSet() const noexcept { return isSet_; }
+
+private:
+    rlimit old_{};
+    void (*oldHandler_)(int) = nullptr;
+    bool isSet_ = false;
+};
+
+TEST(AtomicFile, FailureInTheMiddleKeepsTheOldFile) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "old");
+    const FileSizeLimit limit(512 * 1024);
+    if (!limit.isSet()) GTEST_SKIP() << "the size of files cannot be limited here";
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->write(std::string(400 * 1024, 'x')));
+    auto second = file->write(std::string(400 * 1024, 'x'));
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code(), Code::CannotWrite);
+    EXPECT_TRUE(mentions(second.error(), "size limit")) << second.error().toString();
+    EXPECT_FALSE(file->write("more"));
+    EXPECT_FALSE(file->commit());
+    EXPECT_EQ(readText(folder / "a"), "old");
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(AtomicFile, FullDiskKeepsTheOldFile) {
+    const TemporaryFolder folder;
+    if (::unshare(CLONE_NEWNS) != 0 || ::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        ::mount("tmpfs", folder.path().c_str(), "tmpfs", 0, "size=256k") != 0)
+        GTEST_SKIP() << "a small file system cannot be mounted without the rights for it";
+    writeText(folder / "a", "old");
+    auto size = writeFileAtomically(folder / "a", std::string(1 << 20, 'x'));
+    ASSERT_FALSE(size);
+    EXPECT_EQ(size.error().code(), Code::DiskFull);
+    EXPECT_EQ(readText(folder / "a"), "old");
+    EXPECT_EQ(folder.count(), 1);
+    ::umount(folder.path().c_str());
+}
+
+}  // namespace
+}  // namespace svt

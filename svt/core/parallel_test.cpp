@@ -1,0 +1,53 @@
+#include <svt/core/parallel.hpp>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+namespace svt {
+namespace {
+
+TEST(Parallel, EveryIndexIsVisitedOnce) {
+    for (const int threads : {0, 1, 2}) {
+        for (const std::size_t count : {0u, 1u, 2u, 63u, 64u, 65u, 1000u}) {
+            for (const std::size_t grain : {0u, 1u, 7u, 5000u}) {
+                std::vector<std::atomic<int>> visits(count);
+                parallelFor(count, grain, threads, [&](std::size_t begin, std::size_t end) {
+                    EXPECT_LT(begin, end);
+                    EXPECT_LE(end, count);
+                    for (std::size_t i = begin; i < end; ++i) ++visits[i];
+                });
+                for (const auto& visit : visits) ASSERT_EQ(visit, 1) << count << " by " << grain << " on " << threads;
+            }
+        }
+    }
+}
+
+TEST(Parallel, OneThreadIsTheCaller) {
+    int calls = 0;  // not atomic: the sanitizer for threads would tell
+    parallelFor(1000, 10, 1, [&](std::size_t, std::size_t) { ++calls; });
+    EXPECT_GE(calls, 1);
+}
+
+TEST(Parallel, LoopsMayBeNested) {
+    std::atomic<int> sum{0};
+    parallelFor(8, 1, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            parallelFor(100, 10, 0, [&](std::size_t b, std::size_t e) { sum += static_cast<int>(e - b); });
+    });
+    EXPECT_EQ(sum, 800);
+}
+
+TEST(Parallel, MoreThreadsThanCoresAreNoReasonToPrint) {
+    ::testing::internal::CaptureStderr();
+    std::atomic<int> sum{0};
+    parallelFor(1000, 1, 1000, [&](std::size_t begin, std::size_t end) { sum += static_cast<int>(end - begin); });
+    EXPECT_EQ(sum, 1000);
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Parallel, ThereIsAtLeastOneCore) { EXPECT_GE(hardwareThreads(), 1); }
+
+}  // namespace
+}  // namespace svt

@@ -1,0 +1,140 @@
+#pragma once
+/// \file
+/// What one stretch of a CityGML file holds, before references are followed: features, polygons
+/// and a graph of geometry nodes with links by id. Parts are read in parallel and joined in
+/// document order; all indices are into the same part. Internal to the readers.
+
+#include <svt/core/diagnostics.hpp>
+#include <svt/model/building_model.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace svt::readers::citygml {
+
+using NodeIndex = std::uint32_t;
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+enum class NodeKind : std::uint8_t {
+    Empty,      ///< geometry that was there but could not be used
+    Polygon,    ///< payload: polygon
+    Surfaces,   ///< children: polygons, surfaces, references
+    Interior,   ///< as Surfaces: the shell of a void
+    Solid,      ///< children: Surfaces (exterior), Interior*
+    Bodies,     ///< children of any kind: MultiSolid, CompositeSolid, MultiGeometry
+    Reference,  ///< payload: href
+    Implicit    ///< payload: placement; child: the prototype or a reference to it
+};
+
+/// A geometry element. Children form a chain: firstChild, then nextSibling.
+struct Node {
+    NodeKind kind = NodeKind::Empty;
+    bool isReversed = false;  ///< OrientableSurface "-": everything below is turned over
+    std::uint32_t payload = kNone;
+    NodeIndex firstChild = kNone;
+    NodeIndex nextSibling = kNone;
+    std::uint32_t id = kNone;  ///< into Part::ids; a polygon's id stands in the polygon
+    std::uint64_t offset = 0;  ///< of the element in the document, bytes
+};
+
+/// world = matrix * (x, y, z, 1) + referencePoint; rows of the 4 x 4 matrix one after the other.
+struct Placement {
+    std::array<double, 16> matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    Vec3d referencePoint;
+};
+
+/// A geometry property of a feature.
+struct FeatureGeometry {
+    model::FeatureIndex feature = 0;
+    NodeIndex node = kNone;
+    double lod = -1;
+};
+
+/// A property that points elsewhere: a room of a storey, a member of a group, perhaps a geometry.
+struct Link {
+    model::FeatureIndex feature = 0;
+    std::uint32_t href = 0;
+    std::string property;  ///< local name
+    std::string role;      ///< of a group member
+    std::uint64_t offset = 0;
+};
+
+/// An X3DMaterial, or a reference to one, within an Appearance.
+struct MaterialRecord {
+    std::string theme;
+    bool inheritsTheme = false;  ///< the Appearance began in the part before
+    bool isReference = false;    ///< `id` names a material that stands elsewhere
+    std::string id;
+    model::Material material;
+    std::vector<std::string> targets;
+};
+
+/// A srsName and where it was first seen.
+struct CrsName {
+    std::string name;
+    std::uint64_t offset = 0;
+};
+
+/// A diagnostic whose line is not known yet.
+struct Finding {
+    Severity severity = Severity::Warning;
+    Code code = Code::Internal;
+    std::string message;
+    std::string id;
+    std::uint64_t offset = 0;
+};
+
+/// Keeps no more findings than Diagnostics would, but counts all.
+struct Findings {
+    struct Count {
+        Severity severity;
+        Code code;
+        std::size_t kept;
+        std::size_t dropped;
+    };
+    std::vector<Finding> items;
+    std::vector<Count> counts;
+
+    void add(Severity severity, Code code, std::string message, std::uint64_t offset, std::string id = {});
+};
+
+struct Part {
+    // Features; `Feature::line` is relative to the part until it is joined.
+    std::vector<model::Feature> features;
+    std::vector<std::uint64_t> featureOffsets;
+    std::vector<model::FeatureIndex> roots;
+    bool continuesRoot = false;  ///< feature 0 is more of the last root of the part before
+    std::vector<FeatureGeometry> geometries;
+    std::vector<Link> links;
+    std::vector<model::Membership> memberships;  ///< inline members with a role
+
+    // Geometry.
+    std::vector<model::Polygon> polygons;
+    std::vector<Node> nodes;
+    std::vector<std::string> ids;
+    std::vector<std::string> hrefs;
+    std::vector<Placement> placements;
+
+    // The rest.
+    std::vector<MaterialRecord> materials;
+    std::optional<std::string> lastTheme;  ///< of the last Appearance, which may have been cut
+    std::vector<CrsName> crsNames;
+    std::string modelName;
+    std::vector<std::string> unknownNames;  ///< elements that were skipped, each name once
+    std::vector<std::uint64_t> unknownOffsets;
+    Findings findings;
+    std::optional<Error> error;
+
+    /// Appends `next`, whose indices are moved up.
+    void join(Part&& next);
+
+    /// Notes an element that is not known; each name is kept once.
+    void addUnknown(std::string_view name, std::uint64_t offset);
+    void addCrsName(std::string_view name, std::uint64_t offset);
+};
+
+}  // namespace svt::readers::citygml

@@ -1,0 +1,101 @@
+#pragma once
+/// \file
+/// Cuts a large XML document into pieces that can be parsed on their own, in one pass over its
+/// bytes: nothing but tags, quotes, comments and CDATA is looked at. Strict: what it lets through
+/// is balanced, without DTD, and not nested deeper than allowed. Internal to the readers.
+
+#include <svt/core/result.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace svt::readers::xml {
+
+/// Bytes [begin, end) of the document.
+struct Range {
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+    [[nodiscard]] std::uint64_t size() const noexcept { return end - begin; }
+};
+
+/// A stretch of the root's content. Cuts lie between children of the root where possible, and
+/// below that (between children of a child of the root, or one level further down) where a child is
+/// too large, so a file with one huge building is cut too:
+///
+///     <CityModel> <member> <Building> ... | ... </Building> </member> <member> ... | ... </CityModel>
+///                 `------- open ---------'     open tags of the second chunk: <member> <Building>
+struct Chunk {
+    Range content;
+    std::vector<Range> open;  ///< start tags of the elements that are open where the content begins, outermost first
+    std::string closing;      ///< end tags of the elements that are open where the content ends
+};
+
+/// Threads: none shared. Cost: O(bytes), about 2 GB/s.
+class Scanner {
+public:
+    /// \param text      the document, UTF-8, without byte order mark; outlives the scanner
+    /// \param fileName  for the places of errors
+    Scanner(std::string_view text, std::string fileName, std::uint32_t maxDepth);
+
+    /// Reads the prolog and the root's start tag.
+    /// \return the root's tag, or BadXml, DtdRefused
+    Result<Range> begin();
+
+    /// Finds the next chunk.
+    /// \return false at the end of the document; BadXml, DtdRefused, or InputTooBig where nested too deep
+    Result<bool> next(Chunk& chunk);
+
+    [[nodiscard]] std::uint64_t position() const noexcept { return position_; }
+
+private:
+    struct Tag {
+        Range range;
+        std::string_view name;
+        bool isEnd = false;
+        bool isEmpty = false;
+    };
+    // These return false after fail().
+    bool nextTag(Tag& tag, bool& hasTag);  // hasTag: false at the end of the text
+    bool readStartTag(Tag& tag);
+    bool skipDeclaration();
+    bool enterElement(const Tag& tag);
+    bool leaveElement(const Tag& tag);
+    bool fillChunk(Chunk& chunk);
+    bool finish();
+    bool fail(Code code, std::string message, std::uint64_t offset);
+    bool isCutAllowed(std::uint64_t chunkBegin) const noexcept;
+    void close(Chunk& chunk, std::uint64_t end) const;
+
+    std::string_view text_;
+    std::string fileName_;
+    std::uint64_t position_ = 0;
+    std::uint32_t depth_ = 0;  // open elements
+    std::uint32_t maxDepth_;
+    Tag open_[4];  // the outermost open elements: root, member, feature, property
+    std::optional<Error> error_;
+};
+
+/// What stands before the root element.
+struct Prolog {
+    bool hasRoot = false;
+    bool hasDoctype = false;
+    std::string_view rootName;  ///< qualified, as written
+    std::string_view rootTag;   ///< from '<', as far as the text goes
+    std::string_view encoding;  ///< of the XML declaration, or empty
+};
+
+/// Looks at the prolog of what may be XML, without judging it; `text` may be cut off anywhere.
+[[nodiscard]] Prolog readProlog(std::string_view text) noexcept;
+
+/// 1-based line and column (in bytes) of an offset.
+struct LineColumn {
+    std::uint64_t line = 1;
+    std::uint64_t column = 1;
+};
+[[nodiscard]] LineColumn lineColumnAt(std::string_view text, std::uint64_t offset) noexcept;
+[[nodiscard]] std::uint64_t countLines(std::string_view text) noexcept;
+
+}  // namespace svt::readers::xml

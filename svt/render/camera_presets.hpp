@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Named views that show a whole volume: what `--camera` understands.
+
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+#include <svt/render/frame_spec.hpp>
+#include <svt/volume/grid.hpp>
+
+#include <span>
+#include <string_view>
+
+namespace svt::render {
+
+struct PresetOptions {
+    double aspect = 16.0 / 9;  ///< width / height of the picture, > 0
+    double margin = 0.06;      ///< share of the picture's width and height left free on each side, 0 to 0.45
+    Camera::Projection projection = Camera::Projection::Perspective;
+    double verticalFovDegrees = 30;  ///< perspective
+};
+
+/// All names: "iso" (from the south-east, above), "iso-se" (the same), "iso-sw", "iso-ne", "iso-nw", "front" (from
+/// the south), "back", "left" (from the west), "right", "top" (north is up), "bottom".
+[[nodiscard]] std::span<const std::string_view> cameraPresetNames() noexcept;
+
+/// A camera that shows all of `bounds` from the named side, as large as fits.
+/// \param bounds  world space, x east, y north, z up, metres
+/// \return the camera, or BadCamera where the name is unknown (the message lists all), the box is empty or an option is
+///         out of range
+[[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds, const PresetOptions& options = {});
+
+/// The same for a grid: sides are those of its own axes, so a turned building is seen square on.
+[[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid,
+                                          const PresetOptions& options = {});
+
+}  // namespace svt::render

@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// The rays of a camera in voxel space. Internal to render.
+
+#include <svt/render/frame_spec.hpp>
+#include <svt/render/index_ray.hpp>
+#include <svt/volume/grid.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace svt::render {
+
+/// A ray, with what the shading needs of it in world space.
+struct CameraRay {
+    IndexRay index;
+    Vec3d direction;     ///< world space; its share along the view direction is 1, so t is depth
+    double metresPerT;   ///< its length
+};
+
+class CameraRays {
+public:
+    /// `spec` must have passed checkFrameSpec().
+    CameraRays(const FrameSpec& spec, const volume::Grid& grid)
+        : isPerspective_(spec.camera.projection == Camera::Projection::Perspective) {
+        const Camera& camera = spec.camera;
+        forward_ = normalized(camera.target - camera.eye);
+        right_ = normalized(cross(forward_, normalized(camera.up)));
+        up_ = cross(right_, forward_);
+        halfHeight_ = isPerspective_ ? std::tan(camera.verticalFovDegrees * std::numbers::pi / 360)
+                                     : camera.orthographicHeight / 2;
+        halfWidth_ = halfHeight_ * spec.width / spec.height;
+        metresPerRow_ = 2 * halfHeight_ / spec.height;
+        eyeIndex_ = grid.indexFromWorld(camera.eye) + Vec3d{0.5, 0.5, 0.5};
+        forwardIndex_ = grid.indexFromWorldDirection(forward_);
+        rightIndex_ = grid.indexFromWorldDirection(right_);
+        upIndex_ = grid.indexFromWorldDirection(up_);
+    }
+
+    /// \param u, v  -1..1 from left to right and from bottom to top of the picture
+    [[nodiscard]] CameraRay at(double u, double v) const noexcept {
+        const double x = u * halfWidth_, y = v * halfHeight_;
+        const Vec3d aside = rightIndex_ * x + upIndex_ * y;
+        if (!isPerspective_) return {IndexRay(eyeIndex_ + aside, forwardIndex_), forward_, 1};
+        return {IndexRay(eyeIndex_, forwardIndex_ + aside), forward_ + right_ * x + up_ * y,
+                std::sqrt(1 + x * x + y * y)};
+    }
+
+    /// Where a point (world space, relative to the eye) is seen: u, v and depth. Only where depth > 0 for perspective.
+    [[nodiscard]] Vec3d seenAt(Vec3d fromEye) const noexcept {
+        const double depth = dot(fromEye, forward_), scale = isPerspective_ ? depth : 1;
+        return {dot(fromEye, right_) / (halfWidth_ * scale), dot(fromEye, up_) / (halfHeight_ * scale), depth};
+    }
+    [[nodiscard]] bool isPerspective() const noexcept { return isPerspective_; }
+
+    [[nodiscard]] Vec3d forward() const noexcept { return forward_; }
+    [[nodiscard]] Vec3d right() const noexcept { return right_; }
+    [[nodiscard]] Vec3d up() const noexcept { return up_; }
+    /// Height of a pixel at a depth, metres.
+    [[nodiscard]] double pixelSize(double depth) const noexcept {
+        return isPerspective_ ? metresPerRow_ * depth : metresPerRow_;
+    }
+
+private:
+    bool isPerspective_;
+    Vec3d forward_, right_, up_;
+    double halfWidth_, halfHeight_, metresPerRow_;
+    Vec3d eyeIndex_, forwardIndex_, rightIndex_, upIndex_;
+};
+
+}  // namespace svt::render

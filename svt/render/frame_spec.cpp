@@ -1,0 +1,104 @@
+#include <svt/render/frame_spec.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace svt::render {
+namespace {
+
+bool isShare(float value) noexcept { return value >= 0 && value <= 1; }
+bool isColor(Vec3f color) noexcept { return isShare(color.x) && isShare(color.y) && isShare(color.z); }
+
+Result<void> checkCamera(const Camera& camera) {
+    if (!isFinite(camera.eye) || !isFinite(camera.target) || !isFinite(camera.up))
+        return Error(Code::BadCamera, "eye, target and up of the camera must be finite");
+    const Vec3d view = camera.target - camera.eye;
+    if (!(length(view) > 0) || !std::isfinite(length(view)))
+        return Error(Code::BadCamera, "eye and target of the camera are the same point; move one of them");
+    // Up counts as along the view below a millionth of a turn.
+    if (!(length(cross(normalized(view), normalized(camera.up))) > 1e-6))
+        return Error(Code::BadCamera, "up of the camera is zero or along the view; choose another up, such as y for a "
+                                      "view from above");
+    if (camera.projection == Camera::Projection::Perspective &&
+        !(camera.verticalFovDegrees > 0 && camera.verticalFovDegrees < 180))
+        return Error(Code::BadCamera, fmt::format("a field of view of {} degrees is out of range; it must be greater than "
+                                                  "0 and less than 180",
+                                                  camera.verticalFovDegrees));
+    if (camera.projection == Camera::Projection::Orthographic &&
+        !(camera.orthographicHeight > 0 && std::isfinite(camera.orthographicHeight)))
+        return Error(Code::BadCamera, fmt::format("an orthographic height of {} m is out of range; it must be greater than 0",
+                                                  camera.orthographicHeight));
+    return {};
+}
+
+Result<void> checkLook(const FrameSpec& spec) {
+    const Light& light = spec.light;
+    if (!isFinite(light.direction) || !(length(light.direction) > 0))
+        return Error(Code::BadFrame, "the direction to the light is zero or not finite");
+    if (!(light.key >= 0 && light.key <= 100) || !(light.ambient >= 0 && light.ambient <= 100) ||
+        !isShare(light.ambientOcclusion))
+        return Error(Code::BadFrame, "key and ambient light must be 0 to 100, ambient occlusion 0 to 1");
+    if (!isColor(spec.background.top) || !isColor(spec.background.bottom) || !isShare(spec.background.alpha))
+        return Error(Code::BadFrame, "colours and alpha of the background must be 0 to 1");
+    if (!isShare(spec.edges))
+        return Error(Code::BadFrame, fmt::format("edges of {} are out of range; 0 to 1 is possible", spec.edges));
+    return {};
+}
+
+Result<void> checkPass(const Pass& pass, std::size_t number) {
+    const auto bad = [&](std::string_view what) {
+        return Error(Code::BadFrame, fmt::format("pass {}: {}", number, what));
+    };
+    for (std::size_t scalar = 0; scalar < pass.styles.size(); ++scalar)
+        if (!isColor(pass.styles[scalar].color) || !isShare(pass.styles[scalar].opacity))
+            return bad(fmt::format("colour and opacity of scalar {} must be 0 to 1", scalar));
+    if (pass.clips.size() > Pass::kMaxClips)
+        return bad(fmt::format("{} clips are over the limit of {}", pass.clips.size(), Pass::kMaxClips));
+    for (const ClipRegion& clip : pass.clips) {
+        if (clip.halfSpaces.empty() || clip.halfSpaces.size() > ClipRegion::kMaxHalfSpaces)
+            return bad(fmt::format("a clip of {} planes is out of range; 1 to {} are possible", clip.halfSpaces.size(),
+                                   ClipRegion::kMaxHalfSpaces));
+        for (const HalfSpace& half : clip.halfSpaces)
+            if (!isFinite(half.normal) || !(length(half.normal) > 0) || !std::isfinite(half.offset))
+                return bad("a clip plane has a zero normal or is not finite");
+    }
+    return {};
+}
+
+}  // namespace
+
+ClipRegion ClipRegion::plane(Vec3d normal, Vec3d point) {
+    const Vec3d unit = normalized(normal);
+    return {{HalfSpace{unit, -dot(unit, point)}}, Mode::CutAway};
+}
+
+ClipRegion ClipRegion::box(const Box3d& box, Mode mode) {
+    return {{{{1, 0, 0}, -box.min.x},
+             {{-1, 0, 0}, box.max.x},
+             {{0, 1, 0}, -box.min.y},
+             {{0, -1, 0}, box.max.y},
+             {{0, 0, 1}, -box.min.z},
+             {{0, 0, -1}, box.max.z}},
+            mode};
+}
+
+Result<void> checkFrameSpec(const FrameSpec& spec) {
+    if (spec.width < 1 || spec.height < 1 || spec.width > FrameSpec::kMaxSize || spec.height > FrameSpec::kMaxSize)
+        return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels is out of range; 1 to {} are possible",
+                                                 spec.width, spec.height, FrameSpec::kMaxSize));
+    const int samples = spec.samplesPerPixel;
+    if (samples != 1 && samples != 4 && samples != 9 && samples != 16)
+        return Error(Code::BadFrame, fmt::format("{} samples per pixel are not possible; 1, 4, 9 or 16 are", samples));
+    if (auto checked = checkCamera(spec.camera); !checked) return checked;
+    if (auto checked = checkLook(spec); !checked) return checked;
+    if (spec.passes.size() > FrameSpec::kMaxPasses)
+        return Error(Code::BadFrame,
+                     fmt::format("{} passes are over the limit of {}", spec.passes.size(), FrameSpec::kMaxPasses));
+    for (std::size_t number = 0; number < spec.passes.size(); ++number)
+        if (auto checked = checkPass(spec.passes[number], number); !checked) return checked;
+    return {};
+}
+
+}  // namespace svt::render

@@ -1,0 +1,119 @@
+#include <svt/core/parallel.hpp>
+#include <svt/render/ray_caster.hpp>
+#include <svt/render/tile_renderer.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <limits>
+
+namespace svt::render {
+namespace {
+
+Result<void> checkCall(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+                       const CastOptions& options) {
+    if (auto checked = checkFrameSpec(spec); !checked) return checked;
+    if (volume.dimension() != grid.dimension())
+        return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    if (!(options.opaqueAt > 0 && options.opaqueAt <= 1) || !(options.labelAt >= 0 && options.labelAt < 1))
+        return Error(Code::BadArgument, fmt::format("opaqueAt of {} or labelAt of {} is out of range; (0, 1] and [0, 1) are "
+                                                    "possible",
+                                                    options.opaqueAt, options.labelAt));
+    return {};
+}
+
+Vec3f towardsLight(const Light& light, const CameraRays& rays) {
+    Vec3d direction = light.direction;
+    if (light.space == Light::Space::Camera)
+        direction = rays.right() * direction.x + rays.up() * direction.y - rays.forward() * direction.z;
+    direction = normalized(direction);
+    return {static_cast<float>(direction.x), static_cast<float>(direction.y), static_cast<float>(direction.z)};
+}
+
+// Where the volume's box is seen, a pixel wider; the whole picture where the eye is in it or beside it.
+PixelRect drawnPixels(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
+    const PixelRect whole{0, 0, static_cast<double>(spec.width), static_cast<double>(spec.height)};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    PixelRect rect{kInfinity, kInfinity, -kInfinity, -kInfinity};
+    const Vec3i n = grid.dimension();
+    double nearest = kInfinity, farthest = -kInfinity;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        const Vec3d seen = rays.seenAt(grid.worldFromIndex(index) - spec.camera.eye);
+        const double x = (seen.x + 1) / 2 * spec.width, y = (1 - seen.y) / 2 * spec.height;
+        rect = {std::min(rect.left, x - 1), std::min(rect.top, y - 1), std::max(rect.right, x + 1),
+                std::max(rect.bottom, y + 1)};
+        nearest = std::min(nearest, seen.z);
+        farthest = std::max(farthest, seen.z);
+    }
+    return rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest)) ? whole : rect;
+}
+
+using TableOf = std::function<PassTable(const Pass&)>;
+
+Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+                        const CastOptions& options, const TableOf& tableOf, bool isReference) {
+    Scene scene{volume, grid, spec, options, CameraRays(spec, grid), {}, {}, isReference, {}};
+    scene.drawn = drawnPixels(scene.rays, grid, spec);
+    scene.towardsLight = towardsLight(spec.light, scene.rays);
+    for (const Pass& pass : spec.passes) {
+        PreparedPass prepared{tableOf(pass), Clipper(pass.clips, grid), {}, pass.join};
+        if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
+            const PassTable& table = prepared.table;
+            prepared.occlusion = OcclusionField(
+                volume, [&table](volume::Scalar scalar) { return table[scalar].isBody; }, prepared.clipper,
+                options.threads);
+        }
+        scene.passes.push_back(std::move(prepared));
+    }
+
+    Frame frame{Image<Rgba8>(spec.width, spec.height), Image<volume::Scalar>(spec.width, spec.height),
+                Image<float>(spec.width, spec.height, std::numeric_limits<float>::infinity())};
+    const auto tilesX = static_cast<std::size_t>((spec.width + kTilePixels - 1) / kTilePixels);
+    const auto tilesY = static_cast<std::size_t>((spec.height + kTilePixels - 1) / kTilePixels);
+    std::atomic<bool> isCancelled{false};
+    parallelFor(tilesX * tilesY, 4, options.threads, [&](std::size_t begin, std::size_t end) {
+        TileRenderer renderer(scene, frame);
+        for (std::size_t tile = begin; tile < end; ++tile) {
+            if (Progress::isCancelled(options.progress)) {
+                isCancelled = true;
+                return;
+            }
+            renderer.render(static_cast<std::int32_t>(tile % tilesX) * kTilePixels,
+                            static_cast<std::int32_t>(tile / tilesX) * kTilePixels);
+        }
+    });
+    if (isCancelled) return Error(Code::Cancelled, "the picture was cancelled");
+    return frame;
+}
+
+Result<Frame> castVolume(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+                         const CastOptions& options, bool isReference) {
+    if (auto checked = checkCall(volume, grid, spec, options); !checked) return checked.error();
+    return castFrame(
+        volume, grid, spec, options,
+        [&](const Pass& pass) { return PassTable(pass, spec.objectOfScalar, volume.scalarCount()); }, isReference);
+}
+
+}  // namespace
+
+Result<Frame> castRays(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+                       const CastOptions& options) {
+    return castVolume(volume, grid, spec, options, false);
+}
+
+Result<Frame> castRaysReference(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+                                const CastOptions& options) {
+    return castVolume(volume, grid, spec, options, true);
+}
+
+Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec, const CastOptions& options) {
+    if (auto checked = checkCall(level.bricks, level.grid, spec, options); !checked) return checked.error();
+    return castFrame(
+        level.bricks, level.grid, spec, options,
+        [&](const Pass& pass) { return PassTable(pass, spec.objectOfScalar, level); }, false);
+}
+
+}  // namespace svt::render

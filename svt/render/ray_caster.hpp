@@ -1,0 +1,65 @@
+#pragma once
+/// \file
+/// Ray caster on the CPU. Exact: a ray is a list of runs (scalar, from, to), found by stepping from label to label, with
+/// no step size and no filtering of labels. The reference for every other renderer.
+
+#include <svt/core/progress.hpp>
+#include <svt/core/result.hpp>
+#include <svt/render/frame_spec.hpp>
+#include <svt/render/image.hpp>
+#include <svt/volume/brick_volume.hpp>
+#include <svt/volume/grid.hpp>
+#include <svt/volume/lod_pyramid.hpp>
+
+namespace svt::render {
+
+struct CastOptions {
+    int threads = 0;            ///< 0: all cores; the picture does not depend on it
+    float opaqueAt = 0.999f;    ///< a ray ends at this opacity, in (0, 1]
+    float labelAt = 0;          ///< label and depth are of the first run after which the ray's opacity is above this, in
+                                ///< [0, 1): 0 = the first visible label, 0.5 = looks through ghosts
+    const Progress* progress = nullptr;  ///< may cancel; told nothing
+};
+
+/// One picture. Row 0 is the top; all three have spec.width x spec.height pixels.
+struct Frame {
+    Image<Rgba8> color;            ///< sRGB, alpha not premultiplied
+    Image<volume::Scalar> label;   ///< by the ray through the pixel's centre; 0 where it met nothing
+    Image<float> depth;            ///< metres along the view direction to where that label begins; +inf where nothing
+};
+
+/// Draws `volume` as `spec` says.
+///
+/// A voxel is the box of half a spacing around its sample. Per pass, the ray is cut to the volume's voxels and by the
+/// clips, then taken apart into runs of one scalar:
+///   - opacity 1: an opaque surface where the run begins, lit by its normal;
+///   - opacity o in (0, 1): stops 1 - (1 - o)^length of the light on its length in metres (Beer-Lambert), whatever the
+///     voxel size. Its colour is lit half as strongly as a surface where it begins, so bodies of glass have a shape;
+///   - opacity 0: nothing.
+/// Normals come from the voxels around (opaque ones for a surface, the same object's for glass), on a cut face from its
+/// plane; a cut face shows the label that it cuts. Lit and blended in linear light; passes are joined as Pass::Join says,
+/// all over the background.
+///
+/// \param grid  where the samples of `volume` lie; its dimension must be the volume's
+/// \return the frame, or
+///         - BadFrame, BadCamera   see checkFrameSpec()
+///         - BadArgument           the grid is not the volume's, or an option is out of range
+///         - Cancelled
+/// Cost: O(pixels * samples * passes * same-label stretches crossed), and per pass with ambient occlusion O(bricks).
+/// Threads: reads only; several frames may be cast at once. The same bytes for any number of threads.
+[[nodiscard]] Result<Frame> castRays(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+                                     const CastOptions& options = {});
+
+/// The same from voxel to voxel, with no skipping. Slow; what castRays() is tested against.
+[[nodiscard]] Result<Frame> castRaysReference(const volume::BrickVolume& volume, const volume::Grid& grid,
+                                              const FrameSpec& spec, const CastOptions& options = {});
+
+/// A coarse level, under the same spec as the volume itself: styles are by the volume's scalars.
+///
+/// A cell has the extinction and colour of its labels, each weighted by coverage (Al-Thelaya 2020); an opaque label stops
+/// 99 % of the light on the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each level. A cell
+/// that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible label of the cell.
+[[nodiscard]] Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec,
+                                     const CastOptions& options = {});
+
+}  // namespace svt::render

@@ -1,0 +1,83 @@
+#pragma once
+/// \file
+/// Small volumes and frames that the tests of this folder draw.
+
+#include <svt/render/ray_caster.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace svt::render::test {
+
+using LabelAt = std::function<volume::Scalar(std::int32_t, std::int32_t, std::int32_t)>;
+
+/// A volume and where it lies.
+struct TestVolume {
+    volume::ColumnVolume columns;
+    volume::BrickVolume bricks;
+    volume::Grid grid;
+};
+
+/// Sample (i, j, k) has `labelAt(i, j, k)`; voxel (0, 0, 0) begins at the origin and has `spacing` metres.
+inline TestVolume makeVolume(Vec3i n, Vec3d spacing, const LabelAt& labelAt) {
+    std::vector<volume::Scalar> scalars;
+    for (std::int32_t k = 0; k < n.z; ++k)
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) scalars.push_back(labelAt(i, j, k));
+    TestVolume volume;
+    volume.columns = volume::ColumnVolume::fromDense(n, scalars);
+    volume.bricks = *volume::BrickVolume::fromColumns(volume.columns);
+    volume.grid = *volume::Grid::fromParts(n, spacing, spacing * 0.5, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    return volume;
+}
+
+/// Label 1 + a few where the middle of the voxel, in metres, `isInside`; 0 elsewhere.
+inline TestVolume makeBody(Vec3i n, Vec3d spacing, const std::function<bool(Vec3d)>& isInside) {
+    return makeVolume(n, spacing, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+        return isInside({(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z}) ? 1u : 0u;
+    });
+}
+
+/// Scalar 0 hidden, the others as given.
+inline std::vector<Style> stylesOf(std::vector<Style> styles) {
+    styles.insert(styles.begin(), Style{{0, 0, 0}, 0});
+    return styles;
+}
+
+/// One pass; the camera looks along +y, orthographic, at `target`, showing `height` metres.
+inline FrameSpec frontFrame(std::int32_t width, std::int32_t height, Vec3d target, double metres,
+                            std::vector<Style> styles) {
+    FrameSpec spec;
+    spec.width = width;
+    spec.height = height;
+    spec.camera.projection = Camera::Projection::Orthographic;
+    spec.camera.eye = target - Vec3d{0, 100, 0};
+    spec.camera.target = target;
+    spec.camera.orthographicHeight = metres;
+    spec.passes.push_back({std::move(styles), {}, Pass::Join::Over});
+    return spec;
+}
+
+/// Light that gives each surface its own colour, whatever its normal.
+inline void setFlatLight(FrameSpec& spec) {
+    spec.light.key = 0;
+    spec.light.ambient = 0;
+    spec.light.ambientOcclusion = 0;
+}
+
+inline Frame cast(const TestVolume& volume, const FrameSpec& spec, const CastOptions& options = {}) {
+    auto frame = castRays(volume.bricks, volume.grid, spec, options);
+    EXPECT_TRUE(frame.hasValue()) << (frame ? "" : frame.error().toString());
+    return frame ? std::move(*frame) : Frame{};
+}
+
+inline std::size_t countLabel(const Frame& frame, volume::Scalar label) {
+    std::size_t count = 0;
+    for (const volume::Scalar pixel : frame.label.pixels()) count += pixel == label;
+    return count;
+}
+
+}  // namespace svt::render::test

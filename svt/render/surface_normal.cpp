@@ -1,0 +1,262 @@
+#include <svt/render/surface_normal.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace svt::render {
+namespace {
+
+constexpr VoxelWindow makeBall() {
+    VoxelWindow ball{};
+    for (int z = 0; z < 7; ++z)
+        for (int y = 0; y < 7; ++y)
+            for (int x = 0; x < 7; ++x)
+                if (4 * ((x - 3) * (x - 3) + (y - 3) * (y - 3) + (z - 3) * (z - 3)) <= 7 * 7)
+                    ball[static_cast<std::size_t>(z)] |= std::uint64_t{1} << (x + 8 * y);
+    return ball;
+}
+constexpr VoxelWindow kBall = makeBall();
+constexpr std::int32_t kBallVoxels = 179;
+constexpr std::uint64_t kDisc = kBall[3];                       // the ball's middle layer
+constexpr std::uint64_t kMiddle = std::uint64_t{1} << (3 + 8 * 3);
+
+// Words of the voxels whose coordinate has bit 0, 1 or 2.
+constexpr std::uint64_t kX[3] = {0xAAAAAAAAAAAAAAAAull, 0xCCCCCCCCCCCCCCCCull, 0xF0F0F0F0F0F0F0F0ull};
+constexpr std::uint64_t kY[3] = {0xFF00FF00FF00FF00ull, 0xFFFF0000FFFF0000ull, 0xFFFFFFFF00000000ull};
+
+// Number of bits; spelled out, as the baseline instruction set has no population count.
+constexpr std::int32_t count(std::uint64_t bits) noexcept {
+    bits -= (bits >> 1) & 0x5555555555555555ull;
+    bits = (bits & 0x3333333333333333ull) + ((bits >> 2) & 0x3333333333333333ull);
+    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Full;
+    return static_cast<std::int32_t>((bits * 0x0101010101010101ull) >> 56);
+}
+// Sums of x - 3 and of y - 3 over the bits of a word.
+constexpr std::int32_t sumX(std::uint64_t bits, std::int32_t n) noexcept {
+    return count(bits & kX[0]) + 2 * count(bits & kX[1]) + 4 * count(bits & kX[2]) - 3 * n;
+}
+constexpr std::int32_t sumY(std::uint64_t bits, std::int32_t n) noexcept {
+    return count(bits & kY[0]) + 2 * count(bits & kY[1]) + 4 * count(bits & kY[2]) - 3 * n;
+}
+
+// The sum of seven one-bit numbers per place, as words of ones, twos and fours.
+struct PlaceSums {
+    std::uint64_t digits[3];
+
+    explicit PlaceSums(const VoxelWindow& w) noexcept {
+        const auto add = [](std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint64_t& carry) {
+            carry = (a & b) | (c & (a ^ b));
+            return a ^ b ^ c;
+        };
+        std::uint64_t carryA, carryB, carryC;
+        const std::uint64_t a = add(w[0], w[1], w[2], carryA);
+        const std::uint64_t b = add(w[3], w[4], w[5], carryB);
+        digits[0] = add(a, b, w[6], carryC);
+        digits[1] = add(carryA, carryB, carryC, digits[2]);
+    }
+};
+
+// Sum of the offsets from the middle of the body's voxels in the ball.
+Vec3i momentOf(const VoxelWindow& body) noexcept {
+    Vec3i moment;
+    for (std::int32_t z = 0; z < 7; ++z) moment.z += (z - 3) * count(body[static_cast<std::size_t>(z)]);
+    const PlaceSums sums(body);
+    for (int digit = 0; digit < 3; ++digit) {
+        const std::int32_t n = count(sums.digits[digit]);
+        moment.x += sumX(sums.digits[digit], n) << digit;
+        moment.y += sumY(sums.digits[digit], n) << digit;
+    }
+    return moment;
+}
+
+VoxelWindow inBall(const VoxelWindow& window) noexcept {
+    VoxelWindow body;
+    for (std::size_t z = 0; z < 7; ++z) body[z] = window[z] & kBall[z];
+    return body;
+}
+
+// Swaps x and y of a word: the 8 x 8 bit matrix transposed (Warren, Hacker's Delight, 7-3).
+constexpr std::uint64_t transposed(std::uint64_t a) noexcept {
+    std::uint64_t t = (a ^ (a >> 7)) & 0x00AA00AA00AA00AAull;
+    a ^= t ^ (t << 7);
+    t = (a ^ (a >> 14)) & 0x0000CCCC0000CCCCull;
+    a ^= t ^ (t << 14);
+    t = (a ^ (a >> 28)) & 0x00000000F0F0F0F0ull;
+    return a ^ t ^ (t << 28);
+}
+
+// The window as seven layers across `axis`, from inside (0) to outside (6) along `sign`. In a layer, bits run along
+// (x, y), (x, z) or (y, z).
+VoxelWindow layersAlong(const VoxelWindow& window, int axis, int sign) noexcept {
+    VoxelWindow layers{};
+    if (axis == 2) {
+        layers = window;
+    } else {
+        for (int z = 0; z < 7; ++z) {
+            const std::uint64_t word = axis == 1 ? window[static_cast<std::size_t>(z)]
+                                                 : transposed(window[static_cast<std::size_t>(z)]);
+            for (int layer = 0; layer < 7; ++layer)
+                layers[static_cast<std::size_t>(layer)] |= ((word >> (8 * layer)) & 0xFF) << (8 * z);
+        }
+    }
+    if (sign < 0) std::reverse(layers.begin(), layers.end());
+    return layers;
+}
+
+// The body's surface as heights over the plane across an axis: bit (p, q) of tops[h] is set where the body ends, seen from
+// inside, with layer h.
+struct Heights {
+    VoxelWindow tops{};
+    std::uint64_t places = 0;
+
+    explicit Heights(const VoxelWindow& layers) noexcept {
+        for (std::size_t h = 0; h < 6; ++h) {
+            tops[h] = layers[h] & ~layers[h + 1];
+            places |= tops[h];
+        }
+    }
+
+    // Keeps what is joined with the middle place by steps of one voxel at most, at one height a place.
+    void keepJoined() noexcept {
+        VoxelWindow joined{};
+        std::uint64_t reached = 0;
+        // From the height of the hit voxel's surface, else the nearest below or above.
+        for (const std::size_t h : {2, 1, 3, 0, 4})
+            if (reached == 0) reached = joined[h] = tops[h] & kMiddle;
+        for (int round = 0; round < 4; ++round) {
+            const std::uint64_t before = reached;
+            std::uint64_t spread[8] = {};
+            for (std::size_t h = 0; h < 6; ++h) {
+                const std::uint64_t row = joined[h] | joined[h] << 1 | joined[h] >> 1;
+                spread[h + 1] = row | row << 8 | row >> 8;
+            }
+            for (std::size_t h = 0; h < 6; ++h) {
+                const std::uint64_t added = tops[h] & (spread[h] | spread[h + 1] | spread[h + 2]) & ~reached;
+                joined[h] |= added;
+                reached |= added;
+            }
+            if (reached == before) break;
+        }
+        tops = joined;
+        places = reached;
+    }
+};
+
+// Plane of least squares through the heights: slopes along p and q, times `scale`.
+struct Slopes {
+    double p = 0, q = 0, scale = 0;  // scale 0: no plane
+
+    explicit Slopes(const Heights& heights) noexcept {
+        // Sums over places of 1, p, q, p p, q q, p q and over heights of h, h p, h q; all exact.
+        const std::uint64_t places = heights.places;
+        const double n = count(places), sp = sumX(places, count(places)), sq = sumY(places, count(places));
+        double spp = 0, sqq = 0, spq = 0, sh = 0, shp = 0, shq = 0;
+        for (int row = 0; row < 7; ++row) {
+            const std::uint64_t inRow = places & (0x7Full << (8 * row)), inColumn = places & (0x0001010101010101ull << row);
+            const std::int32_t rowCount = count(inRow);
+            const int r = row - 3;
+            sqq += r * r * rowCount;
+            spp += r * r * count(inColumn);
+            spq += r * sumX(inRow, rowCount);
+        }
+        for (int h = 0; h < 6; ++h) {
+            const std::uint64_t top = heights.tops[static_cast<std::size_t>(h)];
+            if (top == 0) continue;
+            const std::int32_t topCount = count(top);
+            sh += h * topCount;
+            shp += h * sumX(top, topCount);
+            shq += h * sumY(top, topCount);
+        }
+        const double cpp = n * spp - sp * sp, cqq = n * sqq - sq * sq, cpq = n * spq - sp * sq;
+        const double chp = n * shp - sh * sp, chq = n * shq - sh * sq;
+        scale = cpp * cqq - cpq * cpq;
+        p = chp * cqq - chq * cpq;
+        q = chq * cpp - chp * cpq;
+    }
+};
+
+Vec3f axisNormal(int axis, int sign) noexcept {
+    Vec3f normal{};
+    normal[axis] = static_cast<float>(sign);
+    return normal;
+}
+
+int longestAxis(Vec3i v, int preferred) noexcept {
+    int longest = preferred;
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(v[axis]) > std::abs(v[longest])) longest = axis;
+    return longest;
+}
+
+// Fewer places than this are the edge of a step, not a face; a corner of two edges has 16.
+constexpr std::int32_t kFacePlaces = 12;
+
+// Is all that ends in the window along the axis one face before the middle? Decides most hits, without the layers: the top
+// of the layers along x is found in the bits of a byte, along y in the bytes of a word.
+bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
+    std::uint64_t face = 0, other = 0;
+    if (axis == 2) {
+        for (std::size_t h = 0; h < 6; ++h) {
+            const std::uint64_t top = sign > 0 ? window[h] & ~window[h + 1] : window[6 - h] & ~window[5 - h];
+            (h == 2 ? face : other) |= top;
+        }
+    } else {
+        const int step = axis == 0 ? 1 : 8;
+        const std::uint64_t unit = axis == 0 ? 0x0001010101010101ull : 0x7Full;
+        // Places of layer 2, and of the layers 0, 1, 3, 4, 5; layer h is coordinate h, or 6 - h where the face looks back.
+        const int middle = sign > 0 ? 2 : 4;
+        std::uint64_t others = 0;
+        for (int h = 0; h < 6; ++h)
+            if (h != 2) others |= unit << (step * (sign > 0 ? h : 6 - h));
+        for (int z = 0; z < 7; ++z) {
+            const std::uint64_t word = window[static_cast<std::size_t>(z)];
+            const std::uint64_t top = word & ~(sign > 0 ? word >> step : word << step);
+            other |= top & others;
+            const std::uint64_t places = (top >> (step * middle)) & unit;
+            face |= axis == 0 ? places << z : places << (8 * z);
+        }
+    }
+    return other == 0 && count(face) >= kFacePlaces;
+}
+
+}  // namespace
+
+SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept {
+    const VoxelWindow body = inBall(window);
+    SurfaceNormal normal{axisNormal(faceAxis, faceSign), 0};
+    std::int32_t voxels = 0;
+    const PlaceSums sums(body);
+    for (int digit = 0; digit < 3; ++digit) voxels += count(sums.digits[digit]) << digit;
+    normal.coverage = static_cast<float>(voxels) / kBallVoxels;
+    if (isFlatFace(window, faceAxis, faceSign)) return normal;
+
+    Heights heights(layersAlong(window, faceAxis, faceSign));
+    heights.keepJoined();
+    if (heights.places == heights.tops[2] && count(heights.places) >= kFacePlaces) return normal;
+
+    const Vec3i moment = momentOf(body);
+    const int axis = longestAxis(moment, faceAxis);
+    const int sign = moment[axis] > 0 ? -1 : 1;
+    if (moment[axis] == 0) return normal;
+    if (axis != faceAxis) {
+        heights = Heights(layersAlong(window, axis, sign));
+        heights.keepJoined();
+    }
+    heights.places &= kDisc;
+    for (std::uint64_t& top : heights.tops) top &= kDisc;
+    const Slopes slopes(heights);
+    Vec3f fitted;
+    if (count(heights.places) >= kFacePlaces && slopes.scale > 0) {
+        const int p = axis == 0 ? 1 : 0, q = axis == 2 ? 1 : 2;
+        fitted[axis] = static_cast<float>(sign);
+        fitted[p] = static_cast<float>(-slopes.p / slopes.scale);
+        fitted[q] = static_cast<float>(-slopes.q / slopes.scale);
+    } else {
+        fitted = {static_cast<float>(-moment.x), static_cast<float>(-moment.y), static_cast<float>(-moment.z)};
+    }
+    // Smoothing may not turn the surface away from the face that was seen.
+    if (fitted[faceAxis] * static_cast<float>(faceSign) > 0) normal.indexNormal = fitted;
+    return normal;
+}
+
+}  // namespace svt::render

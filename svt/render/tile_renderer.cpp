@@ -1,0 +1,155 @@
+#include <svt/render/color.hpp>
+#include <svt/render/tile_renderer.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::render {
+namespace {
+
+// How much of a border line shows on what is fully transparent.
+constexpr float kGlassLine = 0.5f;
+
+Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+TileRenderer::TileRenderer(const Scene& scene, Frame& frame)
+    : scene_(scene),
+      frame_(frame),
+      caster_(scene),
+      side_(static_cast<std::int32_t>(std::lround(std::sqrt(scene.spec.samplesPerPixel)))),
+      lineReach_(std::max(1, side_ / 2)),
+      margin_(scene.spec.edges > 0 ? lineReach_ : 0),
+      stride_(kTilePixels * side_ + 2 * margin_),
+      backgroundTop_(linearFromSrgb(scene.spec.background.top)),
+      backgroundBottom_(linearFromSrgb(scene.spec.background.bottom)),
+      voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
+      samples_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_)),
+      lines_(samples_.size()) {}
+
+double TileRenderer::horizontal(double sampleX) const noexcept {
+    return 2 * (tileX_ + sampleX / side_) / scene_.spec.width - 1;
+}
+
+double TileRenderer::vertical(double sampleY) const noexcept {
+    return 1 - 2 * (tileY_ + sampleY / side_) / scene_.spec.height;
+}
+
+void TileRenderer::render(std::int32_t x, std::int32_t y) {
+    tileX_ = x;
+    tileY_ = y;
+    tileWidth_ = std::min(kTilePixels, scene_.spec.width - x);
+    tileHeight_ = std::min(kTilePixels, scene_.spec.height - y);
+    if (!scene_.drawn.overlaps(x, y, tileWidth_, tileHeight_)) {
+        fillBackground();
+        return;
+    }
+    castSamples();
+    if (margin_ > 0) findLines();
+    writePixels();
+}
+
+void TileRenderer::castSamples() {
+    for (std::int32_t y = -margin_; y < tileHeight_ * side_ + margin_; ++y)
+        for (std::int32_t x = -margin_; x < tileWidth_ * side_ + margin_; ++x)
+            samples_[at(x, y)] = caster_.cast(horizontal(x + 0.5), vertical(y + 0.5), true);
+}
+
+void TileRenderer::findLines() {
+    for (std::int32_t y = 0; y < tileHeight_ * side_; ++y)
+        for (std::int32_t x = 0; x < tileWidth_ * side_; ++x) {
+            const Sample& sample = samples_[at(x, y)];
+            float line = 0;
+            if (sample.hasHit()) {
+                const double step = scene_.rays.pixelSize(static_cast<double>(sample.depth)) / side_;
+                for (std::int32_t reach = 1; reach <= lineReach_; ++reach) {
+                    const Vec3d right = scene_.rays.right() * (step * reach), up = scene_.rays.up() * (step * reach);
+                    line = std::max({line, lineBetween(sample, samples_[at(x + reach, y)], right, true),
+                                     lineBetween(sample, samples_[at(x - reach, y)], -right, false),
+                                     lineBetween(sample, samples_[at(x, y - reach)], up, false),
+                                     lineBetween(sample, samples_[at(x, y + reach)], -up, true)});
+                }
+            }
+            lines_[at(x, y)] = line;
+        }
+}
+
+// How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space) beside
+// it. The nearer of the two carries the line. Where both are of one surface both do, or, with one sample per pixel,
+// only the first of them, so that the line is a pixel wide.
+float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const {
+    if (!other.hasHit()) return 1;
+    const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
+    // Depth of the sample's tangent plane under the other ray; at grazing angles it is taken no steeper than 1 to 8.
+    const Vec3d normal = toDouble(sample.normal);
+    const double slope = dot(normal, scene_.rays.forward());
+    const double predicted = -dot(normal, aside) / std::min(slope, -0.125);
+    const double tolerance = 3 * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
+    const bool isJump = std::abs(difference - predicted) > tolerance;
+    const bool isOtherLabel = sample.object != other.object || sample.isCap != other.isCap;
+    if (!isJump && !isOtherLabel) return 0;
+    if (isJump) return difference > 0 ? 1 : 0;
+    return side_ > 1 || isFirst ? 1 : 0;
+}
+
+void TileRenderer::fillBackground() {
+    for (std::int32_t y = 0; y < tileHeight_; ++y) {
+        const Rgba8 pixel = pixelOf({}, 0, y);
+        for (std::int32_t x = 0; x < tileWidth_; ++x) frame_.color.at(tileX_ + x, tileY_ + y) = pixel;
+    }
+}
+
+void TileRenderer::writePixels() {
+    const double middle = side_ / 2.0;
+    for (std::int32_t y = 0; y < tileHeight_; ++y) {
+        const Rgba8 background = pixelOf({}, 0, y);
+        for (std::int32_t x = 0; x < tileWidth_; ++x) {
+            writePixel(x, y, background);
+            const Sample center =
+                side_ % 2 == 1 ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
+                               : caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
+            frame_.label.at(tileX_ + x, tileY_ + y) = center.hasHit() ? center.label : 0;
+            frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
+        }
+    }
+}
+
+void TileRenderer::writePixel(std::int32_t x, std::int32_t y, Rgba8 background) {
+    Vec3f color{};
+    float alpha = 0;
+    for (std::int32_t sy = y * side_; sy < (y + 1) * side_; ++sy)
+        for (std::int32_t sx = x * side_; sx < (x + 1) * side_; ++sx) {
+            const Sample& sample = samples_[at(sx, sy)];
+            if (sample.alpha <= 0) continue;
+            const float line = margin_ > 0 ? scene_.spec.edges * lines_[at(sx, sy)] : 0;
+            // Light above 1 must not spill into the neighbours of a pixel.
+            color = color + Vec3f{std::min(sample.color.x, 1.0f), std::min(sample.color.y, 1.0f),
+                                  std::min(sample.color.z, 1.0f)} *
+                                (1 - line);
+            // A line is seen, however thin the glass it borders.
+            alpha += sample.alpha + (1 - sample.alpha) * line * kGlassLine;
+        }
+    if (alpha <= 0) {
+        frame_.color.at(tileX_ + x, tileY_ + y) = background;
+        return;
+    }
+    const float share = 1.0f / static_cast<float>(side_ * side_);
+    frame_.color.at(tileX_ + x, tileY_ + y) = pixelOf(color * share, alpha * share, y);
+}
+
+Rgba8 TileRenderer::pixelOf(Vec3f color, float alpha, std::int32_t y) const noexcept {
+    const float down = (static_cast<float>(tileY_ + y) + 0.5f) / static_cast<float>(scene_.spec.height);
+    const float rest = (1 - alpha) * scene_.spec.background.alpha;
+    color = color + (backgroundTop_ + (backgroundBottom_ - backgroundTop_) * down) * rest;
+    alpha += rest;
+    Rgba8 pixel;
+    if (alpha <= 0) return pixel;
+    pixel.r = srgbByteFromLinear(color.x / alpha);
+    pixel.g = srgbByteFromLinear(color.y / alpha);
+    pixel.b = srgbByteFromLinear(color.z / alpha);
+    pixel.a = static_cast<std::uint8_t>(std::min(alpha, 1.0f) * 255 + 0.5f);
+    return pixel;
+}
+
+}  // namespace svt::render

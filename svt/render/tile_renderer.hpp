@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Renders one tile of the picture: samples, border lines, pixels. Internal to render.
+
+#include <svt/render/ray_caster.hpp>
+#include <svt/render/sample_caster.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svt::render {
+
+inline constexpr std::int32_t kTilePixels = 32;
+
+/// Renders tiles; keeps its buffers between them. Belongs to one thread.
+class TileRenderer {
+public:
+    TileRenderer(const Scene& scene, Frame& frame);
+
+    /// The tile whose first pixel is (x, y); writes its pixels of the frame only.
+    void render(std::int32_t x, std::int32_t y);
+
+private:
+    void castSamples();
+    void findLines();
+    [[nodiscard]] float lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const;
+    void writePixels();
+    void fillBackground();
+    /// Pixel of row y of the tile: premultiplied linear light over the background.
+    [[nodiscard]] Rgba8 pixelOf(Vec3f color, float alpha, std::int32_t y) const noexcept;
+    void writePixel(std::int32_t x, std::int32_t y, Rgba8 background);
+
+    [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y) const noexcept {
+        return static_cast<std::size_t>(x + margin_) +
+               static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y + margin_);
+    }
+    [[nodiscard]] double horizontal(double sampleX) const noexcept;
+    [[nodiscard]] double vertical(double sampleY) const noexcept;
+
+    const Scene& scene_;
+    Frame& frame_;
+    SampleCaster caster_;
+    std::int32_t side_;       // samples per pixel along one axis
+    std::int32_t lineReach_;  // samples from a border that its line covers, on either side
+    std::int32_t margin_;     // samples around the tile
+    std::int32_t stride_;
+    Vec3f backgroundTop_, backgroundBottom_;  // linear light
+    double voxelSize_;        // metres, the largest spacing
+    std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
+    std::vector<Sample> samples_;
+    std::vector<float> lines_;  // how dark, 0..1
+};
+
+}  // namespace svt::render

@@ -1,0 +1,124 @@
+#pragma once
+/// \file
+/// Bodies of the generated models: ordered unions and differences of convex prisms, in whole
+/// millimetres, and their exact boundary. Everything is integer arithmetic, so that the faces of
+/// two bodies that touch are the same polygons, vertex by vertex.
+
+#include <svt/core/vec.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace svt::samples {
+
+using Length = std::int64_t;  ///< millimetres
+
+/// A point of a model, millimetres, in the model's own axes (x east, y north, z up).
+struct Point {
+    Length x = 0, y = 0, z = 0;
+    friend bool operator==(const Point&, const Point&) = default;
+    friend auto operator<=>(const Point&, const Point&) = default;
+};
+
+/// All (v, z) with across * v + up * z <= limit; v is y for Axis::X and x for Axis::Y.
+struct HalfPlane {
+    Length across = 0, up = 0, limit = 0;
+    friend auto operator<=>(const HalfPlane&, const HalfPlane&) = default;
+};
+
+/// Direction along which all pieces of a body are extruded.
+enum class Axis : std::uint8_t { X, Y };
+
+/// A convex prism: [from, to] along the body's axis, times the intersection of half-planes (which must be bounded).
+struct Piece {
+    Length from = 0, to = 0;
+    std::vector<HalfPlane> sides;
+    bool adds = true;  ///< false: taken away from the pieces before it
+};
+
+/// What a body is made of; index into materials().
+enum class Material : std::uint8_t {
+    Brick,
+    Concrete,
+    Timber,
+    RoofTiles,
+    Glass,
+    Gypsum,
+    Fabric,
+    Ceramic,
+    Steel,
+    Paint,
+    Air,
+    PlasterWhite,
+    PlasterSand,
+    PlasterOchre,
+    PlasterSage,
+    RoofBrown,
+    RoofSlate
+};
+
+/// A solid: the pieces are applied in order, each one adds to or takes from what is there.
+struct Body {
+    Axis axis = Axis::X;
+    Material material = Material::Air;
+    std::vector<Piece> pieces;
+
+    Body& add(Piece piece);
+    Body& cut(Piece piece);
+};
+
+/// An axis-parallel box as a piece of a body with Axis::X.
+[[nodiscard]] Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1);
+
+/// True where `point` (millimetres) lies in the body; undefined on its boundary.
+[[nodiscard]] bool contains(const Body& body, Vec3d point);
+
+struct Bounds {
+    Point min, max;
+};
+
+/// Box around all pieces that add; rounded outwards to whole millimetres.
+[[nodiscard]] Bounds boundsOf(const Body& body);
+
+/// A body that may touch another one.
+struct Neighbor {
+    /// `tag` is any number >= 0 that names the body, which must outlive this.
+    Neighbor(const Body& body, int tag);
+
+    const Body* body;
+    int tag;
+    Bounds bounds;
+    std::vector<Bounds> pieces;  ///< boxes around the body's pieces
+};
+
+/// Points in boundary() are in 1/120 mm: the lines of a roof with a pitch of 3/5, 4/5 or 1 cross each other,
+/// and every whole millimetre, in such a grid. What remains after simplify() is whole millimetres.
+inline constexpr Length kUnitsPerMillimetre = 120;
+
+/// A planar face, counter-clockwise seen from outside; further rings are holes.
+struct RawFace {
+    std::vector<std::vector<Point>> rings;  ///< units of 1/120 mm
+    int neighbor = -1;                      ///< tag of the body on the other side, -1: none
+};
+
+struct Boundary {
+    std::vector<RawFace> faces;
+    double volume = 0;  ///< m3, sum of the convex cells, exact to rounding
+};
+
+/// The closed boundary of `body` as maximal planar faces, split where the neighbour changes.
+/// Rings carry every vertex of the cell complex they lie in; simplify() thins them.
+/// \param neighbors  bodies with Axis::X that do not overlap `body`; those that do not touch it are ignored
+/// Cost: O(planes^3) of the body and what touches it.
+[[nodiscard]] Boundary boundary(const Body& body, std::span<const Neighbor> neighbors);
+
+/// Adds the vertices of `face` at which its rings turn to `corners`.
+void collectCorners(const RawFace& face, std::vector<Point>& corners);
+
+/// Drops from `face` the vertices that are no corner of any face, so that no edge of one face ends inside an
+/// edge of another. `corners` is sorted.
+void simplify(RawFace& face, std::span<const Point> corners);
+
+}  // namespace svt::samples

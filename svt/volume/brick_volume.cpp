@@ -1,0 +1,442 @@
+#include <svt/core/parallel.hpp>
+#include <svt/volume/brick_volume.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <unordered_map>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::uint32_t kMixedBit = 0x80000000u;
+constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) noexcept {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15ull;
+    return hash ^ (hash >> 29);
+}
+
+// Numbers distinct things by first use. The things themselves stay with the caller, who compares them.
+class Numbering {
+public:
+    // isEqual(number): is the thing that is looked up equal to the one of that number?
+    // Returns the known number, or kNew after noting `next` for it.
+    static constexpr std::uint32_t kNew = 0xFFFFFFFFu;
+
+    template <class IsEqual>
+    std::uint32_t find(std::uint64_t hash, std::uint32_t next, const IsEqual& isEqual) {
+        const auto [place, isFirst] = first_.try_emplace(hash, next);
+        if (isFirst) {
+            chain_.push_back(kNew);
+            return kNew;
+        }
+        std::uint32_t number = place->second;
+        while (!isEqual(number)) {
+            if (chain_[number] == kNew) {
+                chain_[number] = next;
+                chain_.push_back(kNew);
+                return kNew;
+            }
+            number = chain_[number];
+        }
+        return number;
+    }
+
+private:
+    std::unordered_map<std::uint64_t, std::uint32_t> first_;
+    std::vector<std::uint32_t> chain_;
+};
+
+// A palette brick on its own, as a tile finds it.
+struct LocalBrick {
+    std::vector<Scalar> palette;
+    std::vector<std::uint64_t> planes;
+    std::uint64_t planesHash = 0;
+    std::uint64_t hash = 0;
+};
+
+// One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of `scalars`,
+// or of `bricks` with the mixed bit.
+struct TileBricks {
+    std::array<std::uint8_t, kBricksPerTile * kBricksPerTile> columnOf{};
+    std::vector<std::uint32_t> entries;
+    std::vector<Scalar> scalars;
+    std::vector<LocalBrick> bricks;
+};
+
+// One of the distinct columns over a brick's 8 x 8 footprint.
+struct FootprintColumn {
+    std::uint64_t mask = 0;  // bit i + 8 j: this column stands there
+    const Run* run = nullptr;
+};
+
+class TileBricker {
+public:
+    TileBricker(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t bricksZ)
+        : tile_(tile), width_(width), height_(height), bricksZ_(bricksZ) {}
+
+    TileBricks make() {
+        std::vector<std::array<std::uint16_t, 64>> footprints;
+        for (std::int32_t by = 0; by * 8 < height_; ++by)
+            for (std::int32_t bx = 0; bx * 8 < width_; ++bx) {
+                const std::array<std::uint16_t, 64> footprint = footprintAt(bx, by);
+                const auto known = std::find(footprints.rbegin(), footprints.rend(), footprint);
+                std::size_t number = static_cast<std::size_t>(footprints.rend() - known) - 1;
+                if (known == footprints.rend()) {
+                    number = footprints.size();
+                    footprints.push_back(footprint);
+                    addBrickColumn(footprint);
+                }
+                result_.columnOf[static_cast<std::size_t>(bx + kBricksPerTile * by)] =
+                    static_cast<std::uint8_t>(number);
+            }
+        return std::move(result_);
+    }
+
+private:
+    // Column numbers of the 8 x 8 footprint; beyond the border they repeat it.
+    std::array<std::uint16_t, 64> footprintAt(std::int32_t bx, std::int32_t by) const {
+        std::array<std::uint16_t, 64> footprint;
+        for (std::int32_t j = 0; j < 8; ++j) {
+            const auto row = static_cast<std::size_t>(std::min(by * 8 + j, height_ - 1));
+            const std::uint16_t* numbers =
+                tile_.rowColumns.data() + static_cast<std::size_t>(tile_.rowOf[row]) * static_cast<std::size_t>(width_);
+            for (std::int32_t i = 0; i < 8; ++i)
+                footprint[static_cast<std::size_t>(i + 8 * j)] = numbers[std::min(bx * 8 + i, width_ - 1)];
+        }
+        return footprint;
+    }
+
+    void addBrickColumn(const std::array<std::uint16_t, 64>& footprint) {
+        columns_.clear();
+        std::uint64_t open = ~std::uint64_t{0};
+        while (open != 0) {
+            const std::uint16_t number = footprint[static_cast<std::size_t>(std::countr_zero(open))];
+            FootprintColumn column;
+            for (std::size_t n = 0; n < 64; ++n) column.mask |= std::uint64_t{footprint[n] == number} << n;
+            column.run = tile_.column(number).data();
+            columns_.push_back(column);
+            open &= ~column.mask;
+        }
+        const auto top = static_cast<std::uint32_t>(bricksZ_) * 8;
+        std::uint32_t bottom = 0;
+        while (bottom < top) {
+            // No run ends inside [bottom, same), so all whole bricks in there are equal.
+            std::uint32_t same = top;
+            bool isUniform = true;
+            for (FootprintColumn& column : columns_) {
+                while (column.run->end <= bottom) ++column.run;
+                same = std::min(same, endOf(*column.run));
+                isUniform = isUniform && column.run->scalar == columns_.front().run->scalar;
+            }
+            const std::uint32_t bricks = std::max<std::uint32_t>(same / 8 - bottom / 8, 1);
+            isUniform = isUniform && same >= bottom + 8;
+            const std::uint32_t entry = isUniform ? scalarNumber(columns_.front().run->scalar) : brickNumber(bottom);
+            result_.entries.insert(result_.entries.end(), bricks, entry);
+            bottom += bricks * 8;
+        }
+    }
+
+    // The last run is taken to fill the last brick.
+    std::uint32_t endOf(const Run& run) const {
+        const std::uint32_t nz = tile_.runs.back().end;
+        return run.end == nz ? static_cast<std::uint32_t>(bricksZ_) * 8 : run.end;
+    }
+
+    std::uint32_t scalarNumber(Scalar scalar) {
+        const auto known = std::find(result_.scalars.rbegin(), result_.scalars.rend(), scalar);
+        if (known != result_.scalars.rend())
+            return static_cast<std::uint32_t>(result_.scalars.rend() - known) - 1;
+        result_.scalars.push_back(scalar);
+        return static_cast<std::uint32_t>(result_.scalars.size()) - 1;
+    }
+
+    std::uint32_t brickNumber(std::uint32_t bottom) {
+        LocalBrick brick;
+        brick.planes.assign(8 * 9, 0);
+        // Voxel order, so that the palette is in order of first use and a pattern is the same for any labels.
+        for (std::uint32_t k = 0; k < 8; ++k)
+            for (FootprintColumn& column : columns_) {
+                const Run* run = column.run;
+                while (endOf(*run) <= bottom + k) ++run;
+                std::size_t index = 0;
+                while (index < brick.palette.size() && brick.palette[index] != run->scalar) ++index;
+                if (index == brick.palette.size()) brick.palette.push_back(run->scalar);
+                for (std::size_t plane = 0; (index >> plane) != 0; ++plane)
+                    if (((index >> plane) & 1u) != 0) brick.planes[8 * plane + k] |= column.mask;
+            }
+        const auto planeCount =
+            std::max<std::size_t>(1, static_cast<std::size_t>(std::bit_width(brick.palette.size() - 1)));
+        brick.planes.resize(8 * planeCount);
+        brick.planesHash = planeCount;
+        for (const std::uint64_t word : brick.planes) brick.planesHash = mix(brick.planesHash, word);
+        brick.hash = brick.planesHash;
+        for (const Scalar scalar : brick.palette) brick.hash = mix(brick.hash, scalar);
+        const auto next = static_cast<std::uint32_t>(result_.bricks.size());
+        std::uint32_t number = numbering_.find(brick.hash, next, [&](std::uint32_t other) {
+            return result_.bricks[other].palette == brick.palette && result_.bricks[other].planes == brick.planes;
+        });
+        if (number == Numbering::kNew) {
+            number = next;
+            result_.bricks.push_back(std::move(brick));
+        }
+        return number | kMixedBit;
+    }
+
+    ColumnTile tile_;
+    std::int32_t width_, height_, bricksZ_;
+    std::vector<FootprintColumn> columns_;
+    Numbering numbering_;
+    TileBricks result_;
+};
+
+// A box of bricks that are all uniform with one scalar.
+struct BrickBox {
+    Vec3i min, max;
+    std::uint32_t entry = 0;  // the index entry that all its bricks have
+};
+
+// Covers the uniform bricks with boxes. Each box is grown from the first brick that has none yet, along x, then y, then
+// z, over all bricks of its scalar, whether other boxes hold them or not: boxes may overlap and a ray goes far in each. What
+// that costs is bounded by a budget; when it is spent, boxes keep to bricks that have none.
+class BoxFinder {
+public:
+    BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count) : index_(index), count_(count) {
+        findRuns();
+        boxOf_.assign(index_.size(), kNone);
+        budget_ = 12 * static_cast<std::int64_t>(index_.size());
+        std::size_t brick = 0;
+        for (std::int32_t z = 0; z < count_.z; ++z)
+            for (std::int32_t y = 0; y < count_.y; ++y)
+                for (std::int32_t x = 0; x < count_.x; ++x, ++brick)
+                    if ((index_[brick] & kMixedBit) == 0 && boxOf_[brick] == kNone) addBoxAt({x, y, z});
+    }
+
+    [[nodiscard]] const std::vector<BrickBox>& boxes() const noexcept { return boxes_; }
+    /// By brick; kNone for mixed ones.
+    [[nodiscard]] const std::vector<std::uint32_t>& boxOf() const noexcept { return boxOf_; }
+
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+private:
+    [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
+        return static_cast<std::size_t>(x) +
+               static_cast<std::size_t>(count_.x) *
+                   (static_cast<std::size_t>(y) + static_cast<std::size_t>(count_.y) * static_cast<std::size_t>(z));
+    }
+
+    // First x beyond each brick's stretch of equal entries along its row.
+    void findRuns() {
+        runEnd_.resize(index_.size());
+        for (std::size_t row = 0; row < index_.size(); row += static_cast<std::size_t>(count_.x))
+            for (std::int32_t x = count_.x - 1, end = count_.x; x >= 0; --x) {
+                const std::size_t brick = row + static_cast<std::size_t>(x);
+                if (x + 1 < count_.x && index_[brick + 1] != index_[brick]) end = x + 1;
+                runEnd_[brick] = static_cast<std::uint16_t>(end);
+            }
+    }
+
+    // May the bricks [minX, maxX) of a row join a box?
+    [[nodiscard]] bool mayJoin(const BrickBox& box, std::int32_t y, std::int32_t z) {
+        const std::size_t first = at(box.min.x, y, z);
+        --budget_;
+        if (index_[first] != box.entry || runEnd_[first] < box.max.x) return false;
+        if (budget_ > 0) return true;
+        for (std::int32_t x = box.min.x; x < box.max.x; ++x)
+            if (boxOf_[first + static_cast<std::size_t>(x - box.min.x)] != kNone) return false;
+        return true;
+    }
+    [[nodiscard]] bool mayJoinLayer(const BrickBox& box, std::int32_t z) {
+        for (std::int32_t y = box.min.y; y < box.max.y; ++y)
+            if (!mayJoin(box, y, z)) return false;
+        return true;
+    }
+
+    void addBoxAt(Vec3i seed) {
+        const std::size_t brick = at(seed.x, seed.y, seed.z);
+        BrickBox box{seed, {seed.x + 1, seed.y + 1, seed.z + 1}, index_[brick]};
+        const auto isSame = [&](std::int32_t x) {
+            const std::size_t other = at(x, seed.y, seed.z);
+            return index_[other] == box.entry && (budget_ > 0 || boxOf_[other] == kNone);
+        };
+        while (box.max.x < count_.x && isSame(box.max.x)) ++box.max.x;
+        while (box.min.x > 0 && isSame(box.min.x - 1)) --box.min.x;
+        while (box.max.y < count_.y && mayJoin(box, box.max.y, seed.z)) ++box.max.y;
+        while (box.min.y > 0 && mayJoin(box, box.min.y - 1, seed.z)) --box.min.y;
+        while (box.max.z < count_.z && mayJoinLayer(box, box.max.z)) ++box.max.z;
+        while (box.min.z > 0 && mayJoinLayer(box, box.min.z - 1)) --box.min.z;
+        const auto number = static_cast<std::uint32_t>(boxes_.size());
+        // No brick before the seed is without a box.
+        for (std::int32_t z = seed.z; z < box.max.z; ++z)
+            for (std::int32_t y = z == seed.z ? seed.y : box.min.y; y < box.max.y; ++y) {
+                std::uint32_t* row = boxOf_.data() + at(0, y, z);
+                for (std::int32_t x = box.min.x; x < box.max.x; ++x)
+                    if (row[x] == kNone) row[x] = number;
+                budget_ -= (box.max.x - box.min.x) / 8;
+            }
+        boxes_.push_back(box);
+    }
+
+    const std::vector<std::uint32_t>& index_;
+    Vec3i count_;
+    std::int64_t budget_ = 0;
+    std::vector<std::uint16_t> runEnd_;
+    std::vector<std::uint32_t> boxOf_;
+    std::vector<BrickBox> boxes_;
+};
+
+}  // namespace
+
+// Joins the tiles' bricks, in tile order, into one volume.
+class BrickMerger {
+public:
+    explicit BrickMerger(BrickVolume& volume) : volume_(volume) {}
+
+    // Rewrites the tile's entries from its own numbers to the volume's.
+    void addTile(TileBricks& tile) {
+        std::vector<std::uint32_t> scalars(tile.scalars.size()), bricks(tile.bricks.size());
+        for (std::size_t n = 0; n < scalars.size(); ++n) scalars[n] = scalarNumber(tile.scalars[n]);
+        for (std::size_t n = 0; n < bricks.size(); ++n) bricks[n] = brickNumber(tile.bricks[n]) | kMixedBit;
+        for (std::uint32_t& entry : tile.entries)
+            entry = (entry & kMixedBit) != 0 ? bricks[entry & ~kMixedBit] : scalars[entry];
+    }
+
+    void fillIndex(const std::vector<TileBricks>& tiles, std::int32_t tilesX, int threads) {
+        const Vec3i count = volume_.brickCount_;
+        volume_.index_.resize(static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y) *
+                              static_cast<std::size_t>(count.z));
+        parallelFor(static_cast<std::size_t>(count.z), 8, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t bz = begin; bz < end; ++bz)
+                for (std::int32_t by = 0; by < count.y; ++by) {
+                    std::uint32_t* row = volume_.index_.data() +
+                                         static_cast<std::size_t>(count.x) *
+                                             (static_cast<std::size_t>(by) + static_cast<std::size_t>(count.y) * bz);
+                    for (std::int32_t bx = 0; bx < count.x; ++bx) {
+                        const TileBricks& tile =
+                            tiles[static_cast<std::size_t>(bx / kBricksPerTile + tilesX * (by / kBricksPerTile))];
+                        const std::size_t column = tile.columnOf[static_cast<std::size_t>(
+                            bx % kBricksPerTile + kBricksPerTile * (by % kBricksPerTile))];
+                        row[bx] = tile.entries[column * static_cast<std::size_t>(count.z) + bz];
+                    }
+                }
+        });
+    }
+
+    void takeBoxes(const BoxFinder& finder) {
+        for (const BrickBox& found : finder.boxes()) {
+            SameLabelBox box;
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto a = static_cast<std::size_t>(axis);
+                box.min[a] = static_cast<std::uint16_t>(found.min[axis] * 8);
+                box.max[a] = static_cast<std::uint16_t>(std::min(found.max[axis] * 8, volume_.dimension_[axis]));
+            }
+            box.scalar = scalars_[found.entry];
+            volume_.boxes_.push_back(box);
+        }
+        for (std::size_t brick = 0; brick < volume_.index_.size(); ++brick)
+            if (finder.boxOf()[brick] != BoxFinder::kNone) volume_.index_[brick] = finder.boxOf()[brick];
+    }
+
+private:
+
+    std::uint32_t scalarNumber(Scalar scalar) {
+        const auto [place, isNew] = scalarNumbers_.try_emplace(scalar, static_cast<std::uint32_t>(scalars_.size()));
+        if (isNew) {
+            scalars_.push_back(scalar);
+            volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
+        }
+        return place->second;
+    }
+
+    std::uint32_t brickNumber(const LocalBrick& brick) {
+        const auto next = static_cast<std::uint32_t>(volume_.bricks_.size());
+        const std::uint32_t known = brickNumbers_.find(brick.hash, next, [&](std::uint32_t other) {
+            const BrickVolume::PaletteBrick& candidate = volume_.bricks_[other];
+            return candidate.paletteSize == brick.palette.size() &&
+                   std::equal(brick.palette.begin(), brick.palette.end(),
+                              volume_.palettes_.begin() + candidate.palette) &&
+                   std::equal(brick.planes.begin(), brick.planes.end(), volume_.planes_.begin() + candidate.planes);
+        });
+        if (known != Numbering::kNew) return known;
+        BrickVolume::PaletteBrick added;
+        added.palette = static_cast<std::uint32_t>(volume_.palettes_.size());
+        added.paletteSize = static_cast<std::uint32_t>(brick.palette.size());
+        added.planeCount = static_cast<std::uint32_t>(brick.planes.size() / 8);
+        added.planes = planesOffset(brick);
+        volume_.palettes_.insert(volume_.palettes_.end(), brick.palette.begin(), brick.palette.end());
+        for (const Scalar scalar : brick.palette)
+            volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
+        volume_.bricks_.push_back(added);
+        return next;
+    }
+
+    std::uint32_t planesOffset(const LocalBrick& brick) {
+        const auto next = static_cast<std::uint32_t>(planeSets_.size());
+        const auto offset = static_cast<std::uint32_t>(volume_.planes_.size());
+        const std::uint32_t known = planeNumbers_.find(brick.planesHash, next, [&](std::uint32_t other) {
+            const auto [start, size] = planeSets_[other];
+            return size == brick.planes.size() &&
+                   std::equal(brick.planes.begin(), brick.planes.end(), volume_.planes_.begin() + start);
+        });
+        if (known != Numbering::kNew) return planeSets_[known].first;
+        planeSets_.emplace_back(offset, brick.planes.size());
+        volume_.planes_.insert(volume_.planes_.end(), brick.planes.begin(), brick.planes.end());
+        return offset;
+    }
+
+    BrickVolume& volume_;
+    std::vector<Scalar> scalars_;
+    std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
+    Numbering brickNumbers_, planeNumbers_;
+    std::vector<std::pair<std::uint32_t, std::size_t>> planeSets_;
+};
+
+Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int threads) {
+    BrickVolume volume;
+    const Vec3i dimension = columns.dimension();
+    std::uint64_t bricks = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (dimension[axis] > 65535)
+            return Error(Code::GridTooLarge,
+                         fmt::format("a dimension of {} is over the limit of 65535 for bricks", dimension[axis]));
+        volume.brickCount_[axis] = (dimension[axis] + kBrickSize - 1) / kBrickSize;
+        bricks *= static_cast<std::uint64_t>(volume.brickCount_[axis]);
+    }
+    if (bricks > kMaxBricks)
+        return Error(Code::GridTooLarge, fmt::format("{} bricks are over the limit of {}; choose a coarser spacing or a "
+                                                     "coarser level of detail.",
+                                                     bricks, kMaxBricks));
+    volume.dimension_ = dimension;
+    if (bricks == 0) return volume;
+    const std::span<const ColumnTile> tiles = columns.tiles();
+    std::vector<TileBricks> tileBricks(tiles.size());
+    const auto tilesX = static_cast<std::size_t>(columns.tilesX());
+    parallelFor(tiles.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n)
+            tileBricks[n] = TileBricker(tiles[n], columns.tileWidth(static_cast<std::int32_t>(n % tilesX)),
+                                        columns.tileHeight(static_cast<std::int32_t>(n / tilesX)), volume.brickCount_.z)
+                                .make();
+    });
+    std::uint64_t words = 0;
+    for (const TileBricks& tile : tileBricks)
+        for (const LocalBrick& brick : tile.bricks) words += std::max(brick.palette.size(), brick.planes.size());
+    if (words > 0xFFFFFFFFu)
+        return Error(Code::GridTooLarge, fmt::format("the mixed bricks hold {} words, over the limit of {}; choose a "
+                                                     "coarser spacing or a coarser level of detail.",
+                                                     words, 0xFFFFFFFFu));
+    BrickMerger merger(volume);
+    for (TileBricks& tile : tileBricks) merger.addTile(tile);
+    merger.fillIndex(tileBricks, columns.tilesX(), threads);
+    merger.takeBoxes(BoxFinder(volume.index_, volume.brickCount_));
+    return volume;
+}
+
+std::size_t BrickVolume::sizeBytes() const noexcept {
+    return index_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
+           bricks_.size() * sizeof(PaletteBrick) + palettes_.size() * sizeof(Scalar) +
+           planes_.size() * sizeof(std::uint64_t);
+}
+
+}  // namespace svt::volume

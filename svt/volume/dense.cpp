@@ -1,0 +1,147 @@
+#include <svt/core/check.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/volume/dense.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace svt::volume {
+namespace {
+
+/// A tile is unrolled so many slices at a time: the rows it writes then stay within reach of the TLB, which
+/// halves the time (measured at 800 x 700 x 400).
+constexpr std::int32_t kSlabSlices = 16;
+
+/// The scalars of a tile's distinct columns at one height k, moved upwards step by step.
+template <class T>
+class Plane {
+public:
+    Plane(const ColumnTile& tile, std::int32_t k) : tile_(tile) {
+        const std::size_t columns = tile.columnStart.size() - 1;
+        cursor_.resize(columns);
+        scalars_.resize(columns);
+        for (std::uint32_t c = 0; c < columns; ++c) {
+            const auto runs = tile.column(c);
+            const auto found = std::upper_bound(runs.begin(), runs.end(), static_cast<std::uint32_t>(k),
+                                                [](std::uint32_t at, const Run& run) { return at < run.end; });
+            cursor_[c] = tile.columnStart[c] + static_cast<std::uint32_t>(found - runs.begin());
+            scalars_[c] = static_cast<T>(found->scalar);
+            nextEnd_ = std::min(nextEnd_, found->end);
+        }
+    }
+
+    void moveTo(std::int32_t k) {
+        const auto height = static_cast<std::uint32_t>(k);
+        if (height < nextEnd_) return;
+        nextEnd_ = std::numeric_limits<std::uint32_t>::max();
+        for (std::size_t c = 0; c < cursor_.size(); ++c) {
+            if (tile_.runs[cursor_[c]].end == height) scalars_[c] = static_cast<T>(tile_.runs[++cursor_[c]].scalar);
+            nextEnd_ = std::min(nextEnd_, tile_.runs[cursor_[c]].end);
+        }
+    }
+
+    [[nodiscard]] const T* scalars() const noexcept { return scalars_.data(); }
+
+private:
+    const ColumnTile& tile_;
+    std::vector<std::uint32_t> cursor_;  // run of each column that holds k
+    std::vector<T> scalars_;
+    std::uint32_t nextEnd_ = std::numeric_limits<std::uint32_t>::max();  // the next k at which any column changes
+};
+
+template <class T>
+void copyTile(const ColumnVolume& columns, std::int32_t tileX, std::int32_t tileY, const DenseBox& box, T* out) {
+    constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+    const ColumnTile& tile = columns.tiles()[std::size_t(tileX) + std::size_t(columns.tilesX()) * std::size_t(tileY)];
+    const auto width = static_cast<std::size_t>(columns.tileWidth(tileX));
+    const auto stride = static_cast<std::size_t>(columns.dimension().x);
+    const std::int32_t rowBegin = std::max(0, box.jBegin - tileY * kTile);
+    const std::int32_t rowEnd = std::min(columns.tileHeight(tileY), box.jEnd - tileY * kTile);
+    const std::size_t sliceSize = stride * static_cast<std::size_t>(box.jEnd - box.jBegin);
+    out += std::size_t(tileX) * kTile + stride * static_cast<std::size_t>(tileY * kTile + rowBegin - box.jBegin);
+
+    Plane<T> plane(tile, box.kBegin);
+    for (std::int32_t k = box.kBegin; k < box.kEnd; ++k) {
+        plane.moveTo(k);
+        const T* scalars = plane.scalars();
+        T* row = out + sliceSize * static_cast<std::size_t>(k - box.kBegin);
+        int previous = -1;
+        for (std::int32_t r = rowBegin; r < rowEnd; ++r, row += stride) {
+            const int number = tile.rowOf[static_cast<std::size_t>(r)];
+            if (number == previous) {
+                std::memcpy(row, row - stride, width * sizeof(T));
+                continue;
+            }
+            previous = number;
+            const std::uint16_t* columnOf = tile.rowColumns.data() + static_cast<std::size_t>(number) * width;
+            for (std::size_t x = 0; x < width; ++x) row[x] = scalars[columnOf[x]];
+        }
+    }
+}
+
+}  // namespace
+
+Scalar largestScalar(const ColumnVolume& columns) noexcept {
+    Scalar largest = 0;
+    for (const ColumnTile& tile : columns.tiles())
+        for (const Run& run : tile.runs) largest = std::max(largest, run.scalar);
+    return largest;
+}
+
+template <class T>
+void copyBox(const ColumnVolume& columns, const DenseBox& box, std::span<T> out, int threads) {
+    const Vec3i dimension = columns.dimension();
+    SVT_CHECK(0 <= box.jBegin && box.jBegin <= box.jEnd && box.jEnd <= dimension.y);
+    SVT_CHECK(0 <= box.kBegin && box.kBegin <= box.kEnd && box.kEnd <= dimension.z);
+    SVT_CHECK(out.size() ==
+              std::size_t(dimension.x) * std::size_t(box.jEnd - box.jBegin) * std::size_t(box.kEnd - box.kBegin));
+    if (out.empty()) return;
+    const auto tilesX = static_cast<std::size_t>(columns.tilesX());
+    const std::int32_t firstRow = box.jBegin / ColumnVolume::kTileSize;
+    const std::int32_t lastRow = (box.jEnd - 1) / ColumnVolume::kTileSize;
+    const std::size_t tiles = tilesX * static_cast<std::size_t>(lastRow - firstRow + 1);
+    const std::size_t slabs = static_cast<std::size_t>(box.kEnd - box.kBegin + kSlabSlices - 1) / kSlabSlices;
+    const std::size_t slabSize = out.size() / static_cast<std::size_t>(box.kEnd - box.kBegin) * kSlabSlices;
+    parallelFor(tiles * slabs, 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const std::size_t slab = t / tiles;
+            const auto tileX = static_cast<std::int32_t>(t % tilesX);
+            const auto tileY = firstRow + static_cast<std::int32_t>(t % tiles / tilesX);
+            const std::int32_t kBegin = box.kBegin + static_cast<std::int32_t>(slab) * kSlabSlices;
+            const DenseBox part{box.jBegin, box.jEnd, kBegin, std::min(kBegin + kSlabSlices, box.kEnd)};
+            copyTile(columns, tileX, tileY, part, out.data() + slabSize * slab);
+        }
+    });
+}
+
+template <class T>
+Result<std::vector<T>> toDense(const ColumnVolume& columns, std::uint64_t maxBytes, int threads) {
+    const Scalar largest = largestScalar(columns);
+    if (largest > std::numeric_limits<T>::max())
+        return Error(Code::BadArgument, fmt::format("scalar {} does not fit into {} bits; choose more", largest,
+                                                    std::numeric_limits<T>::digits));
+    // 65535^3 samples of 4 bytes stay below 2^64.
+    const Vec3i dimension = columns.dimension();
+    const std::uint64_t samples = std::uint64_t(dimension.x) * std::uint64_t(dimension.y) * std::uint64_t(dimension.z);
+    if (samples * sizeof(T) > std::min<std::uint64_t>(maxBytes, PTRDIFF_MAX))
+        return Error(
+            Code::GridTooLarge,
+            fmt::format("a dense array of {} x {} x {} samples takes {} bytes, the limit is {}; choose a coarser "
+                        "spacing",
+                        dimension.x, dimension.y, dimension.z, samples * sizeof(T), maxBytes));
+    std::vector<T> dense(static_cast<std::size_t>(samples));
+    copyBox<T>(columns, {0, dimension.y, 0, dimension.z}, dense, threads);
+    return dense;
+}
+
+template void copyBox(const ColumnVolume&, const DenseBox&, std::span<std::uint8_t>, int);
+template void copyBox(const ColumnVolume&, const DenseBox&, std::span<std::uint16_t>, int);
+template void copyBox(const ColumnVolume&, const DenseBox&, std::span<std::uint32_t>, int);
+template Result<std::vector<std::uint8_t>> toDense(const ColumnVolume&, std::uint64_t, int);
+template Result<std::vector<std::uint16_t>> toDense(const ColumnVolume&, std::uint64_t, int);
+template Result<std::vector<std::uint32_t>> toDense(const ColumnVolume&, std::uint64_t, int);
+
+}  // namespace svt::volume

@@ -1,0 +1,259 @@
+#include <svt/core/parallel.hpp>
+#include <svt/volume/lod_pyramid.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+namespace svt::volume {
+namespace {
+
+constexpr int kCoarsest = 6;  // a cell of 64 x 64 columns is one tile of the fine volume
+
+struct MixtureHash {
+    std::size_t operator()(const Mixture& mixture) const noexcept {
+        std::uint64_t hash = mixture.partCount;
+        for (const MixturePart& part : mixture.labels()) {
+            hash = (hash ^ (std::uint64_t{part.scalar} << 8 | part.coverage)) * 0x9E3779B97F4A7C15ull;
+            hash ^= hash >> 31;
+        }
+        return static_cast<std::size_t>(hash);
+    }
+};
+
+// Numbers mixtures by first use.
+class MixtureTable {
+public:
+    Scalar number(const Mixture& mixture) {
+        const auto [place, isNew] = numbers_.try_emplace(mixture, static_cast<Scalar>(mixtures_.size()));
+        if (isNew) mixtures_.push_back(mixture);
+        return place->second;
+    }
+    [[nodiscard]] std::vector<Mixture>& mixtures() noexcept { return mixtures_; }
+
+private:
+    std::unordered_map<Mixture, Scalar, MixtureHash> numbers_;
+    std::vector<Mixture> mixtures_;
+};
+
+// A distinct fine column under a coarse one.
+struct BlockColumn {
+    const Run* column = nullptr;  // its first run
+    std::uint64_t count = 0;      // how often it stands in the block
+    const Run* run = nullptr;
+    friend bool operator<(const BlockColumn& a, const BlockColumn& b) noexcept { return a.column < b.column; }
+};
+
+// Makes coarse columns of mixture numbers, each from the fine columns of its block by run arithmetic.
+class ColumnMixer {
+public:
+    ColumnMixer(const ColumnVolume& fine, int level, MixtureTable& table)
+        : fine_(fine), level_(level), table_(table) {}
+
+    /// Runs of mixture numbers of coarse column (i, j). `runs` stays valid until the next call.
+    std::span<const Run> mix(std::int32_t i, std::int32_t j) {
+        gather(i, j);
+        const auto known = known_.find(key_);
+        if (known != known_.end()) return known->second;
+        return known_.emplace(key_, mixGathered()).first->second;
+    }
+
+private:
+    void gather(std::int32_t i, std::int32_t j) {
+        const std::int32_t size = std::int32_t{1} << level_;
+        const Vec3i dimension = fine_.dimension();
+        all_.clear();
+        for (std::int32_t y = j * size; y < std::min((j + 1) * size, dimension.y); ++y)
+            for (std::int32_t x = i * size; x < std::min((i + 1) * size, dimension.x); ++x)
+                all_.push_back(fine_.column(x, y).data());
+        std::sort(all_.begin(), all_.end());
+        columns_.clear();
+        for (const Run* column : all_) {
+            if (columns_.empty() || columns_.back().column != column) columns_.push_back({column, 0, column});
+            ++columns_.back().count;
+        }
+        key_.clear();
+        for (const BlockColumn& column : columns_) key_.emplace_back(column.column, column.count);
+    }
+
+    std::vector<Run> mixGathered() {
+        const auto nz = static_cast<std::uint32_t>(fine_.dimension().z);
+        const std::uint32_t size = std::uint32_t{1} << level_;
+        const std::uint32_t cells = (nz + size - 1) / size;
+        std::vector<Run> runs;
+        std::uint32_t cell = 0;
+        while (cell < cells) {
+            // Up to `same`, no run ends, so all whole cells in there are equal.
+            const std::uint32_t bottom = cell * size;
+            std::uint32_t same = nz;
+            for (BlockColumn& column : columns_) {
+                while (column.run->end <= bottom) ++column.run;
+                same = std::min(same, column.run->end);
+            }
+            const std::uint32_t next = same == nz ? cells : std::max(same / size, cell + 1);
+            const Scalar mixture = mixCell(bottom, std::min(bottom + size, nz));
+            if (!runs.empty() && runs.back().scalar == mixture) runs.back().end = next;
+            else runs.push_back({next, mixture});
+            cell = next;
+        }
+        return runs;
+    }
+
+    Scalar mixCell(std::uint32_t bottom, std::uint32_t top) {
+        counts_.clear();
+        std::uint64_t total = 0;
+        for (const BlockColumn& column : columns_) {
+            std::uint32_t from = bottom;
+            for (const Run* run = column.run; from < top; ++run) {
+                const std::uint32_t to = std::min(run->end, top);
+                add(run->scalar, (to - from) * column.count);
+                from = to;
+            }
+            total += (top - bottom) * column.count;
+        }
+        return table_.number(mixtureOf(counts_, total));
+    }
+
+    void add(Scalar scalar, std::uint64_t count) {
+        for (auto& [known, sum] : counts_)
+            if (known == scalar) {
+                sum += count;
+                return;
+            }
+        counts_.emplace_back(scalar, count);
+    }
+
+    const ColumnVolume& fine_;
+    int level_;
+    MixtureTable& table_;
+    std::vector<const Run*> all_;
+    std::vector<BlockColumn> columns_;
+    std::vector<std::pair<const Run*, std::uint64_t>> key_;
+    std::map<std::vector<std::pair<const Run*, std::uint64_t>>, std::vector<Run>> known_;
+    std::vector<std::pair<Scalar, std::uint64_t>> counts_;
+};
+
+struct LevelTile {
+    MixtureTable table;
+    ColumnTileData data;
+};
+
+void makeTile(const ColumnVolume& fine, int level, Vec3i dimension, std::int32_t tileX, std::int32_t tileY,
+              LevelTile& tile) {
+    const std::int32_t beginX = tileX * ColumnVolume::kTileSize, beginY = tileY * ColumnVolume::kTileSize;
+    const std::int32_t width = std::min(ColumnVolume::kTileSize, dimension.x - beginX);
+    const std::int32_t height = std::min(ColumnVolume::kTileSize, dimension.y - beginY);
+    ColumnMixer mixer(fine, level, tile.table);
+    ColumnTileBuilder builder(width);
+    std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+    for (std::int32_t j = 0; j < height; ++j) {
+        for (std::int32_t i = 0; i < width; ++i)
+            row[static_cast<std::size_t>(i)] = builder.addColumn(mixer.mix(beginX + i, beginY + j));
+        builder.addRow(row);
+    }
+    tile.data = builder.finish();
+}
+
+Result<LodLevel> makeLevel(const ColumnVolume& fine, const Grid& grid, int level, Vec3i dimension, int threads) {
+    LodLevel result;
+    result.level = level;
+    const double size = static_cast<double>(1 << level);
+    const Vec3d center{(size - 1) / 2, (size - 1) / 2, (size - 1) / 2};
+    auto coarse = Grid::fromParts(dimension, grid.spacing() * size, grid.worldFromIndex(center), grid.axes());
+    if (!coarse) return coarse.error();
+    result.grid = *coarse;
+
+    const std::int32_t tilesX = (dimension.x + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
+    const std::int32_t tilesY = (dimension.y + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
+    std::vector<LevelTile> tiles(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY));
+    parallelFor(tiles.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n)
+            makeTile(fine, level, dimension, static_cast<std::int32_t>(n % static_cast<std::size_t>(tilesX)),
+                     static_cast<std::int32_t>(n / static_cast<std::size_t>(tilesX)), tiles[n]);
+    });
+
+    // From the tiles' mixture numbers to the level's, in tile order.
+    MixtureTable table;
+    (void)table.number(Mixture{});
+    std::vector<ColumnTileData> data;
+    data.reserve(tiles.size());
+    for (LevelTile& tile : tiles) {
+        std::vector<Scalar> numbers;
+        for (const Mixture& mixture : tile.table.mixtures()) numbers.push_back(table.number(mixture));
+        for (Run& run : tile.data.runs) run.scalar = numbers[run.scalar];
+        data.push_back(std::move(tile.data));
+    }
+    result.mixtures = std::move(table.mixtures());
+    result.columns = ColumnVolume::fromTiles(dimension, std::move(data));
+    auto bricks = BrickVolume::fromColumns(result.columns, threads);
+    if (!bricks) return bricks.error();
+    result.bricks = std::move(*bricks);
+    return result;
+}
+
+}  // namespace
+
+int Mixture::coverage() const noexcept {
+    int sum = 0;
+    for (const MixturePart& part : labels()) sum += part.coverage;
+    return sum;
+}
+
+Mixture mixtureOf(std::span<const std::pair<Scalar, std::uint64_t>> counts, std::uint64_t total) {
+    std::vector<std::pair<Scalar, std::uint64_t>> labels;
+    std::uint64_t filled = 0;
+    for (const auto& [scalar, count] : counts) {
+        if (scalar == 0) continue;
+        labels.emplace_back(scalar, count);
+        filled += count;
+    }
+    Mixture mixture;
+    if (labels.empty()) return mixture;
+    std::sort(labels.begin(), labels.end(), [](const auto& a, const auto& b) {
+        return a.second != b.second ? a.second > b.second : a.first < b.first;
+    });
+    labels.resize(std::min(labels.size(), Mixture::kMaxParts));
+    mixture.partCount = static_cast<std::uint8_t>(labels.size());
+    std::uint64_t kept = 0;
+    for (const auto& label : labels) kept += label.second;
+
+    // The parts sum to `sum` exactly, each at least 1: whole shares first, the rest by largest remainder.
+    std::uint64_t sum = std::max<std::uint64_t>((filled * 510 + total) / (2 * total), labels.size());
+    if (filled < total) sum = std::min<std::uint64_t>(sum, 254);  // background that is there is seen, too
+    sum -= labels.size();
+    std::uint64_t given = 0;
+    std::array<std::pair<std::uint64_t, std::size_t>, Mixture::kMaxParts> remainders{};
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+        const std::uint64_t share = sum * labels[n].second;
+        mixture.parts[n] = {labels[n].first, static_cast<std::uint8_t>(1 + share / kept)};
+        given += share / kept;
+        remainders[n] = {share % kept, n};
+    }
+    std::stable_sort(remainders.begin(), remainders.begin() + mixture.partCount,
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (std::size_t n = 0; given < sum; ++n, ++given) ++mixture.parts[remainders[n].second].coverage;
+    return mixture;
+}
+
+Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const Grid& grid, int coarsest,
+                                              int threads) {
+    if (coarsest < 1 || coarsest > kCoarsest)
+        return Error(Code::BadArgument, fmt::format("level {} is out of range; 1 to {} are possible", coarsest, kCoarsest));
+    if (grid.dimension() != columns.dimension())
+        return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    std::vector<LodLevel> levels;
+    Vec3i dimension = columns.dimension();
+    for (int level = 1; level <= coarsest; ++level) {
+        for (int axis = 0; axis < 3; ++axis) dimension[axis] = (dimension[axis] + 1) / 2;
+        if (std::min({dimension.x, dimension.y, dimension.z}) < 2) break;
+        auto made = makeLevel(columns, grid, level, dimension, threads);
+        if (!made) return made.error();
+        levels.push_back(std::move(*made));
+    }
+    return levels;
+}
+
+}  // namespace svt::volume

@@ -1,0 +1,521 @@
+#include <svt/core/file.hpp>
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/volume/sample_volume_test.hpp>
+#include <svt/volume/svt_file.hpp>
+#include <svt/volume/zip_container.hpp>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <map>
+
+namespace svt::volume {
+namespace {
+
+using svt::test::readText;
+using svt::test::TemporaryFolder;
+using svt::test::writeText;
+using test::isSame;
+using test::sampleVolume;
+
+std::string bytesOfVolume(const SemanticVolume& volume) {
+    const TemporaryFolder folder;
+    const auto size = writeSvt(volume, folder / "v.svt");
+    EXPECT_TRUE(size) << (size ? "" : size.error().toString());
+    std::string bytes = readText(folder / "v.svt");
+    EXPECT_EQ(bytes.size(), size ? *size : 0);
+    return bytes;
+}
+
+/// Opens a copy of `text` that stands `shift` bytes behind a multiple of 64.
+Result<SemanticVolume> readBytes(std::string_view text, std::size_t shift = 0) {
+    struct alignas(64) Block {
+        std::byte bytes[64];
+    };
+    auto memory = std::make_shared<std::vector<Block>>((text.size() + shift) / 64 + 1);
+    auto* begin = reinterpret_cast<std::byte*>(memory->data()) + shift;
+    std::memcpy(begin, text.data(), text.size());
+    return readSvt(std::span(begin, text.size()), memory, "test.svt");
+}
+
+using EntryTexts = std::map<std::string, std::string>;
+
+/// The file with `change` done to its entries, with right CRCs: a well-formed container of wrong content.
+std::string changed(const std::string& file, const std::function<void(EntryTexts&)>& change) {
+    const auto found = readZip(std::as_bytes(std::span(file)));
+    EXPECT_TRUE(found);
+    EntryTexts texts;
+    for (const ZipEntry& entry : *found)
+        texts[std::string(entry.name)] = {reinterpret_cast<const char*>(entry.data.data()), entry.data.size()};
+    change(texts);
+    std::vector<ZipSource> sources;
+    if (texts.count("mimetype") != 0)
+        sources.push_back({"mimetype", {std::as_bytes(std::span(texts["mimetype"]))}, false});
+    for (const auto& [name, text] : texts)
+        if (name != "mimetype") sources.push_back({name, {std::as_bytes(std::span(text))}, true});
+    const TemporaryFolder folder;
+    EXPECT_TRUE(writeZip(folder / "z", sources));
+    return readText(folder / "z");
+}
+
+void replaceIn(std::string& text, std::string_view from, std::string_view to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+}
+
+void expectRefused(const std::string& file, Code code, std::string_view reason) {
+    const auto volume = readBytes(file);
+    ASSERT_FALSE(volume) << "accepted, expected: " << reason;
+    EXPECT_EQ(volume.error().code(), code) << volume.error().toString();
+    EXPECT_NE(volume.error().message().find(reason), std::string::npos)
+        << volume.error().message() << "\nexpected: " << reason;
+    EXPECT_EQ(volume.error().where().file, "test.svt");
+}
+
+TEST(SvtFile, VolumeComesBackAsWritten) {
+    const TemporaryFolder folder;
+    for (const Vec3i dimension : {Vec3i{8, 8, 8}, Vec3i{64, 64, 9}, Vec3i{70, 66, 9}, Vec3i{130, 200, 40}}) {
+        const SemanticVolume volume = sampleVolume(dimension);
+        ASSERT_TRUE(writeSvt(volume, folder / "v.svt"));
+        const auto read = readSvt(folder / "v.svt");
+        ASSERT_TRUE(read) << read.error().toString();
+        EXPECT_EQ(read->grid, volume.grid);
+        EXPECT_EQ(read->labels, volume.labels);
+        EXPECT_TRUE(read->columns == volume.columns);
+        EXPECT_EQ(read->crsName, volume.crsName);
+        EXPECT_EQ(read->modelName, volume.modelName);
+        EXPECT_EQ(read->source, volume.source);
+    }
+}
+
+TEST(SvtFile, NotANumberComesBackAsNotANumber) {
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.labels.labels[0].attributes = {{"a", std::nan(""), ""}, {"b", -std::numeric_limits<double>::infinity(), ""}};
+    const auto read = readBytes(bytesOfVolume(volume));
+    ASSERT_TRUE(read);
+    const auto& attributes = read->labels.labels[0].attributes;
+    EXPECT_TRUE(std::isnan(std::get<double>(attributes[0].value)));
+    EXPECT_EQ(std::get<double>(attributes[1].value), -std::numeric_limits<double>::infinity());
+}
+
+TEST(SvtFile, WrongUtf8BecomesReplacementCharacters) {
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.labels.labels[0].name =
+        "a\xFF"
+        "b\xC3"
+        "c\xED\xA0\x80"
+        "d\xC0\x80\xF4\x90\x80\x80\xE2\x82";
+    const auto read = readBytes(bytesOfVolume(volume));
+    ASSERT_TRUE(read) << read.error().toString();
+    const std::string r = "\xEF\xBF\xBD";
+    EXPECT_EQ(read->labels.labels[0].name, "a" + r + "b" + r + "c" + r + r + r + "d" + r + r + r + r + r + r + r + r);
+}
+
+TEST(SvtFile, ColorsComeBackBitByBit) {
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.labels.labels[4].first = 6;
+    volume.labels.labels[4].count = 50'000;
+    std::uint32_t state = 1;
+    volume.labels.phaseColors.resize(50'006);
+    for (Vec3f& color : volume.labels.phaseColors)
+        for (int axis = 0; axis < 3; ++axis) {
+            state = state * 1664525u + 1013904223u;
+            color[axis] = std::bit_cast<float>(state & 0x3FFFFFFFu);
+        }
+    const auto read = readBytes(bytesOfVolume(volume));
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_TRUE(read->labels == volume.labels);
+}
+
+TEST(SvtFile, VolumeWithoutLabelsCanBeWritten) {
+    SemanticVolume volume;
+    volume.columns = ColumnVolume::fromDense({2, 2, 2}, std::vector<Scalar>(8, 0));
+    const auto read = readBytes(bytesOfVolume(volume));
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_TRUE(isSame(*read, volume));
+}
+
+TEST(SvtFile, EqualVolumesGiveEqualBytes) {
+    EXPECT_TRUE(bytesOfVolume(sampleVolume()) == bytesOfVolume(sampleVolume()));
+    const std::string bytes = bytesOfVolume(sampleVolume());
+    const auto read = readBytes(bytes);
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(bytesOfVolume(*read) == bytes);
+}
+
+TEST(SvtFile, ColumnsAreUsedInPlace) {
+    const TemporaryFolder folder;
+    const std::string bytes = bytesOfVolume(sampleVolume());
+    auto memory = std::make_shared<std::vector<std::uint64_t>>(bytes.size() / 8 + 1);
+    std::memcpy(memory->data(), bytes.data(), bytes.size());
+    const auto* begin = reinterpret_cast<const std::byte*>(memory->data());
+    const auto read = readSvt(std::span(begin, bytes.size()), memory);
+    ASSERT_TRUE(read);
+    for (const ColumnTile& tile : read->columns.tiles()) {
+        const auto* runs = reinterpret_cast<const std::byte*>(tile.runs.data());
+        EXPECT_TRUE(runs >= begin && runs < begin + bytes.size());
+    }
+    EXPECT_EQ(memory.use_count(), 2) << "the volume keeps the bytes alive";
+}
+
+TEST(SvtFile, BytesAtAnyAddressCanBeRead) {
+    const SemanticVolume volume = sampleVolume({70, 10, 9});
+    const std::string bytes = bytesOfVolume(volume);
+    for (const std::size_t shift : {1u, 2u, 3u, 5u}) {
+        const auto read = readBytes(bytes, shift);
+        ASSERT_TRUE(read) << read.error().toString();
+        EXPECT_TRUE(isSame(*read, volume));
+    }
+}
+
+TEST(SvtFile, MappedFileOutlivesItsName) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = sampleVolume();
+    ASSERT_TRUE(writeSvt(volume, folder / "v.svt"));
+    const auto read = readSvt(folder / "v.svt");
+    ASSERT_TRUE(read);
+    ASSERT_TRUE(writeSvt(sampleVolume({8, 8, 8}), folder / "v.svt")) << "replaced while it is open";
+    EXPECT_TRUE(isSame(*read, volume));
+}
+
+TEST(SvtFile, FailureInTheMiddleKeepsTheOldFile) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeSvt(sampleVolume({8, 8, 8}), folder / "v.svt"));
+    const std::string before = readText(folder / "v.svt");
+    rlimit old{};
+    ::getrlimit(RLIMIT_FSIZE, &old);
+    auto* handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{1000, old.rlim_max};
+    const bool isLimited = ::setrlimit(RLIMIT_FSIZE, &limit) == 0;
+    const auto written = writeSvt(sampleVolume(), folder / "v.svt");
+    ::setrlimit(RLIMIT_FSIZE, &old);
+    std::signal(SIGXFSZ, handler);
+    if (!isLimited) GTEST_SKIP() << "the size of files cannot be limited here";
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code(), Code::CannotWrite);
+    EXPECT_TRUE(readText(folder / "v.svt") == before);
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(SvtFile, FullDiskIsTold) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+    const auto written = writeSvt(sampleVolume(), "/dev/full");
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code(), Code::DiskFull);
+}
+
+TEST(SvtFile, ExternalToolsOpenIt) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writeSvt(sampleVolume(), folder / "v.svt"));
+    const std::string path = (folder / "v.svt").string();
+    int tools = 0;
+    if (std::system("unzip -v >/dev/null 2>&1") == 0) {
+        ++tools;
+        EXPECT_EQ(std::system(("unzip -tqq '" + path + "' >/dev/null").c_str()), 0);
+    }
+    if (std::system("python3 -c 'import zipfile' >/dev/null 2>&1") == 0) {
+        ++tools;
+        writeText(folder / "check.py",
+                  "import json,struct,sys,zipfile\n"
+                  "z=zipfile.ZipFile(sys.argv[1])\n"
+                  "assert z.testzip() is None\n"
+                  "assert z.read('mimetype')==b'application/vnd.svt+zip'\n"
+                  "head=json.loads(z.read('svt.json')); labels=json.loads(z.read('labels.json'))\n"
+                  "assert head['dimension']==[70,66,9] and head['scalarCount']==6\n"
+                  "assert labels['labels'][0]['attributes'][3]['value']==2**63-1\n"
+                  "assert labels['labels'][1]['name']=='K\\u00fcche'\n"
+                  "tiles=list(struct.iter_unpack('<III',z.read('columns/tiles')))\n"
+                  "assert len(tiles)==4 and sum(t[2] for t in tiles)*8==len(z.read('columns/runs'))\n");
+        EXPECT_EQ(std::system(("python3 '" + (folder / "check.py").string() + "' '" + path + "'").c_str()), 0);
+    }
+    if (tools == 0) GTEST_SKIP() << "neither unzip nor python3 is installed";
+}
+
+TEST(SvtFile, FileRepackedByAnotherToolIsStillRead) {
+    if (std::system("python3 -c 'import zipfile' >/dev/null 2>&1") != 0) GTEST_SKIP() << "python3 is not installed";
+    const TemporaryFolder folder;
+    const SemanticVolume volume = sampleVolume();
+    ASSERT_TRUE(writeSvt(volume, folder / "v.svt"));
+    writeText(folder / "pack.py",
+              "import sys,zipfile\n"
+              "source=zipfile.ZipFile(sys.argv[1])\n"
+              "with zipfile.ZipFile(sys.argv[2],'w',zipfile.ZIP_STORED) as out:\n"
+              "    for name in source.namelist(): out.writestr(name,source.read(name))\n");
+    const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
+    ASSERT_EQ(std::system(("python3" + quoted("pack.py") + quoted("v.svt") + quoted("w.svt")).c_str()), 0);
+    const auto read = readSvt(folder / "w.svt");
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_TRUE(isSame(*read, volume));
+}
+
+TEST(SvtFile, OnlyASvtLooksLikeOne) {
+    const std::string bytes = bytesOfVolume(sampleVolume({8, 8, 8}));
+    const auto looks = [](std::string_view text) { return looksLikeSvt(std::as_bytes(std::span(text))); };
+    EXPECT_TRUE(looks(bytes));
+    EXPECT_TRUE(looks(std::string_view(bytes).substr(0, 61)));
+    EXPECT_FALSE(looks(std::string_view(bytes).substr(0, 60)));
+    EXPECT_FALSE(looks(""));
+    EXPECT_FALSE(looks(std::string(100, ' ')));
+    EXPECT_FALSE(looks("<?xml version=\"1.0\" encoding=\"UTF-8\"?><core:CityModel xmlns:core=\"x\"/>"));
+}
+
+TEST(SvtFile, MissingAndForeignFilesAreRefused) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(readSvt(folder / "absent").error().code(), Code::CannotOpen);
+    writeText(folder / "empty", "");
+    EXPECT_NE(readSvt(folder / "empty").error().toString().find("is empty"), std::string::npos);
+    writeText(folder / "text", std::string(1000, 'x'));
+    const auto text = readSvt(folder / "text");
+    EXPECT_EQ(text.error().code(), Code::BadVolume);
+    EXPECT_NE(text.error().toString().find("svt build"), std::string::npos);
+}
+
+TEST(SvtFile, EveryFlippedByteIsFoundOrHarmless) {
+    const SemanticVolume volume = sampleVolume({8, 8, 8});
+    const std::string bytes = bytesOfVolume(volume);
+    ASSERT_LT(bytes.size(), 6000u);
+    std::size_t refused = 0;
+    for (const int mask : {0xFF, 0x01, 0x80}) {
+        for (std::size_t at = 0; at < bytes.size(); ++at) {
+            std::string damaged = bytes;
+            damaged[at] = static_cast<char>(damaged[at] ^ mask);
+            const auto read = readBytes(damaged);
+            if (!read)
+                ++refused;
+            else
+                ASSERT_TRUE(isSame(*read, volume)) << "byte " << at << " flipped by " << mask;
+        }
+    }
+    EXPECT_GT(refused, bytes.size() * 3 / 2);
+}
+
+TEST(SvtFile, EveryTruncationIsRefused) {
+    const std::string bytes = bytesOfVolume(sampleVolume({8, 8, 8}));
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        const auto read = readBytes(std::string_view(bytes).substr(0, size));
+        ASSERT_FALSE(read) << size << " bytes";
+        ASSERT_EQ(read.error().code(), Code::BadVolume) << size << " bytes";
+    }
+}
+
+TEST(SvtFile, DamagedEntryFailsItsChecksum) {
+    std::string bytes = bytesOfVolume(sampleVolume());
+    const std::size_t at = bytes.find("WallSurface");
+    bytes[at] = 'B';
+    expectRefused(bytes, Code::BadChecksum, "'labels.json'");
+}
+
+TEST(SvtFile, UnknownEntriesAndKeysAreIgnored) {
+    const SemanticVolume volume = sampleVolume();
+    const std::string file = changed(bytesOfVolume(volume), [](EntryTexts& e) {
+        e["bricks/index"] = std::string(1000, 'b');
+        replaceIn(e["svt.json"], "\"1.0\"", "\"1.7\"");
+        replaceIn(e["svt.json"], "\"format\"", "\"future\": [{\"a\": 1}], \"format\"");
+        replaceIn(e["labels.json"], "{\"labels\"", "{\"future\":{\"a\":[[1],{\"b\":[2]}]},\"labels\"");
+        replaceIn(e["labels.json"], "{\"id\"", "{\"later\":[1,{\"x\":null}],\"id\"");
+    });
+    const auto read = readBytes(file);
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_TRUE(isSame(*read, volume));
+}
+
+TEST(SvtFile, DamagedUnknownEntryIsTold) {
+    std::string file =
+        changed(bytesOfVolume(sampleVolume()), [](EntryTexts& e) { e["bricks/index"] = "find this text"; });
+    replaceIn(file, "find this text", "find that text");
+    expectRefused(file, Code::BadChecksum, "bricks/index");
+}
+
+TEST(SvtFile, NewerVersionIsRefusedWithRemedy) {
+    const std::string file = changed(bytesOfVolume(sampleVolume()),
+                                     [](EntryTexts& e) { e["svt.json"] = R"({"format":"svt","version":"2.0"})"; });
+    expectRefused(file, Code::VolumeVersion, "use a newer SVT");
+}
+
+struct Wrong {
+    const char* entry;
+    const char* from;
+    const char* to;
+    const char* reason;
+};
+
+TEST(SvtFile, WrongHeadersAreRefused) {
+    const std::string file = bytesOfVolume(sampleVolume());
+    const Wrong cases[] = {
+        {"svt.json", "\"svt\"", "\"other\"", "another 'format'"},
+        {"svt.json", "\"1.0\"", "\"x\"", "'version'"},
+        {"svt.json", "\"1.0\"", "\"0.9\"", "'version'"},
+        {"svt.json", "\"1.0\"", "\"99999999999999999999\"", "'version'"},
+        {"svt.json", "\"1.0\"", "1.0", "'version' that is no string"},
+        {"svt.json", "\"little\"", "\"big\"", "'byteOrder'"},
+        {"svt.json", "\"tileSize\": 64", "\"tileSize\": 32", "'tileSize'"},
+        {"svt.json", "[70,66,9]", "[70,66]", "no list of three"},
+        {"svt.json", "[70,66,9]", "[70,66,9.5]", "'dimension'"},
+        {"svt.json", "[70,66,9]", "[70,66,-9]", "'dimension'"},
+        {"svt.json", "[70,66,9]", "[70,66,1]", "'dimension'"},
+        {"svt.json", "[70,66,9]", "[70,66,70000]", "'dimension'"},
+        {"svt.json", "[70,66,9]", "[65535,65535,9]", "columns"},
+        {"svt.json", "[70,66,9]", "[70,67,9]", "shorter"},
+        {"svt.json", "[70,66,9]", "[700,66,9]", "shorter"},
+        {"svt.json", "[70,66,9]", "[70,60,9]", "longer"},
+        {"svt.json", "[70,66,9]", "[70,66,10]", "top"},
+        {"svt.json", "[0.05,", "[0.0,", "spacing"},
+        {"svt.json", "[0.05,", "[1e999,", "out of range"},
+        {"svt.json", "[458877.03,", "[\"458877.03\",", "no number"},
+        {"svt.json", "[0.6,0.8,0.0]", "[0.6,0.9,0.0]", "no rotation"},
+        {"svt.json", "\"axes\"", "\"axis\"", "has no 'axes'"},
+        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": 7", "speaks of 7 scalars"},
+        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": -6", "no whole number"},
+        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": 4294967296", "no whole number"},
+        {"svt.json", "}", "", "no well-formed JSON"},
+        {"svt.json", "{", "[", "no well-formed JSON"},
+        {"svt.json", "haus.gml", "haus\xFF.gml", "no well-formed JSON"},
+        {"mimetype", "svt", "foo", "is no .svt"},
+        {"mimetype", "zip", "zipx", "says something else"},
+    };
+    for (const Wrong& wrong : cases) {
+        SCOPED_TRACE(wrong.to);
+        expectRefused(changed(file, [&](EntryTexts& e) { replaceIn(e[wrong.entry], wrong.from, wrong.to); }),
+                      Code::BadVolume, wrong.reason);
+    }
+}
+
+TEST(SvtFile, WrongLabelTablesAreRefused) {
+    const std::string file = bytesOfVolume(sampleVolume());
+    const Wrong cases[] = {
+        {"", "\"first\":5,", "\"first\":4,", "which are taken"},
+        {"", "\"first\":1,", "\"first\":0,", "which are taken"},
+        {"", "\"first\":5,", "\"first\":4294967295,", "are possible"},
+        {"", "\"first\":5,\"count\":1", "\"first\":5,\"count\":67108860", "are possible"},
+        {"", "\"first\":5,\"count\":1", "\"first\":6,\"count\":1", "phase colors"},
+        {"", "\"first\":5,", "\"first\":-5,", "no whole number"},
+        {"", "\"first\":5,", "\"first\":5.0,", "no whole number"},
+        {"", "\"first\":5,", "", "has no 'first'"},
+        {"", "\"parent\":1", "\"parent\":2", "parent"},
+        {"", "\"parent\":1", "\"parent\":3", "parent"},
+        {"", "\"parent\":1", "\"parent\":0", "parent"},
+        {"", "\"parent\":1", "\"parent\":null", "parent"},
+        {"", "\"parent\":1", "\"parent\":77", "parent"},
+        {"", "\"parent\":1", "\"parent\":\"x\"", "no whole number"},
+        {"", "\"parent\":null,\"subtreeEnd\":4", "\"parent\":null,\"subtreeEnd\":0", "subtree"},
+        {"", "\"parent\":null,\"subtreeEnd\":4", "\"parent\":null,\"subtreeEnd\":6", "subtree"},
+        {"", "\"parent\":null,\"subtreeEnd\":4", "\"parent\":null,\"subtreeEnd\":2", "subtree"},
+        {"", "\"groups\":[4]", "\"groups\":[5]", "group 5"},
+        {"", "\"groups\":[4]", "\"groups\":4", "'groups' that are no list"},
+        {"", "\"winding\"", "\"magic\"", "unknown filling"},
+        {"", "[0.8,0.8,0.8]", "[0.8,0.8]", "no list of three"},
+        {"", "[0.8,0.8,0.8]", "[0.8,0.8,1e39]", "too large"},
+        {"", "\"opacity\":1.0", "\"opacity\":true", "no number"},
+        {"", "\"value\":5.0", "\"value\":null", "attribute whose value"},
+        {"", "\"value\":5.0", "\"value\":{\"real\":\"huge\"}", "attribute whose value"},
+        {"", "9223372036854775807", "9223372036854775808", "beyond 64 bits"},
+        {"", "\"name\":\"five\"", "\"nome\":\"five\"", "has no 'name'"},
+        {"", "[1,3,12,false]", "[1,5,12,false]", "overlap names labels"},
+        {"", "[1,3,12,false]", "[1,3,-12,false]", "no whole number"},
+        {"", "[1,3,12,false]", "[1,3,12]", "overlap 0 is no list"},
+        {"", "[1,3,12,false]", "17", "overlap 0 is no list"},
+        {"", "[0.5,0.25,0.125],", "", "phase colors"},
+        {"", "[0.5,0.25,0.125]", "[0.5,0.25,\"a\"]", "no number"},
+        {"", "{\"labels\":[", "{\"labels\":[17,", "label 0 no JSON object"},
+        {"", "{\"labels\":", "{\"lobels\":", "no list 'labels'"},
+        {"", "]}\n", "]", "no well-formed JSON"},
+    };
+    for (const Wrong& wrong : cases) {
+        SCOPED_TRACE(std::string(wrong.from) + " -> " + wrong.to);
+        expectRefused(changed(file, [&](EntryTexts& e) { replaceIn(e["labels.json"], wrong.from, wrong.to); }),
+                      Code::BadVolume, wrong.reason);
+    }
+}
+
+TEST(SvtFile, JsonOverItsLimitsIsRefused) {
+    const std::string file = bytesOfVolume(sampleVolume());
+    const auto with = [&](const char* entry, const std::string& text) {
+        return changed(file, [&](EntryTexts& e) { e[entry] = text; });
+    };
+    const std::string deep(1'000'000, '[');
+    expectRefused(with("svt.json", deep), Code::BadVolume, "nested deeper");
+    expectRefused(with("svt.json", std::string(2'000'000, ' ')), Code::InputTooBig, "svt.json has 2000000 bytes");
+    expectRefused(with("labels.json", deep), Code::BadVolume, "nested deeper");
+    expectRefused(with("labels.json", "{\"labels\":[{\"id\":" + deep), Code::BadVolume, "nested deeper");
+    std::string many = "{\"labels\":[{\"id\":[0";
+    for (int i = 0; i < 1'100'000; ++i) many += ",0";
+    expectRefused(with("labels.json", many + "]}]}"), Code::InputTooBig, "values in one element");
+    expectRefused(with("labels.json", "{\"labels\":{\"a\":1}}"), Code::BadVolume, "label 0 no JSON object");
+    expectRefused(with("labels.json", "[]"), Code::BadVolume, "no list 'labels'");
+    expectRefused(with("labels.json", ""), Code::BadVolume, "no well-formed JSON");
+}
+
+TEST(SvtFile, WrongColumnsAreRefused) {
+    const std::string file = bytesOfVolume(sampleVolume());
+    const auto u32 = [](std::string& text, std::size_t index, std::uint32_t value) {
+        std::memcpy(text.data() + 4 * index, &value, 4);
+    };
+    const std::pair<std::function<void(EntryTexts&)>, const char*> cases[] = {
+        {[](EntryTexts& e) { e.erase("columns/runs"); }, "'columns/runs' is missing"},
+        {[](EntryTexts& e) { e.erase("svt.json"); }, "'svt.json' is missing"},
+        {[](EntryTexts& e) { e["columns/tiles"].pop_back(); }, "no multiple of 12"},
+        {[](EntryTexts& e) { e["columns/tiles"].resize(36); }, "'columns/tiles' is shorter"},
+        {[](EntryTexts& e) { e["columns/tiles"].resize(60); }, "'columns/tiles' is longer"},
+        {[&](EntryTexts& e) { u32(e["columns/tiles"], 0, 0); }, "tile"},
+        {[&](EntryTexts& e) { u32(e["columns/tiles"], 0, 0xFFFFFFFF); }, "'columns/row-columns' is shorter"},
+        {[&](EntryTexts& e) { u32(e["columns/tiles"], 1, 0xFFFFFFFF); }, "'columns/starts' is shorter"},
+        {[&](EntryTexts& e) { u32(e["columns/tiles"], 2, 0xFFFFFFFF); }, "'columns/runs' is shorter"},
+        {[](EntryTexts& e) { e["columns/row-of"] += '\0'; }, "'columns/row-of' is longer"},
+        {[](EntryTexts& e) { e["columns/row-columns"] += std::string(2, '\0'); }, "'columns/row-columns' is longer"},
+        {[](EntryTexts& e) { e["columns/starts"] += std::string(4, '\0'); }, "'columns/starts' is longer"},
+        {[](EntryTexts& e) { e["columns/runs"] += std::string(8, '\0'); }, "'columns/runs' is longer"},
+        {[](EntryTexts& e) { e["columns/row-of"][3] = '\x7F'; }, "tile 0: row number"},
+        {[](EntryTexts& e) { e["columns/row-columns"][1] = '\x7F'; }, "tile 0: column number"},
+        {[&](EntryTexts& e) { u32(e["columns/starts"], 0, 1); }, "tile 0: column starts"},
+        {[&](EntryTexts& e) { u32(e["columns/starts"], 1, 0xFFFFFFFF); }, "tile 0: column starts"},
+        {[&](EntryTexts& e) { u32(e["columns/runs"], 0, 0); }, "tile 0: run ends"},
+        {[&](EntryTexts& e) { u32(e["columns/runs"], 0, 77); }, "tile 0: run ends"},
+        {[&](EntryTexts& e) { u32(e["columns/runs"], 1, 6); }, "scalar 6"},
+    };
+    for (const auto& [change, reason] : cases) {
+        SCOPED_TRACE(reason);
+        expectRefused(changed(file, change), Code::BadVolume, reason);
+    }
+}
+
+TEST(SvtFile, HugeGridInASmallFileIsRefusedWithoutAllocating) {
+    const std::string file = changed(bytesOfVolume(sampleVolume()), [](EntryTexts& e) {
+        replaceIn(e["svt.json"], "[70,66,9]", "[65535,32768,65535]");
+    });
+    expectRefused(file, Code::BadVolume, "'columns/tiles' is shorter");
+}
+
+TEST(SvtFile, InconsistentVolumesAreNotWritten) {
+    const TemporaryFolder folder;
+    const auto expectNotWritten = [&](const std::function<void(SemanticVolume&)>& change, std::string_view reason) {
+        SemanticVolume volume = sampleVolume({8, 8, 8});
+        change(volume);
+        const auto written = writeSvt(volume, folder / "v.svt");
+        ASSERT_FALSE(written) << reason;
+        EXPECT_EQ(written.error().code(), Code::BadArgument);
+        EXPECT_NE(written.error().message().find(reason), std::string::npos) << written.error().message();
+        EXPECT_EQ(folder.count(), 0);
+    };
+    expectNotWritten([](SemanticVolume& v) { v.columns = sampleVolume({8, 8, 9}).columns; }, "8 x 8 x 9");
+    expectNotWritten([](SemanticVolume& v) { v.columns = {}; }, "0 x 0 x 0");
+    expectNotWritten(
+        [](SemanticVolume& v) {
+            v.labels.labels[3].count = 0;
+            v.labels.labels[3].first = 0;
+            v.labels.phaseColors.clear();
+        },
+        "scalar 5");
+    expectNotWritten([](SemanticVolume& v) { v.labels.labels[2].subtreeEnd = 0; }, "subtree");
+    expectNotWritten([](SemanticVolume& v) { v.labels.labels[2].volume = std::nan(""); }, "finite");
+    expectNotWritten([](SemanticVolume& v) { v.labels.labels[2].filling = static_cast<Filling>(99); }, "filling");
+}
+
+}  // namespace
+}  // namespace svt::volume

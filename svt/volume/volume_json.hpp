@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// The text parts of a `.svt` file: `svt.json` (grid, names, version) and `labels.json` (the label table), written so
+/// that equal volumes give equal bytes, and read with every number checked. docs/formats/svt.md lists all keys.
+
+#include <svt/core/result.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace svt::volume {
+
+inline constexpr int kSvtMajorVersion = 1;
+inline constexpr int kSvtMinorVersion = 0;
+/// Most scalars a `.svt` may number. Tables indexed by scalar then stay within memory whatever a file claims.
+inline constexpr Scalar kMaxScalarCount = 1u << 26;
+inline constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
+inline constexpr std::size_t kMaxLabelsBytes = std::size_t{1} << 30;
+
+/// What `svt.json` holds.
+struct SvtHeader {
+    Grid grid;
+    Scalar scalarCount = 1;
+    std::string crsName;
+    std::string modelName;
+    std::string source;
+};
+
+/// Which characters a JSON text may hold as they are.
+enum class JsonCharacters { Utf8, AsciiOnly };
+
+/// Appends `text` as a JSON string with quotes. Bytes that are no valid UTF-8 become U+FFFD.
+void appendJsonString(std::string& json, std::string_view text, JsonCharacters characters = JsonCharacters::Utf8);
+
+/// One label as a JSON object on one line, keys in a fixed order, numbers in shortest round-trip form.
+/// An attribute that is a real number always has a '.' or an exponent, an integer never.
+void appendJsonLabel(std::string& json, const Label& label, JsonCharacters characters = JsonCharacters::Utf8);
+
+/// `svt.json` of a volume.
+[[nodiscard]] std::string writeHeaderJson(const SemanticVolume& volume);
+/// `labels.json`: one label per line.
+[[nodiscard]] std::string writeLabelsJson(const LabelTable& labels);
+
+/// \return the header, or VolumeVersion where a newer program wrote it, BadVolume that names the key, InputTooBig
+[[nodiscard]] Result<SvtHeader> readHeaderJson(std::string_view json);
+/// The table, checked as by checkLabels(). Memory: a few times the text at most.
+/// \return the table, or BadVolume that names label and key, InputTooBig
+[[nodiscard]] Result<LabelTable> readLabelsJson(std::string_view json);
+
+/// Whether a table keeps its contract: parents before children, subtrees nested, references inside the table, scalar
+/// ranges disjoint, ascending in tree order and below kMaxScalarCount, one phase colour per scalar or none, finite
+/// numbers.
+/// \return BadVolume that names the label
+[[nodiscard]] Result<void> checkLabels(const LabelTable& labels);
+
+}  // namespace svt::volume
