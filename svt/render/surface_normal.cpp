@@ -17,7 +17,10 @@ constexpr VoxelWindow makeBall() {
 }
 constexpr VoxelWindow kBall = makeBall();
 constexpr std::int32_t kBallVoxels = 179;
-constexpr std::uint64_t kDisc = kBall[3];                       // the ball's middle layer
+constexpr std::uint64_t kDisc = kBall[3];  // the ball's middle layer: 37 places
+constexpr std::int32_t kDiscSquares = 90;  // sum of (x - 3)^2 over the disc
+// Fewer places than this are the edge of a step, not a face; a corner of two edges has 16.
+constexpr std::int32_t kFacePlaces = 12;
 constexpr std::uint64_t kMiddle = std::uint64_t{1} << (3 + 8 * 3);
 
 // Words of the voxels whose coordinate has bit 0, 1 or 2.
@@ -123,7 +126,7 @@ struct Heights {
         // From the height of the hit voxel's surface, else the nearest below or above.
         for (const std::size_t h : {2, 1, 3, 0, 4})
             if (reached == 0) reached = joined[h] = tops[h] & kMiddle;
-        for (int round = 0; round < 4; ++round) {
+        for (int round = 0; round < 3; ++round) {
             const std::uint64_t before = reached;
             std::uint64_t spread[8] = {};
             for (std::size_t h = 0; h < 6; ++h) {
@@ -142,36 +145,61 @@ struct Heights {
     }
 };
 
-// Plane of least squares through the heights: slopes along p and q, times `scale`.
+// Plane of least squares through the heights: slopes along p and q.
 struct Slopes {
-    double p = 0, q = 0, scale = 0;  // scale 0: no plane
+    double p = 0, q = 0;
+    std::int32_t places = 0;  // heights it rests on
+    bool isValid = false;
 
+    // Takes the heights in the disc around the middle. All sums are of whole numbers, so they are exact.
     explicit Slopes(const Heights& heights) noexcept {
-        // Sums over places of 1, p, q, p p, q q, p q and over heights of h, h p, h q; all exact.
-        const std::uint64_t places = heights.places;
-        const double n = count(places), sp = sumX(places, count(places)), sq = sumY(places, count(places));
-        double spp = 0, sqq = 0, spq = 0, sh = 0, shp = 0, shq = 0;
-        for (int row = 0; row < 7; ++row) {
-            const std::uint64_t inRow = places & (0x7Full << (8 * row)), inColumn = places & (0x0001010101010101ull << row);
-            const std::int32_t rowCount = count(inRow);
-            const int r = row - 3;
-            sqq += r * r * rowCount;
-            spp += r * r * count(inColumn);
-            spq += r * sumX(inRow, rowCount);
+        const std::uint64_t disc = heights.places & kDisc;
+        const std::int32_t n = places = count(disc);
+        if (n < kFacePlaces) return;
+        // Sums over the places of p, q, p p, q q, p q.
+        std::int32_t sp = 0, sq = 0, spp = kDiscSquares, sqq = kDiscSquares, spq = 0;
+        if (disc != kDisc) {
+            sp = sumX(disc, n);
+            sq = sumY(disc, n);
+            spp = sqq = 0;
+            for (int row = 0; row < 7; ++row) {
+                const std::uint64_t inRow = disc & (0x7Full << (8 * row));
+                const std::int32_t rowCount = count(inRow);
+                const int r = row - 3;
+                sqq += r * r * rowCount;
+                spp += r * r * count(disc & (0x0001010101010101ull << row));
+                spq += r * sumX(inRow, rowCount);
+            }
         }
-        for (int h = 0; h < 6; ++h) {
-            const std::uint64_t top = heights.tops[static_cast<std::size_t>(h)];
-            if (top == 0) continue;
-            const std::int32_t topCount = count(top);
-            sh += h * topCount;
-            shp += h * sumX(top, topCount);
-            shq += h * sumY(top, topCount);
+        // Sums of h, h p, h q from the binary digits of the heights.
+        const VoxelWindow& t = heights.tops;
+        const std::uint64_t digits[3] = {(t[1] | t[3] | t[5]) & kDisc, (t[2] | t[3]) & kDisc, (t[4] | t[5]) & kDisc};
+        std::int32_t sh = 0, shp = 0, shq = 0;
+        for (int digit = 0; digit < 3; ++digit) {
+            const std::int32_t ones = count(digits[digit]);
+            sh += ones << digit;
+            shp += sumX(digits[digit], ones) * (1 << digit);
+            shq += sumY(digits[digit], ones) * (1 << digit);
         }
-        const double cpp = n * spp - sp * sp, cqq = n * sqq - sq * sq, cpq = n * spq - sp * sq;
-        const double chp = n * shp - sh * sp, chq = n * shq - sh * sq;
-        scale = cpp * cqq - cpq * cpq;
-        p = chp * cqq - chq * cpq;
-        q = chq * cpp - chp * cpq;
+        const std::int64_t cpp = n * spp - sp * sp, cqq = n * sqq - sq * sq, cpq = n * spq - sp * sq;
+        const std::int64_t chp = n * shp - sh * sp, chq = n * shq - sh * sq;
+        const auto scale = static_cast<double>(cpp * cqq - cpq * cpq);
+        isValid = scale > 0;
+        if (!isValid) return;
+        p = static_cast<double>(chp * cqq - chq * cpq) / scale;
+        q = static_cast<double>(chq * cpp - chp * cpq) / scale;
+    }
+
+    // Is the surface a function over this plane, and most of it in sight? Then no other axis does better.
+    [[nodiscard]] bool isGentle() const noexcept {
+        return isValid && places >= 24 && std::max(std::abs(p), std::abs(q)) <= 1;
+    }
+    [[nodiscard]] Vec3f normal(int axis, int sign) const noexcept {
+        Vec3f n;
+        n[axis] = static_cast<float>(sign);
+        n[axis == 0 ? 1 : 0] = static_cast<float>(-p);
+        n[axis == 2 ? 1 : 2] = static_cast<float>(-q);
+        return n;
     }
 };
 
@@ -187,9 +215,6 @@ int longestAxis(Vec3i v, int preferred) noexcept {
         if (std::abs(v[axis]) > std::abs(v[longest])) longest = axis;
     return longest;
 }
-
-// Fewer places than this are the edge of a step, not a face; a corner of two edges has 16.
-constexpr std::int32_t kFacePlaces = 12;
 
 // Is all that ends in the window along the axis one face before the middle? Decides most hits, without the layers: the top
 // of the layers along x is found in the bits of a byte, along y in the bytes of a word.
@@ -234,6 +259,11 @@ SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) no
     heights.keepJoined();
     if (heights.places == heights.tops[2] && count(heights.places) >= kFacePlaces) return normal;
 
+    const Slopes onFace(heights);
+    if (onFace.isGentle()) {
+        normal.indexNormal = onFace.normal(faceAxis, faceSign);
+        return normal;
+    }
     const Vec3i moment = momentOf(body);
     const int axis = longestAxis(moment, faceAxis);
     const int sign = moment[axis] > 0 ? -1 : 1;
@@ -242,18 +272,10 @@ SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) no
         heights = Heights(layersAlong(window, axis, sign));
         heights.keepJoined();
     }
-    heights.places &= kDisc;
-    for (std::uint64_t& top : heights.tops) top &= kDisc;
-    const Slopes slopes(heights);
-    Vec3f fitted;
-    if (count(heights.places) >= kFacePlaces && slopes.scale > 0) {
-        const int p = axis == 0 ? 1 : 0, q = axis == 2 ? 1 : 2;
-        fitted[axis] = static_cast<float>(sign);
-        fitted[p] = static_cast<float>(-slopes.p / slopes.scale);
-        fitted[q] = static_cast<float>(-slopes.q / slopes.scale);
-    } else {
-        fitted = {static_cast<float>(-moment.x), static_cast<float>(-moment.y), static_cast<float>(-moment.z)};
-    }
+    const Slopes slopes = axis != faceAxis ? Slopes(heights) : onFace;
+    const Vec3f fitted = slopes.isValid ? slopes.normal(axis, sign)
+                                        : Vec3f{static_cast<float>(-moment.x), static_cast<float>(-moment.y),
+                                                static_cast<float>(-moment.z)};
     // Smoothing may not turn the surface away from the face that was seen.
     if (fitted[faceAxis] * static_cast<float>(faceSign) > 0) normal.indexNormal = fitted;
     return normal;
