@@ -117,7 +117,7 @@ TEST(Oracle, BerlinHasNoWrongSample) {
 
 TEST(Oracle, HundredBuildingsHaveNoWrongSample) {
     SVT_NEEDS_DATA(file, "100_buildings_lod2_citygml3.gml");
-    checkFile(file, {313, 307, 202}, 4000, 17, 5000);
+    checkFile(file, {313, 307, 202}, 5000, 17, 5000);
 }
 
 TEST(Oracle, GeneratedHouseHasNoWrongSampleStraightAndTurned) {

@@ -123,12 +123,18 @@ void walkRuns(const volume::BrickVolume& volume, const IndexRay& ray, double fro
         if (!entry.isMixed()) {
             const volume::SameLabelBox& box = volume.box(entry);
             if (moveTo(box.scalar)) return;
-            t = std::numeric_limits<double>::infinity();
-            for (int axis = 0; axis < 3; ++axis)
-                t = std::min(t, ray.planeTime(axis, ray.step[axis] < 0 ? box.min[static_cast<std::size_t>(axis)]
-                                                                       : box.max[static_cast<std::size_t>(axis)]));
+            Vec3d leave;
+            Vec3i plane;
+            for (int axis = 0; axis < 3; ++axis) {
+                plane[axis] = ray.step[axis] < 0 ? box.min[static_cast<std::size_t>(axis)]
+                                                 : box.max[static_cast<std::size_t>(axis)];
+                leave[axis] = ray.planeTime(axis, plane[axis]);
+            }
+            t = std::min({leave.x, leave.y, leave.z});
             if (!(t < to)) break;
-            cell = ray.cellAt(t, count);
+            for (int axis = 0; axis < 3; ++axis)
+                cell[axis] = leave[axis] == t ? plane[axis] - (ray.step[axis] < 0 ? 1 : 0)
+                                              : ray.cellAt(axis, t, count[axis]);
             continue;
         }
         const volume::BrickVolume::MixedBrick mixed = volume.mixedBrick(entry);

@@ -18,29 +18,36 @@ constexpr VoxelWindow makeBall() {
 constexpr VoxelWindow kBall = makeBall();
 constexpr std::int32_t kBallVoxels = 179;
 constexpr std::uint64_t kDisc = kBall[3];  // the ball's middle layer: 37 places
-constexpr std::int32_t kDiscSquares = 90;  // sum of (x - 3)^2 over the disc
+constexpr std::int32_t kDiscSquares = 108;  // sum of (x - 3)^2 over the disc, and of (y - 3)^2
 // Fewer places than this are the edge of a step, not a face; a corner of two edges has 16.
 constexpr std::int32_t kFacePlaces = 12;
 constexpr std::uint64_t kMiddle = std::uint64_t{1} << (3 + 8 * 3);
 
-// Words of the voxels whose coordinate has bit 0, 1 or 2.
-constexpr std::uint64_t kX[3] = {0xAAAAAAAAAAAAAAAAull, 0xCCCCCCCCCCCCCCCCull, 0xF0F0F0F0F0F0F0F0ull};
-constexpr std::uint64_t kY[3] = {0xFF00FF00FF00FF00ull, 0xFFFF0000FFFF0000ull, 0xFFFFFFFF00000000ull};
+// Number of bits, and sums of x - 3 and of y - 3 over them. In a word, all counts side by side: of pairs, then nibbles, then
+// bytes, each with the sum of the x of its bits. Spelled out, as the baseline instruction set has no population count.
+struct BitSums {
+    std::int32_t count, x, y;
 
-// Number of bits; spelled out, as the baseline instruction set has no population count.
-constexpr std::int32_t count(std::uint64_t bits) noexcept {
-    bits -= (bits >> 1) & 0x5555555555555555ull;
-    bits = (bits & 0x3333333333333333ull) + ((bits >> 2) & 0x3333333333333333ull);
-    bits = (bits + (bits >> 4)) & 0x0F0F0F0F0F0F0F0Full;
-    return static_cast<std::int32_t>((bits * 0x0101010101010101ull) >> 56);
-}
-// Sums of x - 3 and of y - 3 over the bits of a word.
-constexpr std::int32_t sumX(std::uint64_t bits, std::int32_t n) noexcept {
-    return count(bits & kX[0]) + 2 * count(bits & kX[1]) + 4 * count(bits & kX[2]) - 3 * n;
-}
-constexpr std::int32_t sumY(std::uint64_t bits, std::int32_t n) noexcept {
-    return count(bits & kY[0]) + 2 * count(bits & kY[1]) + 4 * count(bits & kY[2]) - 3 * n;
-}
+    explicit constexpr BitSums(std::uint64_t bits) noexcept : count(0), x(0), y(0) {
+        constexpr std::uint64_t kPairs = 0x5555555555555555ull, kNibbles = 0x3333333333333333ull,
+                                kBytes = 0x0F0F0F0F0F0F0F0Full;
+        const std::uint64_t xOfPair = (bits >> 1) & kPairs;
+        const std::uint64_t ofPair = bits - xOfPair;
+        const std::uint64_t upper = (ofPair >> 2) & kNibbles;
+        const std::uint64_t ofNibble = (ofPair & kNibbles) + upper;
+        const std::uint64_t xOfNibble = (xOfPair & kNibbles) + ((xOfPair >> 2) & kNibbles) + 2 * upper;
+        const std::uint64_t upperNibble = (ofNibble >> 4) & kBytes;
+        const std::uint64_t ofByte = (ofNibble & kBytes) + upperNibble;
+        const std::uint64_t xOfByte = (xOfNibble & kBytes) + ((xOfNibble >> 4) & kBytes) + 4 * upperNibble;
+        count = sum(ofByte * 0x0101010101010101ull);
+        x = sum(xOfByte * 0x0101010101010101ull) - 3 * count;
+        y = sum(ofByte * 0x0001020304050607ull) - 3 * count;
+    }
+
+private:
+    static constexpr std::int32_t sum(std::uint64_t product) noexcept { return static_cast<std::int32_t>(product >> 56); }
+};
+constexpr std::int32_t count(std::uint64_t bits) noexcept { return BitSums(bits).count; }
 
 // The sum of seven one-bit numbers per place, as words of ones, twos and fours.
 struct PlaceSums {
@@ -60,14 +67,13 @@ struct PlaceSums {
 };
 
 // Sum of the offsets from the middle of the body's voxels in the ball.
-Vec3i momentOf(const VoxelWindow& body) noexcept {
+Vec3i momentOf(const VoxelWindow& body, const PlaceSums& sums) noexcept {
     Vec3i moment;
     for (std::int32_t z = 0; z < 7; ++z) moment.z += (z - 3) * count(body[static_cast<std::size_t>(z)]);
-    const PlaceSums sums(body);
     for (int digit = 0; digit < 3; ++digit) {
-        const std::int32_t n = count(sums.digits[digit]);
-        moment.x += sumX(sums.digits[digit], n) << digit;
-        moment.y += sumY(sums.digits[digit], n) << digit;
+        const BitSums ones(sums.digits[digit]);
+        moment.x += ones.x * (1 << digit);
+        moment.y += ones.y * (1 << digit);
     }
     return moment;
 }
@@ -154,21 +160,20 @@ struct Slopes {
     // Takes the heights in the disc around the middle. All sums are of whole numbers, so they are exact.
     explicit Slopes(const Heights& heights) noexcept {
         const std::uint64_t disc = heights.places & kDisc;
-        const std::int32_t n = places = count(disc);
+        const BitSums all(disc);
+        const std::int32_t n = places = all.count;
         if (n < kFacePlaces) return;
         // Sums over the places of p, q, p p, q q, p q.
-        std::int32_t sp = 0, sq = 0, spp = kDiscSquares, sqq = kDiscSquares, spq = 0;
+        const std::int32_t sp = all.x, sq = all.y;
+        std::int32_t spp = kDiscSquares, sqq = kDiscSquares, spq = 0;
         if (disc != kDisc) {
-            sp = sumX(disc, n);
-            sq = sumY(disc, n);
             spp = sqq = 0;
             for (int row = 0; row < 7; ++row) {
-                const std::uint64_t inRow = disc & (0x7Full << (8 * row));
-                const std::int32_t rowCount = count(inRow);
+                const BitSums inRow(disc & (0x7Full << (8 * row)));
                 const int r = row - 3;
-                sqq += r * r * rowCount;
+                sqq += r * r * inRow.count;
                 spp += r * r * count(disc & (0x0001010101010101ull << row));
-                spq += r * sumX(inRow, rowCount);
+                spq += r * inRow.x;
             }
         }
         // Sums of h, h p, h q from the binary digits of the heights.
@@ -176,10 +181,10 @@ struct Slopes {
         const std::uint64_t digits[3] = {(t[1] | t[3] | t[5]) & kDisc, (t[2] | t[3]) & kDisc, (t[4] | t[5]) & kDisc};
         std::int32_t sh = 0, shp = 0, shq = 0;
         for (int digit = 0; digit < 3; ++digit) {
-            const std::int32_t ones = count(digits[digit]);
-            sh += ones << digit;
-            shp += sumX(digits[digit], ones) * (1 << digit);
-            shq += sumY(digits[digit], ones) * (1 << digit);
+            const BitSums ones(digits[digit]);
+            sh += ones.count * (1 << digit);
+            shp += ones.x * (1 << digit);
+            shq += ones.y * (1 << digit);
         }
         const std::int64_t cpp = n * spp - sp * sp, cqq = n * sqq - sq * sq, cpq = n * spq - sp * sq;
         const std::int64_t chp = n * shp - sh * sp, chq = n * shq - sh * sq;
@@ -251,7 +256,7 @@ SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) no
     SurfaceNormal normal{axisNormal(faceAxis, faceSign), 0};
     std::int32_t voxels = 0;
     const PlaceSums sums(body);
-    for (int digit = 0; digit < 3; ++digit) voxels += count(sums.digits[digit]) << digit;
+    for (int digit = 0; digit < 3; ++digit) voxels += count(sums.digits[digit]) * (1 << digit);
     normal.coverage = static_cast<float>(voxels) / kBallVoxels;
     if (isFlatFace(window, faceAxis, faceSign)) return normal;
 
@@ -264,7 +269,7 @@ SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) no
         normal.indexNormal = onFace.normal(faceAxis, faceSign);
         return normal;
     }
-    const Vec3i moment = momentOf(body);
+    const Vec3i moment = momentOf(body, sums);
     const int axis = longestAxis(moment, faceAxis);
     const int sign = moment[axis] > 0 ? -1 : 1;
     if (moment[axis] == 0) return normal;

@@ -67,6 +67,7 @@ int addDoor(Plan& plan, int wall, int room, const Opening& opening, std::string 
     firstBody(plan, room).add(opening.piece(kLeaf, opening.thickness, kJamb, 0, kJamb));
     Component& component = plan.components[std::size_t(door)];
     component.storey = plan.components[std::size_t(wall)].storey;
+    component.unit = plan.components[std::size_t(wall)].unit;
     component.function = "door";
     component.bodies.push_back(std::move(frame));
     component.bodies.push_back({Axis::X, Material::Timber, {opening.piece(0, kLeaf, kJamb, 0, kJamb)}});

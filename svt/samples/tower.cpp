@@ -121,7 +121,9 @@ private:
         const Length lift = kNorth0 + kLiftDepth;
         const int coreWall =
             wall("wall_core", "Core wall", Material::Concrete, box(stair1, lift0, kNorth0, kNorth1, 0, kClear));
-        wall("wall_lift", "Lift shaft wall", Material::Concrete, box(lift0, lift1, lift, lift + kHeavy, 0, kClear));
+        const int liftWall =
+            wall("wall_lift", "Lift shaft wall", Material::Concrete, box(lift0, lift1, lift, lift + kHeavy, 0, kClear));
+        at(coreWall).unit = at(liftWall).unit = common_;
         stairwell_ =
             room(common_, "stairwell", "Stairwell", "circulation", box(stair0_, stair1, kNorth0, kNorth1, 0, kClear));
         lift_ = room(common_, "lift", "Lift shaft", "lift", box(lift0, lift1, kNorth0, lift, 0, kClear));
@@ -137,9 +139,10 @@ private:
         const auto corridorDoor = [&](Length x0, Length x1) {
             return Opening{Opening::Normal::PlusY, kCorridor1, kHeavy, x0, x1, 0, 2200};
         };
-        addDoor(plan_, northCorridorWall_, stairwell_, corridorDoor(stair0_ + 900, stair0_ + 1910), "door_stairwell",
-                "Door stairwell");
-        addDoor(plan_, northCorridorWall_, lift_, corridorDoor(lift0 + 600, lift1 - 600), "door_lift", "Lift door");
+        const Opening stairDoor = corridorDoor(stair0_ + 900, stair0_ + 1910);
+        const Opening liftDoor = corridorDoor(lift0 + 600, lift1 - 600);
+        addDoor(plan_, northCorridorWall_, stairwell_, stairDoor, "door_stairwell", "Door stairwell");
+        addDoor(plan_, northCorridorWall_, lift_, liftDoor, "door_lift", "Lift door");
         addDoor(plan_, coreWall, utility, {Opening::Normal::PlusX, stair1, kCoreWall, 11700, 12585, 0, 2100},
                 "door_utility", "Door utility room");
         addWindow(plan_, northWall_, stairwell_,
@@ -147,7 +150,9 @@ private:
                   "window_stairwell", "Window stairwell");
         if (!storey_.isHighest) stair();
         Body space{Axis::X, Material::Air, body(corridor_).pieces};
-        space.add(box(stair0_, lift1, kCorridor1, kNorth1, 0, kClear));
+        space.add(box(stair0_, lift1, kNorth0, kNorth1, 0, kClear));
+        // The doorways join the core to the corridor.
+        space.add(stairDoor.piece(0, kHeavy)).add(liftDoor.piece(0, kHeavy));
         for (const int part : {stairwell_, lift_, utility}) addReveals(space, part);
         at(common_).bodies.push_back(std::move(space));
     }

@@ -63,7 +63,7 @@ private:
     }
 
     void storey(int s) {
-        const std::string suffix = "_" + std::to_string(s);
+        const std::string suffix = std::string("_").append(std::to_string(s));
         const Length z0 = s * kStoreyHeight, z1 = z0 + kClear, east = width_ - kWall, north = depth_ - kWall;
         const Length middle = (width_ - kPartition) / 2;
         const int southWall = wall(s, "wall_south" + suffix, "Exterior wall south", Material::PlasterWhite,

@@ -57,8 +57,8 @@ bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
         // The shared plane may pass the snapped corners by a hair; whoever shares it must not be told apart by a clamp.
         out.lowest = std::numeric_limits<std::int32_t>::min();
         out.highest = std::numeric_limits<std::int32_t>::max();
-    } else if (out.lowest == out.highest) {
-        out.height = {(std::int64_t(out.lowest) * kQuanta) << Height::kBits, 0, 0};
+    } else if (low == high) {
+        out.height = {std::int64_t(low) << Height::kBits, 0, 0};
     } else {
         const double slopeX = (double(az) * double(by) - double(ay) * double(bz)) / double(area) * double(kQuanta);
         const double slopeY = (double(ax) * double(bz) - double(az) * double(bx)) / double(area) * double(kQuanta);

@@ -228,6 +228,22 @@ TEST(Voxelize, PaneThinnerThanAVoxelStaysWhole) {
     EXPECT_GT(result->thinVoxels[0], 1000u);
 }
 
+TEST(Voxelize, AxisParallelPaneBetweenSamplesIsOneVoxelThick) {
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d low{0.2, 0.2, 0.2}, high{0.8, 0.8, 0.8};
+        low[axis] = 0.462;
+        high[axis] = 0.478;  // samples stand at 0.45 and 0.5
+        const auto scene = sceneOf({box(low, high)});
+        const auto result = voxelize(scene, gridWith({0, 0, 0}, {0.05, 0.05, 0.05}, {21, 21, 21}), claimsFor(scene));
+        ASSERT_TRUE(result);
+        EXPECT_EQ(countOf(*result, 1), 144u) << axis;
+        EXPECT_EQ(result->thinVoxels[0], 144u) << axis;
+        Vec3i inside{10, 10, 10};
+        inside[axis] = 9;
+        EXPECT_EQ(result->columns.scalarAt(inside.x, inside.y, inside.z), 1u) << axis;
+    }
+}
+
 TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
     const auto scene = sceneOf({box({0.031, 0.031, 0.01}, {0.034, 0.034, 0.99}), box({0, 0, -0.1}, {1, 1, -0.05})});
     const Grid grid = gridOver(scene, {21, 21, 56});
