@@ -13,8 +13,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace svt::render {
+
+/// Calls body(0), body(1), body(2) with the axis as a constant: selecting a component must cost nothing here.
+template <class Body>
+constexpr void forEachAxis(const Body& body) {
+    body(std::integral_constant<int, 0>{});
+    body(std::integral_constant<int, 1>{});
+    body(std::integral_constant<int, 2>{});
+}
 
 struct IndexRay {
     Vec3d origin, direction;   ///< position(t) = origin + t * direction
@@ -27,7 +36,7 @@ struct IndexRay {
         const double largest = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
         // Far above the rounding of origin + t * direction, whose terms are at most the origin's distance and the volume.
         slack = 1e-13 * (std::abs(from.x) + std::abs(from.y) + std::abs(from.z) + 65536);
-        for (int axis = 0; axis < 3; ++axis) {
+        forEachAxis([&](auto axis) {
             // Rounding leaves a trace of a direction on axes that it does not have.
             if (std::abs(along[axis]) > largest * 1e-12) {
                 inverse[axis] = 1 / along[axis];
@@ -38,7 +47,7 @@ struct IndexRay {
                 planeOrigin[axis] = -1;
                 step[axis] = 0;
             }
-        }
+        });
     }
 
     /// When the ray crosses plane `plane` (0..n) of an axis.
@@ -87,15 +96,15 @@ struct RaySpan {
 
 [[nodiscard]] inline RaySpan spanInVolume(const IndexRay& ray, Vec3i count) noexcept {
     RaySpan span{0, std::numeric_limits<double>::infinity()};
-    for (int axis = 0; axis < 3; ++axis) {
+    forEachAxis([&](auto axis) {
         if (ray.step[axis] == 0) {
-            if (!(ray.origin[axis] >= 0 && ray.origin[axis] < count[axis])) return {};
-            continue;
+            if (!(ray.origin[axis] >= 0 && ray.origin[axis] < count[axis])) span.to = 0;
+            return;
         }
         const double low = ray.planeTime(axis, 0), high = ray.planeTime(axis, count[axis]);
         span.from = std::max(span.from, std::min(low, high));
         span.to = std::min(span.to, std::max(low, high));
-    }
+    });
     return span;
 }
 
@@ -125,16 +134,16 @@ void walkRuns(const volume::BrickVolume& volume, const IndexRay& ray, double fro
             if (moveTo(box.scalar)) return;
             Vec3d leave;
             Vec3i plane;
-            for (int axis = 0; axis < 3; ++axis) {
-                plane[axis] = ray.step[axis] < 0 ? box.min[static_cast<std::size_t>(axis)]
-                                                 : box.max[static_cast<std::size_t>(axis)];
+            forEachAxis([&](auto axis) {
+                plane[axis] = ray.step[axis] < 0 ? box.min[axis] : box.max[axis];
                 leave[axis] = ray.planeTime(axis, plane[axis]);
-            }
+            });
             t = std::min({leave.x, leave.y, leave.z});
             if (!(t < to)) break;
-            for (int axis = 0; axis < 3; ++axis)
+            forEachAxis([&](auto axis) {
                 cell[axis] = leave[axis] == t ? plane[axis] - (ray.step[axis] < 0 ? 1 : 0)
                                               : ray.cellAt(axis, t, count[axis]);
+            });
             continue;
         }
         const volume::BrickVolume::MixedBrick mixed = volume.mixedBrick(entry);
@@ -144,11 +153,12 @@ void walkRuns(const volume::BrickVolume& volume, const IndexRay& ray, double fro
             if (moveTo(mixed.scalarAt(cell.x & 7, cell.y & 7, cell.z & 7))) return;
             t = std::min({leave.x, leave.y, leave.z});
             if (!(t < to)) break;
-            for (int axis = 0; axis < 3; ++axis)
+            forEachAxis([&](auto axis) {
                 while (leave[axis] <= t) {
                     cell[axis] += ray.step[axis];
                     leave[axis] = ray.leaveTime(axis, cell[axis]);
                 }
+            });
         } while ((((cell.x >> 3) ^ brick.x) | ((cell.y >> 3) ^ brick.y) | ((cell.z >> 3) ^ brick.z)) == 0);
         if (!(t < to)) break;
     }

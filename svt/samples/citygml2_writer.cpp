@@ -3,6 +3,7 @@
 //             svtClass; doors and windows are openings whose surfaces close around their bodies
 //   thematic  the classical model: boundary surfaces, an outer hull made of them, rooms
 //   both      storeys are CityObjectGroups, units BuildingParts that contain their rooms
+//             and inner walls
 // A face between a room and what bounds it is written once; the room uses it reversed (gml:OrientableSurface).
 #include <svt/samples/writers.hpp>
 
@@ -69,7 +70,7 @@ private:
         for (const bool isOutside : {true, false})
             for (const Level& level : document_.levels)
                 for (std::size_t c = 0; c < level.plan->components.size(); ++c)
-                    installationOfBuilding(level, int(c), isOutside);
+                    installationOfBuilding(level, int(c), -1, isOutside);
         if (isThematic_) hull();
         for (const Level& level : document_.levels) rooms(level, -1);
         for (const Level& level : document_.levels)
@@ -159,10 +160,11 @@ private:
         return false;
     }
 
-    void installationOfBuilding(const Level& level, int component, bool isOutside) {
+    // Of the building itself (unit -1) or of one unit.
+    void installationOfBuilding(const Level& level, int component, int unit, bool isOutside) {
         const Component& c = level.plan->components[std::size_t(component)];
         const bool isElement = c.kind == Kind::Element && !isThematic_;
-        if ((c.kind != Kind::Installation && !isElement) || c.parent >= 0 || c.isGhost) return;
+        if ((c.kind != Kind::Installation && !isElement) || c.parent >= 0 || c.isGhost || c.unit != unit) return;
         if ((isElement ? isAtHull(c) : c.isOutside) != isOutside) return;
         const std::string_view property =
             isOutside ? "bldg:outerBuildingInstallation" : "bldg:interiorBuildingInstallation";
@@ -398,6 +400,9 @@ private:
         out_ << "<bldg:consistsOfBuildingPart>";
         open(level, component, "bldg:BuildingPart");
         function(level.plan->components[std::size_t(component)]);
+        for (const bool isOutside : {true, false})
+            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
+                installationOfBuilding(level, int(c), component, isOutside);
         out_ << "<bldg:lod4Solid>";
         solid(level, component);
         out_ << "</bldg:lod4Solid>\n";
@@ -411,7 +416,7 @@ private:
         out_ << "<grp:class>buildingSeparation</grp:class><grp:function>storey</grp:function>\n";
         for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
             const Component& component = level.plan->components[c];
-            if (component.storey != storey || component.parent >= 0 || component.isGhost) continue;
+            if (component.storey != storey || !isGrouped(component)) continue;
             if (isThematic_ && component.kind == Kind::Element) continue;
             out_ << "<grp:groupMember role=\"" << className(component.kind) << "\" xlink:href=\"#"
                  << document_.idOf(level, int(c)) << "\"/>\n";

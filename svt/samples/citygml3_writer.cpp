@@ -240,7 +240,7 @@ private:
     void links(const Level& level, Kind kind, std::string_view property, const Predicate& isMember) {
         for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
             const Component& component = level.plan->components[c];
-            if (component.kind != kind || component.parent >= 0 || component.isGhost || !isMember(component)) continue;
+            if (component.kind != kind || !isGrouped(component) || !isMember(component)) continue;
             out_ << "<bldg:" << property << " xlink:href=\"#" << document_.idOf(level, int(c)) << "\"/>\n";
         }
     }

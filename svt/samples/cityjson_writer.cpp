@@ -252,7 +252,7 @@ private:
     void parents(const Level& level, int component) {
         const Component& c = level.plan->components[std::size_t(component)];
         out_ << "\"parents\":[\"" << document_.parentIdOf(level, component) << "\"";
-        if (c.parent < 0 && c.kind != Kind::Unit) {
+        if (isGrouped(c) && c.kind != Kind::Unit) {
             if (c.storey >= 0) out_ << ",\"" << document_.idOf(level, c.storey) << "\"";
             if (c.unit >= 0) out_ << ",\"" << document_.idOf(level, c.unit) << "\"";
         }
@@ -266,7 +266,7 @@ private:
         for (std::size_t c = 0; c < all.size(); ++c) {
             if (all[c].isGhost) continue;
             const bool isOwned = all[c].parent == component;
-            const bool isMember = all[c].parent < 0 && ((kind == Kind::Storey && all[c].storey == component) ||
+            const bool isMember = isGrouped(all[c]) && ((kind == Kind::Storey && all[c].storey == component) ||
                                                         (kind == Kind::Unit && all[c].unit == component));
             if (!isOwned && !isMember) continue;
             out_ << (isFirstChild ? ",\"children\":[\"" : ",\"") << document_.idOf(level, int(c)) << "\"";

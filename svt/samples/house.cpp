@@ -198,7 +198,7 @@ private:
         gallery_ = upperRoom("gallery", "Gallery", "circulation", 2715, 8900, kSpine1, kNorth);
         dressing_ = upperRoom("dressing", "Dressing room", "storage", 9015, kEast, kSpine1, kNorth);
         loft_ = room(attic_, "loft", "Loft", "storage", roofedBox(kWall, kEast, kWall, kNorth, kAttic, 8000));
-        body(gallery_).add(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
+        body(hall_).add(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
         body(ceilingVoid_).cut(body(beam_).pieces.front());
     }
 

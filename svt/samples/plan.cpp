@@ -155,6 +155,10 @@ bool fillsSpace(const Component& component) {
            component.kind == Kind::Door;
 }
 
+bool isGrouped(const Component& component) {
+    return !component.isGhost && (component.parent < 0 || component.kind == Kind::Installation);
+}
+
 int addComponent(Plan& plan, Kind kind, std::string id, std::string name, int parent) {
     Component component;
     component.kind = kind;

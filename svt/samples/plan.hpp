@@ -77,6 +77,9 @@ struct Component {
 /// Furniture and installations stand inside rooms, units enclose them.
 [[nodiscard]] bool fillsSpace(const Component& component);
 
+/// True for components that storeys and units list as members: what the building owns, and installations in rooms.
+[[nodiscard]] bool isGrouped(const Component& component);
+
 struct Plan {
     std::vector<Component> components;       ///< a parent stands before its children
     std::vector<Point> vertices;             ///< millimetres, filled by resolve()

@@ -129,13 +129,17 @@ private:
         lift_ = room(common_, "lift", "Lift shaft", "lift", box(lift0, lift1, kNorth0, lift, 0, kClear));
         const int utility =
             room(common_, "utility", "Utility room", "utility", box(lift0, lift1, lift + kHeavy, kNorth1, 0, kClear));
-        stairHole_ = box(stair0_, stair1, kFlight0, kNorth1, -kSlab, 0);
+        // The flight up from this storey begins in the western half of the opening, the one from below ends in the
+        // other.
+        risingHole_ = box(stair0_, stair0_ + 1600, kFlight0, kNorth1, -kSlab, 0);
+        arrivingHole_ = box(stair0_ + 1600, stair1, kFlight0, kNorth1, -kSlab, 0);
         liftHole_ = box(lift0, lift1, kNorth0, lift, -kSlab, 0);
         if (!storey_.isLowest) {
-            body(slab_).cut(stairHole_).cut(liftHole_);
-            body(stairwell_).add(stairHole_);
+            body(slab_).cut(risingHole_).cut(arrivingHole_).cut(liftHole_);
+            body(stairwell_).add(risingHole_);
             body(lift_).add(liftHole_);
         }
+        if (!storey_.isHighest) body(stairwell_).add(lifted(arrivingHole_, kClear, kTowerStoreyHeight));
         const auto corridorDoor = [&](Length x0, Length x1) {
             return Opening{Opening::Normal::PlusY, kCorridor1, kHeavy, x0, x1, 0, 2200};
         };
@@ -342,20 +346,23 @@ private:
         at(index).bodies = {{Axis::X, Material::Air, {std::move(piece)}}};
     }
 
+    static Piece lifted(Piece piece, Length z0, Length z1) {
+        piece.sides[2].limit = z1;
+        piece.sides[3].limit = -z0;
+        return piece;
+    }
+
     // The storeys above and below, as far as faces of this one depend on them.
     void neighbors() {
-        const auto lifted = [](Piece piece, Length z0, Length z1) {
-            piece.sides[2].limit = z1;
-            piece.sides[3].limit = -z0;
-            return piece;
-        };
         if (!storey_.isHighest) {
-            ghost(Kind::Element, "above", box(0, width_, 0, kDepth, kClear, kClear + kReach));
+            const Length top = kTowerStoreyHeight;
+            ghost(Kind::Element, "above", box(0, width_, 0, kDepth, kClear, top));
             const int above = int(plan_.components.size()) - 1;
-            for (const Piece& hole : {stairHole_, liftHole_}) {
-                body(above).cut(lifted(hole, kClear, kClear + kReach));
-                ghost(Kind::Room, "hole_above", lifted(hole, kClear, kClear + kReach));
-            }
+            for (const Piece& hole : {risingHole_, arrivingHole_, liftHole_})
+                body(above).cut(lifted(hole, kClear, top));
+            ghost(Kind::Room, "hole_above", lifted(risingHole_, kClear, top));
+            ghost(Kind::Room, "hole_above", lifted(liftHole_, kClear, top));
+            ghost(Kind::Room, "stairwell_above", lifted(arrivingHole_, top, top + kReach));
         }
         if (storey_.isLowest) return;
         const Length low = -kSlab - kReach, high = -kSlab;
@@ -365,10 +372,11 @@ private:
         ghost(Kind::Element, "wall_below", box(width_ - kExterior, width_, kExterior, kNorth1, low, high));
         ghost(Kind::Element, "below", box(kExterior, width_ - kExterior, kExterior, kNorth1, low, high));
         const int below = int(plan_.components.size()) - 1;
-        for (const Piece& hole : {stairHole_, liftHole_}) {
+        for (const Piece& hole : {risingHole_, liftHole_}) {
             body(below).cut(lifted(hole, low, high));
-            ghost(Kind::Room, "hole_below", lifted(hole, low, high));
+            ghost(Kind::Room, "stairwell_below", lifted(hole, low, high));
         }
+        ghost(Kind::Room, "hole_below", arrivingHole_);
     }
 
     TowerStorey storey_;
@@ -377,7 +385,7 @@ private:
     int feature_ = 0, slab_ = 0, southWall_ = 0, northWall_ = 0, southCorridorWall_ = 0, northCorridorWall_ = 0;
     int common_ = 0, corridor_ = 0, stairwell_ = 0, lift_ = 0;
     Length stair0_ = 0;
-    Piece stairHole_, liftHole_;
+    Piece risingHole_, arrivingHole_, liftHole_;
 };
 
 }  // namespace

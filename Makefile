@@ -1,0 +1,37 @@
+# What people type. Each target sets up what is missing, is quiet, and may be repeated.
+#   make          the same as make build
+#   make build    the command at build/release/bin/svt
+#   make demo     a generated house, its volume and pictures under build/demo
+#   make test     all tests
+#   make bench    times against VTK, OpenVDB and libcitygml (installs them)
+#   make check    format, layers, error pages, command pages
+#   make clean    removes build/
+
+SHELL := /bin/bash
+.DEFAULT_GOAL := build
+.PHONY: build demo test bench check clean setup
+
+setup:
+	@scripts/setup.sh
+
+build: setup
+	@scripts/build.sh release svt
+
+demo: build
+	@scripts/demo.sh
+
+test: setup
+	@scripts/check.sh
+	@scripts/build.sh release
+	@scripts/test.sh
+
+bench:
+	@scripts/setup.sh peers
+	@scripts/build.sh bench svt svt_bench
+	@python3 scripts/bench.py
+
+check: setup
+	@scripts/check.sh
+
+clean:
+	@rm -rf build

@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Runs all tests of the release build; skipped ones say why. Ends with the runner's count.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export SVT_DATA_DIR=${SVT_DATA_DIR:-$PWD/../shared/data}
+[ -d "$SVT_DATA_DIR" ] || echo "test: no real models at $SVT_DATA_DIR (SVT_DATA_DIR); tests that need them are skipped"
+ctest --test-dir build/release -j "$(nproc)" --output-on-failure --progress

@@ -1,0 +1,140 @@
+#include "run_command.hpp"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace svt::test {
+namespace {
+
+constexpr int kExecFailed = 126, kMountFailed = 125;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool hasSanitizer = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool hasSanitizer = true;
+#else
+constexpr bool hasSanitizer = false;
+#endif
+#else
+constexpr bool hasSanitizer = false;
+#endif
+constexpr double kSlowdown = hasSanitizer ? 20 : 1;
+
+// A file system of 64 KiB that nobody else sees and that goes with the process.
+bool mountTinyDisk(const char* folder) {
+    if (::unshare(CLONE_NEWNS) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+    if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
+    return ::mount("none", folder, "tmpfs", 0, "size=64k") == 0;
+}
+
+void limit(int resource, std::uint64_t bytes) {
+    const rlimit value{bytes, bytes};
+    ::setrlimit(static_cast<__rlimit_resource>(resource), &value);
+}
+
+[[noreturn]] void becomeSvt(const std::string& folder, std::vector<char*>& arguments, const Limits& limits, const std::string& tinyDisk, int out,
+                            int err) {
+    ::setpgid(0, 0);
+    if (::chdir(folder.c_str()) != 0) ::_exit(kExecFailed);
+    if (!tinyDisk.empty() && !mountTinyDisk(tinyDisk.c_str())) ::_exit(kMountFailed);
+    const int nothing = ::open("/dev/null", O_RDONLY);
+    ::dup2(nothing, 0);
+    ::dup2(out, 1);
+    ::dup2(err, 2);
+    if (!hasSanitizer) limit(RLIMIT_AS, limits.memoryBytes);
+    limit(RLIMIT_CORE, 0);
+    if (limits.fileBytes != 0) {
+        std::signal(SIGXFSZ, SIG_IGN);
+        limit(RLIMIT_FSIZE, limits.fileBytes);
+    }
+    ::execv(SVT_COMMAND, arguments.data());
+    ::_exit(kExecFailed);
+}
+
+}  // namespace
+
+std::string CommandResult::toString() const {
+    std::string text = isTimeout ? "killed after the time limit" : signal != 0 ? "ended by signal " + std::to_string(signal) : "exit " + std::to_string(exitCode);
+    return text + "\n--- stdout\n" + out.substr(0, 4000) + "\n--- stderr\n" + err.substr(0, 4000);
+}
+
+nlohmann::json CommandResult::json() const {
+    nlohmann::json value = nlohmann::json::parse(out, nullptr, false);
+    if (!value.is_discarded()) return value;
+    ADD_FAILURE() << "stdout is no JSON: " << toString();
+    return {};
+}
+
+CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const Limits& limits) {
+    // The streams go to files beside the folder, so that a command that prints without end cannot block.
+    const TemporaryFolder streams;
+    const int out = ::open((streams / "out").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    const int err = ::open((streams / "err").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    std::vector<std::string> texts{"svt"};
+    texts.insert(texts.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& text : texts) pointers.push_back(text.data());
+    pointers.push_back(nullptr);
+    const std::string folderName = folder.string(), tinyDisk = limits.tinyDisk.string();
+
+    CommandResult result;
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const pid_t child = ::fork();
+    if (child == 0) becomeSvt(folderName, pointers, limits, tinyDisk, out, err);
+    ::close(out);
+    ::close(err);
+    int status = 0;
+    if (child < 0) {
+        ADD_FAILURE() << "cannot start a process";
+        return result;
+    }
+    auto pause = std::chrono::microseconds(500);
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+        if (!result.isTimeout && elapsed() > limits.seconds * kSlowdown) {
+            result.isTimeout = true;
+            ::kill(child, SIGKILL);
+        }
+        std::this_thread::sleep_for(pause);
+        pause = std::min(pause * 2, std::chrono::microseconds(10000));
+    }
+    result.seconds = elapsed();
+    if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+    result.cannotMount = result.exitCode == kMountFailed;
+    EXPECT_NE(result.exitCode, kExecFailed) << SVT_COMMAND << " cannot be run in " << folder;
+    result.out = readText(streams / "out");
+    result.err = readText(streams / "err");
+    return result;
+}
+
+std::string runSvtWell(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+    CommandResult result = runSvt(folder, arguments);
+    EXPECT_EQ(result.exitCode, 0) << (arguments.empty() ? "svt" : "svt " + arguments.front()) << ": " << result.toString();
+    return std::move(result.out);
+}
+
+nlohmann::json runSvtForJson(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
+    const CommandResult result = runSvt(folder, arguments);
+    EXPECT_EQ(result.exitCode, 0) << (arguments.empty() ? "svt" : "svt " + arguments.front()) << ": " << result.toString();
+    return result.json();
+}
+
+std::vector<std::string> keysOf(const nlohmann::json& object) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : object.items()) keys.push_back(key);
+    return keys;
+}
+
+}  // namespace svt::test
