@@ -33,6 +33,10 @@ endfunction()
 # no contraction into fused multiply-add, no value-changing optimizations.
 function(svt_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic -ffp-contract=off)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # False alarms on std::string concatenation: GCC bug 105651.
+    target_compile_options(${target} PRIVATE -Wno-restrict)
+  endif()
   if(SVT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -42,23 +43,61 @@ void appendUses(const model::Geometry& geometry, std::vector<SurfaceUse>& uses) 
 }
 
 // Faces of the boundary surfaces of a space, with their openings.
-void appendBoundary(const BuildingModel& model, FeatureIndex space, const model::LodChoice& lod, Source& source) {
+void appendBoundary(const BuildingModel& model, FeatureIndex space, const model::LodChoice& lod, const std::vector<std::uint8_t>& isCoarser,
+                    Source& source) {
     for (const FeatureIndex child : model.features[space].children) {
         const Feature& feature = model.features[child];
         if (!model::isBoundarySurface(feature.className) && !(model::isFilling(feature.className) && child != space)) continue;
         if (model::isFilling(feature.className) && !model::isBoundarySurface(model.features[space].className)) continue;
+        if (isCoarser[child]) continue;
         if (const int chosen = lod.choose(feature); chosen >= 0) {
             const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
             source.lod = std::max(source.lod, geometry.lod);
             appendUses(geometry, source.uses);
         }
-        appendBoundary(model, child, lod, source);
+        appendBoundary(model, child, lod, isCoarser, source);
     }
 }
 
-std::vector<Source> collectSources(const BuildingModel& model, const model::LodChoice& lod) {
+double chosenLod(const Feature& feature, const model::LodChoice& lod) {
+    const int chosen = lod.choose(feature);
+    return chosen < 0 ? -1 : feature.geometries[std::size_t(chosen)].lod;
+}
+
+// Boundary surfaces (and openings) of a coarser level than others of their class in the same space: files with several levels
+// of detail give each its own surfaces.
+std::vector<std::uint8_t> findCoarserSurfaces(const BuildingModel& model, const std::vector<FeatureIndex>& order,
+                                              const model::LodChoice& lod) {
+    const auto isSurface = [&](FeatureIndex f) {
+        const std::string& name = model.features[f].className;
+        return model::isBoundarySurface(name) || model::isFilling(name);
+    };
+    std::vector<FeatureIndex> spaceOf(model.features.size(), model::kNoFeature);
+    std::map<std::pair<FeatureIndex, std::string_view>, double> finest;
+    for (const FeatureIndex f : order) {
+        const FeatureIndex parent = model.features[f].parent;
+        if (!isSurface(f) || parent == model::kNoFeature) continue;
+        spaceOf[f] = spaceOf[parent] != model::kNoFeature ? spaceOf[parent] : parent;
+        double& lodOfClass = finest.try_emplace({spaceOf[f], model.features[f].className}, -1.0).first->second;
+        lodOfClass = std::max(lodOfClass, chosenLod(model.features[f], lod));
+    }
+    std::vector<std::uint8_t> isCoarser(model.features.size(), 0);
+    for (const FeatureIndex f : order)
+        isCoarser[f] = spaceOf[f] != model::kNoFeature && !model.features[f].geometries.empty() &&
+                       chosenLod(model.features[f], lod) < finest[{spaceOf[f], model.features[f].className}];
+    return isCoarser;
+}
+
+std::vector<Source> collectSources(const BuildingModel& model, const model::LodChoice& lod, Diagnostics* log) {
     std::vector<Source> sources;
-    for (const FeatureIndex index : model.treeOrder()) {
+    const std::vector<FeatureIndex> order = model.treeOrder();
+    const std::vector<std::uint8_t> isCoarser = findCoarserSurfaces(model, order, lod);
+    if (const auto count = std::count(isCoarser.begin(), isCoarser.end(), 1); count != 0 && log != nullptr)
+        log->add(Severity::Note, Code::NoGeometry,
+                 fmt::format("{} boundary surfaces and openings are of a coarser level of detail than others of their class and are left out", count),
+                 {model.source, 0, 0, {}});
+    for (const FeatureIndex index : order) {
+        if (isCoarser[index]) continue;
         const Feature& feature = model.features[index];
         Source own{index, -1, false, false, {}};
         if (const int chosen = lod.choose(feature); chosen >= 0) {
@@ -71,7 +110,7 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
         }
         if (model::hasSolidMeaning(feature.className)) {
             Source assembled{index, -1, true, true, {}};
-            appendBoundary(model, index, lod, assembled);
+            appendBoundary(model, index, lod, isCoarser, assembled);
             if (!assembled.uses.empty() && (own.uses.empty() || assembled.lod > own.lod)) own = std::move(assembled);
         }
         if (!own.uses.empty()) sources.push_back(std::move(own));
@@ -277,7 +316,7 @@ std::size_t MeshScene::triangleCount() const noexcept {
 
 Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& options, Diagnostics* log) {
     Progress::tell(options.progress, "mesh", 0);
-    const std::vector<Source> sources = collectSources(model, options.lod);
+    const std::vector<Source> sources = collectSources(model, options.lod, log);
     std::vector<std::uint8_t> isUsed(model.polygons.size(), 0);
     for (const Source& source : sources)
         for (const SurfaceUse& use : source.uses) isUsed[use.polygon] = 1;

@@ -84,14 +84,13 @@ bool classHolds(const Node& node, const QueryRow& row) {
     return query::isSameWord(name, node.value) == (node.op == Op::Equal);
 }
 
-/// Rows below each row: by the tree, and by groups where asked.
+/// Rows below each row: by the tree, and as members of groups.
 struct Below {
     std::vector<std::uint32_t> begins, rows;  ///< below row i: rows[begins[i]] .. rows[begins[i + 1]]
 
-    Below(Rows all, bool withGroups) : begins(all.size() + 1, 0) {
+    explicit Below(Rows all) : begins(all.size() + 1, 0) {
         const auto forEachAbove = [&](std::size_t i, const auto& visit) {
             if (all[i].parent < all.size()) visit(all[i].parent);
-            if (!withGroups) return;
             for (const std::uint32_t group : all[i].groups)
                 if (group < all.size()) visit(group);
         };
@@ -133,7 +132,7 @@ Mask selectUnder(const Node& node, Rows rows) {
     const Mask starts = rowsWhere(rows, [&](const QueryRow& row) {
         return row.id == node.value || (!row.name.empty() && row.name == node.value);
     });
-    Mask mask = Below(rows, false).reachedFrom(starts);
+    Mask mask = Below(rows).reachedFrom(starts);
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= starts[i];
     return mask;
 }
@@ -149,7 +148,7 @@ Mask selectStorey(const Node& node, Rows rows) {
         };
         return (matches(row.id) || (hasName && matches(row.name))) == isWanted;
     });
-    return Below(rows, true).reachedFrom(starts);
+    return Below(rows).reachedFrom(starts);
 }
 
 Mask selectCompare(const Node& node, Rows rows) {

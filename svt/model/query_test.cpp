@@ -155,7 +155,7 @@ TEST_F(QueryTest, AndBindsCloserThanOr) {
 TEST_F(QueryTest, UnderTakesTheFeatureAndAllBelow) {
     EXPECT_EQ(select("under s1"), "s1 r1 w1 r2 x");
     EXPECT_EQ(select("under EG and class=BuildingRoom"), "r1 r2");
-    EXPECT_EQ(select("under \"Top 1\""), "u1") << "members are not below";
+    EXPECT_EQ(select("under \"Top 1\""), "r2 u1 x") << "members and what is below them";
     EXPECT_EQ(select("under Haus and class=Building"), "b1 b2") << "every feature of that name";
     EXPECT_EQ(select("under nowhere"), "");
 }

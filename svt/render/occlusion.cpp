@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 
 namespace svt::render {
 namespace {
@@ -80,29 +79,40 @@ OcclusionField::Level OcclusionField::halved(const Level& fine) {
     return level;
 }
 
-float OcclusionField::Level::sample(Vec3d point) const noexcept {
+float OcclusionField::Level::sample(Vec3f point) const noexcept {
     std::int32_t cell[3];
     float f[3];
+    bool isInside = true;
+    const float perVoxel = 1 / cellSize;  // a power of two
     for (int axis = 0; axis < 3; ++axis) {
-        const double p = point[axis] / cellSize - 0.5;
-        if (!(p > -1 && p < count[axis])) return 0;
-        const double low = std::floor(p);
-        cell[axis] = static_cast<std::int32_t>(low);
-        f[axis] = static_cast<float>(p - low);
+        const float p = point[axis] * perVoxel + 0.5f;  // 1 more than the place among the cells' middles
+        if (!(p > 0 && p < static_cast<float>(count[axis] + 1))) return 0;
+        const auto low = static_cast<std::int32_t>(p);
+        cell[axis] = low - 1;
+        f[axis] = p - static_cast<float>(low);
+        isInside = isInside && low > 0 && low < count[axis];
     }
-    const auto value = [&](std::int32_t dx, std::int32_t dy, std::int32_t dz) {
+    const auto along = [](float a, float b, float s) { return a + (b - a) * s; };
+    const auto blend = [&](const auto& value) {
+        const float low =
+            along(along(value(0, 0, 0), value(1, 0, 0), f[0]), along(value(0, 1, 0), value(1, 1, 0), f[0]), f[1]);
+        const float high =
+            along(along(value(0, 0, 1), value(1, 0, 1), f[0]), along(value(0, 1, 1), value(1, 1, 1), f[0]), f[1]);
+        return along(low, high, f[2]);
+    };
+    if (isInside) {
+        const float* corner = coverage.data() + at(count, cell[0], cell[1], cell[2]);
+        const std::size_t nextY = at(count, 0, 1, 0), nextZ = at(count, 0, 0, 1);
+        return blend([&](std::size_t dx, std::size_t dy, std::size_t dz) { return corner[dx + dy * nextY + dz * nextZ]; });
+    }
+    return blend([&](std::int32_t dx, std::int32_t dy, std::int32_t dz) {
         const std::int32_t x = cell[0] + dx, y = cell[1] + dy, z = cell[2] + dz;
         if (x < 0 || y < 0 || z < 0 || x >= count.x || y >= count.y || z >= count.z) return 0.0f;
         return coverage[at(count, x, y, z)];
-    };
-    const auto along = [](float a, float b, float s) { return a + (b - a) * s; };
-    const float low = along(along(value(0, 0, 0), value(1, 0, 0), f[0]), along(value(0, 1, 0), value(1, 1, 0), f[0]), f[1]);
-    const float high =
-        along(along(value(0, 0, 1), value(1, 0, 1), f[0]), along(value(0, 1, 1), value(1, 1, 1), f[0]), f[1]);
-    return along(low, high, f[2]);
+    });
 }
 
-float OcclusionField::occlusion(Vec3d point, Vec3d direction) const noexcept {
+float OcclusionField::occlusion(Vec3f point, Vec3f direction) const noexcept {
     float sum = 0;
     for (std::size_t n = 0; n < levels_.size(); ++n) {
         const Level& level = levels_[n];

@@ -27,14 +27,14 @@ public:
     /// \param point      on the surface, voxel space
     /// \param direction  away from the surface: the world normal in voxel space, scaled so that its longest component is
     ///                   at most 1
-    [[nodiscard]] float occlusion(Vec3d point, Vec3d direction) const noexcept;
+    [[nodiscard]] float occlusion(Vec3f point, Vec3f direction) const noexcept;
 
 private:
     struct Level {
         Vec3i count;
-        double cellSize = 8;  // voxels
+        float cellSize = 8;  // voxels
         std::vector<float> coverage;
-        [[nodiscard]] float sample(Vec3d point) const noexcept;
+        [[nodiscard]] float sample(Vec3f point) const noexcept;
     };
     static Level halved(const Level& fine);
 

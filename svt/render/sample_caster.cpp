@@ -165,9 +165,11 @@ private:
             Vec3d away = scene_.grid.indexFromWorldDirection(world);
             const double longest = std::max({std::abs(away.x), std::abs(away.y), std::abs(away.z)});
             if (longest > 0) away = away / longest;
-            const Vec3d point = ray_.index.origin + ray_.index.direction * t;
+            const Vec3d at = ray_.index.origin + ray_.index.direction * t;
+            const Vec3f point{static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
+            const Vec3f outward{static_cast<float>(away.x), static_cast<float>(away.y), static_cast<float>(away.z)};
             const float crease = std::clamp((coverage - SurfaceNormal::kPlaneCoverage - 0.05f) * 2.5f, 0.0f, 1.0f);
-            const float occlusion = std::min(1.0f, pass_.occlusion.occlusion(point, away) + 0.35f * crease);
+            const float occlusion = std::min(1.0f, pass_.occlusion.occlusion(point, outward) + 0.35f * crease);
             open = 1 - light.ambientOcclusion * occlusion;
         }
         const Vec3f view = unit(-ray_.direction);

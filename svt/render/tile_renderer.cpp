@@ -81,11 +81,11 @@ void TileRenderer::findLines() {
 float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const {
     if (!other.hasHit()) return 1;
     const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
-    // Depth of the sample's tangent plane under the other ray; at grazing angles it is taken no steeper than 1 to 8.
+    // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in depth.
     const Vec3d normal = toDouble(sample.normal);
-    const double slope = dot(normal, scene_.rays.forward());
-    const double predicted = -dot(normal, aside) / std::min(slope, -0.125);
-    const double tolerance = 3 * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
+    const double facing = std::max(-dot(normal, scene_.rays.forward()), 0.02);
+    const double predicted = dot(normal, aside) / facing;
+    const double tolerance = (1 + 2 / facing) * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
     const bool isJump = std::abs(difference - predicted) > tolerance;
     const bool isOtherLabel = sample.object != other.object || sample.isCap != other.isCap;
     if (!isJump && !isOtherLabel) return 0;

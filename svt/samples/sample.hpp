@@ -75,7 +75,7 @@ using SampleSink = std::function<bool(std::string_view)>;
 /// the district.
 Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptions& options, const SampleSink& sink);
 
-/// The model as text. For a large district use the form with a sink: a house of it takes 45 to 330 KB.
+/// The model as text. For a large district use the form with a sink: a house of it takes 40 to 300 KB.
 [[nodiscard]] Result<std::string> writeSample(SampleKind kind, SampleFormat format, const SampleOptions& options);
 
 /// Every component with its exact volume and shape, in tree order of the plan; buildings and storeys included.

@@ -111,14 +111,18 @@ private:
 
     void addBrickColumn(const std::array<std::uint16_t, 64>& footprint) {
         columns_.clear();
-        std::uint64_t open = ~std::uint64_t{0};
-        while (open != 0) {
-            const std::uint16_t number = footprint[static_cast<std::size_t>(std::countr_zero(open))];
-            FootprintColumn column;
-            for (std::size_t n = 0; n < 64; ++n) column.mask |= std::uint64_t{footprint[n] == number} << n;
-            column.run = tile_.column(number).data();
-            columns_.push_back(column);
-            open &= ~column.mask;
+        numbers_.clear();
+        std::size_t known = 0;
+        for (std::size_t n = 0; n < 64; ++n) {
+            if (n == 0 || footprint[n] != footprint[n - 1]) {
+                known = 0;
+                while (known < numbers_.size() && numbers_[known] != footprint[n]) ++known;
+                if (known == numbers_.size()) {
+                    numbers_.push_back(footprint[n]);
+                    columns_.push_back({0, tile_.column(footprint[n]).data()});
+                }
+            }
+            columns_[known].mask |= std::uint64_t{1} << n;
         }
         const auto top = static_cast<std::uint32_t>(bricksZ_) * 8;
         std::uint32_t bottom = 0;
@@ -154,33 +158,41 @@ private:
     }
 
     std::uint32_t brickNumber(std::uint32_t bottom) {
-        LocalBrick brick;
-        brick.planes.assign(8 * 9, 0);
+        palette_.clear();
+        words_.fill(0);
         // Voxel order, so that the palette is in order of first use and a pattern is the same for any labels.
-        for (std::uint32_t k = 0; k < 8; ++k)
-            for (FootprintColumn& column : columns_) {
+        std::uint32_t same = 0;  // up to here the layers are equal
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            if (k < same) {
+                for (std::size_t word = k; word < words_.size(); word += 8) words_[word] = words_[word - 1];
+                continue;
+            }
+            same = 8;
+            for (const FootprintColumn& column : columns_) {
                 const Run* run = column.run;
                 while (endOf(*run) <= bottom + k) ++run;
+                same = std::min(same, endOf(*run) - bottom);
                 std::size_t index = 0;
-                while (index < brick.palette.size() && brick.palette[index] != run->scalar) ++index;
-                if (index == brick.palette.size()) brick.palette.push_back(run->scalar);
+                while (index < palette_.size() && palette_[index] != run->scalar) ++index;
+                if (index == palette_.size()) palette_.push_back(run->scalar);
                 for (std::size_t plane = 0; (index >> plane) != 0; ++plane)
-                    if (((index >> plane) & 1u) != 0) brick.planes[8 * plane + k] |= column.mask;
+                    if (((index >> plane) & 1u) != 0) words_[8 * plane + k] |= column.mask;
             }
-        const auto planeCount =
-            std::max<std::size_t>(1, static_cast<std::size_t>(std::bit_width(brick.palette.size() - 1)));
-        brick.planes.resize(8 * planeCount);
-        brick.planesHash = planeCount;
-        for (const std::uint64_t word : brick.planes) brick.planesHash = mix(brick.planesHash, word);
-        brick.hash = brick.planesHash;
-        for (const Scalar scalar : brick.palette) brick.hash = mix(brick.hash, scalar);
+        }
+        const std::span<const std::uint64_t> planes(
+            words_.data(), 8 * std::max<std::size_t>(1, static_cast<std::size_t>(std::bit_width(palette_.size() - 1))));
+        std::uint64_t planesHash = planes.size();
+        for (const std::uint64_t word : planes) planesHash = mix(planesHash, word);
+        std::uint64_t hash = planesHash;
+        for (const Scalar scalar : palette_) hash = mix(hash, scalar);
         const auto next = static_cast<std::uint32_t>(result_.bricks.size());
-        std::uint32_t number = numbering_.find(brick.hash, next, [&](std::uint32_t other) {
-            return result_.bricks[other].palette == brick.palette && result_.bricks[other].planes == brick.planes;
+        std::uint32_t number = numbering_.find(hash, next, [&](std::uint32_t other) {
+            const LocalBrick& brick = result_.bricks[other];
+            return brick.palette == palette_ && std::equal(planes.begin(), planes.end(), brick.planes.begin());
         });
         if (number == Numbering::kNew) {
             number = next;
-            result_.bricks.push_back(std::move(brick));
+            result_.bricks.push_back({palette_, {planes.begin(), planes.end()}, planesHash, hash});
         }
         return number | kMixedBit;
     }
@@ -188,6 +200,9 @@ private:
     ColumnTile tile_;
     std::int32_t width_, height_, bricksZ_;
     std::vector<FootprintColumn> columns_;
+    std::vector<std::uint16_t> numbers_;       // of the columns
+    std::vector<Scalar> palette_;
+    std::array<std::uint64_t, 8 * 9> words_{};
     Numbering numbering_;
     TileBricks result_;
 };

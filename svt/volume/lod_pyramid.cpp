@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -18,6 +17,17 @@ struct MixtureHash {
         std::uint64_t hash = mixture.partCount;
         for (const MixturePart& part : mixture.labels()) {
             hash = (hash ^ (std::uint64_t{part.scalar} << 8 | part.coverage)) * 0x9E3779B97F4A7C15ull;
+            hash ^= hash >> 31;
+        }
+        return static_cast<std::size_t>(hash);
+    }
+};
+
+struct KeyHash {
+    std::size_t operator()(const std::vector<std::uint32_t>& key) const noexcept {
+        std::uint64_t hash = key.size();
+        for (const std::uint32_t word : key) {
+            hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
             hash ^= hash >> 31;
         }
         return static_cast<std::size_t>(hash);
@@ -41,47 +51,64 @@ private:
 
 // A distinct fine column under a coarse one.
 struct BlockColumn {
-    const Run* column = nullptr;  // its first run
-    std::uint64_t count = 0;      // how often it stands in the block
+    std::uint32_t number = 0;  // in its tile
+    std::uint32_t count = 0;   // how often it stands in the block
     const Run* run = nullptr;
-    friend bool operator<(const BlockColumn& a, const BlockColumn& b) noexcept { return a.column < b.column; }
 };
 
-// Makes coarse columns of mixture numbers, each from the fine columns of its block by run arithmetic.
+// Makes coarse columns of mixture numbers, each from the fine columns of its block by run arithmetic. A block lies in
+// one fine tile.
 class ColumnMixer {
 public:
     ColumnMixer(const ColumnVolume& fine, int level, MixtureTable& table)
-        : fine_(fine), level_(level), table_(table) {}
+        : fine_(fine), size_(std::int32_t{1} << level), table_(table) {}
 
-    /// Runs of mixture numbers of coarse column (i, j). `runs` stays valid until the next call.
+    /// Runs of mixture numbers of coarse column (i, j).
     std::span<const Run> mix(std::int32_t i, std::int32_t j) {
-        gather(i, j);
+        const std::int32_t tileX = i * size_ / ColumnVolume::kTileSize, tileY = j * size_ / ColumnVolume::kTileSize;
+        gather(tileX, tileY, i * size_ % ColumnVolume::kTileSize, j * size_ % ColumnVolume::kTileSize);
+        key_.assign({static_cast<std::uint32_t>(tileX), static_cast<std::uint32_t>(tileY)});
+        for (const BlockColumn& column : columns_) {
+            key_.push_back(column.number);
+            key_.push_back(column.count);
+        }
         const auto known = known_.find(key_);
         if (known != known_.end()) return known->second;
         return known_.emplace(key_, mixGathered()).first->second;
     }
 
 private:
-    void gather(std::int32_t i, std::int32_t j) {
-        const std::int32_t size = std::int32_t{1} << level_;
-        const Vec3i dimension = fine_.dimension();
-        all_.clear();
-        for (std::int32_t y = j * size; y < std::min((j + 1) * size, dimension.y); ++y)
-            for (std::int32_t x = i * size; x < std::min((i + 1) * size, dimension.x); ++x)
-                all_.push_back(fine_.column(x, y).data());
-        std::sort(all_.begin(), all_.end());
+    // Counts the columns of the block whose first column in the tile is (x, y); rows and columns repeat a lot.
+    void gather(std::int32_t tileX, std::int32_t tileY, std::int32_t x, std::int32_t y) {
+        const ColumnTile& tile = fine_.tiles()[static_cast<std::size_t>(tileX + fine_.tilesX() * tileY)];
+        const std::int32_t width = fine_.tileWidth(tileX);
+        const std::int32_t endX = std::min(x + size_, width), endY = std::min(y + size_, fine_.tileHeight(tileY));
         columns_.clear();
-        for (const Run* column : all_) {
-            if (columns_.empty() || columns_.back().column != column) columns_.push_back({column, 0, column});
-            ++columns_.back().count;
+        if (placeOf_.size() < tile.columnStart.size()) placeOf_.resize(tile.columnStart.size(), 0);
+        for (std::int32_t row = y; row < endY;) {
+            const std::uint8_t rowNumber = tile.rowOf[static_cast<std::size_t>(row)];
+            std::uint32_t rows = 0;
+            for (; row < endY && tile.rowOf[static_cast<std::size_t>(row)] == rowNumber; ++row) ++rows;
+            const std::uint16_t* numbers =
+                tile.rowColumns.data() + static_cast<std::size_t>(rowNumber) * static_cast<std::size_t>(width);
+            for (std::int32_t column = x; column < endX; ++column) {
+                std::uint32_t& place = placeOf_[numbers[column]];
+                if (place == 0) {
+                    columns_.push_back({numbers[column], 0, nullptr});
+                    place = static_cast<std::uint32_t>(columns_.size());
+                }
+                columns_[place - 1].count += rows;
+            }
         }
-        key_.clear();
-        for (const BlockColumn& column : columns_) key_.emplace_back(column.column, column.count);
+        for (const BlockColumn& column : columns_) placeOf_[column.number] = 0;
+        std::sort(columns_.begin(), columns_.end(),
+                  [](const BlockColumn& a, const BlockColumn& b) { return a.number < b.number; });
+        for (BlockColumn& column : columns_) column.run = tile.column(column.number).data();
     }
 
     std::vector<Run> mixGathered() {
         const auto nz = static_cast<std::uint32_t>(fine_.dimension().z);
-        const std::uint32_t size = std::uint32_t{1} << level_;
+        const auto size = static_cast<std::uint32_t>(size_);
         const std::uint32_t cells = (nz + size - 1) / size;
         std::vector<Run> runs;
         std::uint32_t cell = 0;
@@ -109,10 +136,10 @@ private:
             std::uint32_t from = bottom;
             for (const Run* run = column.run; from < top; ++run) {
                 const std::uint32_t to = std::min(run->end, top);
-                add(run->scalar, (to - from) * column.count);
+                add(run->scalar, std::uint64_t{to - from} * column.count);
                 from = to;
             }
-            total += (top - bottom) * column.count;
+            total += std::uint64_t{top - bottom} * column.count;
         }
         return table_.number(mixtureOf(counts_, total));
     }
@@ -127,12 +154,12 @@ private:
     }
 
     const ColumnVolume& fine_;
-    int level_;
+    std::int32_t size_;  // samples under a cell, along an axis
     MixtureTable& table_;
-    std::vector<const Run*> all_;
     std::vector<BlockColumn> columns_;
-    std::vector<std::pair<const Run*, std::uint64_t>> key_;
-    std::map<std::vector<std::pair<const Run*, std::uint64_t>>, std::vector<Run>> known_;
+    std::vector<std::uint32_t> placeOf_;  // by column number: 1 + place in columns_, 0 = not there
+    std::vector<std::uint32_t> key_;
+    std::unordered_map<std::vector<std::uint32_t>, std::vector<Run>, KeyHash> known_;
     std::vector<std::pair<Scalar, std::uint64_t>> counts_;
 };
 

@@ -1,5 +1,142 @@
+#include <svt/core/file.hpp>
 #include <svt/voxelize/patterns.hpp>
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+
 namespace svt::voxelize {
-Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file, int) { return Error(Code::BadImage, "", {file.string(),0,0,{}}); }
-Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file, Vec3i) { return Error(Code::BadImage, "", {file.string(),0,0,{}}); }
+namespace {
+
+constexpr std::int32_t kLargestImage = 4096;
+constexpr std::int32_t kLargestRaw = 1024;
+constexpr std::size_t kMostPhases = 64;
+
+using Pixel = std::array<std::uint8_t, 3>;
+
+Error badImage(const std::filesystem::path& file, std::string what) { return Error(Code::BadImage, std::move(what), {file.string(), 0, 0, {}}); }
+
+// One box of median cut: pixels [begin, end) of an index list.
+struct ColorBox {
+    std::size_t begin, end;
+};
+
+// The channel with the largest spread in the box, and that spread.
+std::pair<std::size_t, int> widestChannel(const std::vector<Pixel>& colors, const std::vector<std::uint32_t>& order, const ColorBox& box) {
+    std::pair<std::size_t, int> widest{0, 0};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        int low = 255, high = 0;
+        for (std::size_t i = box.begin; i < box.end; ++i) {
+            low = std::min<int>(low, colors[order[i]][channel]);
+            high = std::max<int>(high, colors[order[i]][channel]);
+        }
+        if (high - low > widest.second) widest = {channel, high - low};
+    }
+    return widest;
 }
+
+// Heckbert 1982: split the widest box at its median until there are enough.
+void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCells& cells) {
+    std::vector<std::uint32_t> order(colors.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::vector<ColorBox> boxes{{0, colors.size()}};
+    while (boxes.size() < wanted) {
+        std::size_t best = 0;
+        int spread = 0;
+        for (std::size_t b = 0; b < boxes.size(); ++b)
+            if (const int s = widestChannel(colors, order, boxes[b]).second; s > spread) {
+                spread = s;
+                best = b;
+            }
+        if (spread == 0) break;
+        const ColorBox box = boxes[best];
+        const std::size_t channel = widestChannel(colors, order, box).first;
+        std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(box.begin), order.begin() + static_cast<std::ptrdiff_t>(box.end),
+                         [&](std::uint32_t a, std::uint32_t b) { return colors[a][channel] < colors[b][channel]; });
+        // Equal values stay together: the cut moves to the next step of the channel.
+        std::size_t cut = (box.begin + box.end) / 2;
+        while (cut < box.end && colors[order[cut]][channel] == colors[order[cut - 1]][channel]) ++cut;
+        if (cut == box.end) {
+            cut = (box.begin + box.end) / 2;
+            while (cut > box.begin && colors[order[cut]][channel] == colors[order[cut - 1]][channel]) --cut;
+        }
+        boxes[best] = {box.begin, cut};
+        boxes.push_back({cut, box.end});
+    }
+    cells.phases.resize(colors.size());
+    cells.phaseCount = static_cast<std::uint32_t>(boxes.size());
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+        std::array<std::uint64_t, 3> sum{};
+        for (std::size_t i = boxes[b].begin; i < boxes[b].end; ++i) {
+            cells.phases[order[i]] = static_cast<std::uint8_t>(b);
+            for (std::size_t channel = 0; channel < 3; ++channel) sum[channel] += colors[order[i]][channel];
+        }
+        const auto count = static_cast<float>(boxes[b].end - boxes[b].begin) * 255.0f;
+        cells.colors.push_back({float(sum[0]) / count, float(sum[1]) / count, float(sum[2]) / count});
+    }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file, int maxColors) {
+    if (maxColors < 2 || maxColors > static_cast<int>(kMostPhases))
+        return Error(Code::BadArgument, fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMostPhases));
+    const auto mapped = MappedFile::open(file);
+    if (!mapped) return mapped.error();
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_memory(&image, mapped->bytes().data(), mapped->bytes().size()) == 0)
+        return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
+    if (image.width > kLargestImage || image.height > kLargestImage) {
+        const std::string size = fmt::format("{} x {} pixels are over the limit of {} x {}", image.width, image.height, kLargestImage, kLargestImage);
+        png_image_free(&image);
+        return badImage(file, size);
+    }
+    image.format = PNG_FORMAT_RGB;
+    std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
+    if (png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) == 0)
+        return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
+    auto cells = std::make_shared<PatternCells>();
+    cells->dimension = {static_cast<std::int32_t>(image.width), static_cast<std::int32_t>(image.height), 1};
+    // PNG rows run from the top, cells from the bottom.
+    std::vector<Pixel> colors(std::size_t(image.width) * image.height);
+    for (std::size_t y = 0; y < image.height; ++y)
+        for (std::size_t x = 0; x < image.width; ++x) {
+            const std::size_t from = 3 * (x + image.width * (image.height - 1 - y));
+            colors[x + image.width * y] = {bytes[from], bytes[from + 1], bytes[from + 2]};
+        }
+    medianCut(colors, static_cast<std::size_t>(maxColors), *cells);
+    return std::shared_ptr<const PatternCells>(std::move(cells));
+}
+
+Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file, Vec3i dimension) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (dimension[axis] < 1 || dimension[axis] > kLargestRaw)
+            return badImage(file, fmt::format("dimension {} is out of range; 1 to {} cells along an axis are possible", dimension[axis], kLargestRaw));
+    const auto mapped = MappedFile::open(file);
+    if (!mapped) return mapped.error();
+    const std::size_t expected = std::size_t(dimension.x) * std::size_t(dimension.y) * std::size_t(dimension.z);
+    if (mapped->bytes().size() != expected)
+        return badImage(file, fmt::format("{} bytes found, {} x {} x {} = {} expected", mapped->bytes().size(), dimension.x, dimension.y, dimension.z,
+                                          expected));
+    std::array<bool, 256> isUsed{};
+    for (const std::byte byte : mapped->bytes()) isUsed[std::to_integer<std::size_t>(byte)] = true;
+    std::array<std::uint8_t, 256> phase{};
+    std::size_t count = 0;
+    for (std::size_t value = 0; value < 256; ++value)
+        if (isUsed[value]) phase[value] = static_cast<std::uint8_t>(count++);
+    if (count > kMostPhases) return badImage(file, fmt::format("{} different values found; {} are possible", count, kMostPhases));
+    auto cells = std::make_shared<PatternCells>();
+    cells->dimension = dimension;
+    cells->phaseCount = static_cast<std::uint32_t>(count);
+    cells->phases.reserve(expected);
+    for (const std::byte byte : mapped->bytes()) cells->phases.push_back(phase[std::to_integer<std::size_t>(byte)]);
+    return std::shared_ptr<const PatternCells>(std::move(cells));
+}
+
+}  // namespace svt::voxelize

@@ -157,8 +157,7 @@ std::uint32_t Pattern::phaseCount() const noexcept {
         case PatternKind::Concrete: return 3;
         case PatternKind::Image:
         case PatternKind::Raw:
-            return cells == nullptr || cells->phases.empty() ? 1u
-                                                             : 1u + *std::max_element(cells->phases.begin(), cells->phases.end());
+            return cells == nullptr ? 1 : cells->phaseCount;
         default: return 2;
     }
 }

@@ -40,6 +40,7 @@ inline constexpr int kPatternKinds = 12;
 /// Cells of a pattern read from a file; x fastest, then y (rows bottom up), then z.
 struct PatternCells {
     Vec3i dimension{};
+    std::uint32_t phaseCount = 1;
     std::vector<std::uint8_t> phases;
     std::vector<Vec3f> colors;  ///< per phase, sRGB; empty for raw files
 };

@@ -85,7 +85,7 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
     EXPECT_EQ(left["filling"], "solid");
     EXPECT_NEAR(left["volume"].get<double>(), 72, 1e-6);
     EXPECT_EQ(left["voxelVolume"].get<double>(), left["voxels"].get<double>() * 0.125);
-    // The party wall belongs to one of the two: 16 x 12 x 6 voxels of 0.5 m fill the 144 m3, plus a layer at most.
+    // Half a metre is coarse: 16 x 12 x 6 voxels fill the 144 m3, and a layer more where samples lie on faces.
     const double both = left["voxelVolume"].get<double>() + byId(info["objects"], "right")["voxelVolume"].get<double>();
     EXPECT_NEAR(both, 144, 0.35 * 144);
 }
@@ -93,7 +93,7 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
 TEST_F(TwoBoxes, VoxelVolumeComesNearTheExactVolume) {
     (void)runSvtForJson(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.07", "--json"});
     const json info = runSvtForJson(folder.path(), {"info", "two.svt", "--json"});
-    for (const json& object : info["objects"]) EXPECT_NEAR(object["voxelVolume"].get<double>(), 72, 72 * 0.03) << object["id"];
+    for (const json& object : info["objects"]) EXPECT_NEAR(object["voxelVolume"].get<double>(), 72, 72 * 0.04) << object["id"];
 }
 
 TEST_F(TwoBoxes, InfoOfAModelIsThatOfItsVolume) {
@@ -151,11 +151,13 @@ TEST(CheckJson, NamesTheDefectItsPlaceAndTheLeak) {
     EXPECT_NEAR(check["objects"][0]["leaks"][0][1].get<double>(), 5400003, 3.01);
 }
 
-TEST(BuildJson, OverlapsAreCountedPerPairAndNestedOnesAreMarked) {
+TEST(BuildJson, OverlapsAreCountedPerPairAndThoseOfTheHierarchyAreMarked) {
     const TemporaryFolder folder;
-    writeText(folder / "overlap.gml", cityModel(building("big", solid(boxFaces(500000, 5400000, 100, 500006, 5400006, 106))) +
-                                                building("cross", solid(boxFaces(500005, 5400001, 101, 500008, 5400003, 103))) +
-                                                building("inner", solid(boxFaces(500001, 5400001, 101, 500002, 5400002, 102)))));
+    const std::string room = "<bldg:interiorRoom><bldg:Room gml:id=\"inner\"><bldg:lod4Solid>" + solid(boxFaces(500001, 5400001, 101, 500002, 5400002, 102)) +
+                             "</bldg:lod4Solid></bldg:Room></bldg:interiorRoom>";
+    std::string big = building("big", solid(boxFaces(500000, 5400000, 100, 500006, 5400006, 106)));
+    big.insert(big.find("</bldg:Building>"), room);
+    writeText(folder / "overlap.gml", cityModel(big + building("cross", solid(boxFaces(500005, 5400001, 101, 500008, 5400003, 103)))));
     const json built = runSvtForJson(folder.path(), {"build", "overlap.gml", "-o", "o.svt", "--spacing", "0.13", "--json"});
     std::map<std::pair<std::string, std::string>, json> pairs;
     for (const json& overlap : built["overlaps"]) {

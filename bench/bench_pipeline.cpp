@@ -1,0 +1,86 @@
+#include <bench/benches.hpp>
+#include <svt/pipeline/build_volume.hpp>
+#include <svt/pipeline/style_sheet.hpp>
+#include <svt/readers/read_model.hpp>
+#include <svt/volume/brick_volume.hpp>
+#include <svt/volume/lod_pyramid.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace svt::bench {
+namespace {
+
+struct Stage {
+    const char* name;
+    std::uint64_t resultBytes;
+    std::function<void()> run;
+};
+
+std::uint64_t levelBytes(const std::vector<volume::LodLevel>& levels) {
+    std::uint64_t bytes = 0;
+    for (const volume::LodLevel& level : levels)
+        bytes += level.columns.sizeBytes() + level.bricks.sizeBytes() + level.mixtures.size() * sizeof(volume::Mixture);
+    return bytes;
+}
+
+Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, const BenchOptions& options, Report& report) {
+    tell(fmt::format("stages {} {}", input.name, sizeText(dimension)));
+    const std::array files{input.file};
+    const std::filesystem::path target = options.scratch / "stages.svt";
+    pipeline::BuildOptions buildOptions;
+    buildOptions.dimension = dimension;
+    const auto built = pipeline::buildVolume(files, buildOptions);
+    if (!built) return built.error();
+    const volume::SemanticVolume& volume = built->volume;
+    const auto fileBytes = volume::writeSvt(volume, target);
+    if (!fileBytes) return fileBytes.error();
+    const auto bricks = volume::BrickVolume::fromColumns(volume.columns);
+    if (!bricks) return bricks.error();
+    const auto levels = volume::buildLodPyramid(volume.columns, volume.grid);
+    if (!levels) return levels.error();
+
+    // A stage that failed above would have been told; here only time counts.
+    const auto done = [](const auto& result) { static_cast<void>(result.hasValue()); };
+    const std::array sheets{&pipeline::defaultStyle(false)};
+    const std::vector<Stage> stages{
+        {"read the model", 0, [&] { done(readers::readModel(input.file)); }},
+        {"make meshes", 0, [&] { done(mesh::buildMeshes(scene.model)); }},
+        {"make labels", 0, [&] { done(pipeline::makeLabels(scene.model, scene.meshes, sheets)); }},
+        {"voxelize to columns", volume.columns.sizeBytes(), [&] { done(voxelize::voxelize(scene.meshes, volume.grid, scene.labels.claims)); }},
+        {"write .svt", *fileBytes, [&] { done(volume::writeSvt(volume, target)); }},
+        {"open .svt", 0, [&] { done(volume::readSvt(target)); }},
+        {"make bricks", bricks->sizeBytes(), [&] { done(volume::BrickVolume::fromColumns(volume.columns)); }},
+        {"make coarse levels", levelBytes(*levels), [&] { done(volume::buildLodPyramid(volume.columns, volume.grid)); }},
+        {"model file to .svt", *fileBytes, [&] {
+             const auto output = pipeline::buildVolume(files, buildOptions);
+             if (output) done(volume::writeSvt(output->volume, target));
+         }}};
+    std::vector<Contestant> contestants{{"yardstick", yardstick}};
+    for (const Stage& stage : stages) contestants.push_back({stage.name, stage.run});
+    const auto measured = measureInTurns(contestants, options.measure);
+    for (std::size_t s = 0; s < stages.size(); ++s) {
+        Row row;
+        row.isStage = true;
+        row.stage = stages[s].name;
+        row.input = input.name;
+        row.size = sizeText(dimension);
+        row.ours = measured[s + 1];
+        row.resultBytes = stages[s].resultBytes;
+        row.yardsticks = row.ours.median / measured[0].median;
+        report.rows.push_back(std::move(row));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> benchStages(const Input& input, const Scene& scene, const BenchOptions& options, Report& report) {
+    for (const Vec3i dimension : gridSizes(options.isQuick))
+        if (auto done = benchSize(input, scene, dimension, options, report); !done) return done;
+    return {};
+}
+
+}  // namespace svt::bench

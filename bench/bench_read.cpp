@@ -1,0 +1,78 @@
+#include <bench/benches.hpp>
+#include <bench/peers.hpp>
+#include <svt/readers/read_model.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::bench {
+namespace {
+
+double megabytesPerSecond(double bytes, double seconds) { return bytes / 1e6 / seconds; }
+
+Result<Row> readRow(const Input& input, const BenchOptions& options) {
+    tell(fmt::format("read {}", input.file.filename().string()));
+    const double bytes = double(std::filesystem::file_size(input.file));
+    const auto model = readers::readModel(input.file);
+    if (!model) return model.error();
+    std::vector<Contestant> contestants;
+    for (const int threads : {0, 1}) {
+        readers::ReadOptions readOptions;
+        readOptions.threads = threads;
+        contestants.push_back({threads == 0 ? "SVT" : "SVT, one thread",
+                               [&input, readOptions] { static_cast<void>(readers::readModel(input.file, readOptions).hasValue()); }});
+    }
+    Row row;
+    row.stage = "read";
+    row.input = input.name;
+    row.size = fmt::format("{:.1f} MB", bytes / 1e6);
+    const Peer<ReaderPeer> libcitygml = makeLibcitygml();
+    ReadCounts counts;
+    if (libcitygml.peer == nullptr) {
+        row.missing.push_back(libcitygml.missing);
+    } else {
+        counts = libcitygml.peer->read(input.file);
+        if (counts.polygons == 0)
+            row.missing.push_back("libcitygml: reads no geometry from this file");
+        else
+            contestants.push_back({libcitygml.peer->name(), [&] { static_cast<void>(libcitygml.peer->read(input.file)); }});
+    }
+    const auto measured = measureInTurns(contestants, options.measure);
+    row.ours = measured[0];
+    row.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[0].median);
+    row.extra["polygons"] = model->polygons.size();
+    row.note = fmt::format("{:.0f} MB/s", megabytesPerSecond(bytes, measured[0].median));
+    for (std::size_t m = 1; m < measured.size(); ++m) {
+        Beside beside;
+        beside.measurement = measured[m];
+        beside.isPeer = m > 1;
+        const double speed = megabytesPerSecond(bytes, measured[m].median);
+        beside.extra["mb_per_s"] = speed;
+        beside.note = fmt::format("{:.0f} MB/s, SVT {:.0f} MB/s", speed, megabytesPerSecond(bytes, measured[0].median));
+        if (beside.isPeer) {
+            beside.extra["polygons"] = counts.polygons;
+            beside.note += fmt::format("; polygons: {}, SVT {}", counts.polygons, model->polygons.size());
+        }
+        row.beside.push_back(std::move(beside));
+    }
+    return row;
+}
+
+}  // namespace
+
+Result<void> benchRead(const BenchOptions& options, Report& report) {
+    auto tower = writeTowerCityGml2(options.scratch);
+    if (!tower) return tower.error();
+    std::vector<Input> inputs{{"tower, CityGML 2.0", tower->file}};
+    for (const auto& [name, file] : {std::pair{"FZK-Haus, CityGML 3.0", "fzk_haus_citygml3.gml"},
+                                     std::pair{"FZK-Haus, CityJSON 2.0", "fzk_haus.city.json"},
+                                     std::pair{"Berlin, CityGML 1.0", "berlin_lod2_citygml1.gml"}})
+        if (std::filesystem::exists(dataDir() / file)) inputs.push_back({name, dataDir() / file});
+    for (const Input& input : inputs) {
+        auto row = readRow(input, options);
+        if (!row) return row.error();
+        report.rows.push_back(std::move(*row));
+    }
+    return {};
+}
+
+}  // namespace svt::bench

@@ -1,0 +1,72 @@
+#include <bench/compare.hpp>
+
+#include <svt/volume/dense.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace svt::bench {
+namespace {
+
+constexpr std::uint32_t kSteps = 9;                             // per channel
+constexpr std::uint32_t kTelltales = kSteps * kSteps * kSteps;  // black among them
+constexpr double kStepSize = 28;
+
+std::array<std::uint32_t, 3> digitsOf(std::uint32_t scalar) {
+    const std::uint32_t number = scalar == 0 ? 0 : 1 + (scalar - 1) % (kTelltales - 1);
+    return {number % kSteps, number / kSteps % kSteps, number / kSteps / kSteps};
+}
+
+std::uint32_t digitOf(std::uint8_t channel) {
+    return std::min(kSteps - 1, static_cast<std::uint32_t>(std::lround(channel / kStepSize)));
+}
+
+}  // namespace
+
+double VoxelComparison::differingPercent() const {
+    return filledOurs == 0 ? 0 : 100 * double(differing) / double(filledOurs);
+}
+
+VoxelComparison compareVoxels(const volume::ColumnVolume& ours, const DenseLabels& theirs) {
+    constexpr std::int32_t kSlab = 32;
+    const Vec3i n = ours.dimension();
+    const std::size_t layer = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
+    std::vector<std::uint16_t> slab;
+    VoxelComparison result;
+    for (std::int32_t k = 0; k < n.z; k += kSlab) {
+        const std::int32_t kEnd = std::min(n.z, k + kSlab);
+        slab.resize(layer * static_cast<std::size_t>(kEnd - k));
+        volume::copyBox<std::uint16_t>(ours, {0, n.y, k, kEnd}, slab);
+        const std::uint16_t* other = theirs.scalars.data() + layer * static_cast<std::size_t>(k);
+        for (std::size_t v = 0; v < slab.size(); ++v) {
+            result.filledOurs += slab[v] != 0;
+            result.filledTheirs += other[v] != 0;
+            result.differing += slab[v] != other[v];
+        }
+    }
+    return result;
+}
+
+Vec3f telltaleColor(std::uint32_t scalar) {
+    const auto digits = digitsOf(scalar);
+    const auto channel = [&](std::size_t c) { return static_cast<float>(digits[c] * kStepSize / 255); };
+    return {channel(0), channel(1), channel(2)};
+}
+
+double agreeingShare(const render::Image<volume::Scalar>& ours, const render::Image<render::Rgba8>& theirs) {
+    std::uint64_t shown = 0, agreeing = 0;
+    for (std::int32_t y = 0; y < ours.height(); ++y)
+        for (std::int32_t x = 0; x < ours.width(); ++x) {
+            const volume::Scalar scalar = ours.at(x, y);
+            const render::Rgba8 pixel = theirs.at(x, y);
+            const std::array<std::uint32_t, 3> seen{digitOf(pixel.r), digitOf(pixel.g), digitOf(pixel.b)};
+            const bool isShown = scalar != 0 || seen != std::array<std::uint32_t, 3>{};
+            shown += isShown;
+            agreeing += isShown && seen == digitsOf(scalar);
+        }
+    return shown == 0 ? 0 : double(agreeing) / double(shown);
+}
+
+}  // namespace svt::bench

@@ -1,0 +1,142 @@
+#include <bench/peers.hpp>
+
+#include <vtkCamera.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkFixedPointVolumeRayCastMapper.h>
+#include <vtkGPUVolumeRayCastMapper.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkObject.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnsignedShortArray.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <dlfcn.h>
+
+#include <algorithm>
+
+namespace svt::bench {
+namespace {
+
+// Debian's VTK draws through X alone, and ends the program where there is no display; so ask X first.
+bool hasDisplay() {
+    void* const library = dlopen("libX11.so.6", RTLD_LAZY);
+    if (library == nullptr) return false;
+    const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));
+    const auto close = reinterpret_cast<int (*)(void*)>(dlsym(library, "XCloseDisplay"));
+    void* const display = open != nullptr ? open(nullptr) : nullptr;
+    if (display != nullptr && close != nullptr) close(display);
+    return display != nullptr;
+}
+
+class VtkVolume final : public VolumePeer {
+public:
+    explicit VtkVolume(VtkMapper kind) : kind_(kind) {
+        vtkObject::GlobalWarningDisplayOff();
+        property_->SetInterpolationTypeToNearest();
+        property_->ShadeOff();
+        property_->SetScalarOpacityUnitDistance(1);  // opacities are per metre
+        volume_->SetProperty(property_);
+        renderer_->AddVolume(volume_);
+        renderer_->SetBackground(0, 0, 0);
+        window_->SetShowWindow(false);
+        window_->SetOffScreenRendering(1);
+        window_->SetMultiSamples(0);
+        window_->AddRenderer(renderer_);
+    }
+
+    std::string name() const override {
+        return kind_ == VtkMapper::FixedPoint ? "VTK fixed-point ray caster, unlit" : "VTK GPU ray caster, unlit";
+    }
+
+    void setVolume(const DenseLabels& labels, const volume::Grid& grid) override {
+        gridOrigin_ = grid.origin();
+        vtkNew<vtkUnsignedShortArray> scalars;
+        // VTK does not write to its input.
+        scalars->SetArray(const_cast<std::uint16_t*>(labels.scalars.data()), static_cast<vtkIdType>(labels.scalars.size()), 1);
+        vtkNew<vtkImageData> image;
+        image->SetDimensions(labels.dimension.x, labels.dimension.y, labels.dimension.z);
+        image->SetSpacing(grid.spacing().x, grid.spacing().y, grid.spacing().z);
+        image->GetPointData()->SetScalars(scalars);
+        const double step = std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z});
+        if (kind_ == VtkMapper::FixedPoint)
+            setMapper(fixedPoint_, *image, step);
+        else
+            setMapper(gpu_, *image, step);
+    }
+
+    void setStyles(std::span<const render::Style> styles) override {
+        vtkNew<vtkColorTransferFunction> colors;
+        vtkNew<vtkPiecewiseFunction> opacities;
+        for (std::size_t s = 0; s < styles.size(); ++s) {
+            colors->AddRGBPoint(double(s), styles[s].color.x, styles[s].color.y, styles[s].color.z);
+            opacities->AddPoint(double(s), styles[s].opacity);
+        }
+        property_->SetColor(colors);
+        property_->SetScalarOpacity(opacities);
+    }
+
+    void setCamera(const render::Camera& camera, std::int32_t width, std::int32_t height) override {
+        window_->SetSize(width, height);
+        const Vec3d eye = camera.eye - gridOrigin_, target = camera.target - gridOrigin_;
+        vtkCamera* view = renderer_->GetActiveCamera();
+        view->SetPosition(eye.x, eye.y, eye.z);
+        view->SetFocalPoint(target.x, target.y, target.z);
+        view->SetViewUp(camera.up.x, camera.up.y, camera.up.z);
+        view->SetViewAngle(camera.verticalFovDegrees);
+        renderer_->ResetCameraClippingRange();
+    }
+
+    void draw() override {
+        window_->Render();
+        window_->WaitForCompletion();
+    }
+
+    render::Image<render::Rgba8> picture() override {
+        draw();
+        const int* size = window_->GetSize();
+        vtkNew<vtkUnsignedCharArray> pixels;
+        window_->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);
+        render::Image<render::Rgba8> image(size[0], size[1]);
+        for (std::int32_t y = 0; y < size[1]; ++y)
+            for (std::int32_t x = 0; x < size[0]; ++x) {
+                const unsigned char* pixel = pixels->GetPointer(4 * (static_cast<vtkIdType>(x) + static_cast<vtkIdType>(size[0]) * (size[1] - 1 - y)));
+                image.at(x, y) = {pixel[0], pixel[1], pixel[2], 255};
+            }
+        return image;
+    }
+
+private:
+    template <class Mapper>
+    void setMapper(Mapper& mapper, vtkImageData& image, double step) {
+        mapper->SetInputData(&image);
+        mapper->SetAutoAdjustSampleDistances(0);
+        mapper->SetSampleDistance(static_cast<float>(step));
+        mapper->SetImageSampleDistance(1);
+        mapper->SetBlendModeToComposite();
+        volume_->SetMapper(mapper);
+    }
+
+    VtkMapper kind_;
+    Vec3d gridOrigin_{};
+    vtkNew<vtkFixedPointVolumeRayCastMapper> fixedPoint_;
+    vtkNew<vtkGPUVolumeRayCastMapper> gpu_;
+    vtkNew<vtkVolumeProperty> property_;
+    vtkNew<vtkVolume> volume_;
+    vtkNew<vtkRenderer> renderer_;
+    vtkNew<vtkRenderWindow> window_;
+};
+
+}  // namespace
+
+Peer<VolumePeer> makeVtkVolume(VtkMapper mapper) {
+    if (!hasDisplay()) return {nullptr, "VTK volume mappers: no X display (run under xvfb-run)"};
+    return {std::make_unique<VtkVolume>(mapper), {}};
+}
+
+}  // namespace svt::bench

@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// The fixed inputs and sizes.
+
+#include <svt/core/result.hpp>
+#include <svt/mesh/mesh_scene.hpp>
+#include <svt/model/building_model.hpp>
+#include <svt/pipeline/labels.hpp>
+#include <svt/volume/grid.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace svt::bench {
+
+/// A model file of the benchmark.
+struct Input {
+    std::string name;            ///< "FZK-Haus"
+    std::filesystem::path file;
+};
+
+/// The models that are there: the FZK-Haus of the data directory ($SVT_DATA_DIR, else ../shared/data), and the
+/// generated tower, written to `scratch`.
+/// \param skipped  gets a sentence for each input that is not there
+[[nodiscard]] Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch, std::vector<std::string>& skipped);
+
+/// The generated tower in CityGML 2.0, which every reader beside ours knows.
+[[nodiscard]] Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch);
+
+/// $SVT_DATA_DIR, else ../shared/data beside the checkout.
+[[nodiscard]] std::filesystem::path dataDir();
+
+/// A model ready to be voxelized.
+struct Scene {
+    std::string name;
+    model::BuildingModel model;
+    mesh::MeshScene meshes;
+    pipeline::Labelling labels;
+};
+
+[[nodiscard]] Result<Scene> loadScene(const Input& input);
+
+/// The paper's two sizes.
+[[nodiscard]] std::vector<Vec3i> gridSizes(bool isQuick);
+/// "800 x 700 x 400"
+[[nodiscard]] std::string sizeText(Vec3i dimension);
+[[nodiscard]] Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension);
+
+/// Objects from the one that loses where objects overlap to the one that wins: whoever writes labels in this order ends
+/// with the same owner everywhere as the voxelizer.
+[[nodiscard]] std::vector<std::uint32_t> paintOrder(const Scene& scene);
+
+}  // namespace svt::bench
