@@ -91,9 +91,13 @@ bool isAncestor(const volume::LabelTable& table, std::uint32_t ancestor, std::ui
     return ancestor < label && label < table.labels[ancestor].subtreeEnd;
 }
 
+// A door in an inner wall of a flat is in the flat when the wall is its member.
 bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_t label) {
-    const auto& groups = table.labels[label].groups;
-    return std::binary_search(groups.begin(), groups.end(), group);
+    for (; label != volume::kNoLabel; label = table.labels[label].parent) {
+        const auto& groups = table.labels[label].groups;
+        if (std::binary_search(groups.begin(), groups.end(), group)) return true;
+    }
+    return false;
 }
 
 void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimPair>& pairs, volume::LabelTable& table) {

@@ -1,5 +1,7 @@
 #include <svt/readers/read_model.hpp>
 
+#include <svt/model/classes.hpp>
+
 #include <svt/readers/citygml_reader.hpp>
 #include <svt/readers/cityjson_reader.hpp>
 #include <svt/readers/xml_names.hpp>
@@ -199,6 +201,17 @@ Result<model::BuildingModel> readPlain(Bytes bytes, string_view name, const Read
     return unknownFormat(bytes, name);
 }
 
+// A feature whose format has no class for it may state one: walls as solids in CityGML 2.0, for example.
+Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> model) {
+    if (!model) return model;
+    for (model::Feature& feature : model->features)
+        for (const Attribute& attribute : feature.attributes)
+            if (attribute.name == "svtClass")
+                if (const auto* stated = std::get_if<std::string>(&attribute.value); stated != nullptr && !stated->empty())
+                    feature.className = model::canonicalClassName(*stated);
+    return model;
+}
+
 }  // namespace
 
 std::span<const Format> formats() noexcept { return kFormats; }
@@ -208,10 +221,10 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
     if (bytes.size() > options.maxBytes)
         return Error(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
-    if (!isGzip(bytes)) return readPlain(bytes, name, options, diagnostics);
+    if (!isGzip(bytes)) return withStatedClasses(readPlain(bytes, name, options, diagnostics));
     const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);
     if (!plain) return plain.error();
-    return readPlain(*plain, name, options, diagnostics);
+    return withStatedClasses(readPlain(*plain, name, options, diagnostics));
 }
 
 Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
