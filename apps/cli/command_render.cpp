@@ -10,6 +10,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
 namespace svt::cli {
 namespace {
 
@@ -20,7 +24,7 @@ struct Arguments {
     std::vector<std::string> hide, show, color, opacity, section;
     std::vector<double> eye, target;
     int samples = 4, level = 0;
-    double edges = 0.5, fov = 30;
+    double edges = 0.5, fov = 30, zoom = 1;
     bool orthographic = false, transparent = false, verbose = false;
 };
 
@@ -46,24 +50,40 @@ Result<Vec3i> parseSize(const std::string& text) {
     return Vec3i{static_cast<std::int32_t>(triple->x), static_cast<std::int32_t>(triple->y), 1};
 }
 
+// All of `text` as `count` finite numbers separated by commas, or nothing.
+std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::size_t count) {
+    std::array<double, 4> numbers{};
+    const char* at = text.c_str();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0 && *at++ != ',') return std::nullopt;
+        char* rest = nullptr;
+        numbers[i] = std::strtod(at, &rest);
+        if (rest == at || !std::isfinite(numbers[i])) return std::nullopt;
+        at = rest;
+    }
+    if (*at != '\0') return std::nullopt;
+    return numbers;
+}
+
 // "z=1.2", "y<3" or "A,B,C,D" -> region cut away. Axis values are metres from the lower corner of the grid.
 Result<render::ClipRegion> parseSection(const std::string& text, const volume::Grid& grid) {
-    const std::size_t at = text.find_first_of("=<>");
-    if (at == 1 && std::string_view("xyz").find(text[0]) != std::string_view::npos) {
-        const int axis = text[0] - 'x';
-        const auto value = parseTriple(text.substr(2), "--section", "metres from the lower corner of the model");
-        if (!value) return value.error();
-        const Vec3d direction = grid.axes()[std::size_t(axis)] * (text[1] == '<' ? -1.0 : 1.0);
-        return render::ClipRegion::plane(direction, grid.origin() + grid.axes()[std::size_t(axis)] * value->x);
-    }
-    std::array<double, 4> plane{};
-    if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf", &plane[0], &plane[1], &plane[2], &plane[3]) != 4)
+    const auto badSection = [&] {
         return Error(Code::BadFrame, fmt::format("--section '{}': expected z=1.2, y<3, x>4 (metres from the lower corner) or A,B,C,D with "
                                                  "A x + B y + C z + D > 0 cut away", text));
-    const Vec3d normal{plane[0], plane[1], plane[2]};
+    };
+    const std::size_t at = text.find_first_of("=<>");
+    if (at == 1 && std::string_view("xyz").find(text[0]) != std::string_view::npos) {
+        const auto value = parseNumbers(text.substr(2), 1);
+        if (!value) return badSection();
+        const Vec3d axis = grid.axes()[static_cast<std::size_t>(text[0] - 'x')];
+        return render::ClipRegion::plane(axis * (text[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value)[0]);
+    }
+    const auto plane = parseNumbers(text, 4);
+    if (!plane) return badSection();
+    const Vec3d normal{(*plane)[0], (*plane)[1], (*plane)[2]};
     if (!(length(normal) > 0)) return Error(Code::BadFrame, fmt::format("--section '{}': the normal is zero", text));
     // D is measured from the lower corner too, so that numbers stay small in any CRS.
-    return render::ClipRegion::plane(normal, grid.origin() + normal * (-plane[3] / dot(normal, normal)));
+    return render::ClipRegion::plane(normal, grid.origin() + normal * (-(*plane)[3] / dot(normal, normal)));
 }
 
 Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, const Arguments& arguments) {
@@ -126,6 +146,8 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
 }
 
 Result<render::Camera> makeCamera(const volume::Grid& grid, const Arguments& arguments, Vec3i size) {
+    if (!(arguments.fov > 0 && arguments.fov < 180))
+        return Error(Code::BadCamera, fmt::format("--fov {}: out of range; above 0 and below 180 degrees are possible", arguments.fov));
     render::PresetOptions options;
     options.aspect = double(size.x) / size.y;
     options.projection = arguments.orthographic ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
@@ -135,6 +157,8 @@ Result<render::Camera> makeCamera(const volume::Grid& grid, const Arguments& arg
     // Given points are metres from the lower corner of the grid.
     if (arguments.eye.size() == 3) camera->eye = grid.origin() + Vec3d{arguments.eye[0], arguments.eye[1], arguments.eye[2]};
     if (arguments.target.size() == 3) camera->target = grid.origin() + Vec3d{arguments.target[0], arguments.target[1], arguments.target[2]};
+    camera->eye = camera->target + (camera->eye - camera->target) / arguments.zoom;
+    camera->orthographicHeight /= arguments.zoom;
     return camera;
 }
 
@@ -219,6 +243,7 @@ Run addRenderCommand(CLI::App& app) {
     command->add_option("--eye", arguments->eye, "where the viewer stands, metres from the lower corner of the model")->group("View")->expected(3)->delimiter(',');
     command->add_option("--target", arguments->target, "what stands in the middle of the picture, metres from the lower corner")->group("View")->expected(3)->delimiter(',');
     command->add_option("--fov", arguments->fov, "vertical field of view, degrees, above 0 and below 180")->group("View")->capture_default_str();
+    command->add_option("--zoom", arguments->zoom, "nearer (above 1) or further than the preset, 0.01 to 100")->group("View")->check(CLI::Range(0.01, 100.0))->capture_default_str();
     command->add_option("--size", arguments->size, "width x height in pixels, 1 to 16384")->group("View")->capture_default_str();
     command->add_option("--samples", arguments->samples, "rays per pixel: 1, 4, 9 or 16")->group("View")->check(CLI::IsMember({1, 4, 9, 16}))->capture_default_str();
     command->add_option("--section", arguments->section, "cut away: z=1.2 or z>1.2 (above), y<3 (before), or A,B,C,D; metres from the lower corner; may be repeated")

@@ -3,6 +3,7 @@
 #include "small_model.hpp"
 
 #include <regex>
+#include <string_view>
 
 namespace svt::test {
 namespace {
@@ -53,9 +54,12 @@ TEST_F(GoodVolume, AChangedByteIsNoticedOrDoesNoHarm) {
 
 TEST_F(GoodVolume, AChangedSampleBreaksTheChecksum) {
     std::string damaged = bytes;
-    const std::size_t runs = damaged.find("columns/runs");
-    ASSERT_NE(runs, std::string::npos);
-    damaged[runs + 256] = static_cast<char>(damaged[runs + 256] ^ 1);
+    // Name and extra field stand between the local header and the data.
+    const std::size_t name = damaged.find("columns/runs");
+    ASSERT_NE(name, std::string::npos);
+    const auto extraBytes = static_cast<std::size_t>(static_cast<unsigned char>(damaged[name - 2])) + 256u * static_cast<unsigned char>(damaged[name - 1]);
+    char& sample = damaged[name + std::string_view("columns/runs").size() + extraBytes];
+    sample = static_cast<char>(sample ^ 1);
     const CommandResult result = infoOf(damaged);
     EXPECT_EQ(result.exitCode, 3);
     EXPECT_NE(result.err.find("E402 BadChecksum"), std::string::npos) << result.toString();
@@ -141,7 +145,7 @@ const std::vector<Output> kOutputs{
     {"Convert", {"convert", "two.gml", "--dimension", "100", "--encoding", "raw", "OUT.nrrd"}},
     {"Render", {"render", "two.gml", "--size", "1200x800", "--edges", "1", "--spacing", "0.3", "--patterns", "--output", "OUT.png"}},
 };
-INSTANTIATE_TEST_SUITE_P(Commands, OutputTest, ::testing::ValuesIn(kOutputs), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Commands, OutputTest, ::testing::ValuesIn(kOutputs), [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace svt::test

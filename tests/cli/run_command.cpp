@@ -31,11 +31,11 @@ constexpr bool hasSanitizer = false;
 #endif
 constexpr double kSlowdown = hasSanitizer ? 20 : 1;
 
-// A file system of 64 KiB that nobody else sees and that goes with the process.
+// A file system of 4 KiB that nobody else sees and that goes with the process.
 bool mountTinyDisk(const char* folder) {
     if (::unshare(CLONE_NEWNS) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
     if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
-    return ::mount("none", folder, "tmpfs", 0, "size=64k") == 0;
+    return ::mount("none", folder, "tmpfs", 0, "size=4k") == 0;
 }
 
 void limit(int resource, std::uint64_t bytes) {

@@ -18,7 +18,7 @@ struct Limits {
     double seconds = 10;                              ///< of wall clock; a slower run is killed
     std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< of address space; not applied where a sanitizer needs more
     std::uint64_t fileBytes = 0;                      ///< largest file that may be written; 0: no limit
-    /// Mounts a file system of 64 KiB over this folder, seen by the command alone; empty: none.
+    /// Mounts a file system of 4 KiB over this folder, seen by the command alone; empty: none.
     std::filesystem::path tinyDisk;
 };
 
