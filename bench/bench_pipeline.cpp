@@ -26,7 +26,8 @@ std::uint64_t levelBytes(const std::vector<volume::LodLevel>& levels) {
     return bytes;
 }
 
-Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, const BenchOptions& options, Report& report) {
+Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, const BenchOptions& options,
+                       Report& report) {
     tell(fmt::format("stages {} {}", input.name, sizeText(dimension)));
     const std::array files{input.file};
     const std::filesystem::path target = options.scratch / "stages.svt";
@@ -49,11 +50,13 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
         {"read the model", 0, [&] { done(readers::readModel(input.file)); }},
         {"make meshes", 0, [&] { done(mesh::buildMeshes(scene.model)); }},
         {"make labels", 0, [&] { done(pipeline::makeLabels(scene.model, scene.meshes, sheets)); }},
-        {"voxelize to columns", volume.columns.sizeBytes(), [&] { done(voxelize::voxelize(scene.meshes, volume.grid, scene.labels.claims)); }},
+        {"voxelize to columns", volume.columns.sizeBytes(),
+         [&] { done(voxelize::voxelize(scene.meshes, volume.grid, scene.labels.claims)); }},
         {"write .svt", *fileBytes, [&] { done(volume::writeSvt(volume, target)); }},
         {"open .svt", 0, [&] { done(volume::readSvt(target)); }},
         {"make bricks", bricks->sizeBytes(), [&] { done(volume::BrickVolume::fromColumns(volume.columns)); }},
-        {"make coarse levels", levelBytes(*levels), [&] { done(volume::buildLodPyramid(volume.columns, volume.grid)); }},
+        {"make coarse levels", levelBytes(*levels),
+         [&] { done(volume::buildLodPyramid(volume.columns, volume.grid)); }},
         {"model file to .svt", *fileBytes, [&] {
              const auto output = pipeline::buildVolume(files, buildOptions);
              if (output) done(volume::writeSvt(output->volume, target));

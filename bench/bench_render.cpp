@@ -37,7 +37,8 @@ std::vector<render::Style> opaqueStyles(const Scene& scene) {
     std::vector<render::Style> styles(table.scalarCount());
     for (std::size_t s = 0; s < styles.size(); ++s) styles[s] = {telltaleColor(static_cast<std::uint32_t>(s)), 0};
     for (const volume::Label& label : table.labels)
-        for (volume::Scalar s = 0; s < label.count; ++s) styles[label.first + s].opacity = label.opacity < 1 ? 0.0f : 1.0f;
+        for (volume::Scalar s = 0; s < label.count; ++s)
+            styles[label.first + s].opacity = label.opacity < 1 ? 0.0f : 1.0f;
     return styles;
 }
 
@@ -48,7 +49,8 @@ std::vector<render::Style> translucentStyles(const Scene& scene) {
     return styles;
 }
 
-Result<render::FrameSpec> frameOf(const Drawable& drawable, std::vector<render::Style> styles, std::int32_t width, std::int32_t height) {
+Result<render::FrameSpec> frameOf(const Drawable& drawable, std::vector<render::Style> styles, std::int32_t width,
+                                  std::int32_t height) {
     render::FrameSpec spec;
     spec.width = width;
     spec.height = height;
@@ -76,7 +78,8 @@ render::FrameSpec unlit(render::FrameSpec spec) {
 
 class RenderBench {
 public:
-    RenderBench(const Scene& scene, const BenchOptions& options, Report& report) : scene_(scene), options_(options), report_(report) {}
+    RenderBench(const Scene& scene, const BenchOptions& options, Report& report)
+        : scene_(scene), options_(options), report_(report) {}
 
     Result<void> run() {
         const Vec3i dimension = gridSizes(options_.isQuick).back();
@@ -87,7 +90,8 @@ public:
         if (!scalars) return scalars.error();
         dense_.scalars = std::move(*scalars);
         if (auto done = besideVtk(*drawable, "opaque frame", opaqueStyles(scene_), 1280, 720); !done) return done;
-        if (auto done = besideVtk(*drawable, "translucent frame", translucentStyles(scene_), 1920, 1080); !done) return done;
+        if (auto done = besideVtk(*drawable, "translucent frame", translucentStyles(scene_), 1920, 1080); !done)
+            return done;
         dense_ = {};
         if (auto done = edits(*drawable); !done) return done;
         return options_.isQuick ? Result<void>{} : largerGrid(*drawable);
@@ -103,7 +107,8 @@ private:
         return row;
     }
 
-    Result<void> besideVtk(const Drawable& drawable, const char* stage, std::vector<render::Style> styles, std::int32_t width, std::int32_t height) {
+    Result<void> besideVtk(const Drawable& drawable, const char* stage, std::vector<render::Style> styles,
+                           std::int32_t width, std::int32_t height) {
         Row row = newRow(stage, fmt::format("{}, {} x {} pixels", sizeText(drawable.grid.dimension()), width, height));
         const bool isOpaque = styles[1].opacity != 0.3f;
         const auto spec = frameOf(drawable, styles, width, height);
@@ -111,7 +116,8 @@ private:
         const auto frame = render::castRays(drawable.bricks, drawable.grid, *spec);
         if (!frame) return frame.error();
         const render::FrameSpec flat = unlit(*spec);
-        std::vector<Contestant> contestants{{"SVT, lit", [&] { cast(drawable, *spec); }}, {"SVT, unlit", [&] { cast(drawable, flat); }}};
+        std::vector<Contestant> contestants{{"SVT, lit", [&] { cast(drawable, *spec); }},
+                                            {"SVT, unlit", [&] { cast(drawable, flat); }}};
         std::vector<std::unique_ptr<VolumePeer>> peers;
         for (const VtkMapper mapper : {VtkMapper::FixedPoint, VtkMapper::Gpu}) {
             Peer<VolumePeer> vtk = makeVtkVolume(mapper);
@@ -147,14 +153,18 @@ private:
         return {};
     }
 
-    // A frame with a section plane; the same with the plane in another place each time, and with another style each time.
+    // A frame with a section plane; the same with the plane in another place each time, and with another style each
+    // time.
     Result<void> edits(const Drawable& drawable) {
         Row row = newRow("section frame", fmt::format("{}, 1280 x 720 pixels", sizeText(drawable.grid.dimension())));
         auto spec = frameOf(drawable, opaqueStyles(scene_), 1280, 720);
         if (!spec) return spec.error();
         const Vec3d corner = drawable.grid.origin();
-        const Vec3d size{drawable.grid.spacing().x * (drawable.grid.dimension().x - 1), 0, drawable.grid.spacing().z * (drawable.grid.dimension().z - 1)};
-        const auto planeAt = [&](double share) { return render::ClipRegion::plane({0, 0, 1}, corner + Vec3d{0, 0, size.z * share}); };
+        const Vec3d size{drawable.grid.spacing().x * (drawable.grid.dimension().x - 1), 0,
+                         drawable.grid.spacing().z * (drawable.grid.dimension().z - 1)};
+        const auto planeAt = [&](double share) {
+            return render::ClipRegion::plane({0, 0, 1}, corner + Vec3d{0, 0, size.z * share});
+        };
         spec->passes[0].clips = {planeAt(0.5)};
         render::FrameSpec moved = *spec, edited = *spec;
         int turn = 0;
@@ -166,7 +176,9 @@ private:
                  cast(drawable, moved);
              }},
             {"SVT, a style changed before each frame", [&] {
-                 edited.passes[0].styles[1 + static_cast<std::size_t>(++turn) % (edited.passes[0].styles.size() - 1)].color.x = 0.5f;
+                 edited.passes[0]
+                     .styles[1 + static_cast<std::size_t>(++turn) % (edited.passes[0].styles.size() - 1)]
+                     .color.x = 0.5f;
                  cast(drawable, edited);
              }}};
         const auto measured = measureInTurns(contestants, options_.measure);
@@ -186,14 +198,17 @@ private:
         const auto largerSpec = frameOf(*larger, opaqueStyles(scene_), 1280, 720);
         if (!spec) return spec.error();
         if (!largerSpec) return largerSpec.error();
-        const auto measured = measureInTurns(
-            {{"SVT", [&] { cast(*larger, *largerSpec); }}, {"SVT at " + sizeText(drawable.grid.dimension()), [&] { cast(drawable, *spec); }}},
-            options_.measure);
+        const auto measured =
+            measureInTurns({{"SVT", [&] { cast(*larger, *largerSpec); }},
+                            {"SVT at " + sizeText(drawable.grid.dimension()), [&] { cast(drawable, *spec); }}},
+                           options_.measure);
         row.ours = measured[0];
         row.resultBytes = larger->bricks.sizeBytes();
         row.extra["times_smaller_grid"] = measured[0].median / measured[1].median;
-        row.beside.push_back({measured[1], fmt::format("the larger grid takes {:.2f} times as long", measured[0].median / measured[1].median),
-                              Json::object(), false});
+        row.beside.push_back(
+            {measured[1],
+             fmt::format("the larger grid takes {:.2f} times as long", measured[0].median / measured[1].median),
+             Json::object(), false});
         report_.rows.push_back(std::move(row));
         return {};
     }

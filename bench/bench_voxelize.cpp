@@ -23,6 +23,29 @@ Json comparisonJson(const VoxelComparison& comparison) {
             {"differing_percent", comparison.differingPercent()}};
 }
 
+// The closed objects alone, which is all that the peers can fill.
+struct Solids {
+    mesh::MeshScene meshes;
+    std::vector<voxelize::ObjectClaim> claims;
+    std::vector<std::uint16_t> scalars;
+    std::vector<std::uint32_t> order;  // who loses first
+};
+
+Solids solidsOf(const Scene& scene) {
+    Solids solids;
+    solids.meshes.origin = scene.meshes.origin;
+    solids.meshes.planes = scene.meshes.planes;
+    solids.meshes.bounds = scene.meshes.bounds;
+    for (std::size_t o = 0; o < solids.meshes.objects.size(); ++o) {
+        if (!scene.meshes.objects[o].isSolid()) continue;
+        solids.meshes.objects.push_back(scene.meshes.objects[o]);
+        solids.claims.push_back(scene.labels.claims[o]);
+        solids.scalars.push_back(static_cast<std::uint16_t>(scene.labels.claims[o].scalar));
+    }
+    solids.order = paintOrder(solids.meshes, solids.claims);
+    return solids;
+}
+
 // How a peer does one step, and what the reader must know of it.
 struct PeerRun {
     SolidPeer* peer = nullptr;
@@ -31,20 +54,18 @@ struct PeerRun {
     const char* note = "";
 };
 
-Result<Row> voxelizeRow(const Scene& scene, Vec3i dimension, const BenchOptions& options) {
+Result<Row> voxelizeRow(const Scene& scene, const Solids& solids, Vec3i dimension, const BenchOptions& options) {
     tell(fmt::format("voxelize {} {}", scene.name, sizeText(dimension)));
     const auto grid = gridOver(scene, dimension);
     if (!grid) return grid.error();
-    const std::vector<std::uint32_t> order = paintOrder(scene);
-    std::vector<std::uint16_t> scalars;
-    for (const voxelize::ObjectClaim& claim : scene.labels.claims) scalars.push_back(static_cast<std::uint16_t>(claim.scalar));
 
-    const auto run = [&](int threads) {
+    const auto run = [&](int threads, bool keepThinParts) {
         voxelize::VoxelizeOptions voxelizeOptions;
         voxelizeOptions.threads = threads;
-        return voxelize::voxelize(scene.meshes, *grid, scene.labels.claims, voxelizeOptions);
+        voxelizeOptions.keepThinParts = keepThinParts;
+        return voxelize::voxelize(solids.meshes, *grid, solids.claims, voxelizeOptions);
     };
-    const auto ours = run(0);
+    const auto ours = run(0, true);
     if (!ours) return ours.error();
 
     Row row;
@@ -57,30 +78,36 @@ Result<Row> voxelizeRow(const Scene& scene, Vec3i dimension, const BenchOptions&
         if (peer->peer == nullptr)
             row.missing.push_back(peer->missing);
         else
-            peer->peer->load(scene.meshes, *grid);
+            peer->peer->load(solids.meshes, *grid);
     }
     if (vtk.peer != nullptr) {
         peerRuns.push_back({vtk.peer.get(), SolidStep::Inside, "", "stencil per object; no image, no labels"});
-        peerRuns.push_back({vtk.peer.get(), SolidStep::Mask, " + images", "stencil and 8-bit image per object; no labels"});
-        peerRuns.push_back({vtk.peer.get(), SolidStep::Labels, " + labels", "stencils written into one dense 16-bit volume"});
+        peerRuns.push_back(
+            {vtk.peer.get(), SolidStep::Mask, " + images", "stencil and 8-bit image per object; no labels"});
+        peerRuns.push_back(
+            {vtk.peer.get(), SolidStep::Labels, " + labels", "stencils written into one dense 16-bit volume"});
     }
     if (openVdb.peer != nullptr)
-        peerRuns.push_back({openVdb.peer.get(), SolidStep::Inside, "", "signed distances per object, band of one voxel; no labels"});
+        peerRuns.push_back(
+            {openVdb.peer.get(), SolidStep::Inside, "", "signed distances per object, band of one voxel; no labels"});
 
     DenseLabels labels;
     std::vector<Contestant> contestants;
-    contestants.push_back({"SVT", [&] { static_cast<void>(run(0).hasValue()); }});
-    contestants.push_back({"SVT, one thread", [&] { static_cast<void>(run(1).hasValue()); }});
+    contestants.push_back({"SVT", [&] { static_cast<void>(run(0, true).hasValue()); }});
+    contestants.push_back({"SVT, one thread", [&] { static_cast<void>(run(1, true).hasValue()); }});
     for (const PeerRun& p : peerRuns)
         contestants.push_back({p.peer->name() + p.what, [&, p] {
                                    labels = {};
-                                   p.peer->run(p.step, order, scalars, &labels);
+                                   p.peer->run(p.step, solids.order, solids.scalars, &labels);
                                }});
     const auto measured = measureInTurns(contestants, options.measure);
+    // The peers go by voxel centers and lose what is thinner than a voxel, so they are compared with the same rule.
+    const auto centersOnly = run(0, false);
+    if (!centersOnly) return centersOnly.error();
     row.ours = measured[0];
     row.resultBytes = ours->columns.sizeBytes();
-    row.extra["objects"] = scene.meshes.objects.size();
-    row.extra["triangles"] = scene.meshes.triangleCount();
+    row.extra["objects"] = solids.meshes.objects.size();
+    row.extra["triangles"] = solids.meshes.triangleCount();
     row.extra["thin_voxels"] = std::accumulate(ours->thinVoxels.begin(), ours->thinVoxels.end(), std::uint64_t{0});
     row.beside.push_back({measured[1], "the same work on one core", Json::object(), false});
     for (std::size_t p = 0; p < peerRuns.size(); ++p) {
@@ -88,8 +115,8 @@ Result<Row> voxelizeRow(const Scene& scene, Vec3i dimension, const BenchOptions&
         const bool isLastOfPeer = p + 1 == peerRuns.size() || peerRuns[p + 1].peer != peerRuns[p].peer;
         if (isLastOfPeer) {
             labels = {};
-            peerRuns[p].peer->run(SolidStep::Labels, order, scalars, &labels);
-            const VoxelComparison comparison = compareVoxels(ours->columns, labels);
+            peerRuns[p].peer->run(SolidStep::Labels, solids.order, solids.scalars, &labels);
+            const VoxelComparison comparison = compareVoxels(centersOnly->columns, labels);
             beside.note += "; " + agreement(comparison);
             beside.extra["agreement"] = comparisonJson(comparison);
         }
@@ -101,8 +128,9 @@ Result<Row> voxelizeRow(const Scene& scene, Vec3i dimension, const BenchOptions&
 }  // namespace
 
 Result<void> benchVoxelize(const Scene& scene, const BenchOptions& options, Report& report) {
+    const Solids solids = solidsOf(scene);
     for (const Vec3i dimension : gridSizes(options.isQuick)) {
-        auto row = voxelizeRow(scene, dimension, options);
+        auto row = voxelizeRow(scene, solids, dimension, options);
         if (!row) return row.error();
         report.rows.push_back(std::move(*row));
     }

@@ -24,7 +24,8 @@ struct BenchOptions {
 /// Frames beside VTK's volume mappers, with the labels compared pixel by pixel.
 [[nodiscard]] Result<void> benchRender(const Scene& scene, const BenchOptions& options, Report& report);
 /// Every stage from the file to the finished volume: time, memory, size.
-[[nodiscard]] Result<void> benchStages(const Input& input, const Scene& scene, const BenchOptions& options, Report& report);
+[[nodiscard]] Result<void> benchStages(const Input& input, const Scene& scene, const BenchOptions& options,
+                                       Report& report);
 
 /// "svt_bench: <text>" on stderr.
 void tell(const std::string& text);

@@ -27,7 +27,9 @@ struct VoxelComparison {
 /// then again from the start. Scalar 0 is black.
 [[nodiscard]] Vec3f telltaleColor(std::uint32_t scalar);
 
-/// Share of pixels, 0..1, whose color is (nearest to) the telltale color of our label, of those where either picture shows anything.
-[[nodiscard]] double agreeingShare(const render::Image<volume::Scalar>& ours, const render::Image<render::Rgba8>& theirs);
+/// Share of pixels, 0..1, whose color is (nearest to) the telltale color of our label, of those where either picture
+/// shows anything.
+[[nodiscard]] double agreeingShare(const render::Image<volume::Scalar>& ours,
+                                   const render::Image<render::Rgba8>& theirs);
 
 }  // namespace svt::bench

@@ -48,12 +48,9 @@ nlohmann::ordered_json describeMachine() {
 #else
     const std::string compiler = fmt::format("gcc {}.{}", __GNUC__, __GNUC_MINOR__);
 #endif
-    return {{"cores", hardwareThreads()},
-            {"processor", firstValue("/proc/cpuinfo", "model name")},
-            {"simd", simdOfProcessor()},
-            {"memory_gib", std::round(kilobytes / 1024 / 1024)},
-            {"compiler", compiler},
-            {"build", SVT_BENCH_BUILD},
+    return {{"cores", hardwareThreads()}, {"processor", firstValue("/proc/cpuinfo", "model name")},
+            {"simd", simdOfProcessor()},  {"memory_gib", std::round(kilobytes / 1024 / 1024)},
+            {"compiler", compiler},       {"build", SVT_BENCH_BUILD},
             {"load_before", load}};
 }
 

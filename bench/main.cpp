@@ -2,11 +2,11 @@
 #include <bench/benches.hpp>
 #include <bench/machine.hpp>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <unistd.h>
+#include <algorithm>
 
 #include <cstdio>
 #include <fstream>
@@ -19,7 +19,9 @@ void tell(const std::string& text) { fmt::print(stderr, "svt_bench: {}\n", text)
 namespace {
 
 Result<void> runAll(const BenchOptions& options, const std::vector<std::string>& parts, Report& report) {
-    const auto isAsked = [&](const char* part) { return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end(); };
+    const auto isAsked = [&](const char* part) {
+        return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
+    };
     const auto inputs = findInputs(options.scratch, report.skipped);
     if (!inputs) return inputs.error();
     if (isAsked("read"))
@@ -38,7 +40,8 @@ Result<void> runAll(const BenchOptions& options, const std::vector<std::string>&
     return {};
 }
 
-int run(BenchOptions options, const std::vector<std::string>& parts, const std::string& jsonFile, const std::string& commit) {
+int run(BenchOptions options, const std::vector<std::string>& parts, const std::string& jsonFile,
+        const std::string& commit) {
     if (options.isQuick) options.measure = {3, 9, 2, 5};
     options.scratch = std::filesystem::temp_directory_path() / fmt::format("svt_bench_{}", getpid());
     std::filesystem::create_directories(options.scratch);

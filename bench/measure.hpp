@@ -38,11 +38,13 @@ struct MeasureOptions {
 [[nodiscard]] std::vector<Measurement> measureInTurns(const std::vector<Contestant>& contestants,
                                                       const MeasureOptions& options);
 
-/// A fixed piece of work, about 50 ms on one core of a 2023 server: sorting 2^19 numbers of a fixed sequence, then adding
-/// up a block of 64 MB. Stages without a peer are compared with it, so that a stored figure means something on another machine.
+/// A fixed piece of work, about 50 ms on one core of a 2023 server: sorting 2^19 numbers of a fixed sequence, then
+/// adding up a block of 64 MB. Stages without a peer are compared with it, so that a stored figure means something on
+/// another machine.
 void yardstick();
 
-/// Bytes of memory that `run` needs at most beyond what the process has when it begins. 0 where the system does not tell.
+/// Bytes of memory that `run` needs at most beyond what the process has when it begins. 0 where the system does not
+/// tell.
 [[nodiscard]] std::uint64_t peakMemoryOf(const std::function<void()>& run);
 
 }  // namespace svt::bench

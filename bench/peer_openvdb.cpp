@@ -17,11 +17,13 @@ struct IndexMesh {
     size_t polygonCount() const { return triangles->size(); }
     size_t pointCount() const { return points.size(); }
     size_t vertexCount(size_t) const { return 3; }
-    void getIndexSpacePoint(size_t n, size_t v, openvdb::Vec3d& point) const { point = points[(*triangles)[n].corners[v]]; }
+    void getIndexSpacePoint(size_t n, size_t v, openvdb::Vec3d& point) const {
+        point = points[(*triangles)[n].corners[v]];
+    }
 };
 
-// meshToVolume with the narrowest band that keeps signs right, one voxel to each side; all cores (TBB). Distances are in voxels, since a level
-// set needs cubes. The sign tells inside.
+// meshToVolume with the narrowest band that keeps signs right, one voxel to each side; all cores (TBB). Distances are
+// in voxels, since a level set needs cubes. The sign tells inside.
 class OpenVdb final : public SolidPeer {
 public:
     OpenVdb() { openvdb::initialize(); }
@@ -41,7 +43,8 @@ public:
         }
     }
 
-    void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars, DenseLabels* labels) override {
+    void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars,
+             DenseLabels* labels) override {
         if (step == SolidStep::Labels) {
             labels->dimension = grid_.dimension();
             labels->scalars.assign(static_cast<std::size_t>(grid_.sampleCount()), 0);
@@ -66,7 +69,8 @@ private:
             if (box.empty()) continue;
             for (int k = box.min().z(); k <= box.max().z(); ++k)
                 for (int j = box.min().y(); j <= box.max().y(); ++j) {
-                    std::uint16_t* row = labels.scalars.data() + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+                    std::uint16_t* row =
+                        labels.scalars.data() + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
                     std::fill(row + box.min().x(), row + box.max().x() + 1, scalar);
                 }
         }

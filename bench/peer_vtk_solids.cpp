@@ -18,8 +18,9 @@
 namespace svt::bench {
 namespace {
 
-// vtkPolyDataToImageStencil, each object in the extent of its own bounds. The stencil is a list of runs per row, computed by VTK
-// with one thread. Tolerance 0: a voxel is inside when its centre is, which is our rule too, and VTK's faster path.
+// vtkPolyDataToImageStencil, each object in the extent of its own bounds. The stencil is a list of runs per row,
+// computed by VTK with one thread. Tolerance 0: a voxel is inside when its centre is, which is our rule too, and VTK's
+// faster path.
 class VtkStencils final : public SolidPeer {
 public:
     std::string name() const override { return "VTK stencils"; }
@@ -34,7 +35,8 @@ public:
         for (const mesh::ObjectMesh& mesh : scene.objects) extents_.push_back(extentOf(mesh.bounds));
     }
 
-    void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars, DenseLabels* labels) override {
+    void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars,
+             DenseLabels* labels) override {
         if (step == SolidStep::Labels) {
             const Vec3i n = grid_.dimension();
             labels->dimension = n;
@@ -68,7 +70,8 @@ private:
         for (const Vec3d& v : mesh.vertices) points->InsertNextPoint(v.x, v.y, v.z);
         vtkNew<vtkCellArray> triangles;
         for (const mesh::Triangle& triangle : mesh.triangles)
-            triangles->InsertNextCell({static_cast<vtkIdType>(triangle.corners[0]), static_cast<vtkIdType>(triangle.corners[1]),
+            triangles->InsertNextCell({static_cast<vtkIdType>(triangle.corners[0]),
+                                       static_cast<vtkIdType>(triangle.corners[1]),
                                        static_cast<vtkIdType>(triangle.corners[2])});
         auto data = vtkSmartPointer<vtkPolyData>::New();
         data->SetPoints(points);
@@ -91,13 +94,17 @@ private:
     }
 
     // The fastest way from a stencil to labels: its runs, with no image between.
-    static void paint(vtkImageStencilData& stencil, const std::array<int, 6>& extent, std::uint16_t scalar, DenseLabels& labels) {
-        const std::size_t nx = static_cast<std::size_t>(labels.dimension.x), ny = static_cast<std::size_t>(labels.dimension.y);
+    static void paint(vtkImageStencilData& stencil, const std::array<int, 6>& extent, std::uint16_t scalar,
+                      DenseLabels& labels) {
+        const std::size_t nx = static_cast<std::size_t>(labels.dimension.x),
+                          ny = static_cast<std::size_t>(labels.dimension.y);
         for (int k = extent[4]; k <= extent[5]; ++k)
             for (int j = extent[2]; j <= extent[3]; ++j) {
-                std::uint16_t* row = labels.scalars.data() + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
+                std::uint16_t* row =
+                    labels.scalars.data() + nx * (static_cast<std::size_t>(j) + ny * static_cast<std::size_t>(k));
                 int first = 0, last = 0, iterator = 0;
-                while (stencil.GetNextExtent(first, last, extent[0], extent[1], j, k, iterator) != 0) std::fill(row + first, row + last + 1, scalar);
+                while (stencil.GetNextExtent(first, last, extent[0], extent[1], j, k, iterator) != 0)
+                    std::fill(row + first, row + last + 1, scalar);
             }
     }
 

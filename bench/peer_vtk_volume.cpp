@@ -58,7 +58,8 @@ public:
         gridOrigin_ = grid.origin();
         vtkNew<vtkUnsignedShortArray> scalars;
         // VTK does not write to its input.
-        scalars->SetArray(const_cast<std::uint16_t*>(labels.scalars.data()), static_cast<vtkIdType>(labels.scalars.size()), 1);
+        scalars->SetArray(const_cast<std::uint16_t*>(labels.scalars.data()),
+                          static_cast<vtkIdType>(labels.scalars.size()), 1);
         vtkNew<vtkImageData> image;
         image->SetDimensions(labels.dimension.x, labels.dimension.y, labels.dimension.z);
         image->SetSpacing(grid.spacing().x, grid.spacing().y, grid.spacing().z);
@@ -105,7 +106,8 @@ public:
         render::Image<render::Rgba8> image(size[0], size[1]);
         for (std::int32_t y = 0; y < size[1]; ++y)
             for (std::int32_t x = 0; x < size[0]; ++x) {
-                const unsigned char* pixel = pixels->GetPointer(4 * (static_cast<vtkIdType>(x) + static_cast<vtkIdType>(size[0]) * (size[1] - 1 - y)));
+                const unsigned char* pixel = pixels->GetPointer(
+                    4 * (static_cast<vtkIdType>(x) + static_cast<vtkIdType>(size[0]) * (size[1] - 1 - y)));
                 image.at(x, y) = {pixel[0], pixel[1], pixel[2], 255};
             }
         return image;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The peers, behind plain interfaces: one source each (peer_*.cpp), none of their types here. A peer that is not installed, or cannot
-/// run on this machine, is a reason instead.
+/// The peers, behind plain interfaces: one source each (peer_*.cpp), none of their types here. A peer that is not
+/// installed, or cannot run on this machine, is a reason instead.
 
 #include <svt/core/vec.hpp>
 #include <svt/mesh/mesh_scene.hpp>
@@ -48,7 +48,8 @@ public:
     /// Does all objects up to `step`.
     /// \param order    objects from the one that loses to the one that wins; \param scalars  per object
     /// \param labels   the volume that is written: allocated here, as part of the work. Only for Labels
-    virtual void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars, DenseLabels* labels) = 0;
+    virtual void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars,
+                     DenseLabels* labels) = 0;
 };
 
 [[nodiscard]] Peer<SolidPeer> makeVtkStencils();

@@ -29,7 +29,9 @@ double ratioOf(const Row& row, const Beside& beside) {
 }
 
 std::string ratioText(double ratio) {
-    return ratio >= 10 ? fmt::format("{:.0f} x", ratio) : ratio >= 1 ? fmt::format("{:.1f} x", ratio) : fmt::format("{:.2f} x", ratio);
+    return ratio >= 10  ? fmt::format("{:.0f} x", ratio)
+           : ratio >= 1 ? fmt::format("{:.1f} x", ratio)
+                        : fmt::format("{:.2f} x", ratio);
 }
 
 Json measurementJson(const Measurement& m) {
@@ -58,21 +60,24 @@ std::string bytesText(std::uint64_t bytes) {
 std::string Row::id() const { return slug(stage) + '/' + slug(input) + '/' + slug(size); }
 
 std::string Report::markdown() const {
-    std::string text = "| work | input | size | SVT | beside it | its time | ratio | notes |\n|---|---|---|---|---|---|---|---|\n";
+    std::string text =
+        "| work | input | size | SVT | beside it | its time | ratio | notes |\n|---|---|---|---|---|---|---|---|\n";
     for (const Row& row : rows) {
         if (row.isStage) continue;
-        const std::string head = fmt::format("| {} | {} | {} | {} |", row.stage, row.input, row.size, secondsText(row.ours.median));
+        const std::string head =
+            fmt::format("| {} | {} | {} | {} |", row.stage, row.input, row.size, secondsText(row.ours.median));
         if (row.beside.empty() && row.missing.empty()) text += fmt::format("{} - | - | - | {} |\n", head, row.note);
         for (const Beside& beside : row.beside)
-            text += fmt::format("{} {} | {} | {} | {} |\n", head, beside.measurement.name, secondsText(beside.measurement.median),
-                                ratioText(ratioOf(row, beside)), beside.note);
+            text += fmt::format("{} {} | {} | {} | {} |\n", head, beside.measurement.name,
+                                secondsText(beside.measurement.median), ratioText(ratioOf(row, beside)), beside.note);
         for (const std::string& missing : row.missing) text += fmt::format("{} - | - | - | {} |\n", head, missing);
     }
     text += "\n| stage | input | size | time | most memory | result |\n|---|---|---|---|---|---|\n";
     for (const Row& row : rows) {
         if (!row.isStage) continue;
-        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.stage, row.input, row.size, secondsText(row.ours.median),
-                            memoryText(row.ours), row.resultBytes == 0 ? "-" : bytesText(row.resultBytes));
+        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.stage, row.input, row.size,
+                            secondsText(row.ours.median), memoryText(row.ours),
+                            row.resultBytes == 0 ? "-" : bytesText(row.resultBytes));
     }
     for (const std::string& reason : skipped) text += fmt::format("\nSkipped: {}\n", reason);
     return text;
@@ -81,7 +86,11 @@ std::string Report::markdown() const {
 Json Report::json() const {
     Json list = Json::array();
     for (const Row& row : rows) {
-        Json entry{{"id", row.id()}, {"stage", row.stage}, {"input", row.input}, {"size", row.size}, {"ours", measurementJson(row.ours)}};
+        Json entry{{"id", row.id()},
+                   {"stage", row.stage},
+                   {"input", row.input},
+                   {"size", row.size},
+                   {"ours", measurementJson(row.ours)}};
         if (row.yardsticks > 0) entry["yardsticks"] = row.yardsticks;
         if (row.resultBytes != 0) entry["result_bytes"] = row.resultBytes;
         if (!row.note.empty()) entry["note"] = row.note;
@@ -97,7 +106,8 @@ Json Report::json() const {
         for (const std::string& missing : row.missing) entry["missing"].push_back(missing);
         list.push_back(std::move(entry));
     }
-    return {{"schema", 1}, {"commit", commit}, {"quick", isQuick}, {"machine", machine}, {"results", std::move(list)}, {"skipped", skipped}};
+    return {{"schema", 1},        {"commit", commit},           {"quick", isQuick},
+            {"machine", machine}, {"results", std::move(list)}, {"skipped", skipped}};
 }
 
 }  // namespace svt::bench

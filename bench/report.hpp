@@ -24,17 +24,17 @@ struct Beside {
 
 /// One piece of work.
 struct Row {
-    std::string stage;   ///< "voxelize"
-    std::string input;   ///< "FZK-Haus"
-    std::string size;    ///< "800 x 700 x 400", or what else says how much
+    std::string stage;  ///< "voxelize"
+    std::string input;  ///< "FZK-Haus"
+    std::string size;   ///< "800 x 700 x 400", or what else says how much
     Measurement ours;
     std::string note;
     Json extra = Json::object();
     std::vector<Beside> beside;
-    std::vector<std::string> missing;     ///< peers that were not there, with the reason
-    bool isStage = false;                 ///< stands in the table of stages: time, memory, size
-    double yardsticks = 0;                ///< our time in units of yardstick(); 0 where it was not run beside
-    std::uint64_t resultBytes = 0;        ///< size of what the stage makes; 0: not told
+    std::vector<std::string> missing;  ///< peers that were not there, with the reason
+    bool isStage = false;              ///< stands in the table of stages: time, memory, size
+    double yardsticks = 0;             ///< our time in units of yardstick(); 0 where it was not run beside
+    std::uint64_t resultBytes = 0;     ///< size of what the stage makes; 0: not told
 
     /// "voxelize/fzk-haus/800x700x400"
     [[nodiscard]] std::string id() const;

@@ -17,14 +17,25 @@
 namespace svt::bench {
 namespace {
 
-Result<Input> writeTower(samples::SampleFormat format, const std::filesystem::path& file) {
+Result<void> writeText(const std::string& text, const std::filesystem::path& file) {
     std::ofstream out(file, std::ios::binary);
-    const auto written = samples::writeSample(samples::SampleKind::Tower, format, {}, [&](std::string_view part) {
-        out.write(part.data(), static_cast<std::streamsize>(part.size()));
-        return out.good();
-    });
-    if (!written) return written.error();
-    return Input{"tower", file};
+    out << text << std::flush;
+    if (!out.good()) return Error(Code::CannotWrite, "the benchmark cannot write its input", {file.string(), 0, 0, {}});
+    return {};
+}
+
+// Leaves out all members of the city model that are groups.
+std::string withoutGroups(const std::string& text) {
+    const std::string open = "<core:cityObjectMember>\n<grp:CityObjectGroup", close = "</core:cityObjectMember>\n";
+    std::string result;
+    std::size_t at = 0;
+    for (std::size_t group = text.find(open); group != std::string::npos; group = text.find(open, at)) {
+        result.append(text, at, group - at);
+        const std::size_t end = text.find(close, group);
+        if (end == std::string::npos) return result;
+        at = end + close.size();
+    }
+    return result.append(text, at);
 }
 
 }  // namespace
@@ -41,15 +52,23 @@ Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch, std:
     if (std::filesystem::exists(house))
         inputs.push_back({"FZK-Haus", house});
     else
-        skipped.push_back("FZK-Haus: no fzk_haus_citygml3.gml in the data directory; set SVT_DATA_DIR to the folder that has it");
-    auto tower = writeTower(samples::SampleFormat::CityGml3, scratch / "tower.gml");
+        skipped.push_back(
+            "FZK-Haus: no fzk_haus_citygml3.gml in the data directory; set SVT_DATA_DIR to the folder that has it");
+    const auto tower = samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml3, {});
     if (!tower) return tower.error();
-    inputs.push_back(std::move(*tower));
+    inputs.push_back({"tower", scratch / "tower.gml"});
+    if (const auto written = writeText(*tower, inputs.back().file); !written) return written.error();
     return inputs;
 }
 
 Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch) {
-    return writeTower(samples::SampleFormat::CityGml2, scratch / "tower_citygml2.gml");
+    samples::SampleOptions options;
+    options.thematic = true;
+    const auto tower = samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml2, options);
+    if (!tower) return tower.error();
+    Input input{"tower, CityGML 2.0", scratch / "tower_citygml2.gml"};
+    if (const auto written = writeText(withoutGroups(*tower), input.file); !written) return written.error();
+    return input;
 }
 
 Result<Scene> loadScene(const Input& input) {
@@ -81,12 +100,12 @@ Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension) {
     return pipeline::chooseGrid(scene.meshes, options);
 }
 
-std::vector<std::uint32_t> paintOrder(const Scene& scene) {
-    std::vector<std::uint32_t> order(scene.meshes.objects.size());
+std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes, const std::vector<voxelize::ObjectClaim>& claims) {
+    std::vector<std::uint32_t> order(meshes.objects.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t o) {
-        const voxelize::ObjectClaim& claim = scene.labels.claims[o];
-        return std::tuple<std::uint8_t, double, std::string_view, std::uint32_t>(claim.rank, scene.meshes.objects[o].volume, claim.id, o);
+        return std::tuple<std::uint8_t, double, std::string_view, std::uint32_t>(
+            claims[o].rank, meshes.objects[o].volume, claims[o].id, o);
     };
     std::sort(order.begin(), order.end(), [&](std::uint32_t p, std::uint32_t q) { return key(p) > key(q); });
     return order;

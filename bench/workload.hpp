@@ -17,16 +17,18 @@ namespace svt::bench {
 
 /// A model file of the benchmark.
 struct Input {
-    std::string name;            ///< "FZK-Haus"
+    std::string name;  ///< "FZK-Haus"
     std::filesystem::path file;
 };
 
 /// The models that are there: the FZK-Haus of the data directory ($SVT_DATA_DIR, else ../shared/data), and the
 /// generated tower, written to `scratch`.
 /// \param skipped  gets a sentence for each input that is not there
-[[nodiscard]] Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch, std::vector<std::string>& skipped);
+[[nodiscard]] Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch,
+                                                    std::vector<std::string>& skipped);
 
-/// The generated tower in CityGML 2.0, which every reader beside ours knows.
+/// The generated tower as classical CityGML 2.0, without its groups of storeys: libcitygml refuses references to
+/// features, and with them the whole file.
 [[nodiscard]] Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch);
 
 /// $SVT_DATA_DIR, else ../shared/data beside the checkout.
@@ -50,6 +52,8 @@ struct Scene {
 
 /// Objects from the one that loses where objects overlap to the one that wins: whoever writes labels in this order ends
 /// with the same owner everywhere as the voxelizer.
-[[nodiscard]] std::vector<std::uint32_t> paintOrder(const Scene& scene);
+/// \param claims  one per object, same order
+[[nodiscard]] std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes,
+                                                    const std::vector<voxelize::ObjectClaim>& claims);
 
 }  // namespace svt::bench

@@ -56,7 +56,8 @@ Camera fitted(const Preset& preset, Vec3d middle, Vec3d size, const Axes& axes, 
     camera.up = along(axes, preset.up);
     camera.verticalFovDegrees = options.verticalFovDegrees;
 
-    // Bounds of the corners in the picture's directions, so that the middle of the picture is the middle of what is seen.
+    // Bounds of the corners in the picture's directions, so that the middle of the picture is the middle of what is
+    // seen.
     const double tanY = std::tan(options.verticalFovDegrees * std::numbers::pi / 360) * free;
     const double tanX = tanY * options.aspect;
     double minX = 1e300, maxX = -1e300, minY = 1e300, maxY = -1e300;
@@ -99,8 +100,9 @@ Result<Camera> presetCamera(std::string_view name, Vec3d middle, Vec3d size, con
                      fmt::format("there is no camera '{}'; possible are {}", name, fmt::join(kNames, ", ")));
     if (!(options.aspect > 0) || !std::isfinite(options.aspect) || !(options.margin >= 0 && options.margin <= 0.45) ||
         !(options.verticalFovDegrees > 0 && options.verticalFovDegrees < 180))
-        return Error(Code::BadCamera, "aspect must be greater than 0, the margin 0 to 0.45, the field of view between 0 and "
-                                      "180 degrees");
+        return Error(Code::BadCamera,
+                     "aspect must be greater than 0, the margin 0 to 0.45, the field of view between 0 and "
+                     "180 degrees");
     if (!isFinite(middle) || !isFinite(size) || !(length(size) > 0))
         return Error(Code::BadCamera, "the box to show is empty");
     return fitted(*preset, middle, size, axes, options);
@@ -111,7 +113,8 @@ Result<Camera> presetCamera(std::string_view name, Vec3d middle, Vec3d size, con
 std::span<const std::string_view> cameraPresetNames() noexcept { return kNames; }
 
 Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds, const PresetOptions& options) {
-    return presetCamera(name, bounds.center(), bounds.size(), {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}, options);
+    return presetCamera(name, bounds.center(), bounds.size(), {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}},
+                        options);
 }
 
 Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid, const PresetOptions& options) {

@@ -27,7 +27,8 @@ struct PresetOptions {
 /// \param bounds  world space, x east, y north, z up, metres
 /// \return the camera, or BadCamera where the name is unknown (the message lists all), the box is empty or an option is
 ///         out of range
-[[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds, const PresetOptions& options = {});
+[[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds,
+                                          const PresetOptions& options = {});
 
 /// The same for a grid: sides are those of its own axes, so a turned building is seen square on.
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid,

@@ -18,7 +18,8 @@ double reach(const Camera& camera, const Box3d& box, std::int32_t width, std::in
     const CameraRays rays(spec, *volume::Grid::fromDimension(box, {2, 2, 2}));
     double most = 0;
     for (int c = 0; c < 8; ++c) {
-        const Vec3d p{(c & 1) ? box.max.x : box.min.x, (c & 2) ? box.max.y : box.min.y, (c & 4) ? box.max.z : box.min.z};
+        const Vec3d p{(c & 1) ? box.max.x : box.min.x, (c & 2) ? box.max.y : box.min.y,
+                      (c & 4) ? box.max.z : box.min.z};
         const Vec3d seen = rays.seenAt(p - camera.eye);
         EXPECT_GT(seen.z, 0);
         most = std::max({most, std::abs(seen.x), std::abs(seen.y)});
@@ -61,8 +62,8 @@ TEST(CameraPreset, SidesAreWhereTheirNamesSay) {
 
 TEST(CameraPreset, ATurnedGridIsSeenSquareOn) {
     const double c = std::cos(0.5), s = std::sin(0.5);
-    const auto grid = volume::Grid::fromParts({11, 21, 31}, {1, 1, 1}, {5, 6, 7},
-                                              {Vec3d{c, s, 0}, Vec3d{-s, c, 0}, Vec3d{0, 0, 1}});
+    const auto grid =
+        volume::Grid::fromParts({11, 21, 31}, {1, 1, 1}, {5, 6, 7}, {Vec3d{c, s, 0}, Vec3d{-s, c, 0}, Vec3d{0, 0, 1}});
     const Camera camera = *cameraPreset("front", *grid);
     const Vec3d view = normalized(camera.target - camera.eye);
     EXPECT_NEAR(dot(view, grid->axes()[1]), 1, 1e-12);

@@ -14,8 +14,8 @@ namespace svt::render {
 /// A ray, with what the shading needs of it in world space.
 struct CameraRay {
     IndexRay index;
-    Vec3d direction;     ///< world space; its share along the view direction is 1, so t is depth
-    double metresPerT;   ///< its length
+    Vec3d direction;    ///< world space; its share along the view direction is 1, so t is depth
+    double metresPerT;  ///< its length
 };
 
 class CameraRays {

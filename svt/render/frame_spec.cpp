@@ -19,17 +19,20 @@ Result<void> checkCamera(const Camera& camera) {
         return Error(Code::BadCamera, "eye and target of the camera are the same point; move one of them");
     // Up counts as along the view below a millionth of a turn.
     if (!(length(cross(normalized(view), normalized(camera.up))) > 1e-6))
-        return Error(Code::BadCamera, "up of the camera is zero or along the view; choose another up, such as y for a "
-                                      "view from above");
+        return Error(Code::BadCamera,
+                     "up of the camera is zero or along the view; choose another up, such as y for a "
+                     "view from above");
     if (camera.projection == Camera::Projection::Perspective &&
         !(camera.verticalFovDegrees > 0 && camera.verticalFovDegrees < 180))
-        return Error(Code::BadCamera, fmt::format("a field of view of {} degrees is out of range; it must be greater than "
-                                                  "0 and less than 180",
-                                                  camera.verticalFovDegrees));
+        return Error(Code::BadCamera,
+                     fmt::format("a field of view of {} degrees is out of range; it must be greater than "
+                                 "0 and less than 180",
+                                 camera.verticalFovDegrees));
     if (camera.projection == Camera::Projection::Orthographic &&
         !(camera.orthographicHeight > 0 && std::isfinite(camera.orthographicHeight)))
-        return Error(Code::BadCamera, fmt::format("an orthographic height of {} m is out of range; it must be greater than 0",
-                                                  camera.orthographicHeight));
+        return Error(Code::BadCamera,
+                     fmt::format("an orthographic height of {} m is out of range; it must be greater than 0",
+                                 camera.orthographicHeight));
     return {};
 }
 

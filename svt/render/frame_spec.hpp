@@ -39,18 +39,18 @@ struct Background {
 struct Light {
     enum class Space : std::uint8_t { Camera, World };
 
-    Space space = Space::Camera;      ///< Camera: x to the right, y up, z towards the viewer
+    Space space = Space::Camera;       ///< Camera: x to the right, y up, z towards the viewer
     Vec3d direction{-0.45, 0.7, 0.6};  ///< towards the light; need not have length 1
-    float key = 0.60f;                ///< >= 0
-    float ambient = 0.56f;            ///< >= 0; key + ambient near 1.1 uses the whole range of tones
-    float ambientOcclusion = 0.6f;    ///< 0..1: how dark corners get; 0 switches it off
+    float key = 0.60f;                 ///< >= 0
+    float ambient = 0.56f;             ///< >= 0; key + ambient near 1.1 uses the whole range of tones
+    float ambientOcclusion = 0.6f;     ///< 0..1: how dark corners get; 0 switches it off
     friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// Look of a scalar.
 struct Style {
     Vec3f color{0.8f, 0.8f, 0.8f};  ///< sRGB, 0..1
-    float opacity = 1;  ///< fraction of light stopped by one metre, 0..1; 0 = hidden, 1 = an opaque surface
+    float opacity = 1;              ///< fraction of light stopped by one metre, 0..1; 0 = hidden, 1 = an opaque surface
     friend bool operator==(const Style&, const Style&) = default;
 };
 
@@ -117,7 +117,8 @@ struct FrameSpec {
 };
 
 /// Everything that castRays() relies on.
-/// \return BadFrame where a size, count, style, light or clip is out of range; BadCamera where eye, target and up span no
+/// \return BadFrame where a size, count, style, light or clip is out of range; BadCamera where eye, target and up span
+/// no
 ///         view, or the field of view or height is out of range. The message names what and the range.
 [[nodiscard]] Result<void> checkFrameSpec(const FrameSpec& spec);
 

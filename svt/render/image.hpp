@@ -2,7 +2,6 @@
 /// \file
 /// A picture in memory, and how far two pictures are apart.
 
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -53,10 +52,10 @@ struct ImageDifference {
     ///     < 0.2     visible: something moved by a pixel or more, or has another colour
     ///     <= 1      another picture; 1 is black against white in some place, or other sizes
     double error = 0;
-    double mean = 0;               ///< mean over pixels of the largest channel difference, 0..1
-    double worstBlock = 0;         ///< largest difference of the mean colours of a block of 8 x 8 pixels, 0..1
-    int largest = 0;               ///< largest channel difference of any pixel, 0..255
-    std::uint64_t differing = 0;   ///< pixels that differ at all
+    double mean = 0;              ///< mean over pixels of the largest channel difference, 0..1
+    double worstBlock = 0;        ///< largest difference of the mean colours of a block of 8 x 8 pixels, 0..1
+    int largest = 0;              ///< largest channel difference of any pixel, 0..255
+    std::uint64_t differing = 0;  ///< pixels that differ at all
 };
 
 /// Compares pixel by pixel and block by block. Cost O(pixels). Pictures of other sizes have error 1.

@@ -26,15 +26,16 @@ constexpr void forEachAxis(const Body& body) {
 }
 
 struct IndexRay {
-    Vec3d origin, direction;   ///< position(t) = origin + t * direction
-    Vec3d inverse;             ///< 1 / direction; +inf along axes the ray does not move on
-    Vec3d planeOrigin;         ///< origin; -1 along axes the ray does not move on, so that all planes are at +inf
-    Vec3i step;                ///< 1, -1 or 0 per axis
-    double slack;              ///< positions are exact to this, voxels
+    Vec3d origin, direction;  ///< position(t) = origin + t * direction
+    Vec3d inverse;            ///< 1 / direction; +inf along axes the ray does not move on
+    Vec3d planeOrigin;        ///< origin; -1 along axes the ray does not move on, so that all planes are at +inf
+    Vec3i step;               ///< 1, -1 or 0 per axis
+    double slack;             ///< positions are exact to this, voxels
 
     IndexRay(Vec3d from, Vec3d along) noexcept : origin(from), direction(along), planeOrigin(from) {
         const double largest = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
-        // Far above the rounding of origin + t * direction, whose terms are at most the origin's distance and the volume.
+        // Far above the rounding of origin + t * direction, whose terms are at most the origin's distance and the
+        // volume.
         slack = 1e-13 * (std::abs(from.x) + std::abs(from.y) + std::abs(from.z) + 65536);
         forEachAxis([&](auto axis) {
             // Rounding leaves a trace of a direction on axes that it does not have.
@@ -141,8 +142,8 @@ void walkRuns(const volume::BrickVolume& volume, const IndexRay& ray, double fro
             t = std::min({leave.x, leave.y, leave.z});
             if (!(t < to)) break;
             forEachAxis([&](auto axis) {
-                cell[axis] = leave[axis] == t ? plane[axis] - (ray.step[axis] < 0 ? 1 : 0)
-                                              : ray.cellAt(axis, t, count[axis]);
+                cell[axis] =
+                    leave[axis] == t ? plane[axis] - (ray.step[axis] < 0 ? 1 : 0) : ray.cellAt(axis, t, count[axis]);
             });
             continue;
         }

@@ -49,8 +49,7 @@ OcclusionField::OcclusionField(const volume::BrickVolume& volume, const std::fun
                     const auto entry = volume.entry(x, y, z);
                     float coverage = entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
                                                      : ofBox[volume.boxNumber(entry)];
-                    if (coverage > 0 && !clipper.isEmpty() &&
-                        !clipper.keeps({8.0 * x + 4, 8.0 * y + 4, 8.0 * z + 4}))
+                    if (coverage > 0 && !clipper.isEmpty() && !clipper.keeps({8.0 * x + 4, 8.0 * y + 4, 8.0 * z + 4}))
                         coverage = 0;
                     level.coverage[at(level.count, x, y, z)] = coverage;
                 }
@@ -103,7 +102,8 @@ float OcclusionField::Level::sample(Vec3f point) const noexcept {
     if (isInside) {
         const float* corner = coverage.data() + at(count, cell[0], cell[1], cell[2]);
         const std::size_t nextY = at(count, 0, 1, 0), nextZ = at(count, 0, 0, 1);
-        return blend([&](std::size_t dx, std::size_t dy, std::size_t dz) { return corner[dx + dy * nextY + dz * nextZ]; });
+        return blend(
+            [&](std::size_t dx, std::size_t dy, std::size_t dz) { return corner[dx + dy * nextY + dz * nextZ]; });
     }
     return blend([&](std::int32_t dx, std::int32_t dy, std::int32_t dz) {
         const std::int32_t x = cell[0] + dx, y = cell[1] + dy, z = cell[2] + dz;

@@ -25,7 +25,8 @@ public:
 
     /// Share of the surroundings before a surface that is taken, 0..1.
     /// \param point      on the surface, voxel space
-    /// \param direction  away from the surface: the world normal in voxel space, scaled so that its longest component is
+    /// \param direction  away from the surface: the world normal in voxel space, scaled so that its longest component
+    /// is
     ///                   at most 1
     [[nodiscard]] float occlusion(Vec3f point, Vec3f direction) const noexcept;
 

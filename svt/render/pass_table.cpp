@@ -24,7 +24,8 @@ LinearStyle linearStyle(const Style& style, volume::Scalar scalar, std::span<con
     return linear;
 }
 
-// Extinction and colour weighted by coverage. `opaqueDensity` is what an opaque label has where it does not fill the cell.
+// Extinction and colour weighted by coverage. `opaqueDensity` is what an opaque label has where it does not fill the
+// cell.
 LinearStyle mixedStyle(const volume::Mixture& mixture, const std::vector<LinearStyle>& styles, float opaqueDensity) {
     LinearStyle mixed;
     float surface = 0;

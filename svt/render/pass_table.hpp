@@ -16,10 +16,10 @@ struct LinearStyle {
     enum class Kind : std::uint8_t { Hidden, Translucent, Opaque };
 
     Vec3f color{};
-    float density = 0;        ///< extinction per metre: -ln(1 - opacity)
-    float surface = 0;        ///< how much of its colour is lit by the normal where it begins, 0..1
+    float density = 0;  ///< extinction per metre: -ln(1 - opacity)
+    float surface = 0;  ///< how much of its colour is lit by the normal where it begins, 0..1
     Kind kind = Kind::Hidden;
-    bool isBody = false;      ///< its surface is found among all bodies, not among its own object's voxels
+    bool isBody = false;  ///< its surface is found among all bodies, not among its own object's voxels
     std::uint32_t object = 0;
     volume::Scalar label = 0;  ///< what Frame::label shows
 };

@@ -68,8 +68,9 @@ bool write(Stream& stream, const Pixels& pixels) {
     png_set_write_fn(png, &stream, onWrite, onFlush);
     // Pictures of flat colours gain little from the slow levels.
     png_set_compression_level(png, 5);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width), static_cast<png_uint_32>(pixels.height), pixels.bits,
-                 pixels.colorType, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width), static_cast<png_uint_32>(pixels.height),
+                 pixels.bits, pixels.colorType, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     if (pixels.bits == 8) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_write_info(png, info);
@@ -103,8 +104,10 @@ struct Target {
 bool allocate(Target& target, png_uint_32 width, png_uint_32 height) {
     try {
         const auto w = static_cast<std::int32_t>(width), h = static_cast<std::int32_t>(height);
-        if (target.wantsGray16) target.gray = Image<std::uint16_t>(w, h);
-        else target.color = Image<Rgba8>(w, h);
+        if (target.wantsGray16)
+            target.gray = Image<std::uint16_t>(w, h);
+        else
+            target.color = Image<Rgba8>(w, h);
         for (std::int32_t y = 0; y < h; ++y)
             target.rows.push_back(target.wantsGray16 ? reinterpret_cast<png_bytep>(&target.gray.at(0, y))
                                                      : reinterpret_cast<png_bytep>(&target.color.at(0, y)));
@@ -178,8 +181,8 @@ Result<std::vector<std::byte>> encodePng(const Image<Rgba8>& image) {
 }
 
 Result<std::vector<std::byte>> encodePng(const Image<std::uint16_t>& image) {
-    return encode({image.width(), image.height(), image.pixels().data(), 2 * static_cast<std::size_t>(image.width()), 16,
-                   PNG_COLOR_TYPE_GRAY});
+    return encode({image.width(), image.height(), image.pixels().data(), 2 * static_cast<std::size_t>(image.width()),
+                   16, PNG_COLOR_TYPE_GRAY});
 }
 
 Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image) {
@@ -212,8 +215,8 @@ Result<Image<std::uint16_t>> grayFromLabels(const Image<volume::Scalar>& labels)
     Image<std::uint16_t> gray(labels.width(), labels.height());
     for (std::size_t n = 0; n < labels.pixels().size(); ++n) {
         if (labels.pixels()[n] > 0xFFFF)
-            return Error(Code::BadImage, fmt::format("scalar {} does not fit into the 16 bits of a gray PNG",
-                                                     labels.pixels()[n]));
+            return Error(Code::BadImage,
+                         fmt::format("scalar {} does not fit into the 16 bits of a gray PNG", labels.pixels()[n]));
         gray.pixels()[n] = static_cast<std::uint16_t>(labels.pixels()[n]);
     }
     return gray;
@@ -224,7 +227,8 @@ Image<std::uint16_t> grayFromDepth(const Image<float>& depth, double metresPerSt
     for (std::size_t n = 0; n < depth.pixels().size(); ++n) {
         const auto metres = static_cast<double>(depth.pixels()[n]);
         if (std::isfinite(metres))
-            gray.pixels()[n] = static_cast<std::uint16_t>(std::clamp(std::round(1 + metres / metresPerStep), 1.0, 65535.0));
+            gray.pixels()[n] =
+                static_cast<std::uint16_t>(std::clamp(std::round(1 + metres / metresPerStep), 1.0, 65535.0));
     }
     return gray;
 }

@@ -18,9 +18,10 @@ Result<void> checkCall(const volume::BrickVolume& volume, const volume::Grid& gr
     if (volume.dimension() != grid.dimension())
         return Error(Code::BadArgument, "the grid's dimension is not the volume's");
     if (!(options.opaqueAt > 0 && options.opaqueAt <= 1) || !(options.labelAt >= 0 && options.labelAt < 1))
-        return Error(Code::BadArgument, fmt::format("opaqueAt of {} or labelAt of {} is out of range; (0, 1] and [0, 1) are "
-                                                    "possible",
-                                                    options.opaqueAt, options.labelAt));
+        return Error(Code::BadArgument,
+                     fmt::format("opaqueAt of {} or labelAt of {} is out of range; (0, 1] and [0, 1) are "
+                                 "possible",
+                                 options.opaqueAt, options.labelAt));
     return {};
 }
 

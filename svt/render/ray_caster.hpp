@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Ray caster on the CPU. Exact: a ray is a list of runs (scalar, from, to), found by stepping from label to label, with
-/// no step size and no filtering of labels. The reference for every other renderer.
+/// Ray caster on the CPU. Exact: a ray is a list of runs (scalar, from, to), found by stepping from label to label,
+/// with no step size and no filtering of labels. The reference for every other renderer.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -14,18 +14,18 @@
 namespace svt::render {
 
 struct CastOptions {
-    int threads = 0;            ///< 0: all cores; the picture does not depend on it
-    float opaqueAt = 0.999f;    ///< a ray ends at this opacity, in (0, 1]
-    float labelAt = 0;          ///< label and depth are of the first run after which the ray's opacity is above this, in
-                                ///< [0, 1): 0 = the first visible label, 0.5 = looks through ghosts
+    int threads = 0;          ///< 0: all cores; the picture does not depend on it
+    float opaqueAt = 0.999f;  ///< a ray ends at this opacity, in (0, 1]
+    float labelAt = 0;        ///< label and depth are of the first run after which the ray's opacity is above this, in
+                              ///< [0, 1): 0 = the first visible label, 0.5 = looks through ghosts
     const Progress* progress = nullptr;  ///< may cancel; told nothing
 };
 
 /// One picture. Row 0 is the top; all three have spec.width x spec.height pixels.
 struct Frame {
-    Image<Rgba8> color;            ///< sRGB, alpha not premultiplied
-    Image<volume::Scalar> label;   ///< by the ray through the pixel's centre; 0 where it met nothing
-    Image<float> depth;            ///< metres along the view direction to where that label begins; +inf where nothing
+    Image<Rgba8> color;           ///< sRGB, alpha not premultiplied
+    Image<volume::Scalar> label;  ///< by the ray through the pixel's centre; 0 where it met nothing
+    Image<float> depth;           ///< metres along the view direction to where that label begins; +inf where nothing
 };
 
 /// Draws `volume` as `spec` says.
@@ -37,8 +37,8 @@ struct Frame {
 ///     voxel size. Its colour is lit half as strongly as a surface where it begins, so bodies of glass have a shape;
 ///   - opacity 0: nothing.
 /// Normals come from the voxels around (opaque ones for a surface, the same object's for glass), on a cut face from its
-/// plane; a cut face shows the label that it cuts. Lit and blended in linear light; passes are joined as Pass::Join says,
-/// all over the background.
+/// plane; a cut face shows the label that it cuts. Lit and blended in linear light; passes are joined as Pass::Join
+/// says, all over the background.
 ///
 /// \param grid  where the samples of `volume` lie; its dimension must be the volume's
 /// \return the frame, or
@@ -56,9 +56,10 @@ struct Frame {
 
 /// A coarse level, under the same spec as the volume itself: styles are by the volume's scalars.
 ///
-/// A cell has the extinction and colour of its labels, each weighted by coverage (Al-Thelaya 2020); an opaque label stops
-/// 99 % of the light on the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each level. A cell
-/// that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible label of the cell.
+/// A cell has the extinction and colour of its labels, each weighted by coverage (Al-Thelaya 2020); an opaque label
+/// stops 99 % of the light on the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each
+/// level. A cell that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible
+/// label of the cell.
 [[nodiscard]] Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec,
                                      const CastOptions& options = {});
 

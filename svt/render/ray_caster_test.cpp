@@ -42,7 +42,9 @@ std::vector<Style> houseStyles(bool isGlass) {
     std::vector<Style> styles;
     for (int n = 0; n < 7; ++n)
         styles.push_back({{0.3f + 0.1f * float(n), 0.9f - 0.1f * float(n), 0.5f},
-                          isGlass && n != 0 ? 0.2f + 0.1f * float(n) : n < 4 ? 1.0f : 0.0f});
+                          isGlass && n != 0 ? 0.2f + 0.1f * float(n)
+                          : n < 4           ? 1.0f
+                                            : 0.0f});
     return stylesOf(styles);
 }
 
@@ -81,7 +83,8 @@ TEST(RayCaster, EqualsTheReferenceFromInsideAndOnVoxelBorders) {
     std::mt19937 random(12);
     for (int round = 0; round < 40; ++round) {
         const auto pick = [&](double size, double step) {
-            return round % 2 == 0 ? step * double(random() % unsigned(size / step)) : size * double(random() % 1000) / 1000;
+            return round % 2 == 0 ? step * double(random() % unsigned(size / step))
+                                  : size * double(random() % 1000) / 1000;
         };
         FrameSpec spec;
         spec.width = spec.height = 24;
@@ -102,11 +105,11 @@ TEST(RayCaster, EqualsTheReferenceFromInsideAndOnVoxelBorders) {
 
 TEST(RayCaster, EqualsTheReferenceInNoise) {
     std::mt19937 random(8);
-    const TestVolume volume = makeVolume({40, 33, 37}, {1, 1, 1}, [&](auto, auto, auto k) {
-        return k < 20 && random() % 4 != 0 ? 0u : random() % 12;
-    });
+    const TestVolume volume = makeVolume(
+        {40, 33, 37}, {1, 1, 1}, [&](auto, auto, auto k) { return k < 20 && random() % 4 != 0 ? 0u : random() % 12; });
     std::vector<Style> styles;
-    for (int n = 0; n < 11; ++n) styles.push_back({{0.1f * float(n), 0.5f, 0.5f}, n == 3 ? 1.0f : 0.08f * float(n % 4)});
+    for (int n = 0; n < 11; ++n)
+        styles.push_back({{0.1f * float(n), 0.5f, 0.5f}, n == 3 ? 1.0f : 0.08f * float(n % 4)});
     for (const std::string_view name : {"iso", "left", "top"}) {
         FrameSpec spec;
         spec.width = 90;
@@ -204,7 +207,8 @@ TEST(RayCaster, GlassOfTheSameObjectHasNoSurfaceInside) {
 }
 
 TEST(RayCaster, ClipPlaneShowsTheLabelThatItCuts) {
-    const auto volume = makeVolume({40, 40, 40}, {0.25, 0.25, 0.25}, [](auto i, auto, auto) { return i < 20 ? 1u : 2u; });
+    const auto volume =
+        makeVolume({40, 40, 40}, {0.25, 0.25, 0.25}, [](auto i, auto, auto) { return i < 20 ? 1u : 2u; });
     FrameSpec spec = frontFrame(40, 40, {5, 5, 5}, 8, stylesOf({kOpaque, {{0, 0.5f, 0}, 1}}));
     spec.passes[0].clips.push_back(ClipRegion::plane({0, -1, 0}, {0, 3.1, 0}));
     const Frame frame = cast(volume, spec);
@@ -355,7 +359,8 @@ TEST(RayCaster, TilesLeaveNoSeams) {
 }
 
 TEST(RayCaster, EdgesDarkenBordersOnly) {
-    const auto volume = makeVolume({40, 40, 40}, {0.25, 0.25, 0.25}, [](auto i, auto, auto) { return i < 20 ? 1u : 2u; });
+    const auto volume =
+        makeVolume({40, 40, 40}, {0.25, 0.25, 0.25}, [](auto i, auto, auto) { return i < 20 ? 1u : 2u; });
     FrameSpec spec = frontFrame(40, 40, {5, 5, 5}, 8, stylesOf({kOpaque, kOpaque}));
     const Frame plain = cast(volume, spec);
     spec.edges = 1;
@@ -380,8 +385,9 @@ TEST(RayCaster, SamplesSmoothBordersInLinearLight) {
 }
 
 TEST(RayCaster, SurfacesFacingTheLightAreBrighter) {
-    const TestVolume volume =
-        makeBody({40, 40, 40}, {0.25, 0.25, 0.25}, [](Vec3d p) { return length(p - Vec3d{5, 5, 5}) < 4; });
+    const TestVolume volume = makeBody({40, 40, 40}, {0.25, 0.25, 0.25}, [](Vec3d p) {
+        return length(p - Vec3d{5, 5, 5}) < 4;
+    });
     FrameSpec spec = frontFrame(101, 101, {5, 5, 5}, 10, stylesOf({kOpaque}));
     const Frame frame = cast(volume, spec);
     EXPECT_GT(frame.color.at(38, 30).r, frame.color.at(50, 50).r);
@@ -393,8 +399,7 @@ TEST(RayCaster, SurfacesFacingTheLightAreBrighter) {
 }
 
 TEST(RayCaster, CornersAreDarker) {
-    const TestVolume volume =
-        makeBody({80, 80, 80}, {0.25, 0.25, 0.25}, [](Vec3d p) { return p.z < 5 || p.y > 15; });
+    const TestVolume volume = makeBody({80, 80, 80}, {0.25, 0.25, 0.25}, [](Vec3d p) { return p.z < 5 || p.y > 15; });
     FrameSpec spec = frontFrame(100, 100, {10, 5, 10}, 14, stylesOf({kOpaque}));
     const Frame frame = cast(volume, spec);
     EXPECT_LT(frame.color.at(50, 84).r + 15, frame.color.at(50, 40).r);
@@ -436,7 +441,9 @@ TEST(RayCaster, SizesAndValuesOutOfRangeAreBadFrames) {
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].styles[1].opacity = 1.1f; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].clips = {ClipRegion{}}; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].clips = {ClipRegion::plane({}, {})}; }), Code::BadFrame);
-    EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].clips.assign(17, ClipRegion::plane({1, 0, 0}, {})); }),
+    EXPECT_EQ(codeOf([](FrameSpec& s) {
+                  s.passes[0].clips.assign(17, ClipRegion::plane({1, 0, 0}, {}));
+              }),
               Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.camera.up = {}; }), Code::BadCamera);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.camera.up = {0, 1, 0}; }), Code::BadCamera);
@@ -448,8 +455,9 @@ TEST(RayCaster, SizesAndValuesOutOfRangeAreBadFrames) {
                   s.camera.verticalFovDegrees = 180;
               }),
               Code::BadCamera);
-    EXPECT_EQ(castRays(volume.bricks, *volume::Grid::fromDimension({{0, 0, 0}, {1, 1, 1}}, {4, 4, 5}), good).error().code(),
-              Code::BadArgument);
+    EXPECT_EQ(
+        castRays(volume.bricks, *volume::Grid::fromDimension({{0, 0, 0}, {1, 1, 1}}, {4, 4, 5}), good).error().code(),
+        Code::BadArgument);
     CastOptions options;
     options.opaqueAt = 0;
     EXPECT_EQ(castRays(volume.bricks, volume.grid, good, options).error().code(), Code::BadArgument);

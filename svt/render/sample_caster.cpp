@@ -8,8 +8,9 @@ namespace {
 
 using Kind = LinearStyle::Kind;
 
-// exp(-x) for x >= 0 by basic arithmetic alone, so that every machine and compiler gives the same bits. With n the whole
-// part of x / ln 2, exp(-x) = 2^-n * exp(-r)^2, r < ln(2) / 2, and exp(-r) by its Taylor polynomial; error below 1e-8.
+// exp(-x) for x >= 0 by basic arithmetic alone, so that every machine and compiler gives the same bits. With n the
+// whole part of x / ln 2, exp(-x) = 2^-n * exp(-r)^2, r < ln(2) / 2, and exp(-r) by its Taylor polynomial; error below
+// 1e-8.
 float expOfMinus(double x) noexcept {
     if (!(x < 80)) return 0;
     const double halvings = x * 1.4426950408889634;

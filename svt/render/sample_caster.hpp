@@ -17,13 +17,13 @@ namespace svt::render {
 
 /// What one ray has seen.
 struct Sample {
-    Vec3f color{};       ///< linear light, premultiplied
+    Vec3f color{};  ///< linear light, premultiplied
     float alpha = 0;
     volume::Scalar label = 0;
     std::uint32_t object = 0;
     float depth = std::numeric_limits<float>::infinity();  ///< infinity: nothing met
-    Vec3f normal{};      ///< world space, unit length, where the label begins
-    bool isCap = false;  ///< the label begins on a clip plane
+    Vec3f normal{};                                        ///< world space, unit length, where the label begins
+    bool isCap = false;                                    ///< the label begins on a clip plane
 
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -39,7 +39,8 @@ struct PreparedPass {
 /// Part of the picture, pixels.
 struct PixelRect {
     double left = 0, top = 0, right = 0, bottom = 0;
-    [[nodiscard]] bool overlaps(std::int32_t x, std::int32_t y, std::int32_t width, std::int32_t height) const noexcept {
+    [[nodiscard]] bool overlaps(std::int32_t x, std::int32_t y, std::int32_t width,
+                                std::int32_t height) const noexcept {
         return x <= right && x + width >= left && y <= bottom && y + height >= top;
     }
 };
@@ -54,7 +55,7 @@ struct Scene {
     std::vector<PreparedPass> passes;
     Vec3f towardsLight{};  ///< world space, unit length
     bool isReference = false;
-    PixelRect drawn;       ///< outside of it no ray meets the volume
+    PixelRect drawn;  ///< outside of it no ray meets the volume
 };
 
 /// Normals of hit voxels, kept per tile: neighbouring rays often hit the same voxel.

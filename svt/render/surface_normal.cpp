@@ -17,14 +17,15 @@ constexpr VoxelWindow makeBall() {
 }
 constexpr VoxelWindow kBall = makeBall();
 constexpr std::int32_t kBallVoxels = 179;
-constexpr std::uint64_t kDisc = kBall[3];  // the ball's middle layer: 37 places
+constexpr std::uint64_t kDisc = kBall[3];   // the ball's middle layer: 37 places
 constexpr std::int32_t kDiscSquares = 108;  // sum of (x - 3)^2 over the disc, and of (y - 3)^2
 // Fewer places than this are the edge of a step, not a face; a corner of two edges has 16.
 constexpr std::int32_t kFacePlaces = 12;
 constexpr std::uint64_t kMiddle = std::uint64_t{1} << (3 + 8 * 3);
 
-// Number of bits, and sums of x - 3 and of y - 3 over them. In a word, all counts side by side: of pairs, then nibbles, then
-// bytes, each with the sum of the x of its bits. Spelled out, as the baseline instruction set has no population count.
+// Number of bits, and sums of x - 3 and of y - 3 over them. In a word, all counts side by side: of pairs, then nibbles,
+// then bytes, each with the sum of the x of its bits. Spelled out, as the baseline instruction set has no population
+// count.
 struct BitSums {
     std::int32_t count, x, y;
 
@@ -45,7 +46,9 @@ struct BitSums {
     }
 
 private:
-    static constexpr std::int32_t sum(std::uint64_t product) noexcept { return static_cast<std::int32_t>(product >> 56); }
+    static constexpr std::int32_t sum(std::uint64_t product) noexcept {
+        return static_cast<std::int32_t>(product >> 56);
+    }
 };
 constexpr std::int32_t count(std::uint64_t bits) noexcept { return BitSums(bits).count; }
 
@@ -102,8 +105,8 @@ VoxelWindow layersAlong(const VoxelWindow& window, int axis, int sign) noexcept 
         layers = window;
     } else {
         for (int z = 0; z < 7; ++z) {
-            const std::uint64_t word = axis == 1 ? window[static_cast<std::size_t>(z)]
-                                                 : transposed(window[static_cast<std::size_t>(z)]);
+            const std::uint64_t word =
+                axis == 1 ? window[static_cast<std::size_t>(z)] : transposed(window[static_cast<std::size_t>(z)]);
             for (int layer = 0; layer < 7; ++layer)
                 layers[static_cast<std::size_t>(layer)] |= ((word >> (8 * layer)) & 0xFF) << (8 * z);
         }
@@ -112,8 +115,8 @@ VoxelWindow layersAlong(const VoxelWindow& window, int axis, int sign) noexcept 
     return layers;
 }
 
-// The body's surface as heights over the plane across an axis: bit (p, q) of tops[h] is set where the body ends, seen from
-// inside, with layer h.
+// The body's surface as heights over the plane across an axis: bit (p, q) of tops[h] is set where the body ends, seen
+// from inside, with layer h.
 struct Heights {
     VoxelWindow tops{};
     std::uint64_t places = 0;
@@ -221,8 +224,8 @@ int longestAxis(Vec3i v, int preferred) noexcept {
     return longest;
 }
 
-// Is all that ends in the window along the axis one face before the middle? Decides most hits, without the layers: the top
-// of the layers along x is found in the bits of a byte, along y in the bytes of a word.
+// Is all that ends in the window along the axis one face before the middle? Decides most hits, without the layers: the
+// top of the layers along x is found in the bits of a byte, along y in the bytes of a word.
 bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
     std::uint64_t face = 0, other = 0;
     if (axis == 2) {
@@ -233,7 +236,8 @@ bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
     } else {
         const int step = axis == 0 ? 1 : 8;
         const std::uint64_t unit = axis == 0 ? 0x0001010101010101ull : 0x7Full;
-        // Places of layer 2, and of the layers 0, 1, 3, 4, 5; layer h is coordinate h, or 6 - h where the face looks back.
+        // Places of layer 2, and of the layers 0, 1, 3, 4, 5; layer h is coordinate h, or 6 - h where the face looks
+        // back.
         const int middle = sign > 0 ? 2 : 4;
         std::uint64_t others = 0;
         for (int h = 0; h < 6; ++h)

@@ -68,22 +68,21 @@ template <class Accepts>
 /// Normal of a body's surface.
 struct SurfaceNormal {
     Vec3f indexNormal;   ///< index space, across the surface there; not normalized, never zero
-    float coverage = 0;  ///< share of the voxels in a ball before the surface that are body: kPlaneCoverage on a plane, more in
-                         ///< corners
+    float coverage = 0;  ///< share of the voxels in a ball before the surface that are body: kPlaneCoverage on a plane,
+                         ///< more in corners
 
     static constexpr float kPlaneCoverage = 71.0f / 179;
 };
 
-/// Normal at the middle of a window that stands around the voxel before the surface, so that a sheet one voxel thick has
-/// a side, too.
-/// \param faceAxis  axis of the voxel face that is looked at, 0..2
-/// \param faceSign  direction of that face's normal along the axis, 1 or -1
+/// Normal at the middle of a window that stands around the voxel before the surface, so that a sheet one voxel thick
+/// has a side, too. \param faceAxis  axis of the voxel face that is looked at, 0..2 \param faceSign  direction of that
+/// face's normal along the axis, 1 or -1
 ///
-/// The body's surface is taken as heights over a plane, joined from the face outwards while they rise or fall by a voxel at
-/// most. Where they are all equal the normal is the face's, exactly, right up to the edges of a wall. Else it is that of
-/// the plane of least squares through them, over the axis along which the first moment of the body in a ball is longest
-/// (along which the surface is a function). Where there are too few heights it is that moment, and where that leads
-/// nowhere the face's normal.
+/// The body's surface is taken as heights over a plane, joined from the face outwards while they rise or fall by a
+/// voxel at most. Where they are all equal the normal is the face's, exactly, right up to the edges of a wall. Else it
+/// is that of the plane of least squares through them, over the axis along which the first moment of the body in a ball
+/// is longest (along which the surface is a function). Where there are too few heights it is that moment, and where
+/// that leads nowhere the face's normal.
 [[nodiscard]] SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
 
 /// Normal of the surface of the voxels that `accepts(scalar)`, where a ray meets voxel `cell` through a face.

@@ -25,8 +25,8 @@ TEST(VoxelWindow, ShowsTheVoxelsAroundAlsoAcrossBricksAndBorders) {
             for (int y = 0; y < 8; ++y)
                 for (int x = 0; x < 8; ++x) {
                     const Vec3i p{middle.x + x - 3, middle.y + y - 3, middle.z + z - 3};
-                    const bool isInside = x < 7 && y < 7 && p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < n.x && p.y < n.y &&
-                                          p.z < n.z;
+                    const bool isInside =
+                        x < 7 && y < 7 && p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < n.x && p.y < n.y && p.z < n.z;
                     const bool expected = isInside && volume.bricks.scalarAt(p.x, p.y, p.z) != 0;
                     ASSERT_EQ((window[std::size_t(z)] >> (x + 8 * y)) & 1, expected);
                 }
@@ -57,8 +57,7 @@ TEST(SurfaceNormal, WallsAlongTheAxesHaveExactNormalsUpToTheirEdges) {
 }
 
 TEST(SurfaceNormal, ASheetOfOneVoxelHasTwoSides) {
-    const TestVolume volume =
-        makeVolume({32, 32, 32}, {1, 1, 1}, [](auto, auto j, auto) { return j == 16 ? 1u : 0u; });
+    const TestVolume volume = makeVolume({32, 32, 32}, {1, 1, 1}, [](auto, auto j, auto) { return j == 16 ? 1u : 0u; });
     EXPECT_EQ(normalAlong(volume, 1, -1, {16, 0, 16}), (Vec3d{0, -1, 0}));
     EXPECT_EQ(normalAlong(volume, 1, 1, {16, 0, 16}), (Vec3d{0, 1, 0}));
 }

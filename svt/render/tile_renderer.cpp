@@ -75,13 +75,14 @@ void TileRenderer::findLines() {
         }
 }
 
-// How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space) beside
-// it. The nearer of the two carries the line. Where both are of one surface both do, or, with one sample per pixel,
-// only the first of them, so that the line is a pixel wide.
+// How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space)
+// beside it. The nearer of the two carries the line. Where both are of one surface both do, or, with one sample per
+// pixel, only the first of them, so that the line is a pixel wide.
 float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const {
     if (!other.hasHit()) return 1;
     const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
-    // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in depth.
+    // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in
+    // depth.
     const Vec3d normal = toDouble(sample.normal);
     const double facing = std::max(-dot(normal, scene_.rays.forward()), 0.02);
     const double predicted = dot(normal, aside) / facing;

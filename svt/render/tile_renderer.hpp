@@ -45,8 +45,8 @@ private:
     std::int32_t lineReach_;  // samples from a border that its line covers, on either side
     std::int32_t margin_;     // samples around the tile
     std::int32_t stride_;
-    Vec3f backgroundTop_, backgroundBottom_;  // linear light
-    double voxelSize_;        // metres, the largest spacing
+    Vec3f backgroundTop_, backgroundBottom_;                               // linear light
+    double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
     std::vector<Sample> samples_;
     std::vector<float> lines_;  // how dark, 0..1

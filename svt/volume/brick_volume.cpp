@@ -57,8 +57,8 @@ struct LocalBrick {
     std::uint64_t hash = 0;
 };
 
-// One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of `scalars`,
-// or of `bricks` with the mixed bit.
+// One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of
+// `scalars`, or of `bricks` with the mixed bit.
 struct TileBricks {
     std::array<std::uint8_t, kBricksPerTile * kBricksPerTile> columnOf{};
     std::vector<std::uint32_t> entries;
@@ -75,7 +75,11 @@ struct FootprintColumn {
 class TileBricker {
 public:
     TileBricker(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t bricksZ)
-        : tile_(tile), width_(width), height_(height), bricksZ_(bricksZ) {}
+        : tile_(tile),
+          width_(width),
+          height_(height),
+          nz_(tile.runs.back().end),
+          top_(static_cast<std::uint32_t>(bricksZ) * 8) {}
 
     TileBricks make() {
         std::vector<std::array<std::uint16_t, 64>> footprints;
@@ -124,11 +128,10 @@ private:
             }
             columns_[known].mask |= std::uint64_t{1} << n;
         }
-        const auto top = static_cast<std::uint32_t>(bricksZ_) * 8;
         std::uint32_t bottom = 0;
-        while (bottom < top) {
+        while (bottom < top_) {
             // No run ends inside [bottom, same), so all whole bricks in there are equal.
-            std::uint32_t same = top;
+            std::uint32_t same = top_;
             bool isUniform = true;
             for (FootprintColumn& column : columns_) {
                 while (column.run->end <= bottom) ++column.run;
@@ -144,15 +147,11 @@ private:
     }
 
     // The last run is taken to fill the last brick.
-    std::uint32_t endOf(const Run& run) const {
-        const std::uint32_t nz = tile_.runs.back().end;
-        return run.end == nz ? static_cast<std::uint32_t>(bricksZ_) * 8 : run.end;
-    }
+    std::uint32_t endOf(const Run& run) const { return run.end == nz_ ? top_ : run.end; }
 
     std::uint32_t scalarNumber(Scalar scalar) {
         const auto known = std::find(result_.scalars.rbegin(), result_.scalars.rend(), scalar);
-        if (known != result_.scalars.rend())
-            return static_cast<std::uint32_t>(result_.scalars.rend() - known) - 1;
+        if (known != result_.scalars.rend()) return static_cast<std::uint32_t>(result_.scalars.rend() - known) - 1;
         result_.scalars.push_back(scalar);
         return static_cast<std::uint32_t>(result_.scalars.size()) - 1;
     }
@@ -198,9 +197,10 @@ private:
     }
 
     ColumnTile tile_;
-    std::int32_t width_, height_, bricksZ_;
+    std::int32_t width_, height_;
+    std::uint32_t nz_, top_;  // top of the last voxel, and of the last brick
     std::vector<FootprintColumn> columns_;
-    std::vector<std::uint16_t> numbers_;       // of the columns
+    std::vector<std::uint16_t> numbers_;  // of the columns
     std::vector<Scalar> palette_;
     std::array<std::uint64_t, 8 * 9> words_{};
     Numbering numbering_;
@@ -214,8 +214,8 @@ struct BrickBox {
 };
 
 // Covers the uniform bricks with boxes. Each box is grown from the first brick that has none yet, along x, then y, then
-// z, over all bricks of its scalar, whether other boxes hold them or not: boxes may overlap and a ray goes far in each. What
-// that costs is bounded by a budget; when it is spent, boxes keep to bricks that have none.
+// z, over all bricks of its scalar, whether other boxes hold them or not: boxes may overlap and a ray goes far in each.
+// What that costs is bounded by a budget; when it is spent, boxes keep to bricks that have none.
 class BoxFinder {
 public:
     BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count) : index_(index), count_(count) {
@@ -355,7 +355,6 @@ public:
     }
 
 private:
-
     std::uint32_t scalarNumber(Scalar scalar) {
         const auto [place, isNew] = scalarNumbers_.try_emplace(scalar, static_cast<std::uint32_t>(scalars_.size()));
         if (isNew) {
@@ -420,9 +419,10 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
         bricks *= static_cast<std::uint64_t>(volume.brickCount_[axis]);
     }
     if (bricks > kMaxBricks)
-        return Error(Code::GridTooLarge, fmt::format("{} bricks are over the limit of {}; choose a coarser spacing or a "
-                                                     "coarser level of detail.",
-                                                     bricks, kMaxBricks));
+        return Error(Code::GridTooLarge,
+                     fmt::format("{} bricks are over the limit of {}; choose a coarser spacing or a "
+                                 "coarser level of detail.",
+                                 bricks, kMaxBricks));
     volume.dimension_ = dimension;
     if (bricks == 0) return volume;
     const std::span<const ColumnTile> tiles = columns.tiles();

@@ -41,8 +41,7 @@ void expectBoxesHold(const BrickVolume& bricks) {
     for (const SameLabelBox& box : bricks.boxes())
         for (std::int32_t k = box.min[2]; k < box.max[2]; ++k)
             for (std::int32_t j = box.min[1]; j < box.max[1]; ++j)
-                for (std::int32_t i = box.min[0]; i < box.max[0]; ++i)
-                    ASSERT_EQ(bricks.scalarAt(i, j, k), box.scalar);
+                for (std::int32_t i = box.min[0]; i < box.max[0]; ++i) ASSERT_EQ(bricks.scalarAt(i, j, k), box.scalar);
     for (std::int32_t bz = 0; bz < count.z; ++bz)
         for (std::int32_t by = 0; by < count.y; ++by)
             for (std::int32_t bx = 0; bx < count.x; ++bx) {
@@ -63,7 +62,8 @@ TEST(BrickVolume, EqualsTheColumnsAtEverySampleOfRandomVolumes) {
         for (const std::uint32_t labels : {2u, 3u, 5u, 20u, 600u, 0xFFFFFFFFu}) {
             const auto scalars =
                 dense(n, [&](std::int32_t, std::int32_t, std::int32_t) { return Scalar(random() % labels); });
-            EXPECT_EQ(differences(bricksOf(n, scalars), scalars), 0u) << n.x << ' ' << n.y << ' ' << n.z << ' ' << labels;
+            EXPECT_EQ(differences(bricksOf(n, scalars), scalars), 0u)
+                << n.x << ' ' << n.y << ' ' << n.z << ' ' << labels;
         }
     }
 }
@@ -81,8 +81,8 @@ TEST(BrickVolume, EqualsTheColumnsAtEverySampleOfBlockyVolumes) {
             for (std::int32_t k = a.z; k < b.z; ++k)
                 for (std::int32_t j = a.y; j < b.y; ++j)
                     for (std::int32_t i = a.x; i < b.x; ++i)
-                        scalars[std::size_t(i) + std::size_t(n.x) * (std::size_t(j) + std::size_t(n.y) * std::size_t(k))] =
-                            box % 7;
+                        scalars[std::size_t(i) +
+                                std::size_t(n.x) * (std::size_t(j) + std::size_t(n.y) * std::size_t(k))] = box % 7;
         }
         const BrickVolume bricks = bricksOf(n, scalars);
         EXPECT_EQ(differences(bricks, scalars), 0u);
@@ -112,7 +112,8 @@ TEST(BrickVolume, BoxesReachOverEachOther) {
 
 TEST(BrickVolume, CheckerboardIsOnePaletteBrick) {
     const Vec3i n{64, 128, 32};
-    const auto scalars = dense(n, [](std::int32_t i, std::int32_t j, std::int32_t k) { return Scalar((i + j + k) & 1); });
+    const auto scalars =
+        dense(n, [](std::int32_t i, std::int32_t j, std::int32_t k) { return Scalar((i + j + k) & 1); });
     const BrickVolume bricks = bricksOf(n, scalars);
     EXPECT_EQ(differences(bricks, scalars), 0u);
     EXPECT_EQ(bricks.paletteBrickCount(), 1u);
@@ -145,12 +146,19 @@ TEST(BrickVolume, VoxelMaskShowsTheVoxelsOfASelection) {
     const BrickVolume bricks = bricksOf(n, scalars);
     const std::set<Scalar> wanted{2, 3, 10};
     BrickVolume::MaskWords scratch;
-    const auto mask = bricks.voxelMask(bricks.entry(0, 0, 0), [&](Scalar s) { return wanted.count(s) != 0; }, scratch);
+    const auto mask = bricks.voxelMask(
+        bricks.entry(0, 0, 0), [&](Scalar s) { return wanted.count(s) != 0; }, scratch);
     for (std::size_t at = 0; at < 512; ++at)
         EXPECT_EQ((mask.word(at / 64) >> (at % 64)) & 1u, wanted.count(scalars[at])) << at;
     const BrickVolume one = bricksOf(n, std::vector<Scalar>(512, 2));
-    EXPECT_EQ(one.voxelMask(one.entry(0, 0, 0), [](Scalar s) { return s == 2; }, scratch).word(3), ~std::uint64_t{0});
-    EXPECT_EQ(one.voxelMask(one.entry(0, 0, 0), [](Scalar s) { return s != 2; }, scratch).word(3), 0u);
+    EXPECT_EQ(one.voxelMask(
+                     one.entry(0, 0, 0), [](Scalar s) { return s == 2; }, scratch)
+                  .word(3),
+              ~std::uint64_t{0});
+    EXPECT_EQ(one.voxelMask(
+                     one.entry(0, 0, 0), [](Scalar s) { return s != 2; }, scratch)
+                  .word(3),
+              0u);
 }
 
 TEST(BrickVolume, VoxelMaskOfTwoLabelsTakesEither) {
@@ -159,8 +167,8 @@ TEST(BrickVolume, VoxelMaskOfTwoLabelsTakesEither) {
     const BrickVolume bricks = bricksOf(n, scalars);
     BrickVolume::MaskWords scratch;
     for (const auto& wanted : {std::set<Scalar>{}, std::set<Scalar>{4}, std::set<Scalar>{9}, std::set<Scalar>{4, 9}}) {
-        const auto mask =
-            bricks.voxelMask(bricks.entry(0, 0, 0), [&](Scalar s) { return wanted.count(s) != 0; }, scratch);
+        const auto mask = bricks.voxelMask(
+            bricks.entry(0, 0, 0), [&](Scalar s) { return wanted.count(s) != 0; }, scratch);
         for (std::size_t at = 0; at < 512; ++at)
             ASSERT_EQ((mask.word(at / 64) >> (at % 64)) & 1u, wanted.count(scalars[at])) << at;
     }

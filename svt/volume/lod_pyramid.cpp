@@ -122,8 +122,10 @@ private:
             }
             const std::uint32_t next = same == nz ? cells : std::max(same / size, cell + 1);
             const Scalar mixture = mixCell(bottom, std::min(bottom + size, nz));
-            if (!runs.empty() && runs.back().scalar == mixture) runs.back().end = next;
-            else runs.push_back({next, mixture});
+            if (!runs.empty() && runs.back().scalar == mixture)
+                runs.back().end = next;
+            else
+                runs.push_back({next, mixture});
             cell = next;
         }
         return runs;
@@ -268,7 +270,8 @@ Mixture mixtureOf(std::span<const std::pair<Scalar, std::uint64_t>> counts, std:
 Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const Grid& grid, int coarsest,
                                               int threads) {
     if (coarsest < 1 || coarsest > kCoarsest)
-        return Error(Code::BadArgument, fmt::format("level {} is out of range; 1 to {} are possible", coarsest, kCoarsest));
+        return Error(Code::BadArgument,
+                     fmt::format("level {} is out of range; 1 to {} are possible", coarsest, kCoarsest));
     if (grid.dimension() != columns.dimension())
         return Error(Code::BadArgument, "the grid's dimension is not the volume's");
     std::vector<LodLevel> levels;

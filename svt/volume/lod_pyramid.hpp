@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// Coarse levels of a label volume. A cell of level L stands for a block of 2^L samples per axis and keeps
-/// which labels are in it, with how much coverage, so nothing thin is lost: a wall one voxel thick in a cell of 8 is there
-/// with coverage 1/8. Nothing is coloured here; a mixture gets its look from the styles at hand when it is drawn.
+/// which labels are in it, with how much coverage, so nothing thin is lost: a wall one voxel thick in a cell of 8 is
+/// there with coverage 1/8. Nothing is coloured here; a mixture gets its look from the styles at hand when it is drawn.
 /// After Al-Thelaya, Agus, Schneider: The Mixture Graph, IEEE TVCG 2020.
 
 #include <svt/core/result.hpp>

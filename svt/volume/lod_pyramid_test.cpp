@@ -20,7 +20,8 @@ ColumnVolume columnsOf(Vec3i n, const LabelAt& labelAt) {
 }
 
 Grid gridOf(Vec3i n) {
-    return *Grid::fromDimension(Box3d{{10, 20, 30}, {10 + 0.1 * (n.x - 1), 20 + 0.2 * (n.y - 1), 30 + 0.3 * (n.z - 1)}}, n);
+    return *Grid::fromDimension(Box3d{{10, 20, 30}, {10 + 0.1 * (n.x - 1), 20 + 0.2 * (n.y - 1), 30 + 0.3 * (n.z - 1)}},
+                                n);
 }
 
 std::vector<LodLevel> pyramidOf(const ColumnVolume& columns, int coarsest = 6, int threads = 0) {
@@ -35,7 +36,8 @@ const Mixture& cellOf(const LodLevel& level, std::int32_t i, std::int32_t j, std
 
 TEST(LodPyramid, ThinWallsSurviveEveryLevel) {
     const Vec3i n{128, 64, 64};
-    const ColumnVolume columns = columnsOf(n, [](std::int32_t i, std::int32_t, std::int32_t) { return i == 77 ? 3u : 0u; });
+    const ColumnVolume columns =
+        columnsOf(n, [](std::int32_t i, std::int32_t, std::int32_t) { return i == 77 ? 3u : 0u; });
     for (const LodLevel& level : pyramidOf(columns, 5)) {
         const std::int32_t size = 1 << level.level;
         for (std::int32_t i = 0; i < level.grid.dimension().x; ++i) {
@@ -50,8 +52,9 @@ TEST(LodPyramid, ThinWallsSurviveEveryLevel) {
 
 TEST(LodPyramid, FullBlocksAreFullyCovered) {
     const Vec3i n{64, 64, 64};
-    const ColumnVolume columns =
-        columnsOf(n, [](std::int32_t i, std::int32_t, std::int32_t k) { return k < 32 ? 0u : i < 32 ? 1u : 2u; });
+    const ColumnVolume columns = columnsOf(n, [](std::int32_t i, std::int32_t, std::int32_t k) {
+        return k < 32 ? 0u : i < 32 ? 1u : 2u;
+    });
     const auto levels = pyramidOf(columns, 5);
     ASSERT_EQ(levels.size(), 5u);
     for (const LodLevel& level : levels) {

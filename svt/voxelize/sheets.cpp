@@ -73,11 +73,15 @@ std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, 
     return voxels.size();
 }
 
+Vec3i nearestSample(Vec3d index) {
+    return {static_cast<std::int32_t>(std::lrint(index.x)), static_cast<std::int32_t>(std::lrint(index.y)),
+            static_cast<std::int32_t>(std::lrint(index.z))};
+}
+
 void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
-    const auto i = static_cast<std::int32_t>(std::lrint(index.x)), j = static_cast<std::int32_t>(std::lrint(index.y)),
-               k = static_cast<std::int32_t>(std::lrint(index.z));
-    if (i < 0 || j < 0 || k < 0 || i >= dimension.x || j >= dimension.y || k >= dimension.z) return;
-    boxes.push_back({j, i, i + 1, k, k + 1, claim});
+    const Vec3i v = nearestSample(index);
+    if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= dimension.x || v.y >= dimension.y || v.z >= dimension.z) return;
+    boxes.push_back({v.y, v.x, v.x + 1, v.z, v.z + 1, claim});
 }
 
 // Separating axis test of a triangle against the box [-h, h]^3 around `center`.
@@ -169,7 +173,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
 std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension, std::uint32_t claim,
                            std::vector<ClaimedBox>& boxes) {
     std::vector<ClaimedBox> raw;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> rodEdges;
+    std::set<std::pair<Vec3i, Vec3i>> rodLines;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         if (!std::isfinite(triangle.thickness)) continue;
@@ -205,8 +209,8 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
                      });
         }
         // A rod: the face itself is narrower than a voxel, so sample lines may pass it by. One line along its longest edge, in
-        // the middle of the material, with one voxel per step of its dominant axis; the edge's other face need not repeat it.
-        const std::uint32_t corners[3] = {triangle.corners[0], triangle.corners[1], triangle.corners[2]};
+        // the middle of the material, with one voxel per step of its dominant axis. The faces around a rod all give nearly
+        // the same line; one is enough.
         const Vec3d points[3] = {a, b, c};
         std::size_t longest = 0;
         double longestLength = 0;
@@ -218,9 +222,9 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
             }
         }
         if (!(longestLength > 0) || length(normal) / longestLength >= 1) continue;
-        if (!rodEdges.insert(std::minmax(corners[longest], corners[(longest + 1) % 3])).second) continue;
         const Vec3d from = indexFromLocal.point(points[longest]) + inward * 0.5;
         const Vec3d way = indexFromLocal.direction(points[(longest + 1) % 3] - points[longest]);
+        if (!rodLines.insert(std::minmax(nearestSample(from), nearestSample(from + way))).second) continue;
         const double reach = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
         const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
         for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, raw);

@@ -144,6 +144,11 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
                           std::span<const ObjectClaim> claims, std::vector<std::uint64_t>& thinVoxels, int threads) {
     volume::Scalar scalarCount = 1;
     for (const ObjectClaim& claim : claims) scalarCount = std::max(scalarCount, claim.scalar + 1);
+    // Every run of a tile's dictionary is in use, so a look at the runs tells who is there.
+    std::vector<std::uint8_t> isPresent(scalarCount, 0);
+    for (const volume::ColumnTile& tile : columns.tiles())
+        for (const volume::Run& run : tile.runs) isPresent[run.scalar] = 1;
+    if (std::all_of(claims.begin(), claims.end(), [&](const ObjectClaim& claim) { return isPresent[claim.scalar] != 0; })) return columns;
     std::vector<std::uint64_t> counts = columns.countVoxels(scalarCount);
     std::vector<VoxelEdit> edits;
     const Vec3i dimension = grid.dimension();

@@ -113,7 +113,7 @@ TEST_P(OutputTest, FolderIsRefused) {
     expect(runWith("o"), "E404 CannotWrite: o.*folder");
 }
 
-TEST_P(OutputTest, FullDiskIsToldAndLeavesNothing) {
+TEST_P(OutputTest, FullDiskIsTold) {
     Limits limits;
     limits.tinyDisk = folder / "sub";
     const CommandResult result = runWith("sub/o", limits);

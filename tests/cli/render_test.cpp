@@ -1,0 +1,166 @@
+// Pictures that the command draws, against pictures that somebody looked at. The distance is that of
+// svt/render/image.hpp: below 0.005 nobody sees a difference, below 0.05 only side by side.
+//
+// SVT_UPDATE_GOLDEN=1 writes the pictures anew; look at each before it is committed.
+#include "run_command.hpp"
+
+#include <svt/render/image.hpp>
+#include <svt/render/png.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace svt::test {
+namespace {
+
+constexpr double kInvisible = 0.005;
+
+struct Picture {
+    const char* name;
+    std::vector<std::string> options;  ///< of `svt render`
+    std::vector<std::string> build;    ///< of `svt build`, besides the spacing
+};
+
+void PrintTo(const Picture& picture, std::ostream* stream) { *stream << picture.name; }
+
+render::Image<render::Rgba8> differenceOf(const render::Image<render::Rgba8>& a, const render::Image<render::Rgba8>& b) {
+    render::Image<render::Rgba8> result(a.width(), a.height());
+    for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+        const auto& p = a.pixels()[i];
+        const auto& q = b.pixels()[i];
+        const auto channel = [](int x, int y) { return static_cast<std::uint8_t>(255 - std::min(255, 4 * std::abs(x - y))); };
+        result.pixels()[i] = {channel(p.r, q.r), channel(p.g, q.g), channel(p.b, q.b), 255};
+    }
+    return result;
+}
+
+class PictureTest : public ::testing::TestWithParam<Picture> {};
+
+TEST_P(PictureTest, LooksAsItsReference) {
+    const Picture& picture = GetParam();
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    std::vector<std::string> buildArguments{"build", "house.gml", "-o", "house.svt", "--spacing", "0.06"};
+    buildArguments.insert(buildArguments.end(), picture.build.begin(), picture.build.end());
+    runSvtWell(folder.path(), buildArguments);
+    std::vector<std::string> arguments{"render", "house.svt", "-o", "actual.png", "--size", "320x180"};
+    arguments.insert(arguments.end(), picture.options.begin(), picture.options.end());
+    runSvtWell(folder.path(), arguments);
+    const auto actual = render::readPng(folder / "actual.png");
+    ASSERT_TRUE(actual) << actual.error().toString();
+
+    const std::filesystem::path reference = std::filesystem::path(SVT_GOLDEN_DIR) / (std::string(picture.name) + ".png");
+    if (const char* update = std::getenv("SVT_UPDATE_GOLDEN"); update != nullptr && std::string(update) == "1") {
+        std::filesystem::create_directories(reference.parent_path());
+        std::filesystem::copy_file(folder / "actual.png", reference, std::filesystem::copy_options::overwrite_existing);
+        GTEST_SKIP() << reference << " is written anew; look at it";
+    }
+    const auto expected = render::readPng(reference);
+    ASSERT_TRUE(expected) << expected.error().toString() << "; SVT_UPDATE_GOLDEN=1 makes it";
+    const render::ImageDifference difference = render::compareImages(*actual, *expected);
+    if (difference.error < kInvisible) return;
+    const std::filesystem::path kept = SVT_PICTURE_DIR;
+    std::filesystem::create_directories(kept);
+    (void)render::writePng(kept / (std::string(picture.name) + ".actual.png"), *actual);
+    if (actual->width() == expected->width() && actual->height() == expected->height())
+        (void)render::writePng(kept / (std::string(picture.name) + ".difference.png"), differenceOf(*actual, *expected));
+    ADD_FAILURE() << picture.name << ": error " << difference.error << " (mean " << difference.mean << ", worst block " << difference.worstBlock << ", "
+                  << difference.differing << " pixels); actual and difference are in " << kept;
+}
+
+const std::vector<Picture> kPictures{
+    {"iso", {}, {}},
+    {"iso_north_west", {"--camera", "iso-nw"}, {}},
+    {"front", {"--camera", "front", "--ortho"}, {}},
+    {"plan", {"--camera", "top", "--ortho", "--section", "z=1.6"}, {}},
+    {"cut", {"--camera", "front", "--section", "y<5"}, {}},
+    {"corner_cut", {"--section", "x>6", "--section", "z>3.4"}, {}},
+    {"oblique_cut", {"--section", "1,-1,0.5,-2"}, {}},
+    {"without_roof", {"--hide", "name~'[Rr]oof' or name~'[Rr]after' or class=CeilingSurface or name~'[Cc]eiling'", "--camera", "iso-sw"}, {}},
+    {"rooms", {"--show", "class=BuildingRoom", "--opacity", "class=BuildingRoom:0.9", "--color", "id=house_living:tomato", "--color", "id=house_kitchen:gold"}, {}},
+    {"one_beam", {"--opacity", "all:0.06", "--opacity", "id=house_hidden_beam:1", "--color", "id=house_hidden_beam:red", "--edges", "0"}, {}},
+    {"patterns", {"--eye", "-4,-12,4", "--target", "3,4,2", "--section", "y<3"}, {"--patterns"}},
+    {"dark", {"--background", "#203040", "--edges", "1", "--camera", "iso-ne"}, {}},
+    {"coarse", {"--level", "2", "--section", "y<5", "--camera", "iso-sw"}, {}},
+};
+INSTANTIATE_TEST_SUITE_P(House, PictureTest, ::testing::ValuesIn(kPictures), [](const auto& test) { return std::string(test.param.name); });
+
+class SmallHouse : public ::testing::Test {
+protected:
+    SmallHouse() {
+        runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+        runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
+    }
+    render::Image<render::Rgba8> draw(std::vector<std::string> options) {
+        std::vector<std::string> arguments{"render", "house.svt", "-o", "p.png", "--size", "160x90"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        runSvtWell(folder.path(), arguments);
+        auto image = render::readPng(folder / "p.png");
+        if (!image) {
+            ADD_FAILURE() << image.error().toString();
+            return {1, 1};
+        }
+        return *image;
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(SmallHouse, HidingAllLeavesTheBackground) {
+    const auto image = draw({"--hide", "all", "--background", "#102030"});
+    for (const render::Rgba8& pixel : image.pixels()) ASSERT_EQ(pixel, (render::Rgba8{0x10, 0x20, 0x30, 255}));
+}
+
+TEST_F(SmallHouse, TransparentBackgroundHasNoAlpha) {
+    const auto image = draw({"--transparent"});
+    EXPECT_EQ(image.at(0, 0).a, 0);
+    EXPECT_EQ(image.at(80, 45).a, 255);
+}
+
+TEST_F(SmallHouse, PictureOfTheModelIsThatOfItsVolume) {
+    const auto ofVolume = draw({});
+    runSvtWell(folder.path(), {"render", "house.gml", "-o", "p.png", "--size", "160x90", "--spacing", "0.2"});
+    const auto ofModel = render::readPng(folder / "p.png");
+    ASSERT_TRUE(ofModel);
+    EXPECT_EQ(*ofModel, ofVolume);
+}
+
+TEST_F(SmallHouse, LabelsAreThoseOfInfo) {
+    (void)draw({"--labels", "labels.png", "--show", "id=house_chimney"});
+    const auto labels = render::readGrayPng(folder / "labels.png");
+    ASSERT_TRUE(labels);
+    const auto rows = runSvtForJson(folder.path(), {"query", "house.svt", "id=house_chimney", "--json"});
+    const int first = rows.at(0).at("first");
+    std::size_t hits = 0;
+    for (const std::uint16_t label : labels->pixels()) {
+        ASSERT_TRUE(label == 0 || label == first) << label;
+        hits += label == first;
+    }
+    EXPECT_GT(hits, 20u);
+}
+
+TEST_F(SmallHouse, DepthIsInMillimetres) {
+    // From the south in parallel projection: what is hit lies within the house, 12.6 m deep, before the eye.
+    (void)draw({"--depth", "depth.png", "--camera", "front"});
+    const auto depth = render::readGrayPng(folder / "depth.png");
+    ASSERT_TRUE(depth);
+    std::uint16_t least = 65535, most = 0;
+    for (const std::uint16_t step : depth->pixels()) {
+        if (step == 0) continue;
+        least = std::min(least, step);
+        most = std::max(most, step);
+    }
+    EXPECT_LT(least, most);
+    EXPECT_LT(most - least, 16000);
+    EXPECT_GT(most - least, 1000);
+}
+
+TEST_F(SmallHouse, LastOfTwoColorsWins) {
+    const auto isRed = [](const render::Rgba8& p) { return p.r > p.b + 60 && p.r > p.g + 60; };
+    const auto isBlue = [](const render::Rgba8& p) { return p.b > p.r + 60 && p.b > p.g + 60; };
+    const auto image = draw({"--color", "all:red", "--color", "all:blue", "--opacity", "all:1"});
+    EXPECT_EQ(std::count_if(image.pixels().begin(), image.pixels().end(), isRed), 0);
+    EXPECT_GT(std::count_if(image.pixels().begin(), image.pixels().end(), isBlue), 500);
+}
+
+}  // namespace
+}  // namespace svt::test
