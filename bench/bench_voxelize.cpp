@@ -36,7 +36,7 @@ Solids solidsOf(const Scene& scene) {
     solids.meshes.origin = scene.meshes.origin;
     solids.meshes.planes = scene.meshes.planes;
     solids.meshes.bounds = scene.meshes.bounds;
-    for (std::size_t o = 0; o < solids.meshes.objects.size(); ++o) {
+    for (std::size_t o = 0; o < scene.meshes.objects.size(); ++o) {
         if (!scene.meshes.objects[o].isSolid()) continue;
         solids.meshes.objects.push_back(scene.meshes.objects[o]);
         solids.claims.push_back(scene.labels.claims[o]);

@@ -65,7 +65,8 @@ struct IndexRay {
     }
     /// The voxel that holds the ray from t on, along an axis of `count` voxels.
     [[nodiscard]] std::int32_t cellAt(int axis, double t, std::int32_t count) const noexcept {
-        const double guess = std::clamp(origin[axis] + t * direction[axis], 0.0, static_cast<double>(count - 1));
+        const double position = origin[axis] + t * direction[axis];
+        const double guess = position > 0 ? std::min(position, static_cast<double>(count - 1)) : 0;  // 0 also for NaN
         auto cell = static_cast<std::int32_t>(guess);
         // Only beside a plane can rounding and planeTime() disagree.
         const double inCell = guess - cell;

@@ -34,7 +34,7 @@ inline TestVolume makeVolume(Vec3i n, Vec3d spacing, const LabelAt& labelAt) {
     return volume;
 }
 
-/// Label 1 + a few where the middle of the voxel, in metres, `isInside`; 0 elsewhere.
+/// Label 1 where the middle of the voxel, in metres, `isInside`; 0 elsewhere.
 inline TestVolume makeBody(Vec3i n, Vec3d spacing, const std::function<bool(Vec3d)>& isInside) {
     return makeVolume(n, spacing, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
         return isInside({(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z}) ? 1u : 0u;
@@ -59,13 +59,6 @@ inline FrameSpec frontFrame(std::int32_t width, std::int32_t height, Vec3d targe
     spec.camera.orthographicHeight = metres;
     spec.passes.push_back({std::move(styles), {}, Pass::Join::Over});
     return spec;
-}
-
-/// Light that gives each surface its own colour, whatever its normal.
-inline void setFlatLight(FrameSpec& spec) {
-    spec.light.key = 0;
-    spec.light.ambient = 0;
-    spec.light.ambientOcclusion = 0;
 }
 
 inline Frame cast(const TestVolume& volume, const FrameSpec& spec, const CastOptions& options = {}) {

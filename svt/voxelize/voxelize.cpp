@@ -7,8 +7,11 @@
 #include <svt/voxelize/tile_columns.hpp>
 #include <svt/voxelize/winding.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 
@@ -126,6 +129,21 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::
         out.thinVoxels = addThinParts(out.index, indexFromLocal, dimension, claims.thinOrder[object], out.boxes);
 }
 
+// Voxels of all sheets, estimated by their area: what the pass for them keeps in memory grows with it.
+double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& indexFromLocal) {
+    double voxels = 0;
+    for (const mesh::ObjectMesh& object : scene.objects) {
+        if (object.closure != mesh::Closure::Surface) continue;
+        for (const mesh::Triangle& triangle : object.triangles) {
+            const Vec3d a = object.vertices[triangle.corners[0]];
+            const Vec3d normal = cross(indexFromLocal.direction(object.vertices[triangle.corners[1]] - a),
+                                       indexFromLocal.direction(object.vertices[triangle.corners[2]] - a));
+            voxels += (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / 2;
+        }
+    }
+    return voxels;
+}
+
 void addPairs(std::vector<SharedCount>& pairs) {
     std::sort(pairs.begin(), pairs.end(),
               [](const SharedCount& p, const SharedCount& q) { return std::tie(p.first, p.second) < std::tie(q.first, q.second); });
@@ -184,6 +202,10 @@ Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid
     Progress::tell(options.progress, "voxelize", 0);
     const Vec3i dimension = grid.dimension();
     const IndexFromLocal indexFromLocal(scene, grid);
+    constexpr double kMostSheetVoxels = 5e8;
+    if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMostSheetVoxels)
+        return Error(Code::GridTooLarge, fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
+                                                     "choose a coarser spacing", sheets, kMostSheetVoxels));
     const Claims ordered = orderClaims(scene, claims);
     std::vector<mesh::Plane> planes(scene.planes.size());
     if (indexFromLocal.keepsVertical())
