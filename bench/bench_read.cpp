@@ -9,6 +9,20 @@ namespace {
 
 double megabytesPerSecond(double bytes, double seconds) { return bytes / 1e6 / seconds; }
 
+// Polygons, one for each time that a geometry uses it.
+std::size_t countUses(const model::BuildingModel& model) {
+    std::size_t uses = 0;
+    for (const model::Feature& feature : model.features)
+        for (const model::Geometry& geometry : feature.geometries) {
+            uses += geometry.surfaces.size();
+            for (const model::Solid& solid : geometry.solids) {
+                uses += solid.exterior.size();
+                for (const auto& interior : solid.interiors) uses += interior.size();
+            }
+        }
+    return uses;
+}
+
 Result<Row> readRow(const Input& input, const BenchOptions& options) {
     tell(fmt::format("read {}", input.file.filename().string()));
     const double bytes = double(std::filesystem::file_size(input.file));
@@ -41,7 +55,7 @@ Result<Row> readRow(const Input& input, const BenchOptions& options) {
     const auto measured = measureInTurns(contestants, options.measure);
     row.ours = measured[0];
     row.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[0].median);
-    row.extra["polygons"] = model->polygons.size();
+    row.extra["polygons"] = countUses(*model);
     row.note = fmt::format("{:.0f} MB/s", megabytesPerSecond(bytes, measured[0].median));
     for (std::size_t m = 1; m < measured.size(); ++m) {
         Beside beside;
@@ -52,7 +66,7 @@ Result<Row> readRow(const Input& input, const BenchOptions& options) {
         beside.note = fmt::format("{:.0f} MB/s, SVT {:.0f} MB/s", speed, megabytesPerSecond(bytes, measured[0].median));
         if (beside.isPeer) {
             beside.extra["polygons"] = counts.polygons;
-            beside.note += fmt::format("; polygons: {}, SVT {}", counts.polygons, model->polygons.size());
+            beside.note += fmt::format("; polygons: {}, SVT {}", counts.polygons, countUses(*model));
         }
         row.beside.push_back(std::move(beside));
     }

@@ -12,14 +12,16 @@ namespace svt::bench {
 namespace {
 
 std::string agreement(const VoxelComparison& comparison) {
-    return fmt::format("{} of {} filled voxels differ ({:.4f} %)", comparison.differing, comparison.filledOurs,
-                       comparison.differingPercent());
+    return fmt::format("{} of {} filled voxels differ ({:.4f} %), and {} samples that lie on the hull",
+                       comparison.differing - comparison.differingOnBorder, comparison.filledOurs,
+                       comparison.differingPercent(), comparison.differingOnBorder);
 }
 
 Json comparisonJson(const VoxelComparison& comparison) {
     return {{"filled_svt", comparison.filledOurs},
             {"filled_peer", comparison.filledTheirs},
             {"differing", comparison.differing},
+            {"differing_on_border", comparison.differingOnBorder},
             {"differing_percent", comparison.differingPercent()}};
 }
 

@@ -26,7 +26,7 @@ std::uint32_t digitOf(std::uint8_t channel) {
 }  // namespace
 
 double VoxelComparison::differingPercent() const {
-    return filledOurs == 0 ? 0 : 100 * double(differing) / double(filledOurs);
+    return filledOurs == 0 ? 0 : 100 * double(differing - differingOnBorder) / double(filledOurs);
 }
 
 VoxelComparison compareVoxels(const volume::ColumnVolume& ours, const DenseLabels& theirs) {
@@ -40,11 +40,18 @@ VoxelComparison compareVoxels(const volume::ColumnVolume& ours, const DenseLabel
         slab.resize(layer * static_cast<std::size_t>(kEnd - k));
         volume::copyBox<std::uint16_t>(ours, {0, n.y, k, kEnd}, slab);
         const std::uint16_t* other = theirs.scalars.data() + layer * static_cast<std::size_t>(k);
-        for (std::size_t v = 0; v < slab.size(); ++v) {
-            result.filledOurs += slab[v] != 0;
-            result.filledTheirs += other[v] != 0;
-            result.differing += slab[v] != other[v];
-        }
+        std::size_t v = 0;
+        for (std::int32_t slabK = k; slabK < kEnd; ++slabK)
+            for (std::int32_t j = 0; j < n.y; ++j)
+                for (std::int32_t i = 0; i < n.x; ++i, ++v) {
+                    result.filledOurs += slab[v] != 0;
+                    result.filledTheirs += other[v] != 0;
+                    if (slab[v] == other[v]) continue;
+                    const bool isBorder =
+                        i == 0 || j == 0 || slabK == 0 || i == n.x - 1 || j == n.y - 1 || slabK == n.z - 1;
+                    ++result.differing;
+                    result.differingOnBorder += isBorder;
+                }
     }
     return result;
 }

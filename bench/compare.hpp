@@ -4,7 +4,6 @@
 
 #include <bench/peers.hpp>
 #include <svt/render/image.hpp>
-
 #include <svt/volume/column_volume.hpp>
 
 #include <cstdint>
@@ -16,8 +15,11 @@ struct VoxelComparison {
     std::uint64_t filledOurs = 0;
     std::uint64_t filledTheirs = 0;
     std::uint64_t differing = 0;  ///< voxels with another label
+    /// Of these, in the outermost layer of the grid: samples there lie exactly on the model's hull, where inside and
+    /// outside are a matter of convention.
+    std::uint64_t differingOnBorder = 0;
 
-    [[nodiscard]] double differingPercent() const;  ///< of the voxels that ours fills
+    [[nodiscard]] double differingPercent() const;  ///< inside of the border layer, of the voxels that ours fills
 };
 
 /// Dimensions must agree.

@@ -8,6 +8,8 @@
 namespace svt::volume {
 namespace {
 
+using Runs = std::vector<Run>;  // inside of a test, Run is one of its members
+
 std::vector<Scalar> randomDense(Vec3i dimension, std::uint32_t seed, Scalar scalarCount) {
     std::mt19937 random(seed);
     std::vector<Scalar> dense(std::size_t(dimension.x) * std::size_t(dimension.y) * std::size_t(dimension.z));
@@ -79,8 +81,8 @@ TEST(ColumnVolume, EqualColumnsAndRowsAreStoredOnce) {
     const ColumnTile& tile = volume.tiles()[0];
     EXPECT_EQ(tile.rowOf.size(), 64u);
     EXPECT_EQ(tile.rowColumns.size(), 64u);
-    const std::vector<Run> expected{{40, 0}, {60, 7}, {100, 0}};
-    EXPECT_EQ(std::vector<Run>(tile.runs.begin(), tile.runs.end()), expected);
+    const Runs expected{{40, 0}, {60, 7}, {100, 0}};
+    EXPECT_EQ(Runs(tile.runs.begin(), tile.runs.end()), expected);
     EXPECT_LT(volume.sizeBytes(), 500u);
 }
 
@@ -98,7 +100,7 @@ TEST(ColumnVolume, EqualVolumesHaveEqualBytesAndOneVoxelTellsThemApart) {
 
 TEST(ColumnVolume, CopiesShareTheirStorage) {
     ColumnVolume copy;
-    const Run* before = nullptr;
+    const volume::Run* before = nullptr;
     {
         const ColumnVolume volume = ColumnVolume::fromDense({4, 4, 4}, std::vector<Scalar>(64, 2));
         before = volume.tiles()[0].runs.data();
@@ -110,7 +112,7 @@ TEST(ColumnVolume, CopiesShareTheirStorage) {
 
 TEST(ColumnTileBuilder, KnownColumnsKeepTheirNumber) {
     ColumnTileBuilder builder(2);
-    const std::vector<Run> empty{{9, 0}}, full{{9, 1}}, half{{4, 1}, {9, 0}};
+    const Runs empty{{9, 0}}, full{{9, 1}}, half{{4, 1}, {9, 0}};
     EXPECT_EQ(builder.addColumn(empty), 0u);
     EXPECT_EQ(builder.addColumn(full), 1u);
     EXPECT_EQ(builder.addColumn(empty), 0u);
@@ -131,10 +133,10 @@ TEST(ColumnTileBuilder, HoldsAllColumnsOfATileThatDiffer) {
     ColumnTileBuilder builder(64);
     std::vector<std::uint16_t> row(64);
     for (std::uint32_t j = 0; j < 64; ++j) {
-        for (std::uint32_t i = 0; i < 64; ++i) row[i] = builder.addColumn(std::vector<Run>{{7, j * 64 + i}});
+        for (std::uint32_t i = 0; i < 64; ++i) row[i] = builder.addColumn(Runs{{7, j * 64 + i}});
         builder.addRow(row);
     }
-    EXPECT_EQ(builder.addColumn(std::vector<Run>{{7, 5}}), 5u);
+    EXPECT_EQ(builder.addColumn(Runs{{7, 5}}), 5u);
     const ColumnVolume volume = ColumnVolume::fromTiles({64, 64, 7}, {builder.finish()});
     for (std::int32_t j = 0; j < 64; ++j)
         for (std::int32_t i = 0; i < 64; ++i) ASSERT_EQ(volume.scalarAt(i, j, 6), Scalar(j * 64 + i));

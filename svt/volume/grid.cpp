@@ -82,6 +82,7 @@ Result<Grid> Grid::fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin, const
         for (int b = 0; b < 3; ++b)
             if (!(std::abs(dot(axes[a], axes[b]) - (a == b ? 1.0 : 0.0)) < 1e-9))
                 return Error(Code::BadDimension, "the axes of the grid are no rotation");
+    if (!(dot(cross(axes[0], axes[1]), axes[2]) > 0)) return Error(Code::BadDimension, "the axes of the grid are mirrored, no rotation");
     Grid grid;
     grid.dimension_ = dimension;
     grid.spacing_ = spacing;
