@@ -30,7 +30,7 @@ struct MeasureOptions {
     int mostRuns = 15;
     double secondsInAll = 12;  ///< no new round begins after this, once all had `leastRuns`
     /// A contestant that has used this much stops after three runs, seconds.
-    double secondsEach = 30;
+    double secondsEach = 8;
 };
 
 /// Runs all contestants once to warm up (and for the memory), then in turns.

@@ -8,11 +8,9 @@
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPiecewiseFunction.h>
-#include <vtkPointData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkUnsignedShortArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
@@ -23,14 +21,15 @@
 namespace svt::bench {
 namespace {
 
-// Debian's VTK draws through X alone, and ends the program where there is no display; so ask X first.
+// Debian's VTK draws through X alone, and ends the program where there is no display; so ask X first. The connection
+// stays open: an X server that loses its last client starts anew, and refuses whoever comes at that moment.
 bool hasDisplay() {
-    void* const library = dlopen("libX11.so.6", RTLD_LAZY);
-    if (library == nullptr) return false;
-    const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));
-    const auto close = reinterpret_cast<int (*)(void*)>(dlsym(library, "XCloseDisplay"));
-    void* const display = open != nullptr ? open(nullptr) : nullptr;
-    if (display != nullptr && close != nullptr) close(display);
+    static void* const display = []() -> void* {
+        void* const library = dlopen("libX11.so.6", RTLD_LAZY);
+        if (library == nullptr) return nullptr;
+        const auto open = reinterpret_cast<void* (*)(const char*)>(dlsym(library, "XOpenDisplay"));
+        return open != nullptr ? open(nullptr) : nullptr;
+    }();
     return display != nullptr;
 }
 
@@ -56,19 +55,32 @@ public:
 
     void setVolume(const DenseLabels& labels, const volume::Grid& grid) override {
         gridOrigin_ = grid.origin();
-        vtkNew<vtkUnsignedShortArray> scalars;
-        // VTK does not write to its input.
-        scalars->SetArray(const_cast<std::uint16_t*>(labels.scalars.data()),
-                          static_cast<vtkIdType>(labels.scalars.size()), 1);
+        // VTK draws from the first sample to the last; a layer of background around shows the outer half voxels too.
+        const Vec3i n = labels.dimension;
+        const Vec3d spacing = grid.spacing();
         vtkNew<vtkImageData> image;
-        image->SetDimensions(labels.dimension.x, labels.dimension.y, labels.dimension.z);
-        image->SetSpacing(grid.spacing().x, grid.spacing().y, grid.spacing().z);
-        image->GetPointData()->SetScalars(scalars);
-        const double step = std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z});
+        image->SetDimensions(n.x + 2, n.y + 2, n.z + 2);
+        image->SetSpacing(spacing.x, spacing.y, spacing.z);
+        image->SetOrigin(-spacing.x, -spacing.y, -spacing.z);
+        image->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
+        auto* const padded = static_cast<std::uint16_t*>(image->GetScalarPointer());
+        std::fill_n(padded, image->GetNumberOfPoints(), std::uint16_t{0});
+        const std::uint16_t* row = labels.scalars.data();
+        for (std::int32_t k = 1; k <= n.z; ++k)
+            for (std::int32_t j = 1; j <= n.y; ++j, row += n.x)
+                std::copy_n(row, n.x, padded + 1 + (n.x + std::ptrdiff_t{2}) * (j + (n.y + std::ptrdiff_t{2}) * k));
+        voxel_ = std::min({grid.spacing().x, grid.spacing().y, grid.spacing().z});
         if (kind_ == VtkMapper::FixedPoint)
-            setMapper(fixedPoint_, *image, step);
+            setMapper(fixedPoint_, *image);
         else
-            setMapper(gpu_, *image, step);
+            setMapper(gpu_, *image);
+        setSamplesPerVoxel(1);
+    }
+
+    void setSamplesPerVoxel(int samples) override {
+        const auto step = static_cast<float>(voxel_ / samples);
+        fixedPoint_->SetSampleDistance(step);
+        gpu_->SetSampleDistance(step);
     }
 
     void setStyles(std::span<const render::Style> styles) override {
@@ -115,10 +127,9 @@ public:
 
 private:
     template <class Mapper>
-    void setMapper(Mapper& mapper, vtkImageData& image, double step) {
+    void setMapper(Mapper& mapper, vtkImageData& image) {
         mapper->SetInputData(&image);
         mapper->SetAutoAdjustSampleDistances(0);
-        mapper->SetSampleDistance(static_cast<float>(step));
         mapper->SetImageSampleDistance(1);
         mapper->SetBlendModeToComposite();
         volume_->SetMapper(mapper);
@@ -126,6 +137,7 @@ private:
 
     VtkMapper kind_;
     Vec3d gridOrigin_{};
+    double voxel_ = 1;  // its shortest side, metres
     vtkNew<vtkFixedPointVolumeRayCastMapper> fixedPoint_;
     vtkNew<vtkGPUVolumeRayCastMapper> gpu_;
     vtkNew<vtkVolumeProperty> property_;

@@ -60,11 +60,13 @@ class VolumePeer {
 public:
     virtual ~VolumePeer() = default;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// Keeps a pointer to `labels`.
+    /// Copies what it needs.
     virtual void setVolume(const DenseLabels& labels, const volume::Grid& grid) = 0;
     /// Colors and opacities per metre, by scalar.
     virtual void setStyles(std::span<const render::Style> styles) = 0;
     virtual void setCamera(const render::Camera& camera, std::int32_t width, std::int32_t height) = 0;
+    /// 1 from the start.
+    virtual void setSamplesPerVoxel(int samples) = 0;
     /// Draws and waits for the picture.
     virtual void draw() = 0;
     [[nodiscard]] virtual render::Image<render::Rgba8> picture() = 0;

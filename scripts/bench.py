@@ -71,7 +71,7 @@ def run(build, quick):
         sys.exit(f"bench: {program} is missing; run `make bench`, or configure with -DSVT_BENCH=ON and build svt_bench")
     command = [str(program), "--json", str(build / "bench.json"), "--commit", commit()] + (["--quick"] if quick else [])
     if not os.environ.get("DISPLAY") and shutil.which("xvfb-run"):
-        command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24"] + command
+        command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24 -noreset"] + command
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"bench: svt_bench failed with exit code {done.returncode}")

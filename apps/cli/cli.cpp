@@ -32,7 +32,6 @@ int exitCodeOf(Code code) noexcept {
         case Code::DiskFull: return kOutput;
         case Code::Cancelled: return kCancelled;
         case Code::BadDimension:
-        case Code::BadPattern:
         case Code::BadCamera:
         case Code::BadFrame:
         case Code::BadQuery:

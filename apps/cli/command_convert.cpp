@@ -21,6 +21,7 @@ int runConvert(const Arguments& arguments) {
     Diagnostics diagnostics;
     const TerminalProgress progress;
     const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
     writers::NrrdOptions options;
     options.encoding = arguments.encoding == "raw" ? writers::NrrdEncoding::Raw : writers::NrrdEncoding::Gzip;

@@ -56,6 +56,7 @@ int runInfo(const Arguments& arguments) {
         const TerminalProgress progress;
         return loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
     }();
+    printDiagnostics(diagnostics, false);
     if (!loaded) return fail(loaded.error());
     const volume::SemanticVolume& volume = *loaded;
     if (arguments.json) {

@@ -22,6 +22,7 @@ int runQuery(const Arguments& arguments) {
         const TerminalProgress progress;
         return loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
     }();
+    printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
     const auto selected = pipeline::selectLabels(volume->labels, arguments.query);
     if (!selected) return fail(selected.error());

@@ -1,36 +1,23 @@
 #include "cli.hpp"
 
+#include <svt/core/edit_distance.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <new>
-#include <numeric>
+#include <system_error>
 
 namespace {
 
 using namespace svt::cli;
 
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
     std::string best;
     std::size_t distance = std::max<std::size_t>(3, word.size() / 2);
     for (const std::string& candidate : known)
-        if (const std::size_t d = editDistance(word, candidate); d < distance) {
+        if (const std::size_t d = svt::editDistance(word, candidate, distance); d < distance) {
             distance = d;
             best = candidate;
         }
@@ -50,6 +37,13 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
     }
     const std::string found = nearest(word.substr(0, word.find('=')), known);
     return found.empty() ? "" : fmt::format("; did you mean {}?", found);
+}
+
+// Results that stdout cannot take (a full disk behind '>') must not pass for success.
+int flushed(int exitCode) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
+    fmt::print(stderr, "svt: error: stdout cannot be written\n");
+    return exitCode == kDone ? kOutput : exitCode;
 }
 
 int run(int argc, char** argv) {
@@ -81,7 +75,7 @@ int run(int argc, char** argv) {
         return kUsage;
     }
     for (const auto& [name, command] : commands)
-        if (app.got_subcommand(name)) return command();
+        if (app.got_subcommand(name)) return flushed(command());
     fmt::print("{}", app.help());
     return kUsage;
 }
@@ -94,6 +88,10 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         fmt::print(stderr, "svt: error: out of memory; choose a coarser --spacing or a smaller model\n");
         return kLimit;
+    } catch (const std::system_error& error) {
+        // What fmt throws where stdout cannot be written.
+        fmt::print(stderr, "svt: error: stdout cannot be written: {}\n", error.code().message());
+        return kOutput;
     } catch (const std::exception& error) {
         fmt::print(stderr, "svt: internal error: {}\n", error.what());
         return kInternal;

@@ -114,52 +114,70 @@ std::vector<EdgeCut> findCuts(const std::vector<Vec3d>& vertices, const std::vec
     return cuts;
 }
 
+// A point on the border of a triangle, and which of its edges it lies on (bit 0: from corner 0 to 1, ...).
+struct BorderPoint {
+    std::uint32_t vertex;
+    unsigned edges;
+};
+
 // The corner ring of a triangle with the cut points of its edges put in.
-std::vector<std::uint32_t> ringWithCuts(const Triangle& triangle, const std::vector<EdgeCut>& cuts) {
-    std::vector<std::uint32_t> ring;
-    for (int c = 0; c < 3; ++c) {
-        const std::uint32_t a = triangle.corners[std::size_t(c)];
-        const std::uint32_t b = triangle.corners[std::size_t((c + 1) % 3)];
-        ring.push_back(a);
+std::vector<BorderPoint> ringWithCuts(const Triangle& triangle, const std::vector<EdgeCut>& cuts) {
+    std::vector<BorderPoint> ring;
+    for (unsigned c = 0; c < 3; ++c) {
+        const std::uint32_t a = triangle.corners[c];
+        const std::uint32_t b = triangle.corners[(c + 1) % 3];
+        ring.push_back({a, 1u << c | 1u << (c + 2) % 3});
         const auto key = std::minmax(a, b);
         auto range = std::equal_range(cuts.begin(), cuts.end(), EdgeCut{key.first, key.second, 0, 0},
                                       [](const EdgeCut& p, const EdgeCut& q) {
                                           return std::tie(p.from, p.to) < std::tie(q.from, q.to);
                                       });
         const std::size_t begin = ring.size();
-        for (auto it = range.first; it != range.second; ++it) ring.push_back(it->point);
+        for (auto it = range.first; it != range.second; ++it) ring.push_back({it->point, 1u << c});
         if (a > b) std::reverse(ring.begin() + static_cast<std::ptrdiff_t>(begin), ring.end());
     }
     return ring;
 }
 
-// Cuts a triangle whose border carries more points into triangles, ear by ear: the points lie on straight edges, so the
-// fattest ear first keeps slivers away and never makes a fold.
-void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<std::uint32_t> ring, const Triangle& source,
+// Cuts a triangle whose border carries more points into triangles, ear by ear, the fattest first. No ear lies on one edge
+// alone and none leaves points of one edge alone, so no triangle ends without area.
+void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint> ring, const Triangle& source,
                      std::vector<Triangle>& out) {
     const auto twiceArea = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         return length(cross(vertices[b] - vertices[a], vertices[c] - vertices[a]));
     };
+    std::size_t notOn[3] = {0, 0, 0};  // points of the ring that are not on the edge
+    const auto count = [&](const BorderPoint& point, bool isAdded) {
+        for (unsigned e = 0; e < 3; ++e)
+            if ((point.edges >> e & 1u) == 0) isAdded ? ++notOn[e] : --notOn[e];
+    };
+    for (const BorderPoint& point : ring) count(point, true);
+    const auto isRestFlat = [&](const BorderPoint& without) {
+        for (unsigned e = 0; e < 3; ++e)
+            if (notOn[e] == ((without.edges >> e & 1u) == 0 ? 1u : 0u)) return true;
+        return false;
+    };
     while (ring.size() > 3) {
+        const std::size_t n = ring.size();
         std::size_t best = 0;
         double bestArea = -1;
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const std::uint32_t a = ring[(i + ring.size() - 1) % ring.size()], b = ring[i], c = ring[(i + 1) % ring.size()];
-            // An ear over a corner of the triangle hides no point only if a-c stays inside; on a convex ring it always does.
-            const double area = twiceArea(a, b, c);
+        for (std::size_t i = 0; i < n; ++i) {
+            const BorderPoint &a = ring[(i + n - 1) % n], &b = ring[i], &c = ring[(i + 1) % n];
+            if ((a.edges & b.edges & c.edges) != 0 || isRestFlat(b)) continue;
+            const double area = twiceArea(a.vertex, b.vertex, c.vertex);
             if (area > bestArea) {
                 bestArea = area;
                 best = i;
             }
         }
-        const std::size_t n = ring.size();
         Triangle ear = source;
-        ear.corners = {ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n]};
+        ear.corners = {ring[(best + n - 1) % n].vertex, ring[best].vertex, ring[(best + 1) % n].vertex};
         out.push_back(ear);
+        count(ring[best], false);
         ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(best));
     }
     Triangle last = source;
-    last.corners = {ring[0], ring[1], ring[2]};
+    last.corners = {ring[0].vertex, ring[1].vertex, ring[2].vertex};
     out.push_back(last);
 }
 
@@ -225,7 +243,7 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
         std::vector<Triangle> result;
         result.reserve(triangles.size() + cuts.size() * 2);
         for (const Triangle& triangle : triangles) {
-            std::vector<std::uint32_t> ring = ringWithCuts(triangle, cuts);
+            std::vector<BorderPoint> ring = ringWithCuts(triangle, cuts);
             if (ring.size() == 3)
                 result.push_back(triangle);
             else

@@ -129,7 +129,7 @@ Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const 
     }
     if (result.isZeroArea) return result;
     const Vec3d unit = normalized(normal);
-    result.planeDeviation = deviationFromPlane(exterior, unit);
+    result.planeDeviation = deviationFromPlane(points, unit);
     if (ringEnds.size() == 1 && points.size() == 4 && isConvexQuad(exterior, normal)) {
         result.triangles = {{0, 1, 2}, {0, 2, 3}};
         return result;

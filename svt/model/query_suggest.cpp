@@ -1,3 +1,4 @@
+#include <svt/core/edit_distance.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/model/query.hpp>
 #include <svt/model/query_node.hpp>
@@ -19,40 +20,13 @@ using Names = std::set<std::string_view>;
 constexpr std::size_t kMaxNameBytes = 100;
 constexpr std::size_t kMaxListed = 8;
 
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Letters to insert, drop, change or swap with their neighbour, without regard to case (optimal string alignment);
-/// `limit` + 1 where there are more.
-std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
-    const std::size_t more = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
-    if (more > limit) return limit + 1;
-    std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-    for (std::size_t k = 0; k <= b.size(); ++k) last[k] = k;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
-        std::size_t least = i;
-        for (std::size_t k = 1; k <= b.size(); ++k) {
-            const bool isSame = lower(a[i - 1]) == lower(b[k - 1]);
-            row[k] = std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (isSame ? 0 : 1)});
-            const bool isSwapped =
-                i > 1 && k > 1 && lower(a[i - 1]) == lower(b[k - 2]) && lower(a[i - 2]) == lower(b[k - 1]);
-            if (isSwapped) row[k] = std::min(row[k], beforeLast[k - 2] + 1);
-            least = std::min(least, row[k]);
-        }
-        if (least > limit) return limit + 1;
-        std::swap(beforeLast, last);
-        std::swap(last, row);
-    }
-    return last[b.size()];
-}
-
 /// The nearest of `names`, else the shortest that contains `wanted`, else empty. Of equals the first in the alphabet.
 std::string_view nearest(std::string_view wanted, const Names& names) {
     if (wanted.empty() || wanted.size() > kMaxNameBytes) return {};
     std::size_t limit = std::max<std::size_t>(1, wanted.size() / 3);
     std::string_view best;
     for (const std::string_view name : names) {
-        const std::size_t steps = distance(wanted, name, limit);
+        const std::size_t steps = editDistance(wanted, name, limit);
         if (steps > limit || (!best.empty() && steps == limit)) continue;
         best = name;
         limit = steps;

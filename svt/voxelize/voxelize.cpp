@@ -194,55 +194,75 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
     return edits.empty() ? columns : editVoxels(columns, std::move(edits), threads);
 }
 
-}  // namespace
+// Everything of all objects, in object order.
+struct Geometry {
+    std::vector<ScanTriangle> triangles;
+    std::vector<ClaimedBox> boxes;
+    std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
+};
 
-Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const ObjectClaim> claims,
-                                const VoxelizeOptions& options) {
-    SVT_CHECK(claims.size() == scene.objects.size());
-    Progress::tell(options.progress, "voxelize", 0);
-    const Vec3i dimension = grid.dimension();
-    const IndexFromLocal indexFromLocal(scene, grid);
-    constexpr double kMostSheetVoxels = 5e8;
-    if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMostSheetVoxels)
-        return Error(Code::GridTooLarge, fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
-                                                     "choose a coarser spacing", sheets, kMostSheetVoxels));
-    const Claims ordered = orderClaims(scene, claims);
+Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
+                                const Claims& claims, const VoxelizeOptions& options) {
     std::vector<mesh::Plane> planes(scene.planes.size());
     if (indexFromLocal.keepsVertical())
         for (std::size_t p = 0; p < planes.size(); ++p) planes[p] = indexFromLocal.plane(scene.planes[p]);
-
     std::vector<Prepared> prepared(scene.objects.size());
     parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o)
-            prepareObject(scene, grid, planes, indexFromLocal, ordered, options, static_cast<std::uint32_t>(o), prepared[o]);
+            prepareObject(scene, grid, planes, indexFromLocal, claims, options, static_cast<std::uint32_t>(o), prepared[o]);
     });
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
         if (scene.objects[o].closure != mesh::Closure::Open) continue;
         if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
         prepared[o].uncertainVoxels =
-            addWindingFill(prepared[o].index, scene, grid, ordered.solidOrder[o], options.threads, prepared[o].boxes);
+            addWindingFill(prepared[o].index, scene, grid, claims.solidOrder[o], options.threads, prepared[o].boxes);
     }
-
-    std::vector<ScanTriangle> triangles;
-    std::vector<ClaimedBox> boxes;
-    VoxelizeResult result;
+    Geometry all;
     std::size_t triangleCount = 0, boxCount = 0;
     for (const Prepared& object : prepared) {
         triangleCount += object.triangles.size();
         boxCount += object.boxes.size();
     }
-    triangles.reserve(triangleCount);
-    boxes.reserve(boxCount);
+    all.triangles.reserve(triangleCount);
+    all.boxes.reserve(boxCount);
     for (Prepared& object : prepared) {
-        triangles.insert(triangles.end(), object.triangles.begin(), object.triangles.end());
-        boxes.insert(boxes.end(), object.boxes.begin(), object.boxes.end());
-        result.thinVoxels.push_back(object.thinVoxels);
-        result.uncertainVoxels.push_back(object.uncertainVoxels);
+        all.triangles.insert(all.triangles.end(), object.triangles.begin(), object.triangles.end());
+        all.boxes.insert(all.boxes.end(), object.boxes.begin(), object.boxes.end());
+        all.thinVoxels.push_back(object.thinVoxels);
+        all.uncertainVoxels.push_back(object.uncertainVoxels);
         object = {};
     }
+    return all;
+}
 
+// Tells the progress from whichever thread is free to.
+class TileProgress {
+public:
+    TileProgress(const Progress* progress, std::size_t count) : progress_(progress), count_(count) {}
+    void tileDone() {
+        const std::size_t done = ++done_;
+        if (progress_ == nullptr || done % 16 != 0) return;
+        const std::lock_guard lock(mutex_);
+        Progress::tell(progress_, "voxelize", double(done) / double(count_));
+    }
+
+private:
+    const Progress* progress_;
+    std::size_t count_;
+    std::atomic<std::size_t> done_{0};
+    std::mutex mutex_;
+};
+
+struct Tiles {
+    std::vector<volume::ColumnTileData> tiles;
+    std::vector<SharedCount> shared;
+};
+
+Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims, const VoxelizeOptions& options) {
     const std::int32_t tilesX = (dimension.x + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
     const std::int32_t tilesY = (dimension.y + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
+    const auto& triangles = geometry.triangles;
+    const auto& boxes = geometry.boxes;
     const TileBins triangleBins =
         fillBins(triangles.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
@@ -254,48 +274,62 @@ Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid
     });
 
     const std::size_t tileCount = std::size_t(tilesX) * std::size_t(tilesY);
-    std::vector<volume::ColumnTileData> tiles(tileCount);
+    Tiles result;
+    result.tiles.resize(tileCount);
     std::vector<std::vector<SharedCount>> shared(tileCount);
-    std::atomic<std::size_t> done{0};
-    std::mutex reporting;
+    TileProgress progress(options.progress, tileCount);
     parallelFor(tileCount, 1, options.threads, [&](std::size_t begin, std::size_t end) {
         TileColumns maker;
         std::vector<ClaimedBox> tileBoxes;
         for (std::size_t tile = begin; tile < end; ++tile) {
             if (Progress::isCancelled(options.progress)) return;
-            const auto tileX = static_cast<std::int32_t>(tile % std::size_t(tilesX));
-            const auto tileY = static_cast<std::int32_t>(tile / std::size_t(tilesX));
             tileBoxes.clear();
             for (const std::uint32_t n : boxBins.of(tile)) tileBoxes.push_back(boxes[n]);
             TileInput input;
-            input.firstColumn = tileX * ColumnVolume::kTileSize;
-            input.firstRow = tileY * ColumnVolume::kTileSize;
+            input.firstColumn = static_cast<std::int32_t>(tile % std::size_t(tilesX)) * ColumnVolume::kTileSize;
+            input.firstRow = static_cast<std::int32_t>(tile / std::size_t(tilesX)) * ColumnVolume::kTileSize;
             input.width = std::min(ColumnVolume::kTileSize, dimension.x - input.firstColumn);
             input.height = std::min(ColumnVolume::kTileSize, dimension.y - input.firstRow);
             input.depth = dimension.z;
             input.triangles = triangles;
             input.triangleIndices = triangleBins.of(tile);
             input.boxes = tileBoxes;
-            input.claims = ordered.ordered;
-            tiles[tile] = maker.make(input, shared[tile]);
+            input.claims = claims.ordered;
+            result.tiles[tile] = maker.make(input, shared[tile]);
             addPairs(shared[tile]);
-            const std::size_t count = ++done;
-            if (options.progress != nullptr && count % 16 == 0) {
-                const std::lock_guard lock(reporting);
-                Progress::tell(options.progress, "voxelize", double(count) / double(tileCount));
-            }
+            progress.tileDone();
         }
     });
+    for (const auto& pairs : shared) result.shared.insert(result.shared.end(), pairs.begin(), pairs.end());
+    addPairs(result.shared);
+    return result;
+}
+
+}  // namespace
+
+Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const ObjectClaim> claims,
+                                const VoxelizeOptions& options) {
+    SVT_CHECK(claims.size() == scene.objects.size());
+    Progress::tell(options.progress, "voxelize", 0);
+    const IndexFromLocal indexFromLocal(scene, grid);
+    constexpr double kMostSheetVoxels = 5e8;
+    if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMostSheetVoxels)
+        return Error(Code::GridTooLarge, fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
+                                                     "choose a coarser spacing", sheets, kMostSheetVoxels));
+    const Claims ordered = orderClaims(scene, claims);
+    auto geometry = prepareObjects(scene, grid, indexFromLocal, ordered, options);
+    if (!geometry) return geometry.error();
+    Tiles swept = sweepTiles(*geometry, grid.dimension(), ordered, options);
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
 
-    std::vector<SharedCount> all;
-    for (const auto& pairs : shared) all.insert(all.end(), pairs.begin(), pairs.end());
-    addPairs(all);
-    for (const SharedCount& pair : all)
+    VoxelizeResult result;
+    result.thinVoxels = std::move(geometry->thinVoxels);
+    result.uncertainVoxels = std::move(geometry->uncertainVoxels);
+    for (const SharedCount& pair : swept.shared)
         result.overlaps.push_back({ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
     std::sort(result.overlaps.begin(), result.overlaps.end(),
               [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
-    result.columns = keepVanished(ColumnVolume::fromTiles(dimension, std::move(tiles)), scene, grid, indexFromLocal, claims,
+    result.columns = keepVanished(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), scene, grid, indexFromLocal, claims,
                                   result.thinVoxels, options.threads);
     Progress::tell(options.progress, "voxelize", 1);
     return result;

@@ -57,7 +57,8 @@ TEST_F(GoodVolume, AChangedSampleBreaksTheChecksum) {
     // Name and extra field stand between the local header and the data.
     const std::size_t name = damaged.find("columns/runs");
     ASSERT_NE(name, std::string::npos);
-    const auto extraBytes = static_cast<std::size_t>(static_cast<unsigned char>(damaged[name - 2])) + 256u * static_cast<unsigned char>(damaged[name - 1]);
+    const auto extraBytes = static_cast<std::size_t>(static_cast<unsigned char>(damaged[name - 2])) +
+                            256u * static_cast<unsigned char>(damaged[name - 1]);
     char& sample = damaged[name + std::string_view("columns/runs").size() + extraBytes];
     sample = static_cast<char>(sample ^ 1);
     const CommandResult result = infoOf(damaged);
@@ -75,6 +76,15 @@ TEST_F(GoodVolume, AVolumeIsNoModelToBuild) {
     const CommandResult result = runSvt(folder.path(), {"build", "good.svt", "-o", "o.svt"});
     EXPECT_EQ(result.exitCode, 3) << result.toString();
     EXPECT_NE(result.err.find("E103 UnknownFormat"), std::string::npos) << result.toString();
+}
+
+TEST_F(GoodVolume, StdoutThatCannotBeWrittenIsTold) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    Limits limits;
+    limits.stdoutFile = "/dev/full";
+    const CommandResult result = runSvt(folder.path(), {"info", "good.svt", "--json"}, limits);
+    EXPECT_EQ(result.exitCode, 5) << result.toString();
+    EXPECT_NE(result.err.find("stdout cannot be written"), std::string::npos) << result.err;
 }
 
 struct Output {
@@ -103,9 +113,13 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_P(OutputTest, MissingFolderIsNamed) { expect(runWith("nowhere/o"), "E404 CannotWrite: nowhere/o.*folder nowhere does not exist"); }
+TEST_P(OutputTest, MissingFolderIsNamed) {
+    expect(runWith("nowhere/o"), "E404 CannotWrite: nowhere/o.*folder nowhere does not exist");
+}
 
-TEST_P(OutputTest, PathUnderAFileIsRefused) { expect(runWith("two.gml/o"), "E404 CannotWrite: two\\.gml/o.*is a file, not a folder"); }
+TEST_P(OutputTest, PathUnderAFileIsRefused) {
+    expect(runWith("two.gml/o"), "E404 CannotWrite: two\\.gml/o.*is a file, not a folder");
+}
 
 TEST_P(OutputTest, FolderIsRefused) {
     const std::string extension = GetParam().arguments.back().substr(3);
@@ -143,9 +157,12 @@ const std::vector<Output> kOutputs{
     {"Build", {"build", "two.gml", "--dimension", "300,200,100", "--patterns", "--output", "OUT.svt"}},
     {"Sample", {"sample", "house", "--output", "OUT.gml"}},
     {"Convert", {"convert", "two.gml", "--dimension", "100", "--encoding", "raw", "OUT.nrrd"}},
-    {"Render", {"render", "two.gml", "--size", "1200x800", "--edges", "1", "--spacing", "0.3", "--patterns", "--output", "OUT.png"}},
+    {"Render",
+     {"render", "two.gml", "--size", "1200x800", "--edges", "1", "--spacing", "0.3", "--patterns", "--output",
+      "OUT.png"}},
 };
-INSTANTIATE_TEST_SUITE_P(Commands, OutputTest, ::testing::ValuesIn(kOutputs), [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Commands, OutputTest, ::testing::ValuesIn(kOutputs),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace svt::test

@@ -34,7 +34,8 @@ protected:
 
 TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
     const json built = build();
-    EXPECT_EQ(keysOf(built), (Keys{"bytes", "dimension", "objects", "open", "overlaps", "seconds", "spacing", "tJunctions", "triangles", "warnings"}));
+    EXPECT_EQ(keysOf(built), (Keys{"bytes", "dimension", "objects", "open", "overlaps", "seconds", "spacing",
+                                   "tJunctions", "triangles", "warnings"}));
     EXPECT_EQ(keysOf(built["seconds"]), (Keys{"mesh", "pack", "read", "total", "voxelize", "write"}));
     EXPECT_EQ(keysOf(built["bytes"]), (Keys{"file", "memory"}));
     EXPECT_EQ(built["objects"], 2);
@@ -51,7 +52,8 @@ TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
 }
 
 TEST_F(TwoBoxes, DimensionIsTheNumberOfSamplesAsked) {
-    const json built = runSvtForJson(folder.path(), {"build", "two.gml", "-o", "two.svt", "--dimension", "9,13,7", "--json"});
+    const json built =
+        runSvtForJson(folder.path(), {"build", "two.gml", "-o", "two.svt", "--dimension", "9,13,7", "--json"});
     EXPECT_EQ(built["dimension"], json::parse("[9, 13, 7]"));
     // The first and last sample lie on the envelope: 8 m / 8, 6 m / 12, 3 m / 6.
     EXPECT_NEAR(built["spacing"][0].get<double>(), 1.0, 1e-9);
@@ -60,7 +62,8 @@ TEST_F(TwoBoxes, DimensionIsTheNumberOfSamplesAsked) {
 }
 
 TEST_F(TwoBoxes, DimensionCanBeWrittenWithTheLetterX) {
-    const json built = runSvtForJson(folder.path(), {"build", "two.gml", "-o", "two.svt", "--dimension", "9x13x7", "--json"});
+    const json built =
+        runSvtForJson(folder.path(), {"build", "two.gml", "-o", "two.svt", "--dimension", "9x13x7", "--json"});
     EXPECT_EQ(built["dimension"], json::parse("[9, 13, 7]"));
 }
 
@@ -78,7 +81,8 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
     EXPECT_EQ(info["source"], "two.gml");
     ASSERT_EQ(info["objects"].size(), 2u);
     const json& left = byId(info["objects"], "left");
-    EXPECT_EQ(keysOf(left), (Keys{"class", "closed", "count", "filling", "first", "id", "name", "parent", "volume", "voxelVolume", "voxels"}));
+    EXPECT_EQ(keysOf(left), (Keys{"class", "closed", "count", "filling", "first", "id", "name", "parent", "volume",
+                                  "voxelVolume", "voxels"}));
     EXPECT_EQ(left["class"], "Building");
     EXPECT_EQ(left["parent"], nullptr);
     EXPECT_EQ(left["closed"], true);
@@ -93,12 +97,14 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
 TEST_F(TwoBoxes, VoxelVolumeComesNearTheExactVolume) {
     (void)runSvtForJson(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.07", "--json"});
     const json info = runSvtForJson(folder.path(), {"info", "two.svt", "--json"});
-    for (const json& object : info["objects"]) EXPECT_NEAR(object["voxelVolume"].get<double>(), 72, 72 * 0.04) << object["id"];
+    for (const json& object : info["objects"])
+        EXPECT_NEAR(object["voxelVolume"].get<double>(), 72, 72 * 0.04) << object["id"];
 }
 
 TEST_F(TwoBoxes, InfoOfAModelIsThatOfItsVolume) {
     (void)build();
-    EXPECT_EQ(runSvtForJson(folder.path(), {"info", "two.gml", "--spacing", "0.5", "--json"}), runSvtForJson(folder.path(), {"info", "two.svt", "--json"}));
+    EXPECT_EQ(runSvtForJson(folder.path(), {"info", "two.gml", "--spacing", "0.5", "--json"}),
+              runSvtForJson(folder.path(), {"info", "two.svt", "--json"}));
 }
 
 TEST_F(TwoBoxes, QueryJsonIsRowsOfInfo) {
@@ -117,8 +123,9 @@ TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
     EXPECT_EQ(check["leaking"], 0);
     EXPECT_EQ(check["tJunctions"], 0);
     const json& left = byId(check["objects"], "left");
-    for (const char* key : {"id", "class", "name", "line", "lod", "closure", "closed", "triangles", "unmatchedEdges", "tJunctions", "leakingEdges",
-                            "leaks", "stillOpenEdges", "flippedFaces", "complementedFaces", "caps", "assembled", "volume", "area"})
+    for (const char* key : {"id", "class", "name", "line", "lod", "closure", "closed", "triangles", "unmatchedEdges",
+                            "tJunctions", "leakingEdges", "leaks", "stillOpenEdges", "flippedFaces",
+                            "complementedFaces", "caps", "assembled", "volume", "area"})
         EXPECT_TRUE(left.contains(key)) << key;
     EXPECT_EQ(left["closure"], "closed");
     EXPECT_NEAR(left["volume"].get<double>(), 72, 1e-6);
@@ -151,14 +158,32 @@ TEST(CheckJson, NamesTheDefectItsPlaceAndTheLeak) {
     EXPECT_NEAR(check["objects"][0]["leaks"][0][1].get<double>(), 5400003, 3.01);
 }
 
+TEST(InfoJson, FindingsGoToStderrBesideTheJson) {
+    const TemporaryFolder folder;
+    auto faces = boxFaces(500000, 5400000, 100, 500004, 5400006, 103);
+    faces.pop_back();
+    writeText(folder / "open.gml", cityModel(building("b", solid(faces))));
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"info", "open.gml", "--spacing", "0.5", "--json"},
+          {"query", "open.gml", "all", "--spacing", "0.5", "--json"}}) {
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, 0);
+        EXPECT_FALSE(result.json().empty());
+        EXPECT_NE(result.err.find("E209 ShellCapped"), std::string::npos) << result.toString();
+    }
+}
+
 TEST(BuildJson, OverlapsAreCountedPerPairAndThoseOfTheHierarchyAreMarked) {
     const TemporaryFolder folder;
-    const std::string room = "<bldg:interiorRoom><bldg:Room gml:id=\"inner\"><bldg:lod4Solid>" + solid(boxFaces(500001, 5400001, 101, 500002, 5400002, 102)) +
+    const std::string room = "<bldg:interiorRoom><bldg:Room gml:id=\"inner\"><bldg:lod4Solid>" +
+                             solid(boxFaces(500001, 5400001, 101, 500002, 5400002, 102)) +
                              "</bldg:lod4Solid></bldg:Room></bldg:interiorRoom>";
     std::string big = building("big", solid(boxFaces(500000, 5400000, 100, 500006, 5400006, 106)));
     big.insert(big.find("</bldg:Building>"), room);
-    writeText(folder / "overlap.gml", cityModel(big + building("cross", solid(boxFaces(500005, 5400001, 101, 500008, 5400003, 103)))));
-    const json built = runSvtForJson(folder.path(), {"build", "overlap.gml", "-o", "o.svt", "--spacing", "0.13", "--json"});
+    writeText(folder / "overlap.gml",
+              cityModel(big + building("cross", solid(boxFaces(500005, 5400001, 101, 500008, 5400003, 103)))));
+    const json built =
+        runSvtForJson(folder.path(), {"build", "overlap.gml", "-o", "o.svt", "--spacing", "0.13", "--json"});
     std::map<std::pair<std::string, std::string>, json> pairs;
     for (const json& overlap : built["overlaps"]) {
         EXPECT_EQ(keysOf(overlap), (Keys{"a", "b", "nested", "voxels"}));
@@ -178,7 +203,8 @@ std::map<std::string, std::string> nrrdHeader(const std::string& bytes) {
     std::map<std::string, std::string> fields;
     std::istringstream lines(bytes.substr(0, bytes.find("\n\n")));
     for (std::string line; std::getline(lines, line);)
-        if (const std::size_t colon = line.find(": "); colon != std::string::npos && line[0] != '#') fields[line.substr(0, colon)] = line.substr(colon + 2);
+        if (const std::size_t colon = line.find(": "); colon != std::string::npos && line[0] != '#')
+            fields[line.substr(0, colon)] = line.substr(colon + 2);
     return fields;
 }
 
@@ -196,25 +222,28 @@ TEST_F(TwoBoxes, NrrdHeaderIsInWorldMetres) {
     sizes << built["dimension"][0] << ' ' << built["dimension"][1] << ' ' << built["dimension"][2];
     EXPECT_EQ(header["sizes"], sizes.str());
     double d[9]{};
-    ASSERT_EQ(std::sscanf(header["space directions"].c_str(), "(%lf,%lf,%lf) (%lf,%lf,%lf) (%lf,%lf,%lf)", d, d + 1, d + 2, d + 3, d + 4, d + 5, d + 6,
-                          d + 7, d + 8),
+    ASSERT_EQ(std::sscanf(header["space directions"].c_str(), "(%lf,%lf,%lf) (%lf,%lf,%lf) (%lf,%lf,%lf)", d, d + 1,
+                          d + 2, d + 3, d + 4, d + 5, d + 6, d + 7, d + 8),
               9)
         << header["space directions"];
     for (int i = 0; i < 9; ++i) EXPECT_EQ(d[i], i % 4 == 0 ? 0.5 : 0.0) << i;
     double o[3]{};
-    ASSERT_EQ(std::sscanf(header["space origin"].c_str(), "(%lf,%lf,%lf)", o, o + 1, o + 2), 3) << header["space origin"];
+    ASSERT_EQ(std::sscanf(header["space origin"].c_str(), "(%lf,%lf,%lf)", o, o + 1, o + 2), 3)
+        << header["space origin"];
     const json info = runSvtForJson(folder.path(), {"info", "two.svt", "--json"});
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(o[axis], info["grid"]["origin"][axis].get<double>());
     // One byte per sample behind the header, x fastest; the labels are those of info.
     const std::string samples = bytes.substr(bytes.find("\n\n") + 2);
     std::map<int, std::uint64_t> counts;
     for (const char c : samples) ++counts[static_cast<unsigned char>(c)];
-    for (const json& object : info["objects"]) EXPECT_EQ(counts[object["first"].get<int>()], object["voxels"].get<std::uint64_t>()) << object["id"];
+    for (const json& object : info["objects"])
+        EXPECT_EQ(counts[object["first"].get<int>()], object["voxels"].get<std::uint64_t>()) << object["id"];
 }
 
 TEST_F(TwoBoxes, SeveralFilesMakeOneVolume) {
     writeText(folder / "third.json", cityJson());
-    const json built = runSvtForJson(folder.path(), {"build", "two.gml", "third.json", "-o", "all.svt", "--spacing", "0.5", "--json"});
+    const json built =
+        runSvtForJson(folder.path(), {"build", "two.gml", "third.json", "-o", "all.svt", "--spacing", "0.5", "--json"});
     EXPECT_EQ(built["objects"], 3);
 }
 

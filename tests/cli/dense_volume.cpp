@@ -17,10 +17,12 @@ DenseVolume readDense(const TemporaryFolder& folder, const std::string& volume) 
     const std::string bytes = readText(folder / file);
     const std::size_t data = bytes.find("\n\n") + 2;
     const std::size_t size = dense.info["scalarType"] == "uint8" ? 1 : dense.info["scalarType"] == "uint16" ? 2 : 4;
-    EXPECT_EQ(dense.info["scalarType"], bytes.substr(bytes.find("type: ") + 6, dense.info["scalarType"].get<std::string>().size()));
+    EXPECT_EQ(dense.info["scalarType"],
+              bytes.substr(bytes.find("type: ") + 6, dense.info["scalarType"].get<std::string>().size()));
     for (std::size_t at = data; at + size <= bytes.size(); at += size) {
         std::uint32_t scalar = 0;
-        for (std::size_t b = 0; b < size; ++b) scalar |= std::uint32_t{static_cast<unsigned char>(bytes[at + b])} << (8 * b);
+        for (std::size_t b = 0; b < size; ++b)
+            scalar |= std::uint32_t{static_cast<unsigned char>(bytes[at + b])} << (8 * b);
         dense.scalars.push_back(scalar);
     }
     std::size_t samples = 1;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A built volume sample by sample, as another program gets it: `svt convert` to raw NRRD, labels from `svt info --json`.
+/// A built volume sample by sample, as another program gets it: `svt convert` to raw NRRD, labels from `svt info
+/// --json`.
 
 #include "run_command.hpp"
 
@@ -13,9 +14,9 @@
 namespace svt::test {
 
 struct DenseVolume {
-    nlohmann::json info;                          ///< of `svt info --json`
+    nlohmann::json info;                            ///< of `svt info --json`
     std::map<std::string, nlohmann::json> objects;  ///< by id
-    std::vector<std::uint32_t> scalars;           ///< per sample, x fastest, then y, then z
+    std::vector<std::uint32_t> scalars;             ///< per sample, x fastest, then y, then z
 
     /// A name per sample: `nameOf` of the object's JSON, empty for background.
     [[nodiscard]] std::vector<std::string> names(const std::function<std::string(const nlohmann::json&)>& nameOf) const;

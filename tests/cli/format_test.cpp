@@ -9,7 +9,8 @@ namespace {
 
 using nlohmann::json;
 
-std::string build(const TemporaryFolder& folder, const std::string& model, const std::string& spacing, const std::vector<std::string>& more = {}) {
+std::string build(const TemporaryFolder& folder, const std::string& model, const std::string& spacing,
+                  const std::vector<std::string>& more = {}) {
     const std::string volume = model + ".svt";
     std::vector<std::string> arguments{"build", model, "-o", volume, "--spacing", spacing};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -25,11 +26,23 @@ void writeHouse(const TemporaryFolder& folder, const std::string& file, const st
 
 bool isSheet(const json& object) { return object.at("filling") == "surface"; }
 
-// A boundary surface has no name that all formats share; its room has.
-std::string sharedName(const json& object) { return isSheet(object) ? object.at("parent").get<std::string>() + " surface" : object.at("id").get<std::string>(); }
+// Boundary surfaces and openings have no names that all formats share; the room that they bound has.
+const json& boundedBody(const DenseVolume& volume, const json& object) {
+    const json* body = &object;
+    while (isSheet(*body) && volume.objects.count(body->at("parent")) != 0)
+        body = &volume.objects.at(body->at("parent"));
+    return *body;
+}
 
-// A surface counted to the room that it bounds.
-std::string bodyName(const json& object) { return isSheet(object) ? object.at("parent") : object.at("id"); }
+std::vector<std::string> sharedNames(const DenseVolume& volume) {
+    return volume.names([&](const json& object) {
+        return boundedBody(volume, object).at("id").get<std::string>() + (isSheet(object) ? " surface" : "");
+    });
+}
+
+std::vector<std::string> bodyNames(const DenseVolume& volume) {
+    return volume.names([&](const json& object) { return boundedBody(volume, object).at("id").get<std::string>(); });
+}
 
 std::map<std::string, json> solidsOf(const DenseVolume& volume) {
     std::map<std::string, json> solids;
@@ -42,8 +55,10 @@ class SameHouse : public ::testing::Test {
 protected:
     DenseVolume readHouse(const std::string& file, const std::vector<std::string>& sampleOptions = {}) {
         writeHouse(folder, file, sampleOptions);
-        // Parts thinner than a voxel compete by id, and formats do not share the ids of surfaces.
-        return readDense(folder, build(folder, file, "0.1", {"--no-thin"}));
+        // Parts thinner than a voxel compete by id, and formats do not share the ids of surfaces. No coordinate of the
+        // house is a multiple of the spacing: a sample exactly on a face may fall to either side of furniture that the
+        // formats place in different ways.
+        return readDense(folder, build(folder, file, "0.0973", {"--no-thin"}));
     }
     TemporaryFolder folder;
 };
@@ -63,7 +78,7 @@ TEST_F(SameHouse, CityJsonHasTheSameLabelInEverySample) {
     const DenseVolume gml = readHouse("house.gml"), cityJson = readHouse("house.json");
     expectSameVolumes(gml, cityJson);
     for (const auto& [id, object] : solidsOf(gml)) EXPECT_EQ(object["voxels"], cityJson.objects.at(id)["voxels"]) << id;
-    EXPECT_EQ(gml.names(sharedName), cityJson.names(sharedName));
+    EXPECT_TRUE(sharedNames(gml) == sharedNames(cityJson));
 }
 
 TEST_F(SameHouse, CityJsonSeqHasTheSameScalarsAsCityJson) {
@@ -77,7 +92,7 @@ TEST_F(SameHouse, CityGml2HasTheSameVolumesAndNearlyTheSameSamples) {
     expectSameVolumes(three, two);
     // CityGML 2.0 calls slabs and roofs installations, which win against the surfaces of rooms that lie on them, so a
     // few samples on such faces go to the other side.
-    const auto namesThree = three.names(bodyName), namesTwo = two.names(bodyName);
+    const auto namesThree = bodyNames(three), namesTwo = bodyNames(two);
     ASSERT_EQ(namesThree.size(), namesTwo.size());
     std::size_t filled = 0, differing = 0;
     for (std::size_t i = 0; i < namesThree.size(); ++i) {
@@ -85,15 +100,15 @@ TEST_F(SameHouse, CityGml2HasTheSameVolumesAndNearlyTheSameSamples) {
         differing += namesThree[i] != namesTwo[i];
     }
     EXPECT_GT(filled, 400000u);
-    EXPECT_LT(double(differing), 0.001 * double(filled));
+    EXPECT_LT(double(differing), 0.0001 * double(filled));
 }
 
 TEST_F(SameHouse, GzippedInputGivesTheSameBytes) {
     if (std::system("gzip --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no gzip here";
     writeHouse(folder, "house.gml");
     const std::string plain = readText(folder / build(folder, "house.gml", "0.2"));
-    ASSERT_EQ(std::system(("gzip --no-name '" + (folder / "house.gml").string() + "' && mv '" + (folder / "house.gml.gz").string() + "' '" +
-                           (folder / "house.gml").string() + "'")
+    ASSERT_EQ(std::system(("gzip --no-name '" + (folder / "house.gml").string() + "' && mv '" +
+                           (folder / "house.gml.gz").string() + "' '" + (folder / "house.gml").string() + "'")
                               .c_str()),
               0);
     EXPECT_EQ(readText(folder / build(folder, "house.gml", "0.2")), plain);
@@ -116,7 +131,8 @@ TEST(SameBytes, ForAThematicModelOfSeveralFilesAndThreads) {
     runSvtWell(folder.path(), {"sample", "tower", "--storeys", "2", "-o", "b.json"});
     std::string bytes[2];
     for (const int i : {0, 1}) {
-        runSvtWell(folder.path(), {"build", "a.gml", "b.json", "-o", "o.svt", "--dimension", "90,90,60", "--threads", i == 0 ? "1" : "4"});
+        runSvtWell(folder.path(), {"build", "a.gml", "b.json", "-o", "o.svt", "--dimension", "90,90,60", "--threads",
+                                   i == 0 ? "1" : "4"});
         bytes[i] = readText(folder / "o.svt");
     }
     EXPECT_TRUE(bytes[0] == bytes[1]);
@@ -137,11 +153,13 @@ TEST(SameBytes, OfSamplesPicturesAndConversions) {
     build(folder, "a.gml", "0.2");
     for (const char* threads : {"1", "4"}) {
         const std::string name = std::string("t") + threads;
-        runSvtWell(folder.path(), {"render", "a.gml.svt", "-o", name + ".png", "--size", "160x90", "--threads", threads, "--labels", name + "l.png", "--depth", name + "d.png"});
+        runSvtWell(folder.path(), {"render", "a.gml.svt", "-o", name + ".png", "--size", "160x90", "--threads", threads,
+                                   "--labels", name + "l.png", "--depth", name + "d.png"});
         runSvtWell(folder.path(), {"convert", "a.gml.svt", name + ".nrrd", "--threads", threads});
     }
     for (const char* end : {".png", "l.png", "d.png", ".nrrd"})
-        EXPECT_TRUE(readText(folder / (std::string("t1") + end)) == readText(folder / (std::string("t4") + end))) << end;
+        EXPECT_TRUE(readText(folder / (std::string("t1") + end)) == readText(folder / (std::string("t4") + end)))
+            << end;
 }
 
 TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
@@ -149,7 +167,8 @@ TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
     writeHouse(folder, "straight.gml");
     writeHouse(folder, "turned.gml", {"--turn", "30"});
     const json straight = runSvtForJson(folder.path(), {"info", "straight.gml", "--spacing", "0.1", "--json"});
-    const json turned = runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--frame", "building", "--json"});
+    const json turned =
+        runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--frame", "building", "--json"});
     const json world = runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--json"});
     const json& axes = turned["grid"]["frame"];
     const double angle = std::atan2(axes[0][1].get<double>(), axes[0][0].get<double>()) * 180 / std::acos(-1.0);
@@ -157,7 +176,8 @@ TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
     EXPECT_NEAR(std::fmod(angle + 360, 90), 30, 0.02);
     EXPECT_EQ(axes[2], json::parse("[0, 0, 1]"));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        EXPECT_NEAR(turned["grid"]["dimension"][axis].get<int>(), straight["grid"]["dimension"][axis].get<int>(), 1) << axis;
+        EXPECT_NEAR(turned["grid"]["dimension"][axis].get<int>(), straight["grid"]["dimension"][axis].get<int>(), 1)
+            << axis;
     }
     // Along the axes of the CRS the turned house needs a wider grid.
     EXPECT_GT(world["grid"]["dimension"][0].get<int>(), straight["grid"]["dimension"][0].get<int>() + 20);
@@ -167,7 +187,9 @@ TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
     for (const auto& [id, object] : objects) {
         if (object["class"] != "BuildingConstructiveElement" || object["volume"].get<double>() < 3) continue;
         ++compared;
-        EXPECT_NEAR(object["voxelVolume"].get<double>(), object["volume"].get<double>(), 0.2 * object["volume"].get<double>()) << id;
+        EXPECT_NEAR(object["voxelVolume"].get<double>(), object["volume"].get<double>(),
+                    0.25 * object["volume"].get<double>())
+            << id;
     }
     EXPECT_GT(compared, 10u);
 }

@@ -43,8 +43,8 @@ void limit(int resource, std::uint64_t bytes) {
     ::setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
-[[noreturn]] void becomeSvt(const std::string& folder, std::vector<char*>& arguments, const Limits& limits, const std::string& tinyDisk, int out,
-                            int err) {
+[[noreturn]] void becomeSvt(const std::string& folder, std::vector<char*>& arguments, const Limits& limits,
+                            const std::string& tinyDisk, int out, int err) {
     ::setpgid(0, 0);
     if (::chdir(folder.c_str()) != 0) ::_exit(kExecFailed);
     if (!tinyDisk.empty() && !mountTinyDisk(tinyDisk.c_str())) ::_exit(kMountFailed);
@@ -65,7 +65,9 @@ void limit(int resource, std::uint64_t bytes) {
 }  // namespace
 
 std::string CommandResult::toString() const {
-    std::string text = isTimeout ? "killed after the time limit" : signal != 0 ? "ended by signal " + std::to_string(signal) : "exit " + std::to_string(exitCode);
+    std::string text = isTimeout     ? "killed after the time limit"
+                       : signal != 0 ? "ended by signal " + std::to_string(signal)
+                                     : "exit " + std::to_string(exitCode);
     return text + "\n--- stdout\n" + out.substr(0, 4000) + "\n--- stderr\n" + err.substr(0, 4000);
 }
 
@@ -76,10 +78,12 @@ nlohmann::json CommandResult::json() const {
     return {};
 }
 
-CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const Limits& limits) {
+CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                     const Limits& limits) {
     // The streams go to files beside the folder, so that a command that prints without end cannot block.
     const TemporaryFolder streams;
-    const int out = ::open((streams / "out").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
+    const std::filesystem::path outFile = limits.stdoutFile.empty() ? streams / "out" : limits.stdoutFile;
+    const int out = ::open(outFile.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
     const int err = ::open((streams / "err").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
     std::vector<std::string> texts{"svt"};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
@@ -90,7 +94,9 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
 
     CommandResult result;
     const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     const pid_t child = ::fork();
     if (child == 0) becomeSvt(folderName, pointers, limits, tinyDisk, out, err);
     ::close(out);
@@ -121,13 +127,15 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
 
 std::string runSvtWell(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
     CommandResult result = runSvt(folder, arguments);
-    EXPECT_EQ(result.exitCode, 0) << (arguments.empty() ? "svt" : "svt " + arguments.front()) << ": " << result.toString();
+    EXPECT_EQ(result.exitCode, 0) << (arguments.empty() ? "svt" : "svt " + arguments.front()) << ": "
+                                  << result.toString();
     return std::move(result.out);
 }
 
 nlohmann::json runSvtForJson(const std::filesystem::path& folder, const std::vector<std::string>& arguments) {
     const CommandResult result = runSvt(folder, arguments);
-    EXPECT_EQ(result.exitCode, 0) << (arguments.empty() ? "svt" : "svt " + arguments.front()) << ": " << result.toString();
+    EXPECT_EQ(result.exitCode, 0) << (arguments.empty() ? "svt" : "svt " + arguments.front()) << ": "
+                                  << result.toString();
     return result.json();
 }
 

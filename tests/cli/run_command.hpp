@@ -15,15 +15,16 @@
 namespace svt::test {
 
 struct Limits {
-    double seconds = 10;                              ///< of wall clock; a slower run is killed
+    double seconds = 10;                                 ///< of wall clock; a slower run is killed
     std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< of address space; not applied where a sanitizer needs more
-    std::uint64_t fileBytes = 0;                      ///< largest file that may be written; 0: no limit
+    std::uint64_t fileBytes = 0;                         ///< largest file that may be written; 0: no limit
     /// Mounts a file system of 4 KiB over this folder, seen by the command alone; empty: none.
     std::filesystem::path tinyDisk;
+    std::filesystem::path stdoutFile;  ///< takes stdout; empty: the result does
 };
 
 struct CommandResult {
-    int exitCode = -1;      ///< -1 where a signal ended the command
+    int exitCode = -1;  ///< -1 where a signal ended the command
     int signal = 0;
     bool isTimeout = false;
     bool cannotMount = false;  ///< the tiny disk could not be made; nothing was run
@@ -37,7 +38,8 @@ struct CommandResult {
 };
 
 /// Runs `svt <arguments>` with `folder` as working folder and waits for its end.
-[[nodiscard]] CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments, const Limits& limits = {});
+[[nodiscard]] CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                                   const Limits& limits = {});
 
 /// Runs `svt`, expects exit code 0, and gives stdout.
 std::string runSvtWell(const std::filesystem::path& folder, const std::vector<std::string>& arguments);

@@ -28,7 +28,8 @@ using Face = std::string;
 
 /// A CityJSON 2.0 document of one building `b` of 4 x 6 x 3 m. `geometry` and `vertices` replace those of the box where
 /// they are not empty.
-[[nodiscard]] std::string cityJson(std::string_view geometry = {}, std::string_view vertices = {}, std::string_view version = "2.0",
-                                   std::string_view transform = R"({"scale":[0.001,0.001,0.001],"translate":[500000,5400000,100]})");
+[[nodiscard]] std::string cityJson(
+    std::string_view geometry = {}, std::string_view vertices = {}, std::string_view version = "2.0",
+    std::string_view transform = R"({"scale":[0.001,0.001,0.001],"translate":[500000,5400000,100]})");
 
 }  // namespace svt::test

@@ -1,0 +1,37 @@
+#include <svt/core/edit_distance.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace svt {
+namespace {
+
+char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit) {
+    const std::size_t more = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
+    if (more > limit) return limit + 1;
+    std::vector<std::size_t> beforeLast(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t k = 0; k <= b.size(); ++k) last[k] = k;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        std::size_t least = i;
+        for (std::size_t k = 1; k <= b.size(); ++k) {
+            const bool isSame = lower(a[i - 1]) == lower(b[k - 1]);
+            row[k] = std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (isSame ? 0 : 1)});
+            const bool isSwapped =
+                i > 1 && k > 1 && lower(a[i - 1]) == lower(b[k - 2]) && lower(a[i - 2]) == lower(b[k - 1]);
+            if (isSwapped) row[k] = std::min(row[k], beforeLast[k - 2] + 1);
+            least = std::min(least, row[k]);
+        }
+        if (least > limit) return limit + 1;
+        std::swap(beforeLast, last);
+        std::swap(last, row);
+    }
+    return last[b.size()];
+}
+
+}  // namespace svt

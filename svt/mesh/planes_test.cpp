@@ -1,0 +1,100 @@
+#include <svt/mesh/models_test.hpp>
+#include <svt/mesh/planes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace svt::mesh {
+namespace {
+
+using test::meshOfRings;
+
+constexpr double kDistance = 2e-5;
+
+MeshScene sceneOf(std::vector<ObjectMesh> objects) {
+    MeshScene scene;
+    scene.objects = std::move(objects);
+    for (ObjectMesh& object : scene.objects) {
+        for (const Vec3d& vertex : object.vertices) object.bounds.add(vertex);
+        scene.bounds.add(object.bounds);
+    }
+    assignPlanes(scene, kDistance);
+    return scene;
+}
+
+// The quad over [x0, x1] x [0, 3] on a roof plane, with noise on its heights; cut along either diagonal.
+ObjectMesh roofPart(double x0, double x1, double lift, double noise, bool otherDiagonal) {
+    const auto height = [&](double x, double y, double sign) { return 2 + 0.7 * x - 0.2 * y + lift + sign * noise; };
+    std::vector<Vec3d> v{{x0, 0, height(x0, 0, 1)}, {x1, 0, height(x1, 0, -1)}, {x1, 3, height(x1, 3, 1)}, {x0, 3, height(x0, 3, -1)}};
+    return otherDiagonal ? meshOfRings(v, {{1, 2, 3}, {1, 3, 0}}) : meshOfRings(v, {{0, 1, 2}, {0, 2, 3}});
+}
+
+TEST(AssignPlanes, CoplanarFacesOfTwoObjectsShareOnePlane) {
+    const MeshScene scene = sceneOf({roofPart(0, 4, 0, 1e-6, false), roofPart(4, 7, 0, 1e-6, true), roofPart(0, 4, 0, 0, true)});
+    ASSERT_EQ(scene.planes.size(), 1u);
+    for (const ObjectMesh& object : scene.objects)
+        for (const Triangle& triangle : object.triangles) EXPECT_EQ(triangle.plane, 0u);
+    EXPECT_NEAR(scene.planes[0].slopeX, 0.7, 1e-5);
+    EXPECT_NEAR(scene.planes[0].slopeY, -0.2, 1e-5);
+    EXPECT_NEAR(scene.planes[0].offset, 2, 1e-5);
+}
+
+TEST(AssignPlanes, ParallelPlanesAMillimetreApartAreTwo) {
+    const MeshScene scene = sceneOf({roofPart(0, 4, 0, 0, false), roofPart(0, 4, 1e-3, 0, false)});
+    EXPECT_EQ(scene.planes.size(), 2u);
+    EXPECT_NE(scene.objects[0].triangles[0].plane, scene.objects[1].triangles[0].plane);
+}
+
+TEST(AssignPlanes, FacesThatLookUpAndDownShareTheirPlane) {
+    ObjectMesh below = roofPart(0, 4, 0, 0, false), above = below;
+    test::turnOver(above.triangles);
+    const MeshScene scene = sceneOf({below, above});
+    EXPECT_EQ(scene.planes.size(), 1u);
+}
+
+TEST(AssignPlanes, VerticalAndFlatTrianglesHaveNone) {
+    const MeshScene scene = sceneOf({meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}})});
+    EXPECT_TRUE(scene.planes.empty());
+    for (const Triangle& triangle : scene.objects[0].triangles) EXPECT_EQ(triangle.plane, kNoPlane);
+}
+
+TEST(AssignPlanes, FloorAtOneHeightIsOnePlaneHoweverFarApart) {
+    std::vector<ObjectMesh> floors;
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> uniform(-500, 500);
+    for (int n = 0; n < 50; ++n) {
+        const double x = uniform(random), y = uniform(random);
+        floors.push_back(meshOfRings({{x, y, 3.1}, {x + 1, y, 3.1}, {x + 1, y + 1, 3.1}}, {{0, 1, 2}}));
+    }
+    const MeshScene scene = sceneOf(floors);
+    ASSERT_EQ(scene.planes.size(), 1u);
+    EXPECT_EQ(scene.planes[0].slopeX, 0);
+    EXPECT_EQ(scene.planes[0].slopeY, 0);
+    EXPECT_EQ(scene.planes[0].offset, 3.1);
+}
+
+TEST(AssignPlanes, EveryCornerLiesOnItsPlane) {
+    // A fan of many slopes: what shares a plane is within the distance of it.
+    std::mt19937_64 random(9);
+    std::uniform_real_distribution<double> uniform(-5, 5);
+    ObjectMesh mesh;
+    for (std::uint32_t n = 0; n < 300; ++n) {
+        for (int c = 0; c < 3; ++c) mesh.vertices.push_back({uniform(random), uniform(random), uniform(random) * 0.3});
+        mesh.triangles.emplace_back();
+        mesh.triangles.back().corners = {3 * n, 3 * n + 1, 3 * n + 2};
+    }
+    const MeshScene scene = sceneOf({mesh});
+    for (const Triangle& triangle : scene.objects[0].triangles) {
+        if (triangle.plane == kNoPlane) continue;
+        const Plane& plane = scene.planes[triangle.plane];
+        for (const std::uint32_t corner : triangle.corners) {
+            const Vec3d p = mesh.vertices[corner];
+            EXPECT_NEAR(plane.slopeX * p.x + plane.slopeY * p.y + plane.offset, p.z,
+                        kDistance * (2 + std::abs(plane.slopeX) + std::abs(plane.slopeY)));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace svt::mesh
