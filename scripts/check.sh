@@ -6,5 +6,8 @@ python3 scripts/check_layers.py
 python3 scripts/check_error_pages.py
 if command -v clang-format >/dev/null; then
   mapfile -t files < <(git ls-files '*.cpp' '*.hpp')
-  clang-format --dry-run --Werror "${files[@]}" 2>&1 | head -n 20 || { echo "check: run clang-format -i on these files" >&2; exit 1; }
+  if ! clang-format --dry-run --Werror "${files[@]}" >/dev/null 2>&1; then
+    echo "check: not formatted; run: clang-format -i \$(git ls-files '*.cpp' '*.hpp')" >&2
+    exit 1
+  fi
 fi

@@ -71,8 +71,8 @@ TerminalProgress::TerminalProgress() {
         if (std::chrono::steady_clock::now() - start < std::chrono::seconds(1)) return;
         constexpr int kWidth = 30;
         const int full = static_cast<int>(fraction * kWidth);
-        fmt::print(stderr, "\r{:<9} [{}{}] {:3.0f} %", stage, std::string(std::size_t(full), '#'), std::string(std::size_t(kWidth - full), ' '),
-                   fraction * 100);
+        fmt::print(stderr, "\r{:<9} [{}{}] {:3.0f} %", stage, std::string(std::size_t(full), '#'),
+                   std::string(std::size_t(kWidth - full), ' '), fraction * 100);
         std::fflush(stderr);
         hasDrawn_ = true;
     };
@@ -94,31 +94,52 @@ Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std:
         char* rest = nullptr;
         const double value = std::strtod(part.c_str(), &rest);
         if (part.empty() || *rest != '\0' || count == 3)
-            return Error(Code::BadArgument,
-                         fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
+            return Error(
+                Code::BadArgument,
+                fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
         values[count++] = value;
         at = end + 1;
     }
     if (count == 1) return Vec3d{values[0], values[0], values[0]};
     if (count != 3)
-        return Error(Code::BadArgument, fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
+        return Error(Code::BadArgument,
+                     fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
     return Vec3d{values[0], values[1], values[2]};
 }
 
 void BuildArguments::addTo(CLI::App& command) {
-    command.add_option("--dimension", dimension, "samples along x, y and z, such as 800,700,400 (2 to 65535)")->group("Grid")->type_name("X,Y,Z");
-    command.add_option("--spacing", spacing, "distance of samples in metres, one number or three; default: 400 samples along the longest side")
-        ->group("Grid")->type_name("M");
+    command.add_option("--dimension", dimension, "samples along x, y and z, such as 800,700,400 (2 to 65535)")
+        ->group("Grid")
+        ->type_name("X,Y,Z");
+    command
+        .add_option("--spacing", spacing,
+                    "distance of samples in metres, one number or three; default: 400 samples along the longest side")
+        ->group("Grid")
+        ->type_name("M");
     command.add_option("--frame", frame, "axes of the grid: world, or building (turned to its dominant edge)")
-        ->group("Grid")->check(CLI::IsMember({"world", "building"}))->capture_default_str();
-    command.add_option("--lod", lod, "use no finer level of detail than this; default: the finest that each feature has")->group("Model");
-    command.add_flag("--no-bodies", noBodies, "leave the material between hull and rooms to the building, not to its walls and slabs")->group("Model");
-    command.add_option("--style", style, "style file (JSON): colours, opacities and patterns by query")->group("Style")->type_name("FILE");
-    command.add_flag("--patterns", patterns, "embed the built-in patterns: brick, concrete, timber, ...")->group("Style");
+        ->group("Grid")
+        ->check(CLI::IsMember({"world", "building"}))
+        ->capture_default_str();
+    command
+        .add_option("--lod", lod, "use no finer level of detail than this; default: the finest that each feature has")
+        ->group("Model");
+    command
+        .add_flag("--no-bodies", noBodies,
+                  "leave the material between hull and rooms to the building, not to its walls and slabs")
+        ->group("Model");
+    command.add_option("--style", style, "style file (JSON): colours, opacities and patterns by query")
+        ->group("Style")
+        ->type_name("FILE");
+    command.add_flag("--patterns", patterns, "embed the built-in patterns: brick, concrete, timber, ...")
+        ->group("Style");
     command.add_option("--sheets", sheets, "open surfaces: thin (6-separating) or conservative (every voxel touched)")
-        ->group("Voxels")->check(CLI::IsMember({"thin", "conservative"}))->capture_default_str();
+        ->group("Voxels")
+        ->check(CLI::IsMember({"thin", "conservative"}))
+        ->capture_default_str();
     command.add_flag("--no-thin", noThin, "drop parts of solids that are thinner than a voxel")->group("Voxels");
-    command.add_option("--threads", threads, "number of threads; default: all cores. The result is the same")->group("Voxels")->check(CLI::Range(0, 1024));
+    command.add_option("--threads", threads, "number of threads; default: all cores. The result is the same")
+        ->group("Voxels")
+        ->check(CLI::Range(0, 1024));
 }
 
 Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::StyleSheet>& styleSheet) const {
@@ -132,8 +153,10 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
         for (int axis = 0; axis < 3; ++axis) {
             const double value = (*triple)[axis];
             if (!(value >= 2 && value <= volume::Grid::kMaxDimension) || value != std::floor(value))
-                return Error(Code::BadDimension, fmt::format("--dimension {}: {} is out of range; whole numbers from 2 to {} samples are possible",
-                                                             dimension, value, volume::Grid::kMaxDimension));
+                return Error(
+                    Code::BadDimension,
+                    fmt::format("--dimension {}: {} is out of range; whole numbers from 2 to {} samples are possible",
+                                dimension, value, volume::Grid::kMaxDimension));
             samples[axis] = static_cast<std::int32_t>(value);
         }
         options.dimension = samples;
@@ -159,8 +182,8 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     return options;
 }
 
-Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const BuildArguments& arguments, const Progress* progress,
-                                          Diagnostics& diagnostics) {
+Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const BuildArguments& arguments,
+                                          const Progress* progress, Diagnostics& diagnostics) {
     std::array<char, 4096> head{};
     std::ifstream stream(input, std::ios::binary);
     stream.read(head.data(), head.size());

@@ -18,16 +18,7 @@
 namespace svt::cli {
 
 /// Exit codes, as documented in docs/user/exit-codes.md.
-enum Exit {
-    kDone = 0,
-    kInternal = 1,
-    kUsage = 2,
-    kInput = 3,
-    kInvalid = 4,
-    kOutput = 5,
-    kLimit = 8,
-    kCancelled = 9
-};
+enum Exit { kDone = 0, kInternal = 1, kUsage = 2, kInput = 3, kInvalid = 4, kOutput = 5, kLimit = 8, kCancelled = 9 };
 
 /// Exit code for an error code.
 [[nodiscard]] int exitCodeOf(Code code) noexcept;
@@ -65,8 +56,9 @@ struct BuildArguments {
 };
 
 /// A volume from a `.svt` or, by building it, from a model file.
-[[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const BuildArguments& arguments,
-                                                        const Progress* progress, Diagnostics& diagnostics);
+[[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
+                                                        const BuildArguments& arguments, const Progress* progress,
+                                                        Diagnostics& diagnostics);
 
 /// "800,700,400" or "800x700x400" -> three numbers; one number stands for all three.
 [[nodiscard]] Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std::string_view unit);

@@ -20,9 +20,9 @@ struct Arguments {
 void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const Arguments& arguments) {
     const auto dimension = built.volume.grid.dimension();
     const auto spacing = built.volume.grid.spacing();
-    fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n", arguments.output.string(),
-               built.report.objects, dimension.x, dimension.y, dimension.z, spacing.x, spacing.y, spacing.z, double(fileBytes) / 1000,
-               built.report.seconds.total);
+    fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n",
+               arguments.output.string(), built.report.objects, dimension.x, dimension.y, dimension.z, spacing.x,
+               spacing.y, spacing.z, double(fileBytes) / 1000, built.report.seconds.total);
 }
 
 int runBuild(const Arguments& arguments) {
@@ -51,8 +51,9 @@ int runBuild(const Arguments& arguments) {
         json["triangles"] = report.triangles;
         json["open"] = report.open;
         json["tJunctions"] = report.tJunctions;
-        json["seconds"] = {{"read", report.seconds.read},   {"mesh", report.seconds.mesh},   {"voxelize", report.seconds.voxelize},
-                           {"pack", report.seconds.pack},   {"write", report.seconds.write}, {"total", report.seconds.total}};
+        json["seconds"] = {{"read", report.seconds.read},         {"mesh", report.seconds.mesh},
+                           {"voxelize", report.seconds.voxelize}, {"pack", report.seconds.pack},
+                           {"write", report.seconds.write},       {"total", report.seconds.total}};
         json["bytes"] = {{"memory", built->volume.columns.sizeBytes()}, {"file", *bytes}};
         json["dimension"] = toJson(built->volume.grid.dimension());
         json["spacing"] = toJson(built->volume.grid.spacing());
@@ -75,11 +76,15 @@ int runBuild(const Arguments& arguments) {
 Run addBuildCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("build", "Make a volume (.svt) of one or more model files");
-    command->add_option("input", arguments->inputs, "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq")->required();
+    command->add_option("input", arguments->inputs, "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq")
+        ->required();
     command->add_option("-o,--output", arguments->output, "the volume to write")->required()->type_name("F.svt");
     arguments->build.addTo(*command);
     command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");
-    command->add_flag("--strict", arguments->strict, "exit 4 where the model has defects; the volume is written all the same")->group("Output");
+    command
+        ->add_flag("--strict", arguments->strict,
+                   "exit 4 where the model has defects; the volume is written all the same")
+        ->group("Output");
     command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
     return [arguments] { return runBuild(*arguments); };
 }

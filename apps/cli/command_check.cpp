@@ -31,7 +31,8 @@ Json objectJson(const model::BuildingModel& model, const mesh::MeshScene& scene,
     json["flippedFaces"] = object.flippedFaces;
     json["complementedFaces"] = object.complementedFaces;
     json["caps"] = Json::array();
-    for (const mesh::Cap& cap : object.caps) json["caps"].push_back({{"area", cap.area}, {"center", toJson(cap.center + scene.origin)}});
+    for (const mesh::Cap& cap : object.caps)
+        json["caps"].push_back({{"area", cap.area}, {"center", toJson(cap.center + scene.origin)}});
     json["assembled"] = object.isAssembled;
     json["volume"] = object.isSolid() ? Json(object.volume) : Json(nullptr);
     json["area"] = object.area;
@@ -56,10 +57,13 @@ void printObject(const model::BuildingModel& model, const mesh::MeshScene& scene
     }
     for (const mesh::Cap& cap : object.caps) {
         const Vec3d at = cap.center + scene.origin;
-        fmt::print("    capped by a ClosureSurface of {:.4f} m2 at ({:.3f}, {:.3f}, {:.3f})\n", cap.area, at.x, at.y, at.z);
+        fmt::print("    capped by a ClosureSurface of {:.4f} m2 at ({:.3f}, {:.3f}, {:.3f})\n", cap.area, at.x, at.y,
+                   at.z);
     }
-    if (object.complementedFaces != 0) fmt::print("    completed with {} faces of adjoining features\n", object.complementedFaces);
-    if (object.tJunctionCount != 0) fmt::print("    {} edges match only up to T-junctions (tight)\n", object.tJunctionCount);
+    if (object.complementedFaces != 0)
+        fmt::print("    completed with {} faces of adjoining features\n", object.complementedFaces);
+    if (object.tJunctionCount != 0)
+        fmt::print("    {} edges match only up to T-junctions (tight)\n", object.tJunctionCount);
 }
 
 int runCheck(const Arguments& arguments) {
@@ -90,7 +94,8 @@ int runCheck(const Arguments& arguments) {
     if (arguments.json) {
         Json json;
         json["objects"] = Json::array();
-        for (const mesh::ObjectMesh& object : scene->objects) json["objects"].push_back(objectJson(*model, *scene, object));
+        for (const mesh::ObjectMesh& object : scene->objects)
+            json["objects"].push_back(objectJson(*model, *scene, object));
         json["solids"] = solids;
         json["leaking"] = leaking;
         json["tJunctions"] = tight;
@@ -98,8 +103,8 @@ int runCheck(const Arguments& arguments) {
         print(json);
     } else {
         for (const mesh::ObjectMesh& object : scene->objects) printObject(*model, *scene, object);
-        fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n", scene->objects.size(), solids, leaking,
-                   tight);
+        fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n",
+                   scene->objects.size(), solids, leaking, tight);
         printDiagnostics(diagnostics, arguments.verbose);
     }
     return findings != 0 ? kInvalid : kDone;
@@ -109,7 +114,8 @@ int runCheck(const Arguments& arguments) {
 
 Run addCheckCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("check", "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong");
+    CLI::App* command = app.add_subcommand(
+        "check", "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong");
     command->add_option("input", arguments->inputs, "model files")->required();
     command->add_option("--lod", arguments->lod, "use no finer level of detail than this")->group("Model");
     command->add_flag("--json", arguments->json, "print everything as JSON on stdout")->group("Output");

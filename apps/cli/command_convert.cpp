@@ -17,7 +17,8 @@ struct Arguments {
 int runConvert(const Arguments& arguments) {
     const std::string extension = arguments.output.extension().string();
     if (extension != ".nrrd")
-        return fail(Error(Code::BadArgument, fmt::format("'{}': cannot write '{}'; possible is .nrrd", arguments.output.string(), extension)));
+        return fail(Error(Code::BadArgument, fmt::format("'{}': cannot write '{}'; possible is .nrrd",
+                                                         arguments.output.string(), extension)));
     Diagnostics diagnostics;
     const TerminalProgress progress;
     const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
@@ -38,8 +39,11 @@ Run addConvertCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("convert", "Write a volume in another format");
     command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    command->add_option("output", arguments->output, "file to write; the extension tells the format: .nrrd")->required();
-    command->add_option("--encoding", arguments->encoding, "NRRD samples: gzip or raw")->check(CLI::IsMember({"gzip", "raw"}))->capture_default_str();
+    command->add_option("output", arguments->output, "file to write; the extension tells the format: .nrrd")
+        ->required();
+    command->add_option("--encoding", arguments->encoding, "NRRD samples: gzip or raw")
+        ->check(CLI::IsMember({"gzip", "raw"}))
+        ->capture_default_str();
     arguments->build.addTo(*command);
     return [arguments] { return runConvert(*arguments); };
 }

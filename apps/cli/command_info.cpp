@@ -20,8 +20,8 @@ void printTree(const volume::SemanticVolume& volume) {
         fmt::print("{:{}}{} {}{}{}", "", depth[l] * 2, label.className, label.name.empty() ? label.id : label.name,
                    label.name.empty() ? "" : "  id ", label.name.empty() ? "" : label.id);
         if (label.count != 0)
-            fmt::print("  scalars {}..{}  {} voxels  {:.3f} m3  {}", label.first, label.first + label.count - 1, label.voxels, label.volume,
-                       volume::fillingName(label.filling));
+            fmt::print("  scalars {}..{}  {} voxels  {:.3f} m3  {}", label.first, label.first + label.count - 1,
+                       label.voxels, label.volume, volume::fillingName(label.filling));
         fmt::print("\n");
     }
 }
@@ -45,7 +45,8 @@ void printFigures(const volume::SemanticVolume& volume) {
     fmt::print("scalars    {} bit, 1..{}\n", volume.labels.scalarBits(), volume.labels.scalarCount() - 1);
     fmt::print("filled     {:.1f} %\n", 100.0 * double(filled) / double(volume.grid.sampleCount()));
     fmt::print("columns    {:.1f} kB ({:.3f} % of a dense {}-bit volume)\n", double(volume.columns.sizeBytes()) / 1000,
-               100.0 * double(volume.columns.sizeBytes()) / (double(volume.grid.sampleCount()) * volume.labels.scalarBits() / 8),
+               100.0 * double(volume.columns.sizeBytes()) /
+                   (double(volume.grid.sampleCount()) * volume.labels.scalarBits() / 8),
                volume.labels.scalarBits());
     fmt::print("overlaps   {} pairs\n", volume.labels.overlaps.size());
 }
@@ -69,7 +70,8 @@ int runInfo(const Arguments& arguments) {
         json["objects"] = Json::array();
         json["features"] = Json::array();
         for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
-            json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(labelJson(volume.labels, l, volume.grid));
+            json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(
+                labelJson(volume.labels, l, volume.grid));
         json["overlaps"] = overlapsJson(volume.labels);
         print(json);
     } else {

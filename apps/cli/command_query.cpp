@@ -35,7 +35,8 @@ int runQuery(const Arguments& arguments) {
     fmt::print("{:<28} {:<28} {:<24} {:>10} {:>12}\n", "id", "class", "name", "m3", "voxels");
     for (const std::uint32_t l : *selected) {
         const volume::Label& label = volume->labels.labels[l];
-        fmt::print("{:<28} {:<28} {:<24} {:>10.3f} {:>12}\n", label.id, label.className, label.name, label.volume, label.voxels);
+        fmt::print("{:<28} {:<28} {:<24} {:>10.3f} {:>12}\n", label.id, label.className, label.name, label.volume,
+                   label.voxels);
     }
     return kDone;
 }

@@ -29,24 +29,28 @@ struct Arguments {
 };
 
 // "query:value", split at the last colon (or equals sign) behind which there is a value.
-Result<std::pair<std::string, std::string>> splitValue(const std::string& text, std::string_view option, std::string_view example) {
+Result<std::pair<std::string, std::string>> splitValue(const std::string& text, std::string_view option,
+                                                       std::string_view example) {
     std::size_t at = text.rfind(':');
     if (at == std::string::npos) at = text.rfind('=');
     if (at == std::string::npos || at == 0 || at + 1 == text.size())
-        return Error(Code::BadArgument, fmt::format("{} '{}': expected a query, a colon and a value, such as {}", option, text, example));
+        return Error(Code::BadArgument,
+                     fmt::format("{} '{}': expected a query, a colon and a value, such as {}", option, text, example));
     return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
 Result<Vec3i> parseSize(const std::string& text) {
     const auto triple = [&]() -> Result<Vec3d> {
         const std::size_t at = text.find_first_of("xX,");
-        if (at == std::string::npos) return Error(Code::BadFrame, fmt::format("--size '{}': expected pixels such as 1280x720", text));
+        if (at == std::string::npos)
+            return Error(Code::BadFrame, fmt::format("--size '{}': expected pixels such as 1280x720", text));
         return parseTriple(text.substr(0, at) + "," + text.substr(at + 1) + ",1", "--size", "pixels");
     }();
     if (!triple) return Error(Code::BadFrame, fmt::format("--size '{}': expected pixels such as 1280x720", text));
     const auto inRange = [](double v) { return v >= 1 && v <= render::FrameSpec::kMaxSize && v == std::floor(v); };
     if (!inRange(triple->x) || !inRange(triple->y))
-        return Error(Code::BadFrame, fmt::format("--size '{}': 1 to {} pixels along a side are possible", text, render::FrameSpec::kMaxSize));
+        return Error(Code::BadFrame, fmt::format("--size '{}': 1 to {} pixels along a side are possible", text,
+                                                 render::FrameSpec::kMaxSize));
     return Vec3i{static_cast<std::int32_t>(triple->x), static_cast<std::int32_t>(triple->y), 1};
 }
 
@@ -68,8 +72,11 @@ std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::
 // "z=1.2", "y<3" or "A,B,C,D" -> region cut away. Axis values are metres from the lower corner of the grid.
 Result<render::ClipRegion> parseSection(const std::string& text, const volume::Grid& grid) {
     const auto badSection = [&] {
-        return Error(Code::BadFrame, fmt::format("--section '{}': expected z=1.2, y<3, x>4 (metres from the lower corner) or A,B,C,D with "
-                                                 "A x + B y + C z + D > 0 cut away", text));
+        return Error(
+            Code::BadFrame,
+            fmt::format("--section '{}': expected z=1.2, y<3, x>4 (metres from the lower corner) or A,B,C,D with "
+                        "A x + B y + C z + D > 0 cut away",
+                        text));
     };
     const std::size_t at = text.find_first_of("=<>");
     if (at == 1 && std::string_view("xyz").find(text[0]) != std::string_view::npos) {
@@ -127,7 +134,9 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
         char* rest = nullptr;
         const double value = std::strtod(parts->second.c_str(), &rest);
         if (*rest != '\0' || !(value >= 0 && value <= 1))
-            return Error(Code::BadArgument, fmt::format("--opacity '{}': {} is out of range; 0 to 1 (share of light stopped by 1 m)", text, parts->second));
+            return Error(Code::BadArgument,
+                         fmt::format("--opacity '{}': {} is out of range; 0 to 1 (share of light stopped by 1 m)", text,
+                                     parts->second));
         const auto selected = pipeline::selectLabels(table, parts->first);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) opacities[l] = static_cast<float>(value);
@@ -139,7 +148,8 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
             const volume::Scalar scalar = table.labels[l].first + s;
             const bool hasPhase = !isRecolored[l] && table.labels[l].count > 1 && scalar < table.phaseColors.size();
             // A recoloured pattern keeps its joints as a darker shade.
-            styles[scalar].color = hasPhase ? table.phaseColors[scalar] : colors[l] * (1.0f / (1.0f + 0.35f * float(s)));
+            styles[scalar].color =
+                hasPhase ? table.phaseColors[scalar] : colors[l] * (1.0f / (1.0f + 0.35f * float(s)));
             styles[scalar].opacity = opacities[l];
         }
     return styles;
@@ -147,16 +157,20 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
 
 Result<render::Camera> makeCamera(const volume::Grid& grid, const Arguments& arguments, Vec3i size) {
     if (!(arguments.fov > 0 && arguments.fov < 180))
-        return Error(Code::BadCamera, fmt::format("--fov {}: out of range; above 0 and below 180 degrees are possible", arguments.fov));
+        return Error(Code::BadCamera,
+                     fmt::format("--fov {}: out of range; above 0 and below 180 degrees are possible", arguments.fov));
     render::PresetOptions options;
     options.aspect = double(size.x) / size.y;
-    options.projection = arguments.orthographic ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
+    options.projection =
+        arguments.orthographic ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
     options.verticalFovDegrees = arguments.fov;
     auto camera = render::cameraPreset(arguments.camera, grid, options);
     if (!camera) return camera;
     // Given points are metres from the lower corner of the grid.
-    if (arguments.eye.size() == 3) camera->eye = grid.origin() + Vec3d{arguments.eye[0], arguments.eye[1], arguments.eye[2]};
-    if (arguments.target.size() == 3) camera->target = grid.origin() + Vec3d{arguments.target[0], arguments.target[1], arguments.target[2]};
+    if (arguments.eye.size() == 3)
+        camera->eye = grid.origin() + Vec3d{arguments.eye[0], arguments.eye[1], arguments.eye[2]};
+    if (arguments.target.size() == 3)
+        camera->target = grid.origin() + Vec3d{arguments.target[0], arguments.target[1], arguments.target[2]};
     camera->eye = camera->target + (camera->eye - camera->target) / arguments.zoom;
     camera->orthographicHeight /= arguments.zoom;
     return camera;
@@ -216,7 +230,8 @@ int runRender(const Arguments& arguments) {
     options.progress = progress.get();
     const auto frame = [&]() -> Result<render::Frame> {
         if (arguments.level > 0) {
-            const auto levels = volume::buildLodPyramid(volume->columns, volume->grid, arguments.level, arguments.build.threads);
+            const auto levels =
+                volume::buildLodPyramid(volume->columns, volume->grid, arguments.level, arguments.build.threads);
             if (!levels) return levels.error();
             if (!levels->empty()) return render::castRays(levels->back(), spec, options);
         }
@@ -237,27 +252,83 @@ Run addRenderCommand(CLI::App& app) {
     command->add_option("input", arguments->input, "a .svt or a model file")->required();
     command->add_option("-o,--output", arguments->output, "the picture to write")->required()->type_name("P.png");
     std::string names;
-    for (const std::string_view name : render::cameraPresetNames()) names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
+    for (const std::string_view name : render::cameraPresetNames())
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
     command->add_option("--camera", arguments->camera, "one of " + names)->group("View")->capture_default_str();
     command->add_flag("--ortho", arguments->orthographic, "parallel projection")->group("View");
-    command->add_option("--eye", arguments->eye, "where the viewer stands, metres from the lower corner of the model")->group("View")->expected(3)->delimiter(',');
-    command->add_option("--target", arguments->target, "what stands in the middle of the picture, metres from the lower corner")->group("View")->expected(3)->delimiter(',');
-    command->add_option("--fov", arguments->fov, "vertical field of view, degrees, above 0 and below 180")->group("View")->capture_default_str();
-    command->add_option("--zoom", arguments->zoom, "nearer (above 1) or further than the preset, 0.01 to 100")->group("View")->check(CLI::Range(0.01, 100.0))->capture_default_str();
-    command->add_option("--size", arguments->size, "width x height in pixels, 1 to 16384")->group("View")->capture_default_str();
-    command->add_option("--samples", arguments->samples, "rays per pixel: 1, 4, 9 or 16")->group("View")->check(CLI::IsMember({1, 4, 9, 16}))->capture_default_str();
-    command->add_option("--section", arguments->section, "cut away: z=1.2 or z>1.2 (above), y<3 (before), or A,B,C,D; metres from the lower corner; may be repeated")
-        ->group("View")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--hide", arguments->hide, "hide what the query selects; may be repeated")->group("Style")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->type_name("QUERY");
-    command->add_option("--show", arguments->show, "show only what the query selects; may be repeated")->group("Style")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->type_name("QUERY");
-    command->add_option("--color", arguments->color, "colour by query, such as 'name=\"Unterzug-1\":red'; may be repeated")->group("Style")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->type_name("QUERY:COLOR");
-    command->add_option("--opacity", arguments->opacity, "share of light stopped by 1 m, 0 to 1, by query; may be repeated")->group("Style")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->type_name("QUERY:VALUE");
-    command->add_option("--edges", arguments->edges, "strength of lines between objects, 0 to 1")->group("Style")->check(CLI::Range(0.0, 1.0))->capture_default_str();
-    command->add_option("--background", arguments->background, "#rrggbb or a colour name")->group("Style")->capture_default_str();
+    command->add_option("--eye", arguments->eye, "where the viewer stands, metres from the lower corner of the model")
+        ->group("View")
+        ->expected(3)
+        ->delimiter(',');
+    command
+        ->add_option("--target", arguments->target,
+                     "what stands in the middle of the picture, metres from the lower corner")
+        ->group("View")
+        ->expected(3)
+        ->delimiter(',');
+    command->add_option("--fov", arguments->fov, "vertical field of view, degrees, above 0 and below 180")
+        ->group("View")
+        ->capture_default_str();
+    command->add_option("--zoom", arguments->zoom, "nearer (above 1) or further than the preset, 0.01 to 100")
+        ->group("View")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
+    command->add_option("--size", arguments->size, "width x height in pixels, 1 to 16384")
+        ->group("View")
+        ->capture_default_str();
+    command->add_option("--samples", arguments->samples, "rays per pixel: 1, 4, 9 or 16")
+        ->group("View")
+        ->check(CLI::IsMember({1, 4, 9, 16}))
+        ->capture_default_str();
+    command
+        ->add_option(
+            "--section", arguments->section,
+            "cut away: z=1.2 or z>1.2 (above), y<3 (before), or A,B,C,D; metres from the lower corner; may be repeated")
+        ->group("View")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--hide", arguments->hide, "hide what the query selects; may be repeated")
+        ->group("Style")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("QUERY");
+    command->add_option("--show", arguments->show, "show only what the query selects; may be repeated")
+        ->group("Style")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("QUERY");
+    command
+        ->add_option("--color", arguments->color, "colour by query, such as 'name=\"Unterzug-1\":red'; may be repeated")
+        ->group("Style")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("QUERY:COLOR");
+    command
+        ->add_option("--opacity", arguments->opacity,
+                     "share of light stopped by 1 m, 0 to 1, by query; may be repeated")
+        ->group("Style")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->type_name("QUERY:VALUE");
+    command->add_option("--edges", arguments->edges, "strength of lines between objects, 0 to 1")
+        ->group("Style")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    command->add_option("--background", arguments->background, "#rrggbb or a colour name")
+        ->group("Style")
+        ->capture_default_str();
     command->add_flag("--transparent", arguments->transparent, "leave the background transparent")->group("Style");
-    command->add_option("--level", arguments->level, "draw a coarser level of detail, 0 to 6")->group("Style")->check(CLI::Range(0, 6));
-    command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")->group("Output")->type_name("L.png");
-    command->add_option("--depth", arguments->depthOutput, "also write the depth of each pixel in millimetres, 16-bit gray")->group("Output")->type_name("D.png");
+    command->add_option("--level", arguments->level, "draw a coarser level of detail, 0 to 6")
+        ->group("Style")
+        ->check(CLI::Range(0, 6));
+    command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")
+        ->group("Output")
+        ->type_name("L.png");
+    command
+        ->add_option("--depth", arguments->depthOutput,
+                     "also write the depth of each pixel in millimetres, 16-bit gray")
+        ->group("Output")
+        ->type_name("D.png");
     command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
     arguments->build.addTo(*command);
     return [arguments] { return runRender(*arguments); };

@@ -25,7 +25,9 @@ Result<samples::SampleFormat> formatOf(const Arguments& arguments) {
     if (extension == ".gml" || extension == ".xml") return samples::SampleFormat::CityGml3;
     if (extension == ".json") return samples::SampleFormat::CityJson2;
     if (extension == ".jsonl") return samples::SampleFormat::CityJsonSeq2;
-    return Error(Code::BadArgument, fmt::format("'{}': the extension tells no format; use .gml, .json, .jsonl or --format", arguments.output.string()));
+    return Error(Code::BadArgument,
+                 fmt::format("'{}': the extension tells no format; use .gml, .json, .jsonl or --format",
+                             arguments.output.string()));
 }
 
 int runSample(const Arguments& arguments) {
@@ -53,17 +55,28 @@ int runSample(const Arguments& arguments) {
 Run addSampleCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("sample", "Write a generated model: a house, a tower of flats, a district");
-    command->add_option("kind", arguments->kind, "house, tower or district")->required()->check(CLI::IsMember({"house", "tower", "district"}));
-    command->add_option("-o,--output", arguments->output, "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq)")->required();
-    command->add_option("--format", arguments->format, "citygml3, citygml2, cityjson or cityjsonseq; default: by extension")
+    command->add_option("kind", arguments->kind, "house, tower or district")
+        ->required()
+        ->check(CLI::IsMember({"house", "tower", "district"}));
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq)")
+        ->required();
+    command
+        ->add_option("--format", arguments->format,
+                     "citygml3, citygml2, cityjson or cityjsonseq; default: by extension")
         ->check(CLI::IsMember({"citygml3", "citygml2", "cityjson", "cityjsonseq"}));
     auto& options = arguments->options;
     command->add_option("--seed", options.seed, "decides owners and the houses of a district")->capture_default_str();
     command->add_option("--storeys", options.storeys, "tower: number of storeys, 1 to 200")->capture_default_str();
-    command->add_option("--flats", options.flatsPerStorey, "tower: flats on each storey, 2 to 8")->capture_default_str();
-    command->add_option("--columns", options.columns, "district: houses from west to east, 1 to 1000")->capture_default_str();
-    command->add_option("--rows", options.rows, "district: houses from south to north, 1 to 1000")->capture_default_str();
-    command->add_option("--turn", options.turnDegrees, "turn in plan, degrees counter-clockwise, -360 to 360")->capture_default_str();
+    command->add_option("--flats", options.flatsPerStorey, "tower: flats on each storey, 2 to 8")
+        ->capture_default_str();
+    command->add_option("--columns", options.columns, "district: houses from west to east, 1 to 1000")
+        ->capture_default_str();
+    command->add_option("--rows", options.rows, "district: houses from south to north, 1 to 1000")
+        ->capture_default_str();
+    command->add_option("--turn", options.turnDegrees, "turn in plan, degrees counter-clockwise, -360 to 360")
+        ->capture_default_str();
     command->add_flag("--thematic", options.thematic, "CityGML 2.0: walls only as surfaces, as LoD4 has them");
     return [arguments] { return runSample(*arguments); };
 }

@@ -57,7 +57,10 @@ Json overlapsJson(const volume::LabelTable& table) {
 Json diagnosticsJson(const Diagnostics& diagnostics) {
     Json list = Json::array();
     for (const Diagnostic& item : diagnostics.items()) {
-        Json json{{"severity", severityName(item.severity)}, {"code", codeTag(item.code)}, {"name", codeName(item.code)}, {"message", item.message}};
+        Json json{{"severity", severityName(item.severity)},
+                  {"code", codeTag(item.code)},
+                  {"name", codeName(item.code)},
+                  {"message", item.message}};
         if (!item.where.file.empty()) json["file"] = item.where.file;
         if (item.where.line != 0) json["line"] = item.where.line;
         if (item.where.column != 0) json["column"] = item.where.column;

@@ -33,7 +33,8 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
         for (const CLI::Option* option : scope->get_options())
             for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     } else if (commands.empty()) {
-        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) known.push_back(command->get_name());
+        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+            known.push_back(command->get_name());
     }
     const std::string found = nearest(word.substr(0, word.find('=')), known);
     return found.empty() ? "" : fmt::format("; did you mean {}?", found);
@@ -71,7 +72,8 @@ int run(int argc, char** argv) {
         std::string message = error.what();
         for (const std::string& word : app.remaining(true)) message += suggestionFor(app, word);
         const auto chosen = app.get_subcommands();
-        fmt::print(stderr, "svt: {}\nsvt: see 'svt {}--help'\n", message, chosen.empty() ? "" : chosen.front()->get_name() + " ");
+        fmt::print(stderr, "svt: {}\nsvt: see 'svt {}--help'\n", message,
+                   chosen.empty() ? "" : chosen.front()->get_name() + " ");
         return kUsage;
     }
     for (const auto& [name, command] : commands)

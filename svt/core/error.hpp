@@ -13,65 +13,65 @@ namespace svt {
 /// A code is never given a second meaning.
 enum class Code : std::uint16_t {
     // 1xx: reading a model
-    CannotOpen = 101,        ///< file missing or unreadable
-    BadXml = 102,            ///< not well-formed XML
-    UnknownFormat = 103,     ///< the content is none of the formats that can be read
-    InputTooBig = 104,       ///< over a stated limit (bytes, depth, count)
-    BadJson = 105,           ///< not well-formed JSON, or not the expected structure
-    UnknownVersion = 106,    ///< a version of the format that cannot be read
-    DtdRefused = 107,        ///< a DOCTYPE or entity declaration in XML
-    BadEncoding = 108,       ///< bytes that are no valid UTF-8 (or the declared encoding)
-    EmptyModel = 109,        ///< no feature with geometry
-    DanglingReference = 110, ///< an xlink, child or template reference without target
-    ReferenceCycle = 111,    ///< references that lead back to themselves
-    DuplicateId = 112,       ///< the same id twice
-    MissingId = 113,         ///< a feature without id; one was made from its path
-    BadValue = 114,          ///< a number, code or attribute that cannot be understood
-    ExternalReference = 115, ///< a reference to another file or host; never fetched
-    UnknownElement = 116,    ///< an element or type that is not known; skipped
-    MixedCrs = 117,          ///< parts of one model in different CRSs
-    GeographicCrs = 118,     ///< coordinates in degrees; project them first
-    BadIndex = 119,          ///< a vertex, material or template index out of range
+    CannotOpen = 101,         ///< file missing or unreadable
+    BadXml = 102,             ///< not well-formed XML
+    UnknownFormat = 103,      ///< the content is none of the formats that can be read
+    InputTooBig = 104,        ///< over a stated limit (bytes, depth, count)
+    BadJson = 105,            ///< not well-formed JSON, or not the expected structure
+    UnknownVersion = 106,     ///< a version of the format that cannot be read
+    DtdRefused = 107,         ///< a DOCTYPE or entity declaration in XML
+    BadEncoding = 108,        ///< bytes that are no valid UTF-8 (or the declared encoding)
+    EmptyModel = 109,         ///< no feature with geometry
+    DanglingReference = 110,  ///< an xlink, child or template reference without target
+    ReferenceCycle = 111,     ///< references that lead back to themselves
+    DuplicateId = 112,        ///< the same id twice
+    MissingId = 113,          ///< a feature without id; one was made from its path
+    BadValue = 114,           ///< a number, code or attribute that cannot be understood
+    ExternalReference = 115,  ///< a reference to another file or host; never fetched
+    UnknownElement = 116,     ///< an element or type that is not known; skipped
+    MixedCrs = 117,           ///< parts of one model in different CRSs
+    GeographicCrs = 118,      ///< coordinates in degrees; project them first
+    BadIndex = 119,           ///< a vertex, material or template index out of range
     // 2xx: geometry
-    TooFewPoints = 201,      ///< a ring of fewer than three distinct points
-    BadCoordinate = 202,     ///< NaN, infinite or absurdly large coordinate
-    ZeroArea = 203,          ///< a face without area
-    DuplicateFace = 204,     ///< the same face twice in one shell
-    SelfTouchingRing = 205,  ///< a ring that touches or crosses itself
-    NonPlanar = 206,         ///< a polygon further from its plane than the tolerance
-    ShellNotClosed = 207,    ///< edges without partner: the shell leaks
-    TJunction = 208,         ///< edges that match only up to T-junctions; geometrically tight
-    ShellCapped = 209,       ///< open shell closed by planar caps (ClosureSurface)
-    WindingFilled = 210,     ///< open shell filled by generalized winding number
-    FaceFlipped = 211,       ///< faces reoriented
-    TriangulationFailed = 212, ///< a polygon that could not be triangulated; left out
-    NoGeometry = 213,        ///< a feature that was expected to have geometry has none
-    FacesComplemented = 214, ///< open shell completed with faces of adjoining objects
+    TooFewPoints = 201,         ///< a ring of fewer than three distinct points
+    BadCoordinate = 202,        ///< NaN, infinite or absurdly large coordinate
+    ZeroArea = 203,             ///< a face without area
+    DuplicateFace = 204,        ///< the same face twice in one shell
+    SelfTouchingRing = 205,     ///< a ring that touches or crosses itself
+    NonPlanar = 206,            ///< a polygon further from its plane than the tolerance
+    ShellNotClosed = 207,       ///< edges without partner: the shell leaks
+    TJunction = 208,            ///< edges that match only up to T-junctions; geometrically tight
+    ShellCapped = 209,          ///< open shell closed by planar caps (ClosureSurface)
+    WindingFilled = 210,        ///< open shell filled by generalized winding number
+    FaceFlipped = 211,          ///< faces reoriented
+    TriangulationFailed = 212,  ///< a polygon that could not be triangulated; left out
+    NoGeometry = 213,           ///< a feature that was expected to have geometry has none
+    FacesComplemented = 214,    ///< open shell completed with faces of adjoining objects
     // 3xx: voxels
-    BadDimension = 301,      ///< grid dimension or spacing out of range
-    GridTooLarge = 302,      ///< over the grid's limits
-    TooManyLabels = 303,     ///< more scalars than 32 bits can number
-    BadPattern = 304,        ///< a spatial pattern that cannot be used
-    BadStyle = 305,          ///< a style file that does not follow its schema
-    ThinObject = 306,        ///< an object thinner than a voxel, kept by a surface pass
-    Overlap = 307,           ///< two objects claim the same voxels
+    BadDimension = 301,   ///< grid dimension or spacing out of range
+    GridTooLarge = 302,   ///< over the grid's limits
+    TooManyLabels = 303,  ///< more scalars than 32 bits can number
+    BadPattern = 304,     ///< a spatial pattern that cannot be used
+    BadStyle = 305,       ///< a style file that does not follow its schema
+    ThinObject = 306,     ///< an object thinner than a voxel, kept by a surface pass
+    Overlap = 307,        ///< two objects claim the same voxels
     // 4xx: volumes and files
-    BadVolume = 401,         ///< not a .svt, or damaged
-    BadChecksum = 402,       ///< CRC32 of an entry does not match
-    VolumeVersion = 403,     ///< written by a newer version
-    CannotWrite = 404,       ///< output cannot be written
-    DiskFull = 405,          ///< no space left for the output
-    BadImage = 406,          ///< an image or raw file that cannot be read
-    BadNrrd = 407,           ///< not an NRRD that can be read
+    BadVolume = 401,      ///< not a .svt, or damaged
+    BadChecksum = 402,    ///< CRC32 of an entry does not match
+    VolumeVersion = 403,  ///< written by a newer version
+    CannotWrite = 404,    ///< output cannot be written
+    DiskFull = 405,       ///< no space left for the output
+    BadImage = 406,       ///< an image or raw file that cannot be read
+    BadNrrd = 407,        ///< not an NRRD that can be read
     // 5xx: pictures
-    BadCamera = 501,         ///< up parallel to view, or field of view out of range
-    BadFrame = 502,          ///< picture size or plane out of range
+    BadCamera = 501,  ///< up parallel to view, or field of view out of range
+    BadFrame = 502,   ///< picture size or plane out of range
     // 9xx: program
-    BadQuery = 901,          ///< a query that cannot be parsed
-    NothingSelected = 902,   ///< a query that selects nothing
-    Cancelled = 903,         ///< the caller asked to stop
-    BadArgument = 904,       ///< an argument out of range
-    Internal = 999,          ///< a defect of the program
+    BadQuery = 901,         ///< a query that cannot be parsed
+    NothingSelected = 902,  ///< a query that selects nothing
+    Cancelled = 903,        ///< the caller asked to stop
+    BadArgument = 904,      ///< an argument out of range
+    Internal = 999,         ///< a defect of the program
 };
 
 /// Name of a code as in the enum, such as "ShellNotClosed".

@@ -18,6 +18,6 @@ inline std::filesystem::path dataDir() {
 }  // namespace svt::test
 
 /// Skips the test where `file` of the data directory is absent; else declares `variable`.
-#define SVT_NEEDS_DATA(variable, file)                                                                  \
-    const std::filesystem::path variable = ::svt::test::dataDir() / (file);                             \
+#define SVT_NEEDS_DATA(variable, file)                                      \
+    const std::filesystem::path variable = ::svt::test::dataDir() / (file); \
     if (!std::filesystem::exists(variable)) GTEST_SKIP() << variable << " is absent; set SVT_DATA_DIR to run this test"

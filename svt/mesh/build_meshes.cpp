@@ -43,11 +43,12 @@ void appendUses(const model::Geometry& geometry, std::vector<SurfaceUse>& uses) 
 }
 
 // Faces of the boundary surfaces of a space, with their openings.
-void appendBoundary(const BuildingModel& model, FeatureIndex space, const model::LodChoice& lod, const std::vector<std::uint8_t>& isCoarser,
-                    Source& source) {
+void appendBoundary(const BuildingModel& model, FeatureIndex space, const model::LodChoice& lod,
+                    const std::vector<std::uint8_t>& isCoarser, Source& source) {
     for (const FeatureIndex child : model.features[space].children) {
         const Feature& feature = model.features[child];
-        if (!model::isBoundarySurface(feature.className) && !(model::isFilling(feature.className) && child != space)) continue;
+        if (!model::isBoundarySurface(feature.className) && !(model::isFilling(feature.className) && child != space))
+            continue;
         if (model::isFilling(feature.className) && !model::isBoundarySurface(model.features[space].className)) continue;
         if (isCoarser[child]) continue;
         if (const int chosen = lod.choose(feature); chosen >= 0) {
@@ -64,8 +65,8 @@ double chosenLod(const Feature& feature, const model::LodChoice& lod) {
     return chosen < 0 ? -1 : feature.geometries[std::size_t(chosen)].lod;
 }
 
-// Boundary surfaces (and openings) of a coarser level than others of their class in the same space: files with several levels
-// of detail give each its own surfaces.
+// Boundary surfaces (and openings) of a coarser level than others of their class in the same space: files with several
+// levels of detail give each its own surfaces.
 std::vector<std::uint8_t> findCoarserSurfaces(const BuildingModel& model, const std::vector<FeatureIndex>& order,
                                               const model::LodChoice& lod) {
     const auto isSurface = [&](FeatureIndex f) {
@@ -94,7 +95,9 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
     const std::vector<std::uint8_t> isCoarser = findCoarserSurfaces(model, order, lod);
     if (const auto count = std::count(isCoarser.begin(), isCoarser.end(), 1); count != 0 && log != nullptr)
         log->add(Severity::Note, Code::NoGeometry,
-                 fmt::format("{} boundary surfaces and openings are of a coarser level of detail than others of their class and are left out", count),
+                 fmt::format("{} boundary surfaces and openings are of a coarser level of detail than others of their "
+                             "class and are left out",
+                             count),
                  {model.source, 0, 0, {}});
     for (const FeatureIndex index : order) {
         if (isCoarser[index]) continue;
@@ -103,7 +106,8 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
         if (const int chosen = lod.choose(feature); chosen >= 0) {
             const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
             own.lod = geometry.lod;
-            // Doors and windows are bodies in CityGML 3.0 and sheets in the openings of CityGML 2.0: the geometry tells.
+            // Doors and windows are bodies in CityGML 3.0 and sheets in the openings of CityGML 2.0: the geometry
+            // tells.
             own.hasSolidMeaning = model::isFilling(feature.className) ? geometry.kind == model::GeometryKind::Solid
                                                                       : model::hasSolidMeaning(feature.className);
             appendUses(geometry, own.uses);
@@ -121,8 +125,8 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
 // Gathers the triangles of the uses. Faces used twice in the same direction are doubled faces, and dropped;
 // two uses in opposite directions stay (they cancel).
 struct Gathered {
-    std::vector<std::uint32_t> pointIds;             // per vertex
-    std::vector<model::PolygonIndex> polygons;       // ascending
+    std::vector<std::uint32_t> pointIds;        // per vertex
+    std::vector<model::PolygonIndex> polygons;  // ascending
     std::uint32_t duplicateFaces = 0;
 };
 
@@ -261,37 +265,42 @@ void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work
     const std::string leaks = leakText(mesh, origin);
     if (work.gathered.duplicateFaces != 0)
         log.add(Severity::Warning, Code::DuplicateFace,
-                fmt::format("{} faces stand twice in the shell and are used once", work.gathered.duplicateFaces), place);
+                fmt::format("{} faces stand twice in the shell and are used once", work.gathered.duplicateFaces),
+                place);
     switch (mesh.closure) {
         case Closure::Closed:
         case Closure::Surface: break;
         case Closure::TJunctions:
             log.add(Severity::Note, Code::TJunction,
-                    fmt::format("{} edges match only where they are cut at points of others; the shell is tight", mesh.tJunctionCount),
+                    fmt::format("{} edges match only where they are cut at points of others; the shell is tight",
+                                mesh.tJunctionCount),
                     place);
             break;
         case Closure::Complemented:
             log.add(Severity::Warning, Code::FacesComplemented,
-                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such as {}; closed with {} faces of adjoining features", mesh.unmatchedEdges, mesh.leakCount,
-                                leaks, mesh.complementedFaces),
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
+                                "as {}; closed with {} faces of adjoining features",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.complementedFaces),
                     place);
             break;
         case Closure::Capped:
             log.add(Severity::Warning, Code::ShellCapped,
-                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such as {}; closed with {} planar caps", mesh.unmatchedEdges, mesh.leakCount, leaks,
-                                mesh.caps.size()),
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
+                                "as {}; closed with {} planar caps",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size()),
                     place);
             break;
         case Closure::Open:
             log.add(Severity::Warning, Code::WindingFilled,
-                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such as {}; {} stay open, filled by generalized winding number",
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
+                                "as {}; {} stay open, filled by generalized winding number",
                                 mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.openEdges.size()),
                     place);
             break;
     }
     if (mesh.flippedFaces != 0)
-        log.add(Severity::Warning, Code::FaceFlipped, fmt::format("{} triangles faced the wrong way and were turned", mesh.flippedFaces),
-                place);
+        log.add(Severity::Warning, Code::FaceFlipped,
+                fmt::format("{} triangles faced the wrong way and were turned", mesh.flippedFaces), place);
 }
 
 }  // namespace
@@ -373,7 +382,8 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
     }
     std::erase_if(scene.objects, [](const ObjectMesh& mesh) { return mesh.triangles.empty(); });
     if (scene.objects.empty())
-        return Error(Code::EmptyModel, "no feature of the model has geometry that can be voxelized", {model.source, 0, 0, {}});
+        return Error(Code::EmptyModel, "no feature of the model has geometry that can be voxelized",
+                     {model.source, 0, 0, {}});
     assignPlanes(scene, options.weldDistance * 4);
     Progress::tell(options.progress, "mesh", 1);
     return scene;

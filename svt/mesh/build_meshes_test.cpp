@@ -86,7 +86,8 @@ TEST(BuildMeshes, BoxWithoutATopIsCapped) {
 
 TEST(BuildMeshes, TwoHolesGetTwoCaps) {
     BuildingModel model;
-    addFeature(model, "BuildingRoom", "room", model::kNoFeature, {solidOf(addBox(model, kLow, kHigh, {test::kTop, test::kBottom}))});
+    addFeature(model, "BuildingRoom", "room", model::kNoFeature,
+               {solidOf(addBox(model, kLow, kHigh, {test::kTop, test::kBottom}))});
     const MeshScene scene = meshesOf(model);
     EXPECT_EQ(scene.objects[0].closure, Closure::Capped);
     EXPECT_EQ(scene.objects[0].caps.size(), 2u);
@@ -119,7 +120,8 @@ TEST(BuildMeshes, HoleAlmostInAPlaneIsCappedOthersStayOpen) {
 TEST(BuildMeshes, FaceThatOnlyTheNeighbourListsIsBorrowed) {
     BuildingModel model;
     addBoxFeature(model, "BuildingRoom", "kitchen", kLow, kHigh);
-    addFeature(model, "BuildingRoom", "hall", model::kNoFeature, {solidOf(addBox(model, {4, 0, 0}, {9, 3, 2}, {test::kWest}))});
+    addFeature(model, "BuildingRoom", "hall", model::kNoFeature,
+               {solidOf(addBox(model, {4, 0, 0}, {9, 3, 2}, {test::kWest}))});
     Diagnostics log;
     const MeshScene scene = meshesOf(model, &log);
     const ObjectMesh* hall = meshOf(model, scene, "hall");
@@ -164,8 +166,10 @@ TEST(BuildMeshes, BoundarySurfaceAloneIsASheet) {
 
 TEST(BuildMeshes, FlatFootprintIsASheetWithoutCaps) {
     BuildingModel model;
-    addFeature(model, "Building", "house", model::kNoFeature,
-               {surfaceOf({{addRings(model, {{{0, 0, 1}, {8, 0, 1}, {8, 3, 1}, {4, 3, 1}, {4, 6, 1}, {0, 6, 1}}}), false}}, 0)});
+    addFeature(
+        model, "Building", "house", model::kNoFeature,
+        {surfaceOf({{addRings(model, {{{0, 0, 1}, {8, 0, 1}, {8, 3, 1}, {4, 3, 1}, {4, 6, 1}, {0, 6, 1}}}), false}},
+                   0)});
     const MeshScene scene = meshesOf(model);
     const ObjectMesh& mesh = scene.objects[0];
     EXPECT_EQ(mesh.closure, Closure::Surface);
@@ -177,13 +181,14 @@ TEST(BuildMeshes, FlatFootprintIsASheetWithoutCaps) {
 TEST(BuildMeshes, BuildingOfBoundarySurfacesAloneIsAssembled) {
     BuildingModel model;
     const FeatureIndex house = addFeature(model, "Building", "house");
-    const char* const classes[6] = {"GroundSurface", "RoofSurface", "WallSurface", "WallSurface", "WallSurface", "WallSurface"};
+    const char* const classes[6] = {"GroundSurface", "RoofSurface", "WallSurface",
+                                    "WallSurface",   "WallSurface", "WallSurface"};
     FeatureIndex wall = 0;
     for (int side = 0; side < 6; ++side) {
         std::vector<Ring> rings{boxRing(kLow, kHigh, side)};
         if (side == test::kSouth) rings.push_back({{1, 0, 0.5}, {1, 0, 1.5}, {2, 0, 1.5}, {2, 0, 0.5}});
-        const FeatureIndex surface =
-            addFeature(model, classes[side], "side-" + std::to_string(side), house, {surfaceOf({{addRings(model, rings), false}}, 2)});
+        const FeatureIndex surface = addFeature(model, classes[side], "side-" + std::to_string(side), house,
+                                                {surfaceOf({{addRings(model, rings), false}}, 2)});
         if (side == test::kSouth) wall = surface;
     }
     addFeature(model, "WindowSurface", "window", wall,
@@ -221,7 +226,8 @@ TEST(BuildMeshes, CoarserSurfacesOfTheSameClassAreLeftOut) {
     BuildingModel model;
     const FeatureIndex house = addFeature(model, "Building", "house");
     const auto add = [&](const char* className, const char* id, int side, double lod) {
-        addFeature(model, className, id, house, {surfaceOf({{addRings(model, {boxRing(kLow, kHigh, side)}), false}}, lod)});
+        addFeature(model, className, id, house,
+                   {surfaceOf({{addRings(model, {boxRing(kLow, kHigh, side)}), false}}, lod)});
     };
     add("WallSurface", "wall-2", test::kSouth, 2);
     add("WallSurface", "wall-3", test::kSouth, 3);
@@ -342,7 +348,8 @@ TEST(BuildMeshes, RoundedCornersAreStillClosed) {
     std::vector<SurfaceUse> uses;
     for (int side = 0; side < 6; ++side) {
         Ring ring = boxRing(kLow, kHigh, side);
-        for (std::size_t c = 0; c < 4; ++c) ring[c] = ring[c] + Vec3d{1e-6, -1e-6, 1e-6} * (double((side + int(c)) % 3) - 1);
+        for (std::size_t c = 0; c < 4; ++c)
+            ring[c] = ring[c] + Vec3d{1e-6, -1e-6, 1e-6} * (double((side + int(c)) % 3) - 1);
         uses.push_back({addRings(model, {ring}), false});
     }
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
@@ -352,7 +359,8 @@ TEST(BuildMeshes, RoundedCornersAreStillClosed) {
 }
 
 TEST(BuildMeshes, BadCoordinatesCostTheirPolygonOnly) {
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), 1e308, -std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), 1e308, -std::numeric_limits<double>::infinity()}) {
         BuildingModel model;
         auto uses = addBox(model, kLow, kHigh);
         model.polygons[uses[test::kTop].polygon].points[2].z = bad;
@@ -409,7 +417,8 @@ TEST(BuildMeshes, SameForAnyNumberOfThreads) {
         if (n % 4 == 1) without = {test::kWest};
         if (n % 4 == 2) without = {test::kTop, test::kNorth};
         if (n % 4 == 3) without = {test::kTop};
-        addFeature(model, "BuildingRoom", "room-" + std::to_string(n), model::kNoFeature, {solidOf(addBox(model, low, high, without))});
+        addFeature(model, "BuildingRoom", "room-" + std::to_string(n), model::kNoFeature,
+                   {solidOf(addBox(model, low, high, without))});
     }
     MeshOptions one, many;
     one.threads = 1;
@@ -432,7 +441,8 @@ TEST(BuildMeshes, SameForAnyNumberOfThreads) {
     }
     ASSERT_EQ(a.planes.size(), b.planes.size());
     ASSERT_EQ(oneLog.items().size(), manyLog.items().size());
-    for (std::size_t i = 0; i < oneLog.items().size(); ++i) EXPECT_EQ(oneLog.items()[i].toString(), manyLog.items()[i].toString());
+    for (std::size_t i = 0; i < oneLog.items().size(); ++i)
+        EXPECT_EQ(oneLog.items()[i].toString(), manyLog.items()[i].toString());
     EXPECT_FALSE(oneLog.items().empty());
 }
 

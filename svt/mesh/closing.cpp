@@ -14,7 +14,8 @@ constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 // Directed edges of a polygon's rings in welded points.
-std::vector<DirectedEdge> ringEdges(const LocalPolygons& polygons, const model::BuildingModel& model, model::PolygonIndex p) {
+std::vector<DirectedEdge> ringEdges(const LocalPolygons& polygons, const model::BuildingModel& model,
+                                    model::PolygonIndex p) {
     std::vector<DirectedEdge> edges;
     std::uint32_t begin = 0;
     for (const std::uint32_t end : model.polygons[p].ringEnds) {
@@ -64,7 +65,8 @@ std::uint32_t FaceFinder::complement(ObjectMesh& mesh, std::vector<std::uint32_t
         if (from == kNoPoint || to == kNoPoint) continue;
         ++need[{to, from}];
         const DirectedEdge key = std::minmax(from, to);
-        auto it = std::lower_bound(edges_->sorted.begin(), edges_->sorted.end(), std::pair{key, model::PolygonIndex{0}});
+        auto it =
+            std::lower_bound(edges_->sorted.begin(), edges_->sorted.end(), std::pair{key, model::PolygonIndex{0}});
         for (; it != edges_->sorted.end() && it->first == key; ++it)
             if (!std::binary_search(own.begin(), own.end(), it->second)) candidates.push_back(it->second);
     }

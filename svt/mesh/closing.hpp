@@ -18,11 +18,10 @@ public:
     FaceFinder(const FaceFinder&) = delete;
     FaceFinder& operator=(const FaceFinder&) = delete;
 
-    /// Adds faces of other features whose edges are the missing partners of `mesh.openEdges`: the face of a wall that two
-    /// solids share and only one lists. A face is taken when it closes more edges than it opens.
-    /// \param pointIds  per vertex of the mesh: its welded point in the polygons, or 0xFFFFFFFF
-    /// \param own       polygons that the mesh has already, ascending
-    /// \return count of faces added; the mesh's openEdges are renewed
+    /// Adds faces of other features whose edges are the missing partners of `mesh.openEdges`: the face of a wall that
+    /// two solids share and only one lists. A face is taken when it closes more edges than it opens. \param pointIds
+    /// per vertex of the mesh: its welded point in the polygons, or 0xFFFFFFFF \param own       polygons that the mesh
+    /// has already, ascending \return count of faces added; the mesh's openEdges are renewed
     std::uint32_t complement(ObjectMesh& mesh, std::vector<std::uint32_t>& pointIds,
                              const std::vector<model::PolygonIndex>& own) const;
 

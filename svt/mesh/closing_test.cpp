@@ -12,7 +12,9 @@ using test::boxMesh;
 // A box of 4 x 3 x 2 m without its top, whose corner 7 (4, 3, 2) is lifted.
 ObjectMesh openBox(double lift = 0) {
     ObjectMesh mesh = boxMesh({0, 0, 0}, {4, 3, 2});
-    std::erase_if(mesh.triangles, [](const Triangle& t) { return std::min({t.corners[0], t.corners[1], t.corners[2]}) >= 4; });
+    std::erase_if(mesh.triangles, [](const Triangle& t) {
+        return std::min({t.corners[0], t.corners[1], t.corners[2]}) >= 4;
+    });
     mesh.vertices[7].z += lift;
     mesh.openEdges = findOpenEdges(mesh.triangles);
     return mesh;
@@ -41,7 +43,9 @@ TEST(CapPlanarHoles, HoleFurtherFromItsPlaneStaysOpen) {
 TEST(CapPlanarHoles, HoleWithAnIslandIsClosedAroundIt) {
     // A tower without a bottom stands in the middle of the missing top: two loops in one plane.
     ObjectMesh mesh = openBox(), tower = boxMesh({1, 1, 2}, {2, 2, 4});
-    std::erase_if(tower.triangles, [](const Triangle& t) { return std::max({t.corners[0], t.corners[1], t.corners[2]}) < 4; });
+    std::erase_if(tower.triangles, [](const Triangle& t) {
+        return std::max({t.corners[0], t.corners[1], t.corners[2]}) < 4;
+    });
     test::append(mesh, tower);
     mesh.openEdges = findOpenEdges(mesh.triangles);
     capPlanarHoles(mesh, 0.05);

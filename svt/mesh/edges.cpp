@@ -74,7 +74,8 @@ struct EdgeCut {
     double fraction;
 };
 
-// Points of open edges that lie on other open edges. Points are sorted along x, so each edge looks only at those in its reach.
+// Points of open edges that lie on other open edges. Points are sorted along x, so each edge looks only at those in its
+// reach.
 std::vector<EdgeCut> findCuts(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& open, double distance) {
     std::vector<std::uint32_t> points;
     for (const OpenEdge& edge : open) {
@@ -128,10 +129,9 @@ std::vector<BorderPoint> ringWithCuts(const Triangle& triangle, const std::vecto
         const std::uint32_t b = triangle.corners[(c + 1) % 3];
         ring.push_back({a, 1u << c | 1u << (c + 2) % 3});
         const auto key = std::minmax(a, b);
-        auto range = std::equal_range(cuts.begin(), cuts.end(), EdgeCut{key.first, key.second, 0, 0},
-                                      [](const EdgeCut& p, const EdgeCut& q) {
-                                          return std::tie(p.from, p.to) < std::tie(q.from, q.to);
-                                      });
+        auto range = std::equal_range(
+            cuts.begin(), cuts.end(), EdgeCut{key.first, key.second, 0, 0},
+            [](const EdgeCut& p, const EdgeCut& q) { return std::tie(p.from, p.to) < std::tie(q.from, q.to); });
         const std::size_t begin = ring.size();
         for (auto it = range.first; it != range.second; ++it) ring.push_back({it->point, 1u << c});
         if (a > b) std::reverse(ring.begin() + static_cast<std::ptrdiff_t>(begin), ring.end());
@@ -139,8 +139,8 @@ std::vector<BorderPoint> ringWithCuts(const Triangle& triangle, const std::vecto
     return ring;
 }
 
-// Cuts a triangle whose border carries more points into triangles, ear by ear, the fattest first. No ear lies on one edge
-// alone and none leaves points of one edge alone, so no triangle ends without area.
+// Cuts a triangle whose border carries more points into triangles, ear by ear, the fattest first. No ear lies on one
+// edge alone and none leaves points of one edge alone, so no triangle ends without area.
 void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint> ring, const Triangle& source,
                      std::vector<Triangle>& out) {
     const auto twiceArea = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -183,7 +183,8 @@ void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint
 
 void flip(Triangle& triangle) { std::swap(triangle.corners[1], triangle.corners[2]); }
 
-// Signed crossings of the ray from `point` towards +z with a component; odd-axis ties do not matter for a containment vote.
+// Signed crossings of the ray from `point` towards +z with a component; odd-axis ties do not matter for a containment
+// vote.
 int windingAlongZ(Vec3d point, const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles,
                   const std::vector<std::uint32_t>& members) {
     int winding = 0;
@@ -223,7 +224,8 @@ std::vector<OpenEdge> findOpenEdges(const std::vector<Triangle>& triangles) {
     forEachEdge(uses, [&](std::size_t begin, std::size_t end) {
         int net = 0;
         for (std::size_t i = begin; i < end; ++i) net += uses[i].isForward ? 1 : -1;
-        const OpenEdge edge = net > 0 ? OpenEdge{uses[begin].low, uses[begin].high} : OpenEdge{uses[begin].high, uses[begin].low};
+        const OpenEdge edge =
+            net > 0 ? OpenEdge{uses[begin].low, uses[begin].high} : OpenEdge{uses[begin].high, uses[begin].low};
         for (int i = 0; i < std::abs(net); ++i) open.push_back(edge);
     });
     std::sort(open.begin(), open.end(),
@@ -323,8 +325,9 @@ std::uint32_t orientConsistently(std::vector<Triangle>& triangles) {
         links.push_back({uses[begin + 1].triangle, uses[begin].triangle, agrees});
     });
     if (!hasConflict) return 0;
-    std::sort(links.begin(), links.end(),
-              [](const Link& a, const Link& b) { return std::tie(a.triangle, a.neighbour) < std::tie(b.triangle, b.neighbour); });
+    std::sort(links.begin(), links.end(), [](const Link& a, const Link& b) {
+        return std::tie(a.triangle, a.neighbour) < std::tie(b.triangle, b.neighbour);
+    });
     std::vector<std::uint32_t> firstLink(triangles.size() + 1, 0);
     for (const Link& link : links) ++firstLink[link.triangle + 1];
     std::partial_sum(firstLink.begin(), firstLink.end(), firstLink.begin());

@@ -19,9 +19,8 @@ namespace svt::mesh {
 /// Cost: O(open edges log + pairs near each other).
 std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance);
 
-/// Removes faces that stand doubled with another triangulation: triangles on edges that are used in both directions but more
-/// often in theirs, if that closes the mesh further.
-/// \return count of removed triangles, 0 where it would not help
+/// Removes faces that stand doubled with another triangulation: triangles on edges that are used in both directions but
+/// more often in theirs, if that closes the mesh further. \return count of removed triangles, 0 where it would not help
 std::uint32_t removeDoubledFaces(std::vector<Triangle>& triangles);
 
 /// Turns triangles until neighbours over edges with two uses agree, component by component; a component that agrees
@@ -36,8 +35,8 @@ std::uint32_t orientOutwards(const std::vector<Vec3d>& vertices, std::vector<Tri
 /// Number of the connected component (over shared corners' edges) of each triangle, 0-based by first triangle.
 [[nodiscard]] std::vector<std::uint32_t> findComponents(const std::vector<Triangle>& triangles);
 
-/// Chains open edges to loops (each edge used once), against the direction of the edges so that the loop bounds the missing
-/// face. Loops that do not close are left out. Deterministic.
+/// Chains open edges to loops (each edge used once), against the direction of the edges so that the loop bounds the
+/// missing face. Loops that do not close are left out. Deterministic.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> findBoundaryLoops(const std::vector<OpenEdge>& edges);
 
 }  // namespace svt::mesh

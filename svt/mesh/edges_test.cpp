@@ -45,7 +45,8 @@ TEST(FindOpenEdges, MissingTriangleLeavesTheEdgesOfItsNeighbours) {
 
 TEST(FindOpenEdges, AnEdgeIsListedAsOftenAsItIsMissing) {
     // Three triangles that run the edge 0 -> 1 upwards, one that runs it back.
-    EXPECT_EQ(pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}}))).front(), (std::pair{0u, 1u}));
+    EXPECT_EQ(pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}}))).front(),
+              (std::pair{0u, 1u}));
     const auto open = pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}})));
     EXPECT_EQ(std::count(open.begin(), open.end(), std::pair{0u, 1u}), 2);
 }
@@ -57,12 +58,13 @@ TEST(FindOpenEdges, FacesInsideThatCancelAreClosed) {
     EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
 }
 
-// A box of 4 x 3 x 2 m whose south face is cut in the middle at x = `at`, so that its bottom and top edges carry a point
-// that the faces above and below do not know.
+// A box of 4 x 3 x 2 m whose south face is cut in the middle at x = `at`, so that its bottom and top edges carry a
+// point that the faces above and below do not know.
 ObjectMesh boxWithCutFace(double noise = 0) {
     auto mesh = boxMesh(kLow, kHigh);
     std::erase_if(mesh.triangles, [](const Triangle& t) {  // south: corners 0, 1, 5, 4
-        return std::all_of(t.corners.begin(), t.corners.end(), [](std::uint32_t c) { return c == 0 || c == 1 || c == 4 || c == 5; });
+        return std::all_of(t.corners.begin(), t.corners.end(),
+                           [](std::uint32_t c) { return c == 0 || c == 1 || c == 4 || c == 5; });
     });
     mesh.vertices.push_back({1.7, noise, -noise});
     mesh.vertices.push_back({1.7, -noise, 2 + noise});
@@ -98,7 +100,8 @@ TEST(CutAtTJunctions, PointFurtherThanTheDistanceStaysALeak) {
 
 // Two faces of a fold along the edge from `a` to `b`, the sides cut at the given fractions, and what closes the back.
 // The fold is a wedge: left and right face, two end triangles, all else whole.
-ObjectMesh wedgeWithCuts(Vec3d a, Vec3d b, const std::vector<double>& left, const std::vector<double>& right, double noise) {
+ObjectMesh wedgeWithCuts(Vec3d a, Vec3d b, const std::vector<double>& left, const std::vector<double>& right,
+                         double noise) {
     std::mt19937_64 random(41);
     std::uniform_real_distribution<double> uniform(-noise, noise);
     const Vec3d along = normalized(b - a);
@@ -107,7 +110,8 @@ ObjectMesh wedgeWithCuts(Vec3d a, Vec3d b, const std::vector<double>& left, cons
     mesh.vertices = {a, b, a + side * 0.8 - up, b + side * 0.8 - up, a - side * 0.9 - up, b - side * 0.9 - up};
     std::vector<std::uint32_t> leftRing{2, 3, 1}, rightRing{5, 4, 0};
     const auto cut = [&](double fraction) {
-        mesh.vertices.push_back(a + (b - a) * fraction + Vec3d{uniform(random), uniform(random), uniform(random)} * 0.5);
+        mesh.vertices.push_back(a + (b - a) * fraction +
+                                Vec3d{uniform(random), uniform(random), uniform(random)} * 0.5);
         return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
     };
     for (auto it = left.rbegin(); it != left.rend(); ++it) leftRing.push_back(cut(*it));
@@ -121,17 +125,23 @@ ObjectMesh wedgeWithCuts(Vec3d a, Vec3d b, const std::vector<double>& left, cons
 }
 
 TEST(CutAtTJunctions, SeveralPointsOnOneEdgeAndOnBothSides) {
-    const Vec3d ends[][2] = {{{0, 0, 0}, {5, 0, 0}}, {{1, 2, 3}, {1, 2, 9}}, {{0.3, -1, 2}, {4.1, 3.7, 5.9}}, {{5, 1, 0}, {-2, 4, 0.5}}};
+    const Vec3d ends[][2] = {
+        {{0, 0, 0}, {5, 0, 0}}, {{1, 2, 3}, {1, 2, 9}}, {{0.3, -1, 2}, {4.1, 3.7, 5.9}}, {{5, 1, 0}, {-2, 4, 0.5}}};
     for (const auto& [a, b] : ends) {
         for (const double noise : {0.0, 1e-6}) {
             for (const auto& [left, right] : std::vector<std::pair<std::vector<double>, std::vector<double>>>{
-                     {{0.3}, {}}, {{}, {0.2, 0.5, 0.9}}, {{0.25, 0.75}, {0.5}}, {{0.1, 0.2, 0.3, 0.4}, {0.35, 0.6, 0.8}}}) {
+                     {{0.3}, {}},
+                     {{}, {0.2, 0.5, 0.9}},
+                     {{0.25, 0.75}, {0.5}},
+                     {{0.1, 0.2, 0.3, 0.4}, {0.35, 0.6, 0.8}}}) {
                 auto mesh = wedgeWithCuts(a, b, left, right, noise);
-                const double area = areaOf(mesh.vertices, mesh.triangles), volume = signedVolume(mesh.vertices, mesh.triangles);
+                const double area = areaOf(mesh.vertices, mesh.triangles),
+                             volume = signedVolume(mesh.vertices, mesh.triangles);
                 ASSERT_FALSE(findOpenEdges(mesh.triangles).empty());
                 const std::size_t vertices = mesh.vertices.size();
                 EXPECT_GT(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 0u);
-                EXPECT_TRUE(findOpenEdges(mesh.triangles).empty()) << left.size() << ' ' << right.size() << ' ' << noise;
+                EXPECT_TRUE(findOpenEdges(mesh.triangles).empty())
+                    << left.size() << ' ' << right.size() << ' ' << noise;
                 EXPECT_EQ(mesh.vertices.size(), vertices);
                 EXPECT_NEAR(areaOf(mesh.vertices, mesh.triangles), area, 1e-4);
                 EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), volume, 1e-5);

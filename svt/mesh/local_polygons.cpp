@@ -53,21 +53,26 @@ std::string describe(Vec3d world) { return fmt::format("({:.3f}, {:.3f}, {:.3f})
 void judge(const Triangulation& result, const model::Polygon& polygon, std::vector<Finding>& findings) {
     const std::string at = polygon.points.empty() ? "" : " near " + describe(polygon.points[0]);
     if (result.hasFailed)
-        findings.push_back({Severity::Warning, Code::TriangulationFailed, "a polygon cannot be triangulated and is left out" + at});
+        findings.push_back(
+            {Severity::Warning, Code::TriangulationFailed, "a polygon cannot be triangulated and is left out" + at});
     else if (result.isZeroArea && result.triangles.empty())
         findings.push_back({Severity::Warning, Code::ZeroArea, "a face has no area and is left out" + at});
     else if (result.isZeroArea)
-        findings.push_back({Severity::Note, Code::ZeroArea, "a triangle has no area; it counts for the closing test only" + at});
+        findings.push_back(
+            {Severity::Note, Code::ZeroArea, "a triangle has no area; it counts for the closing test only" + at});
     if (result.isSelfTouching)
-        findings.push_back({Severity::Warning, Code::SelfTouchingRing, "the rings of a polygon touch or cross themselves" + at});
+        findings.push_back(
+            {Severity::Warning, Code::SelfTouchingRing, "the rings of a polygon touch or cross themselves" + at});
     if (result.planeDeviation > kReportedDeviation)
-        findings.push_back({Severity::Warning, Code::NonPlanar,
-                            fmt::format("a polygon is up to {:.3f} m away from its plane; its triangles are used as they come{}",
-                                        result.planeDeviation, at)});
+        findings.push_back(
+            {Severity::Warning, Code::NonPlanar,
+             fmt::format("a polygon is up to {:.3f} m away from its plane; its triangles are used as they come{}",
+                         result.planeDeviation, at)});
 }
 
 // Lays the points of all used polygons out flat, relative to a whole-metre origin.
-void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint8_t>& isUsed, LocalPolygons& out, Diagnostics* log) {
+void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint8_t>& isUsed, LocalPolygons& out,
+                  Diagnostics* log) {
     const std::size_t count = model.polygons.size();
     out.firstPoint.assign(count, 0);
     out.pointCount.assign(count, 0);
@@ -79,9 +84,10 @@ void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint
         const auto bad = std::find_if(polygon.points.begin(), polygon.points.end(), [](Vec3d v) { return !isSane(v); });
         if (bad != polygon.points.end()) {
             if (log != nullptr)
-                log->add(Severity::Warning, Code::BadCoordinate,
-                         fmt::format("a polygon has the coordinate ({}, {}, {}) and is left out", bad->x, bad->y, bad->z),
-                         {model.source, 0, 0, polygon.id});
+                log->add(
+                    Severity::Warning, Code::BadCoordinate,
+                    fmt::format("a polygon has the coordinate ({}, {}, {}) and is left out", bad->x, bad->y, bad->z),
+                    {model.source, 0, 0, polygon.id});
             continue;
         }
         isGood[p] = 1;
@@ -121,7 +127,8 @@ void clusterValues(std::span<double> values, double distance) {
         representative[i] = start;
     }
     for (double& value : values)
-        value = representative[static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin())];
+        value = representative[static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), value) -
+                                                        sorted.begin())];
 }
 
 LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std::vector<std::uint8_t>& isUsed,
@@ -135,8 +142,9 @@ LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std:
     parallelFor(count, 256, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             if (out.pointCount[p] != 0)
-                results[p] = triangulatePolygon(std::span<const Vec3d>(out.points).subspan(out.firstPoint[p], out.pointCount[p]),
-                                                model.polygons[p].ringEnds);
+                results[p] =
+                    triangulatePolygon(std::span<const Vec3d>(out.points).subspan(out.firstPoint[p], out.pointCount[p]),
+                                       model.polygons[p].ringEnds);
     });
 
     out.firstTriangle.assign(count + 1, 0);
@@ -148,7 +156,8 @@ LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std:
         out.points.insert(out.points.end(), result.extraPoints.begin(), result.extraPoints.end());
         for (const auto& triangle : result.triangles) {
             std::array<std::uint32_t, 3> corners{};
-            for (std::size_t c = 0; c < 3; ++c) corners[c] = triangle[c] < own ? first + triangle[c] : extra + (triangle[c] - own);
+            for (std::size_t c = 0; c < 3; ++c)
+                corners[c] = triangle[c] < own ? first + triangle[c] : extra + (triangle[c] - own);
             out.triangles.push_back(corners);
         }
         out.firstTriangle[p + 1] = static_cast<std::uint32_t>(out.triangles.size());
@@ -156,7 +165,8 @@ LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std:
         findings.clear();
         judge(result, model.polygons[p], findings);
         for (Finding& finding : findings)
-            log->add(finding.severity, finding.code, std::move(finding.message), {model.source, 0, 0, model.polygons[p].id});
+            log->add(finding.severity, finding.code, std::move(finding.message),
+                     {model.source, 0, 0, model.polygons[p].id});
     }
     out.weldedCount = weld(out.points, out.pointIds);
     return out;

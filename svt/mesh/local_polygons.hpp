@@ -12,11 +12,11 @@ namespace svt::mesh {
 
 /// Flat arrays over the polygons that some chosen geometry uses; others have no points.
 struct LocalPolygons {
-    Vec3d origin{};                            ///< world space, whole metres
-    std::vector<Vec3d> points;                 ///< canonical local coordinates, then extra points of crossings
-    std::vector<std::uint32_t> pointIds;       ///< per point: number of the welded point, equal for equal coordinates
-    std::vector<std::uint32_t> firstPoint;     ///< polygon p: points [firstPoint[p], firstPoint[p] + pointCount[p])
-    std::vector<std::uint32_t> pointCount;     ///< without extra points
+    Vec3d origin{};                         ///< world space, whole metres
+    std::vector<Vec3d> points;              ///< canonical local coordinates, then extra points of crossings
+    std::vector<std::uint32_t> pointIds;    ///< per point: number of the welded point, equal for equal coordinates
+    std::vector<std::uint32_t> firstPoint;  ///< polygon p: points [firstPoint[p], firstPoint[p] + pointCount[p])
+    std::vector<std::uint32_t> pointCount;  ///< without extra points
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners into `points`
     std::vector<std::uint32_t> firstTriangle;  ///< polygon p: triangles [firstTriangle[p], firstTriangle[p + 1])
     std::uint32_t weldedCount = 0;
@@ -30,11 +30,12 @@ struct LocalPolygons {
 /// (BadCoordinate) and their polygon left out; so are polygons that cannot be triangulated.
 /// \param log  per polygon findings: ZeroArea, SelfTouchingRing, NonPlanar (over 1 cm), TriangulationFailed
 /// Cost: O(n log n). The result does not depend on `options.threads`.
-[[nodiscard]] LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std::vector<std::uint8_t>& isUsed,
-                                                 const MeshOptions& options, Diagnostics* log);
+[[nodiscard]] LocalPolygons prepareLocalPolygons(const model::BuildingModel& model,
+                                                 const std::vector<std::uint8_t>& isUsed, const MeshOptions& options,
+                                                 Diagnostics* log);
 
-/// Brings values that lie within `distance` of each other to one value: sorted upwards, each cluster starts at its first value
-/// and reaches no further than `distance` from it. In place; stable against order.
+/// Brings values that lie within `distance` of each other to one value: sorted upwards, each cluster starts at its
+/// first value and reaches no further than `distance` from it. In place; stable against order.
 void clusterValues(std::span<double> values, double distance);
 
 }  // namespace svt::mesh

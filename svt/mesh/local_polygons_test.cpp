@@ -12,7 +12,9 @@ namespace {
 
 using test::addRings;
 
-std::vector<std::uint8_t> all(const model::BuildingModel& model) { return std::vector<std::uint8_t>(model.polygons.size(), 1); }
+std::vector<std::uint8_t> all(const model::BuildingModel& model) {
+    return std::vector<std::uint8_t>(model.polygons.size(), 1);
+}
 
 TEST(ClusterValues, NoiseIsJoinedAndDistinctValuesStay) {
     std::vector<double> values{3, 3.000001, 1, 2.999999, 1.1, 3.000002};
@@ -93,7 +95,8 @@ TEST(PrepareLocalPolygons, UnusedPolygonsAreNotLaidOut) {
 TEST(PrepareLocalPolygons, BadCoordinatesAreReportedAndTheRestIsKept) {
     model::BuildingModel model;
     model.source = "house.gml";
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e308, -1e9})
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e308, -1e9})
         addRings(model, {{{0, 0, 0}, {bad, 0, 0}, {1, 1, 0}}});
     addRings(model, {{{0, 0, 0}, {9e8, 0, 0}, {1, 1, 0}}});
     Diagnostics log;

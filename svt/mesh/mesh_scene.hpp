@@ -30,7 +30,7 @@ struct Plane {
 struct Triangle {
     std::array<std::uint32_t, 3> corners{};  ///< into ObjectMesh::vertices; counter-clockwise from outside
     std::uint32_t plane = kNoPlane;          ///< into MeshScene::planes; kNoPlane where (nearly) vertical
-    float thickness = 0;                     ///< metres of the object's material behind the centre of this face; +inf: unknown or a sheet
+    float thickness = 0;  ///< metres of the object's material behind the centre of this face; +inf: unknown or a sheet
 };
 
 /// How an object came to be a solid, or why it is none.
@@ -46,8 +46,8 @@ enum class Closure : std::uint8_t {
 
 /// A cap that closes a planar hole; the model's tree gets a ClosureSurface for it.
 struct Cap {
-    double area = 0;      ///< m2
-    Vec3d center{};       ///< local space
+    double area = 0;          ///< m2
+    Vec3d center{};           ///< local space
     std::vector<Vec3d> ring;  ///< local space
 };
 
@@ -61,20 +61,20 @@ struct ObjectMesh {
     model::FeatureIndex feature = model::kNoFeature;
     double lod = -1;
     std::vector<Vec3d> vertices;
-    std::vector<Triangle> triangles;      ///< with caps and complements
+    std::vector<Triangle> triangles;  ///< with caps and complements
     Closure closure = Closure::Surface;
-    std::vector<OpenEdge> openEdges;      ///< what is open at the end (Closure::Open, Surface)
-    std::vector<Vec3d> leaks;             ///< points where the shell leaked as read (edge centres, at most 100), local space
-    std::uint32_t unmatchedEdges = 0;     ///< edges without partner as read, T-junctions counted
-    std::uint32_t leakCount = 0;          ///< edges without partner once edges are cut at T-junctions: real leaks
-    std::uint32_t tJunctionCount = 0;     ///< edges that had to be cut at points of others
-    std::uint32_t flippedFaces = 0;       ///< triangles turned to make the orientation consistent
+    std::vector<OpenEdge> openEdges;  ///< what is open at the end (Closure::Open, Surface)
+    std::vector<Vec3d> leaks;  ///< points where the shell leaked as read (edge centres, at most 100), local space
+    std::uint32_t unmatchedEdges = 0;  ///< edges without partner as read, T-junctions counted
+    std::uint32_t leakCount = 0;       ///< edges without partner once edges are cut at T-junctions: real leaks
+    std::uint32_t tJunctionCount = 0;  ///< edges that had to be cut at points of others
+    std::uint32_t flippedFaces = 0;    ///< triangles turned to make the orientation consistent
     std::uint32_t complementedFaces = 0;
     std::vector<Cap> caps;
-    double volume = 0;                    ///< m3 by the closed mesh; 0 where open
-    double area = 0;                      ///< m2
-    bool isAssembled = false;             ///< made from the feature's boundary surfaces, for want of a solid of its own
-    Box3d bounds;                         ///< local space
+    double volume = 0;         ///< m3 by the closed mesh; 0 where open
+    double area = 0;           ///< m2
+    bool isAssembled = false;  ///< made from the feature's boundary surfaces, for want of a solid of its own
+    Box3d bounds;              ///< local space
 
     /// True where inside and outside are told by the mesh alone.
     [[nodiscard]] bool isSolid() const noexcept { return closure <= Closure::Capped; }
@@ -82,18 +82,18 @@ struct ObjectMesh {
 
 /// All meshes of a model, in tree order of their features.
 struct MeshScene {
-    Vec3d origin{};                 ///< world space, whole metres
+    Vec3d origin{};  ///< world space, whole metres
     std::vector<ObjectMesh> objects;
     std::vector<Plane> planes;
-    Box3d bounds;                   ///< of all objects, local space
+    Box3d bounds;  ///< of all objects, local space
     [[nodiscard]] std::size_t triangleCount() const noexcept;
 };
 
 struct MeshOptions {
-    model::LodChoice lod;              ///< which level of detail of a feature to mesh
-    double weldDistance = 5e-6;        ///< points closer than this along each axis are one, metres
-    double tJunctionDistance = 1e-4;   ///< a point this near to an edge lies on it, metres
-    double capDeviation = 0.05;        ///< a hole is capped where its boundary is this near to a plane, metres
+    model::LodChoice lod;             ///< which level of detail of a feature to mesh
+    double weldDistance = 5e-6;       ///< points closer than this along each axis are one, metres
+    double tJunctionDistance = 1e-4;  ///< a point this near to an edge lies on it, metres
+    double capDeviation = 0.05;       ///< a hole is capped where its boundary is this near to a plane, metres
     int threads = 0;
     const Progress* progress = nullptr;
 };

@@ -32,15 +32,19 @@ enum Side : int { kBottom, kTop, kSouth, kEast, kNorth, kWest };
 
 /// One side of the box as a ring, counter-clockwise from outside.
 inline Ring boxRing(Vec3d low, Vec3d high, int side) {
-    const auto at = [&](int i) { return Vec3d{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; };
-    static constexpr int kCorners[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+    const auto at = [&](int i) {
+        return Vec3d{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    };
+    static constexpr int kCorners[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                           {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
     Ring ring;
     for (const int corner : kCorners[side]) ring.push_back(at(corner));
     return ring;
 }
 
 /// Uses of new polygons for all sides of the box but those in `without`.
-inline std::vector<model::SurfaceUse> addBox(model::BuildingModel& model, Vec3d low, Vec3d high, const std::vector<int>& without = {}) {
+inline std::vector<model::SurfaceUse> addBox(model::BuildingModel& model, Vec3d low, Vec3d high,
+                                             const std::vector<int>& without = {}) {
     std::vector<model::SurfaceUse> uses;
     for (int side = 0; side < 6; ++side)
         if (std::find(without.begin(), without.end(), side) == without.end())
@@ -64,7 +68,8 @@ inline model::Geometry surfaceOf(std::vector<model::SurfaceUse> uses, double lod
 }
 
 inline model::FeatureIndex addFeature(model::BuildingModel& model, const std::string& className, const std::string& id,
-                                      model::FeatureIndex parent = model::kNoFeature, std::vector<model::Geometry> geometries = {}) {
+                                      model::FeatureIndex parent = model::kNoFeature,
+                                      std::vector<model::Geometry> geometries = {}) {
     model::Feature feature;
     feature.id = id;
     feature.className = className;
@@ -73,13 +78,15 @@ inline model::FeatureIndex addFeature(model::BuildingModel& model, const std::st
 }
 
 /// A feature whose solid is a box.
-inline model::FeatureIndex addBoxFeature(model::BuildingModel& model, const std::string& className, const std::string& id, Vec3d low,
-                                         Vec3d high, model::FeatureIndex parent = model::kNoFeature) {
+inline model::FeatureIndex addBoxFeature(model::BuildingModel& model, const std::string& className,
+                                         const std::string& id, Vec3d low, Vec3d high,
+                                         model::FeatureIndex parent = model::kNoFeature) {
     return addFeature(model, className, id, parent, {solidOf(addBox(model, low, high))});
 }
 
 /// The mesh of the feature with this id, or null.
-inline const mesh::ObjectMesh* meshOf(const model::BuildingModel& model, const mesh::MeshScene& scene, const std::string& id) {
+inline const mesh::ObjectMesh* meshOf(const model::BuildingModel& model, const mesh::MeshScene& scene,
+                                      const std::string& id) {
     for (const mesh::ObjectMesh& object : scene.objects)
         if (model.features[object.feature].id == id) return &object;
     return nullptr;
@@ -108,8 +115,10 @@ inline mesh::ObjectMesh meshOfRings(std::vector<Vec3d> vertices, const std::vect
 /// Closed box; vertex i has high x, y, z where bits 0, 1, 2 of i are set.
 inline mesh::ObjectMesh boxMesh(Vec3d low, Vec3d high) {
     std::vector<Vec3d> vertices;
-    for (int i = 0; i < 8; ++i) vertices.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
-    return meshOfRings(std::move(vertices), {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}});
+    for (int i = 0; i < 8; ++i)
+        vertices.push_back({i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    return meshOfRings(std::move(vertices),
+                       {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}});
 }
 
 /// Appends `other`, with its corners counted on.

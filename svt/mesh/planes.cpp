@@ -64,13 +64,16 @@ void assignPlanes(MeshScene& scene, double distance) {
         ObjectMesh& object = scene.objects[candidate.object];
         Triangle& triangle = object.triangles[candidate.triangle];
         const double steepness = 1 + std::abs(candidate.plane.slopeX) + std::abs(candidate.plane.slopeY);
-        const auto cellOf = [](double value, double cell) { return static_cast<std::int64_t>(std::floor(value / cell)); };
+        const auto cellOf = [](double value, double cell) {
+            return static_cast<std::int64_t>(std::floor(value / cell));
+        };
         const CellKey home{cellOf(candidate.plane.slopeX, kSlopeCell), cellOf(candidate.plane.slopeY, kSlopeCell),
                            cellOf(heightAtCenter(candidate.plane), kOffsetCell)};
         const auto fits = [&](const Plane& plane) {
             for (const std::uint32_t corner : triangle.corners) {
                 const Vec3d p = object.vertices[corner];
-                if (std::abs(plane.slopeX * p.x + plane.slopeY * p.y + plane.offset - p.z) > distance * steepness) return false;
+                if (std::abs(plane.slopeX * p.x + plane.slopeY * p.y + plane.offset - p.z) > distance * steepness)
+                    return false;
             }
             // Slivers fit many planes; the direction must agree too.
             return std::abs(plane.slopeX - candidate.plane.slopeX) + std::abs(plane.slopeY - candidate.plane.slopeY) <

@@ -26,12 +26,14 @@ MeshScene sceneOf(std::vector<ObjectMesh> objects) {
 // The quad over [x0, x1] x [0, 3] on a roof plane, with noise on its heights; cut along either diagonal.
 ObjectMesh roofPart(double x0, double x1, double lift, double noise, bool otherDiagonal) {
     const auto height = [&](double x, double y, double sign) { return 2 + 0.7 * x - 0.2 * y + lift + sign * noise; };
-    std::vector<Vec3d> v{{x0, 0, height(x0, 0, 1)}, {x1, 0, height(x1, 0, -1)}, {x1, 3, height(x1, 3, 1)}, {x0, 3, height(x0, 3, -1)}};
+    std::vector<Vec3d> v{
+        {x0, 0, height(x0, 0, 1)}, {x1, 0, height(x1, 0, -1)}, {x1, 3, height(x1, 3, 1)}, {x0, 3, height(x0, 3, -1)}};
     return otherDiagonal ? meshOfRings(v, {{1, 2, 3}, {1, 3, 0}}) : meshOfRings(v, {{0, 1, 2}, {0, 2, 3}});
 }
 
 TEST(AssignPlanes, CoplanarFacesOfTwoObjectsShareOnePlane) {
-    const MeshScene scene = sceneOf({roofPart(0, 4, 0, 1e-6, false), roofPart(4, 7, 0, 1e-6, true), roofPart(0, 4, 0, 0, true)});
+    const MeshScene scene =
+        sceneOf({roofPart(0, 4, 0, 1e-6, false), roofPart(4, 7, 0, 1e-6, true), roofPart(0, 4, 0, 0, true)});
     ASSERT_EQ(scene.planes.size(), 1u);
     for (const ObjectMesh& object : scene.objects)
         for (const Triangle& triangle : object.triangles) EXPECT_EQ(triangle.plane, 0u);
@@ -54,7 +56,8 @@ TEST(AssignPlanes, FacesThatLookUpAndDownShareTheirPlane) {
 }
 
 TEST(AssignPlanes, VerticalAndFlatTrianglesHaveNone) {
-    const MeshScene scene = sceneOf({meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}})});
+    const MeshScene scene =
+        sceneOf({meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}})});
     EXPECT_TRUE(scene.planes.empty());
     for (const Triangle& triangle : scene.objects[0].triangles) EXPECT_EQ(triangle.plane, kNoPlane);
 }

@@ -38,9 +38,10 @@ std::uint32_t build(std::vector<Node>& nodes, std::vector<Face>& faces, std::uin
     const Vec3d size = centers.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(faces.begin() + begin, faces.begin() + middle, faces.begin() + end, [axis](const Face& p, const Face& q) {
-        return p.center[axis] != q.center[axis] ? p.center[axis] < q.center[axis] : p.triangle < q.triangle;
-    });
+    std::nth_element(
+        faces.begin() + begin, faces.begin() + middle, faces.begin() + end, [axis](const Face& p, const Face& q) {
+            return p.center[axis] != q.center[axis] ? p.center[axis] < q.center[axis] : p.triangle < q.triangle;
+        });
     build(nodes, faces, begin, middle);
     nodes[index].right = build(nodes, faces, middle, end);
     return index;

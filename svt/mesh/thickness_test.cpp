@@ -16,16 +16,17 @@ void expectBox(Vec3d size) {
     measureThickness(mesh);
     for (const Triangle& triangle : mesh.triangles) {
         const Vec3d a = mesh.vertices[triangle.corners[0]];
-        const Vec3d normal = normalized(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a));
+        const Vec3d normal =
+            normalized(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a));
         const double expected = std::abs(normal.x) > 0.5 ? size.x : std::abs(normal.y) > 0.5 ? size.y : size.z;
         EXPECT_NEAR(triangle.thickness, expected, 1e-6 * expected + 1e-9);
     }
 }
 
 TEST(MeasureThickness, SlabPaneAndRodAreAsThickAsTheyAre) {
-    expectBox({10, 8, 0.2});      // slab
-    expectBox({2, 0.004, 1.5});   // pane
-    expectBox({0.01, 0.01, 3});   // rod
+    expectBox({10, 8, 0.2});     // slab
+    expectBox({2, 0.004, 1.5});  // pane
+    expectBox({0.01, 0.01, 3});  // rod
 }
 
 TEST(MeasureThickness, BallIsAsThickAsItsDiameter) {
@@ -34,15 +35,18 @@ TEST(MeasureThickness, BallIsAsThickAsItsDiameter) {
     ball.vertices.push_back({0, 0, -2});
     for (std::uint32_t s = 1; s < kStacks; ++s)
         for (std::uint32_t t = 0; t < kSlices; ++t) {
-            const double theta = std::numbers::pi * (double(s) / kStacks - 0.5), phi = 2 * std::numbers::pi * t / kSlices;
-            ball.vertices.push_back({2 * std::cos(theta) * std::cos(phi), 2 * std::cos(theta) * std::sin(phi), 2 * std::sin(theta)});
+            const double theta = std::numbers::pi * (double(s) / kStacks - 0.5),
+                         phi = 2 * std::numbers::pi * t / kSlices;
+            ball.vertices.push_back(
+                {2 * std::cos(theta) * std::cos(phi), 2 * std::cos(theta) * std::sin(phi), 2 * std::sin(theta)});
         }
     ball.vertices.push_back({0, 0, 2});
     const auto at = [](std::uint32_t s, std::uint32_t t) { return 1 + (s - 1) * kSlices + t % kSlices; };
     std::vector<std::array<std::uint32_t, 3>> corners;
     for (std::uint32_t t = 0; t < kSlices; ++t) {
         corners.push_back({0, at(1, t + 1), at(1, t)});
-        corners.push_back({static_cast<std::uint32_t>(ball.vertices.size() - 1), at(kStacks - 1, t), at(kStacks - 1, t + 1)});
+        corners.push_back(
+            {static_cast<std::uint32_t>(ball.vertices.size() - 1), at(kStacks - 1, t), at(kStacks - 1, t + 1)});
         for (std::uint32_t s = 1; s + 1 < kStacks; ++s) {
             corners.push_back({at(s, t), at(s, t + 1), at(s + 1, t + 1)});
             corners.push_back({at(s, t), at(s + 1, t + 1), at(s + 1, t)});
@@ -64,8 +68,9 @@ TEST(MeasureThickness, MaterialEndsAtAVoid) {
 
 TEST(MeasureThickness, FacesThatLookTheSameWayDoNotCount) {
     // A sheet has nothing behind it, and a second sheet behind it that looks the same way is no back side.
-    ObjectMesh mesh = test::meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, -1}, {1, 1, -1}, {0, 1, -1}},
-                                        {{0, 1, 2, 3}, {4, 5, 6, 7}});
+    ObjectMesh mesh =
+        test::meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, -1}, {1, 0, -1}, {1, 1, -1}, {0, 1, -1}},
+                          {{0, 1, 2, 3}, {4, 5, 6, 7}});
     measureThickness(mesh);
     for (const Triangle& triangle : mesh.triangles) EXPECT_TRUE(std::isinf(triangle.thickness));
 }

@@ -22,7 +22,9 @@ void onEnd(void*) {}
 // Present only so that GLU sends single triangles instead of strips and fans.
 void onEdgeFlag(GLboolean, void*) {}
 
-std::uint32_t indexFromData(const void* data) { return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data) - 1); }
+std::uint32_t indexFromData(const void* data) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data) - 1);
+}
 void* dataFromIndex(std::size_t index) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index) + 1); }
 
 void onVertex(void* data, void* user) { static_cast<Tessellation*>(user)->corners.push_back(indexFromData(data)); }
@@ -64,7 +66,8 @@ double deviationFromPlane(std::span<const Vec3d> points, Vec3d unitNormal) {
     return deviation;
 }
 
-void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal, Triangulation& result) {
+void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal,
+                Triangulation& result) {
     const std::unique_ptr<GLUtesselator, void (*)(GLUtesselator*)> tess(gluNewTess(), gluDeleteTess);
     Tessellation state;
     state.result = &result;
@@ -120,7 +123,8 @@ Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const 
     const auto exterior = points.first(ringEnds[0]);
     const Vec3d normal = newellNormal(exterior);
     double perimeter = 0;
-    for (std::size_t i = 0; i < exterior.size(); ++i) perimeter += length(exterior[(i + 1) % exterior.size()] - exterior[i]);
+    for (std::size_t i = 0; i < exterior.size(); ++i)
+        perimeter += length(exterior[(i + 1) % exterior.size()] - exterior[i]);
     result.isZeroArea = !(length(normal) > 1e-12 * perimeter * perimeter);
     if (points.size() == 3) {
         // Kept even without area: tessellated models are full of such slivers, and their edges belong to the shell.

@@ -18,9 +18,9 @@ struct Triangulation {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< same direction as the exterior ring
     std::vector<Vec3d> extraPoints;
     double planeDeviation = 0;  ///< largest distance of a point from the polygon's mean plane, metres
-    bool isZeroArea = false;    ///< all points on one line; a triangle is kept for its edges, other polygons give nothing
+    bool isZeroArea = false;  ///< all points on one line; a triangle is kept for its edges, other polygons give nothing
     bool isSelfTouching = false;  ///< rings touch or cross themselves or each other
-    bool hasFailed = false;     ///< the tessellator gave up
+    bool hasFailed = false;       ///< the tessellator gave up
 };
 
 /// Newell's normal of a ring: twice the area vector, robust for non-planar rings.

@@ -222,7 +222,8 @@ TEST(TriangulatePolygon, AreaOfRandomStarsWithHolesIsExact) {
         const double expected = length(newellNormal(star)) / 2 - length(newellNormal(hole)) / 2;
         if (n % 2 == 1) hole = reversed(hole);
         // Laid into an oblique plane.
-        const Vec3d u = normalized(Vec3d{1, 0.3, 0.7}), normal = normalized(cross(u, Vec3d{-0.2, 1, 0.4})), v = cross(normal, u);
+        const Vec3d u = normalized(Vec3d{1, 0.3, 0.7}), normal = normalized(cross(u, Vec3d{-0.2, 1, 0.4})),
+                    v = cross(normal, u);
         std::vector<Points> rings{star, hole};
         for (Points& ring : rings)
             for (Vec3d& point : ring) point = u * point.x + v * point.y + Vec3d{50, -20, 7};

@@ -15,8 +15,8 @@
 
 namespace svt::model {
 
-using FeatureIndex = std::uint32_t;   ///< into BuildingModel::features
-using PolygonIndex = std::uint32_t;   ///< into BuildingModel::polygons
+using FeatureIndex = std::uint32_t;  ///< into BuildingModel::features
+using PolygonIndex = std::uint32_t;  ///< into BuildingModel::polygons
 inline constexpr FeatureIndex kNoFeature = 0xFFFFFFFFu;
 
 /// A polygon with holes, as read. World space, double.
@@ -29,8 +29,8 @@ inline constexpr FeatureIndex kNoFeature = 0xFFFFFFFFu;
 struct Polygon {
     std::vector<Vec3d> points;
     std::vector<std::uint32_t> ringEnds;
-    std::string id;               ///< gml:id, or empty
-    std::int32_t material = -1;   ///< into BuildingModel::materials, -1: none
+    std::string id;              ///< gml:id, or empty
+    std::int32_t material = -1;  ///< into BuildingModel::materials, -1: none
 };
 
 /// One use of a polygon. A wall face shared by two rooms is one polygon with two uses,
@@ -49,24 +49,25 @@ struct Solid {
 };
 
 enum class GeometryKind : std::uint8_t {
-    Solid,             ///< gml:Solid, CompositeSolid, MultiSolid: `solids` is filled
-    Surface,           ///< MultiSurface, CompositeSurface, Surface, TIN, ...: `surfaces` is filled
+    Solid,    ///< gml:Solid, CompositeSolid, MultiSolid: `solids` is filled
+    Surface,  ///< MultiSurface, CompositeSurface, Surface, TIN, ...: `surfaces` is filled
 };
 
 /// One geometry of a feature in one level of detail.
 struct Geometry {
     GeometryKind kind = GeometryKind::Surface;
-    double lod = -1;                     ///< 0..4, CityJSON 2.2 as 2.2; -1: not stated
-    std::string id;                      ///< gml:id of the solid or (multi)surface, or empty
+    double lod = -1;  ///< 0..4, CityJSON 2.2 as 2.2; -1: not stated
+    std::string id;   ///< gml:id of the solid or (multi)surface, or empty
     std::vector<Solid> solids;
     std::vector<SurfaceUse> surfaces;
 };
 
 /// A semantic object: building, storey, room, wall, window, table, parcel, tree.
 struct Feature {
-    std::string id;          ///< unique in the model; made from the path where the file has none
-    std::string className;   ///< CityGML 3.0 local name where one exists: Building, BuildingRoom, WallSurface (see classes.hpp)
-    std::string name;        ///< gml:name, or empty
+    std::string id;  ///< unique in the model; made from the path where the file has none
+    std::string
+        className;  ///< CityGML 3.0 local name where one exists: Building, BuildingRoom, WallSurface (see classes.hpp)
+    std::string name;  ///< gml:name, or empty
     std::vector<Attribute> attributes;
     FeatureIndex parent = kNoFeature;
     std::vector<FeatureIndex> children;  ///< in document order
@@ -92,19 +93,19 @@ struct Material {
 /// Coordinate reference system as the file names it. Coordinates are never reprojected;
 /// axes are brought to (east, north, up) order.
 struct Crs {
-    std::string name;             ///< srsName or referenceSystem, or empty
-    int epsg = 0;                 ///< horizontal EPSG code where the name has one, else 0
-    bool axesSwapped = false;     ///< the file's order was (north, east); the model's is (east, north)
+    std::string name;          ///< srsName or referenceSystem, or empty
+    int epsg = 0;              ///< horizontal EPSG code where the name has one, else 0
+    bool axesSwapped = false;  ///< the file's order was (north, east); the model's is (east, north)
 };
 
 /// A whole model. Index-based: features and polygons refer to each other by index.
 struct BuildingModel {
-    std::string source;        ///< path or name as the caller gave it
-    std::string format;        ///< "CityGML 2.0", "CityJSON 1.1", "CityJSONSeq 2.0"
+    std::string source;  ///< path or name as the caller gave it
+    std::string format;  ///< "CityGML 2.0", "CityJSON 1.1", "CityJSONSeq 2.0"
     Crs crs;
-    std::string name;          ///< name of the whole model, or empty
-    std::vector<Feature> features;        ///< a parent stands before its children
-    std::vector<FeatureIndex> roots;      ///< features without parent, in document order
+    std::string name;                 ///< name of the whole model, or empty
+    std::vector<Feature> features;    ///< a parent stands before its children
+    std::vector<FeatureIndex> roots;  ///< features without parent, in document order
     std::vector<Membership> memberships;
     std::vector<Polygon> polygons;
     std::vector<Material> materials;

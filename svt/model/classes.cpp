@@ -43,20 +43,41 @@ constexpr std::array<std::pair<string_view, string_view>, 14> kAliases{{
 
 constexpr std::array<string_view, 4> kFillings{"Door", "Window", "DoorSurface", "WindowSurface"};
 constexpr std::array<string_view, 4> kRooms{"BuildingRoom", "BridgeRoom", "HollowSpace", "TunnelRoom"};
-constexpr std::array<string_view, 8> kBuildings{"Building", "BuildingPart", "Bridge",         "BridgePart",
-                                                "Tunnel",   "TunnelPart",   "OtherConstruction", "+NoiseBuilding"};
+constexpr std::array<string_view, 8> kBuildings{
+    "Building", "BuildingPart", "Bridge", "BridgePart", "Tunnel", "TunnelPart", "OtherConstruction", "+NoiseBuilding"};
 // Thematic surfaces of every module; waterbody and transportation surfaces bound spaces too.
-constexpr std::array<string_view, 17> kBoundaries{
-    "WallSurface",         "RoofSurface",    "GroundSurface",       "FloorSurface",
-    "CeilingSurface",      "ClosureSurface", "InteriorWallSurface", "OuterFloorSurface",
-    "OuterCeilingSurface", "WaterSurface",   "WaterGroundSurface",  "WaterClosureSurface",
-    "TrafficArea",         "AuxiliaryTrafficArea", "GenericThematicSurface", "HoleSurface",
-    "Marking"};
+constexpr std::array<string_view, 17> kBoundaries{"WallSurface",
+                                                  "RoofSurface",
+                                                  "GroundSurface",
+                                                  "FloorSurface",
+                                                  "CeilingSurface",
+                                                  "ClosureSurface",
+                                                  "InteriorWallSurface",
+                                                  "OuterFloorSurface",
+                                                  "OuterCeilingSurface",
+                                                  "WaterSurface",
+                                                  "WaterGroundSurface",
+                                                  "WaterClosureSurface",
+                                                  "TrafficArea",
+                                                  "AuxiliaryTrafficArea",
+                                                  "GenericThematicSurface",
+                                                  "HoleSurface",
+                                                  "Marking"};
 // Transportation objects are surfaces in CityGML 1.0 and 2.0, and spaces without a body of their own in 3.0.
-constexpr std::array<string_view, 14> kSurfaceOnly{
-    "TINRelief",       "ReliefFeature", "LandUse",         "CityObjectGroup", "BreaklineRelief",
-    "RasterRelief",    "MassPointRelief", "CityModel",     "TransportationComplex", "Road",
-    "Railway",         "Track",         "Square",          "Waterway"};
+constexpr std::array<string_view, 14> kSurfaceOnly{"TINRelief",
+                                                   "ReliefFeature",
+                                                   "LandUse",
+                                                   "CityObjectGroup",
+                                                   "BreaklineRelief",
+                                                   "RasterRelief",
+                                                   "MassPointRelief",
+                                                   "CityModel",
+                                                   "TransportationComplex",
+                                                   "Road",
+                                                   "Railway",
+                                                   "Track",
+                                                   "Square",
+                                                   "Waterway"};
 
 }  // namespace
 

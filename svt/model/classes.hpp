@@ -17,15 +17,15 @@ namespace svt::model {
 
 /// Who wins a voxel that several objects claim: the finer component, that is the lower rank.
 enum class ClassRank : std::uint8_t {
-    Furniture,      ///< BuildingFurniture, CityFurniture, vegetation objects
-    Filling,        ///< Door, Window and their surfaces
-    Installation,   ///< BuildingInstallation, BridgeInstallation, ...
-    Element,        ///< BuildingConstructiveElement and boundary surfaces (WallSurface, ...)
-    Room,           ///< BuildingRoom, HollowSpace, BridgeRoom
-    Unit,           ///< BuildingUnit
-    Storey,         ///< Storey
-    Building,       ///< BuildingPart, Building, Bridge, Tunnel
-    Other           ///< terrain, land use, water, transportation, groups
+    Furniture,     ///< BuildingFurniture, CityFurniture, vegetation objects
+    Filling,       ///< Door, Window and their surfaces
+    Installation,  ///< BuildingInstallation, BridgeInstallation, ...
+    Element,       ///< BuildingConstructiveElement and boundary surfaces (WallSurface, ...)
+    Room,          ///< BuildingRoom, HollowSpace, BridgeRoom
+    Unit,          ///< BuildingUnit
+    Storey,        ///< Storey
+    Building,      ///< BuildingPart, Building, Bridge, Tunnel
+    Other          ///< terrain, land use, water, transportation, groups
 };
 [[nodiscard]] ClassRank classRank(std::string_view className) noexcept;
 

@@ -19,12 +19,12 @@
 /// always text, `volume` (m3) and `voxels` always numbers. Class names compare as canonicalClassName() gives them:
 /// class=room takes BuildingRoom. `class`, `id` and `storey` know = != ~ !~ only. Patterns are those of regex.hpp.
 ///
-/// `under X` takes the feature whose id or name is X, everything below it, its members and what is below those: a flat has
-/// its rooms as children in one format and as members in another.
-/// `storey=X` takes what is below or a member of a Storey of that id or name, or of a CityObjectGroup of that id or
-/// name whose attribute function, class or usage speaks of a storey or Geschoss, and what is below or a member of
-/// those. A feature without the attribute (for storey: in no storey) matches no comparison with it, != and !~ included;
-/// an empty name is none. `not` takes the others, those without the attribute included.
+/// `under X` takes the feature whose id or name is X, everything below it, its members and what is below those: a flat
+/// has its rooms as children in one format and as members in another. `storey=X` takes what is below or a member of a
+/// Storey of that id or name, or of a CityObjectGroup of that id or name whose attribute function, class or usage
+/// speaks of a storey or Geschoss, and what is below or a member of those. A feature without the attribute (for storey:
+/// in no storey) matches no comparison with it, != and !~ included; an empty name is none. `not` takes the others,
+/// those without the attribute included.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/result.hpp>

@@ -27,8 +27,8 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
     for (const model::Feature& feature : into.features) known.insert(feature.id);
     if (into.crs.name != from.crs.name && log != nullptr)
         log->add(Severity::Warning, Code::MixedCrs,
-                 fmt::format("'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are", from.source, from.crs.name,
-                             into.crs.name),
+                 fmt::format("'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are",
+                             from.source, from.crs.name, into.crs.name),
                  {from.source, 0, 0, {}});
     for (model::Polygon& polygon : from.polygons) {
         if (polygon.material >= 0) polygon.material += firstMaterial;
@@ -41,7 +41,8 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
         if (!known.insert(feature.id).second) {
             feature.id = fmt::format("{}@{}", feature.id, number + 1);
             if (log != nullptr)
-                log->add(Severity::Warning, Code::DuplicateId, fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
+                log->add(Severity::Warning, Code::DuplicateId,
+                         fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
                          {from.source, feature.line, 0, feature.id});
         }
         if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
@@ -57,7 +58,8 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
     }
     for (const model::FeatureIndex root : from.roots) into.roots.push_back(root + firstFeature);
     for (model::Membership& membership : from.memberships)
-        into.memberships.push_back({membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
+        into.memberships.push_back(
+            {membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
     into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
 }
 
@@ -69,7 +71,8 @@ std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshScene& scene, co
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
         const std::uint32_t l = labelling.labelOfObject[o];
         const volume::Label& building = labelling.table.labels[l];
-        if (model::classRank(building.className) != model::ClassRank::Building || scene.objects[o].closure == mesh::Closure::Surface)
+        if (model::classRank(building.className) != model::ClassRank::Building ||
+            scene.objects[o].closure == mesh::Closure::Surface)
             continue;
         voxelize::BodyGroup group;
         group.from = building.first;
@@ -100,19 +103,23 @@ bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_
     return false;
 }
 
-void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimPair>& pairs, volume::LabelTable& table) {
+void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimPair>& pairs,
+                  volume::LabelTable& table) {
     for (const voxelize::ClaimPair& pair : pairs) {
         const std::uint32_t a = labelling.labelOfObject[pair.a], b = labelling.labelOfObject[pair.b];
-        const bool isNested = isAncestor(table, a, b) || isAncestor(table, b, a) || isMember(table, a, b) || isMember(table, b, a);
+        const bool isNested =
+            isAncestor(table, a, b) || isAncestor(table, b, a) || isMember(table, a, b) || isMember(table, b, a);
         table.overlaps.push_back({a, b, pair.voxels, isNested});
     }
-    std::sort(table.overlaps.begin(), table.overlaps.end(),
-              [](const volume::Overlap& p, const volume::Overlap& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
+    std::sort(table.overlaps.begin(), table.overlaps.end(), [](const volume::Overlap& p, const volume::Overlap& q) {
+        return std::tie(p.a, p.b) < std::tie(q.a, q.b);
+    });
 }
 
 }  // namespace
 
-Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads, const Progress* progress, Diagnostics* log) {
+Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads,
+                                        const Progress* progress, Diagnostics* log) {
     if (files.empty()) return Error(Code::BadArgument, "no input file");
     model::BuildingModel all;
     for (std::size_t f = 0; f < files.size(); ++f) {
@@ -144,7 +151,8 @@ Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions
             }
         }
         axes = voxelize::dominantFrame(all).axes;
-        for (const Vec3d& vertex : all.vertices) box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
+        for (const Vec3d& vertex : all.vertices)
+            box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
     } else {
         box.min = scene.bounds.min + scene.origin;
         box.max = scene.bounds.max + scene.origin;
@@ -155,7 +163,8 @@ Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions
         const double step = std::max({size.x, size.y, size.z, 1e-3}) / (BuildOptions::kDefaultSamples - 1);
         spacing = {step, step, step};
     }
-    auto grid = options.dimension ? volume::Grid::fromDimension(box, *options.dimension) : volume::Grid::fromSpacing(box, spacing);
+    auto grid = options.dimension ? volume::Grid::fromDimension(box, *options.dimension)
+                                  : volume::Grid::fromSpacing(box, spacing);
     if (grid && options.frame == FrameKind::Building) return grid->turned(axes, scene.origin);
     return grid;
 }
@@ -189,9 +198,11 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     if (!voxels) return voxels.error();
     std::vector<voxelize::BodyGroup> groups;
     if (options.giveThematicBodies) groups = findBodyGroups(*scene, *labelling);
-    if (!groups.empty()) voxels->columns = voxelize::giveThematicBodies(voxels->columns, *grid, *scene, groups, options.threads);
+    if (!groups.empty())
+        voxels->columns = voxelize::giveThematicBodies(voxels->columns, *grid, *scene, groups, options.threads);
     if (!labelling->patterns.empty())
-        voxels->columns = voxelize::layPatterns(voxels->columns, *grid, scene->origin, labelling->patterns, options.threads);
+        voxels->columns =
+            voxelize::layPatterns(voxels->columns, *grid, scene->origin, labelling->patterns, options.threads);
     report.seconds.voxelize = secondsSince(start);
 
     start = Clock::now();
@@ -226,7 +237,8 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     return output;
 }
 
-Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options, Diagnostics* log) {
+Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options,
+                                Diagnostics* log) {
     const auto start = Clock::now();
     auto model = readModels(files, options.threads, options.progress, log);
     if (!model) return model.error();

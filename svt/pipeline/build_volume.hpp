@@ -23,29 +23,29 @@ enum class FrameKind : std::uint8_t {
 };
 
 struct BuildOptions {
-    std::optional<Vec3i> dimension;      ///< samples along x, y, z; else by spacing
-    std::optional<Vec3d> spacing;        ///< metres; neither: the longest side gets kDefaultSamples
+    std::optional<Vec3i> dimension;  ///< samples along x, y, z; else by spacing
+    std::optional<Vec3d> spacing;    ///< metres; neither: the longest side gets kDefaultSamples
     static constexpr int kDefaultSamples = 400;
     FrameKind frame = FrameKind::World;
     model::LodChoice lod;
-    bool giveThematicBodies = true;      ///< material between hull and rooms goes to the nearest boundary surface
-    bool usePatterns = false;            ///< patterns of the built-in style
+    bool giveThematicBodies = true;  ///< material between hull and rooms goes to the nearest boundary surface
+    bool usePatterns = false;        ///< patterns of the built-in style
     voxelize::SheetMode sheets = voxelize::SheetMode::Thin;
     bool keepThinParts = true;
-    const StyleSheet* style = nullptr;   ///< on top of the built-in style
+    const StyleSheet* style = nullptr;  ///< on top of the built-in style
     int threads = 0;
     const Progress* progress = nullptr;
 };
 
 /// Figures of a build; what `svt build --json` prints.
 struct BuildReport {
-    std::size_t objects = 0;     ///< features that were voxelized
+    std::size_t objects = 0;  ///< features that were voxelized
     std::size_t triangles = 0;
     std::size_t open = 0;        ///< objects with solid meaning whose shell leaks as read, however it was closed
     std::size_t tJunctions = 0;  ///< tight objects with edges that match only up to T-junctions
     struct Seconds {
         double read = 0, mesh = 0, voxelize = 0, pack = 0, write = 0, total = 0;
-    } seconds;                   ///< voxelize: meshes in memory to the finished canonical volume; pack: labels, counts, checks
+    } seconds;  ///< voxelize: meshes in memory to the finished canonical volume; pack: labels, counts, checks
 };
 
 struct BuildOutput {
@@ -56,15 +56,16 @@ struct BuildOutput {
 /// Reads all files into one model (ids made unique), meshes, voxelizes, labels.
 /// \param log  gets all findings; may be null
 /// \return the volume and its figures, or the first error of a stage
-[[nodiscard]] Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options = {},
-                                              Diagnostics* log = nullptr);
+[[nodiscard]] Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files,
+                                              const BuildOptions& options = {}, Diagnostics* log = nullptr);
 
 /// The same from a model in memory; `model` gains ClosureSurface features for caps.
-[[nodiscard]] Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options = {}, Diagnostics* log = nullptr);
+[[nodiscard]] Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options = {},
+                                              Diagnostics* log = nullptr);
 
 /// Reads all files into one model.
-[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads, const Progress* progress,
-                                                      Diagnostics* log);
+[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads,
+                                                      const Progress* progress, Diagnostics* log);
 
 /// The grid that `options` ask for over the meshes.
 [[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions& options);

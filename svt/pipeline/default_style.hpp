@@ -4,7 +4,7 @@
 
 namespace svt::pipeline {
 
-extern const char* const kDefaultStyleJson;    ///< colours and opacities by class
-extern const char* const kDefaultPatternsJson; ///< patterns by class and material, on top
+extern const char* const kDefaultStyleJson;     ///< colours and opacities by class
+extern const char* const kDefaultPatternsJson;  ///< patterns by class and material, on top
 
 }  // namespace svt::pipeline

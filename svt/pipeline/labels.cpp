@@ -70,7 +70,8 @@ std::optional<Vec3f> materialColor(const model::BuildingModel& model, const mode
         for (const model::Solid& solid : geometry.solids) count(solid.exterior);
     }
     if (uses.empty()) return std::nullopt;
-    const auto best = std::max_element(uses.begin(), uses.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
+    const auto best =
+        std::max_element(uses.begin(), uses.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
     return model.materials[std::size_t(best->first)].diffuse;
 }
 
@@ -81,6 +82,11 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene) {
         for (std::size_t c = 0; c < object.caps.size(); ++c) {
             model::Feature cap;
             cap.id = fmt::format("{}_cap_{}", model.features[object.feature].id, c + 1);
+            // A model that is built again has its caps already.
+            const auto& children = model.features[object.feature].children;
+            if (std::any_of(children.begin(), children.end(),
+                            [&](FeatureIndex child) { return model.features[child].id == cap.id; }))
+                continue;
             cap.className = "ClosureSurface";
             cap.attributes.push_back({"generated", true, ""});
             cap.attributes.push_back({"area", object.caps[c].area, "m2"});
@@ -89,7 +95,8 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene) {
     }
 }
 
-Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::MeshScene& scene, std::span<const StyleSheet* const> sheets) {
+Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::MeshScene& scene,
+                             std::span<const StyleSheet* const> sheets) {
     Labelling result;
     volume::LabelTable& table = result.table;
     const std::vector<std::uint32_t> labelOf = numberFeatures(model, table);
@@ -119,7 +126,8 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
         label.count = styles[l].pattern.phaseCount();
         next += label.count;
         hasPattern = hasPattern || label.count > 1;
-        if (next > 0xFFFFFFFFull) return Error(Code::TooManyLabels, "the objects and their patterns need more than 2^32 - 1 scalars");
+        if (next > 0xFFFFFFFFull)
+            return Error(Code::TooManyLabels, "the objects and their patterns need more than 2^32 - 1 scalars");
     }
     if (hasPattern) table.phaseColors.resize(next);
     result.claims.resize(scene.objects.size());
@@ -129,8 +137,10 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
         result.claims[o] = {label.first, static_cast<std::uint8_t>(model::classRank(label.className)), label.id};
         if (hasPattern)
             for (volume::Scalar s = 0; s < label.count; ++s)
-                table.phaseColors[label.first + s] = s < styles[l].phaseColors.size() ? styles[l].phaseColors[s] : label.color;
-        if (label.count > 1) result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantFrame(scene.objects[o])});
+                table.phaseColors[label.first + s] =
+                    s < styles[l].phaseColors.size() ? styles[l].phaseColors[s] : label.color;
+        if (label.count > 1)
+            result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantFrame(scene.objects[o])});
     }
     return result;
 }

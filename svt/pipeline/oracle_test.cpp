@@ -16,8 +16,8 @@ namespace {
 
 struct Verdict {
     int checked = 0;
-    int nearFaces = 0;   // too near to a face to be told
-    int overlaps = 0;    // in several solids: any of them may win
+    int nearFaces = 0;  // too near to a face to be told
+    int overlaps = 0;   // in several solids: any of them may win
     int wrong = 0;
     std::string first;
 };
@@ -62,16 +62,20 @@ Verdict consultOracle(model::BuildingModel& model, Vec3i dimension, int randomSa
             const bool isInside = oracles[o].contains(local);
             if (isInside) containing.push_back(scalar);
             // A part thinner than a voxel may claim the sample next to it.
-            if (!isInside && found == scalar && voxels->thinVoxels[o] > 0 && oracles[o].distance(local, spacing) <= 0.9) isSheetOrThin = true;
+            if (!isInside && found == scalar && voxels->thinVoxels[o] > 0 && oracles[o].distance(local, spacing) <= 0.9)
+                isSheetOrThin = true;
         }
         ++verdict.checked;
         if (isSheetOrThin) return;
         if (containing.size() > 1) ++verdict.overlaps;
-        const bool isRight = containing.empty() ? found == 0 : std::find(containing.begin(), containing.end(), found) != containing.end();
+        const bool isRight = containing.empty()
+                                 ? found == 0
+                                 : std::find(containing.begin(), containing.end(), found) != containing.end();
         if (isRight) return;
         if (verdict.wrong++ == 0)
-            verdict.first = "sample (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ") has scalar " +
-                            std::to_string(found) + ", oracle says " + (containing.empty() ? "0" : std::to_string(containing[0]));
+            verdict.first = "sample (" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) +
+                            ") has scalar " + std::to_string(found) + ", oracle says " +
+                            (containing.empty() ? "0" : std::to_string(containing[0]));
     };
     std::mt19937_64 random(11);
     const auto below = [&](std::int32_t n) { return static_cast<std::int32_t>(random() % std::uint64_t(n)); };
@@ -89,8 +93,8 @@ void expectRight(model::BuildingModel& model, Vec3i dimension, int randomSamples
     const Verdict verdict = consultOracle(model, dimension, randomSamples, columnStep);
     EXPECT_EQ(verdict.wrong, 0) << verdict.first;
     EXPECT_GT(verdict.checked, atLeast);
-    std::cout << verdict.checked << " samples checked, " << verdict.nearFaces << " too near to a face, " << verdict.overlaps
-              << " in several solids\n";
+    std::cout << verdict.checked << " samples checked, " << verdict.nearFaces << " too near to a face, "
+              << verdict.overlaps << " in several solids\n";
 }
 
 void checkFile(const std::filesystem::path& file, Vec3i dimension, int randomSamples, int columnStep, int atLeast) {

@@ -8,7 +8,8 @@ std::vector<model::QueryRow> rowsOf(const volume::LabelTable& table) {
     std::vector<model::QueryRow> rows;
     rows.reserve(table.labels.size());
     for (const volume::Label& label : table.labels)
-        rows.push_back({label.id, label.className, label.name, label.parent, label.attributes, label.groups, label.volume, label.voxels});
+        rows.push_back({label.id, label.className, label.name, label.parent, label.attributes, label.groups,
+                        label.volume, label.voxels});
     return rows;
 }
 

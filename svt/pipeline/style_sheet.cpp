@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -18,14 +19,15 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<std::pair<std::string_view, std::uint32_t>, 36> kColorNames{{
-    {"black", 0x000000},     {"white", 0xFFFFFF},      {"gray", 0x808080},       {"grey", 0x808080},      {"silver", 0xC0C0C0},
-    {"red", 0xFF0000},       {"maroon", 0x800000},     {"orange", 0xFFA500},     {"gold", 0xFFD700},      {"yellow", 0xFFFF00},
-    {"olive", 0x808000},     {"lime", 0x00FF00},       {"green", 0x008000},      {"teal", 0x008080},      {"cyan", 0x00FFFF},
-    {"aqua", 0x00FFFF},      {"blue", 0x0000FF},       {"navy", 0x000080},       {"purple", 0x800080},    {"magenta", 0xFF00FF},
-    {"fuchsia", 0xFF00FF},   {"pink", 0xFFC0CB},       {"brown", 0xA52A2A},      {"beige", 0xF5F5DC},     {"ivory", 0xFFFFF0},
-    {"tan", 0xD2B48C},       {"salmon", 0xFA8072},     {"tomato", 0xFF6347},     {"coral", 0xFF7F50},     {"crimson", 0xDC143C},
-    {"turquoise", 0x40E0D0}, {"skyblue", 0x87CEEB},    {"steelblue", 0x4682B4},  {"slategray", 0x708090}, {"indigo", 0x4B0082},
-    {"violet", 0xEE82EE},
+    {"black", 0x000000},     {"white", 0xFFFFFF},     {"gray", 0x808080},      {"grey", 0x808080},
+    {"silver", 0xC0C0C0},    {"red", 0xFF0000},       {"maroon", 0x800000},    {"orange", 0xFFA500},
+    {"gold", 0xFFD700},      {"yellow", 0xFFFF00},    {"olive", 0x808000},     {"lime", 0x00FF00},
+    {"green", 0x008000},     {"teal", 0x008080},      {"cyan", 0x00FFFF},      {"aqua", 0x00FFFF},
+    {"blue", 0x0000FF},      {"navy", 0x000080},      {"purple", 0x800080},    {"magenta", 0xFF00FF},
+    {"fuchsia", 0xFF00FF},   {"pink", 0xFFC0CB},      {"brown", 0xA52A2A},     {"beige", 0xF5F5DC},
+    {"ivory", 0xFFFFF0},     {"tan", 0xD2B48C},       {"salmon", 0xFA8072},    {"tomato", 0xFF6347},
+    {"coral", 0xFF7F50},     {"crimson", 0xDC143C},   {"turquoise", 0x40E0D0}, {"skyblue", 0x87CEEB},
+    {"steelblue", 0x4682B4}, {"slategray", 0x708090}, {"indigo", 0x4B0082},    {"violet", 0xEE82EE},
 }};
 
 Vec3f fromBytes(std::uint32_t rgb) {
@@ -34,6 +36,11 @@ Vec3f fromBytes(std::uint32_t rgb) {
 
 Error badStyle(std::string_view path, std::string_view what) {
     return Error(Code::BadStyle, fmt::format("style {}: {}", path, what));
+}
+
+// An error of another stage, with the JSON path in front.
+Error atPath(std::string_view path, const Error& error) {
+    return Error(error.code(), fmt::format("style {}: {}", path, error.message()), error.where());
 }
 
 // Every member must be known: a typing error must not pass in silence.
@@ -47,7 +54,8 @@ Result<void> checkMembers(const json& object, std::string_view path, std::initia
 }
 
 Result<double> numberOf(const json& value, const std::string& path) {
-    if (!value.is_number()) return badStyle(path, fmt::format("expected a number, found {}", value.dump().substr(0, 40)));
+    if (!value.is_number())
+        return badStyle(path, fmt::format("expected a number, found {}", value.dump().substr(0, 40)));
     return value.get<double>();
 }
 
@@ -68,39 +76,54 @@ Result<Vec3d> vectorOf(const json& value, const std::string& path) {
         const double v = value.get<double>();
         return Vec3d{v, v, v};
     }
-    if (!value.is_array() || value.size() != 3 || !value[0].is_number() || !value[1].is_number() || !value[2].is_number())
+    if (!value.is_array() || value.size() != 3 || !value[0].is_number() || !value[1].is_number() ||
+        !value[2].is_number())
         return badStyle(path, "expected a number or [length, width, height] in metres");
     return Vec3d{value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
 
-Result<void> readCells(const json& value, const std::string& path, const std::filesystem::path& folder, voxelize::Pattern& pattern) {
+Result<void> readCells(const json& value, const std::string& path, const std::filesystem::path& folder,
+                       voxelize::Pattern& pattern) {
     if (!value.contains("file")) return {};
     if (!value["file"].is_string()) return badStyle(path + ".file", "expected a file name");
-    const std::filesystem::path file = folder / value["file"].get<std::string>();
+    const std::string name = value["file"].get<std::string>();
+    const std::filesystem::path file = folder / name;
+    const std::string at = fmt::format("{}.file '{}'", path, name);
     if (pattern.kind == voxelize::PatternKind::Image) {
         auto cells = voxelize::readPatternImage(file);
-        if (!cells) return cells.error();
+        if (!cells) return atPath(at, cells.error());
         pattern.cells = *cells;
         return {};
     }
-    if (pattern.kind != voxelize::PatternKind::Raw) return badStyle(path + ".file", "only the types image and raw read a file");
+    if (pattern.kind != voxelize::PatternKind::Raw)
+        return badStyle(path + ".file", "only the types image and raw read a file");
     if (!value.contains("dimension")) return badStyle(path, "type raw needs \"dimension\": [x, y, z]");
     const auto dimension = vectorOf(value["dimension"], path + ".dimension");
     if (!dimension) return dimension.error();
-    const auto whole = [](double v) { return v >= 1 && v <= 1024 ? static_cast<std::int32_t>(v) : 0; };
-    auto cells = voxelize::readPatternRaw(file, {whole(dimension->x), whole(dimension->y), whole(dimension->z)});
-    if (!cells) return cells.error();
+    for (int axis = 0; axis < 3; ++axis)
+        if (const double v = (*dimension)[axis]; !(v >= 1 && v <= 1024 && v == std::floor(v)))
+            return badStyle(path + ".dimension",
+                            fmt::format("{} is out of range; whole numbers from 1 to 1024 are possible", v));
+    auto cells = voxelize::readPatternRaw(
+        file, {static_cast<std::int32_t>(dimension->x), static_cast<std::int32_t>(dimension->y),
+               static_cast<std::int32_t>(dimension->z)});
+    if (!cells) return atPath(at, cells.error());
     pattern.cells = *cells;
     return {};
 }
 
-Result<void> readPattern(const json& value, const std::string& path, const std::filesystem::path& folder, StyleRule& rule) {
-    if (auto checked = checkMembers(value, path, {"type", "size", "line", "angle", "seed", "colors", "file", "dimension"}); !checked)
+Result<void> readPattern(const json& value, const std::string& path, const std::filesystem::path& folder,
+                         StyleRule& rule) {
+    if (auto checked =
+            checkMembers(value, path, {"type", "size", "line", "angle", "seed", "colors", "file", "dimension"});
+        !checked)
         return checked.error();
     voxelize::Pattern pattern;
-    if (!value.contains("type") || !value["type"].is_string() || !voxelize::patternFromName(value["type"].get<std::string>(), pattern.kind)) {
+    if (!value.contains("type") || !value["type"].is_string() ||
+        !voxelize::patternFromName(value["type"].get<std::string>(), pattern.kind)) {
         std::vector<std::string_view> names;
-        for (int k = 0; k < voxelize::kPatternKinds; ++k) names.push_back(voxelize::patternName(static_cast<voxelize::PatternKind>(k)));
+        for (int k = 0; k < voxelize::kPatternKinds; ++k)
+            names.push_back(voxelize::patternName(static_cast<voxelize::PatternKind>(k)));
         return badStyle(path + ".type", fmt::format("expected one of {}", fmt::join(names, ", ")));
     }
     if (value.contains("size")) {
@@ -108,19 +131,21 @@ Result<void> readPattern(const json& value, const std::string& path, const std::
         if (!size) return size.error();
         pattern.size = *size;
     }
-    for (const auto& [name, target] : {std::pair<const char*, double*>{"line", &pattern.line}, {"angle", &pattern.angleDegrees}}) {
+    for (const auto& [name, target] :
+         {std::pair<const char*, double*>{"line", &pattern.line}, {"angle", &pattern.angleDegrees}}) {
         if (!value.contains(name)) continue;
         const auto number = numberOf(value[name], path + "." + name);
         if (!number) return number.error();
         *target = *number;
     }
     if (value.contains("seed")) {
-        if (!value["seed"].is_number_unsigned()) return badStyle(path + ".seed", "expected a whole number from 0");
+        if (!value["seed"].is_number_unsigned() || value["seed"].get<std::uint64_t>() > 0xFFFFFFFFu)
+            return badStyle(path + ".seed", "expected a whole number from 0 to 4294967295");
         pattern.seed = static_cast<std::uint32_t>(value["seed"].get<std::uint64_t>());
     }
     if (auto cells = readCells(value, path, folder, pattern); !cells) return cells.error();
     auto made = voxelize::makePattern(std::move(pattern));
-    if (!made) return made.error();
+    if (!made) return atPath(path, made.error());
     if (value.contains("colors")) {
         auto colors = colorsOf(value["colors"], path + ".colors");
         if (!colors) return colors.error();
@@ -131,8 +156,10 @@ Result<void> readPattern(const json& value, const std::string& path, const std::
 }
 
 Result<StyleRule> readRule(const json& value, const std::string& path, const std::filesystem::path& folder) {
-    if (auto checked = checkMembers(value, path, {"select", "color", "opacity", "pattern", "comment"}); !checked) return checked.error();
-    if (!value.contains("select") || !value["select"].is_string()) return badStyle(path, "expected \"select\" with a query");
+    if (auto checked = checkMembers(value, path, {"select", "color", "opacity", "pattern", "comment"}); !checked)
+        return checked.error();
+    if (!value.contains("select") || !value["select"].is_string())
+        return badStyle(path, "expected \"select\" with a query");
     auto query = model::Query::parse(value["select"].get<std::string>());
     if (!query) return badStyle(path + ".select", query.error().message());
     StyleRule rule{std::move(*query), {}, {}, {}, {}};
@@ -145,7 +172,8 @@ Result<StyleRule> readRule(const json& value, const std::string& path, const std
     if (value.contains("opacity")) {
         const auto opacity = numberOf(value["opacity"], path + ".opacity");
         if (!opacity) return opacity.error();
-        if (!(*opacity >= 0 && *opacity <= 1)) return badStyle(path + ".opacity", fmt::format("{} is out of range; 0 to 1 are possible", *opacity));
+        if (!(*opacity >= 0 && *opacity <= 1))
+            return badStyle(path + ".opacity", fmt::format("{} is out of range; 0 to 1 are possible", *opacity));
         rule.opacity = static_cast<float>(*opacity);
     }
     if (value.contains("pattern"))
@@ -174,7 +202,8 @@ void apply(const StyleRule& rule, ResolvedStyle& style) {
     if (rule.pattern) {
         style.pattern = *rule.pattern;
         style.phaseColors = rule.patternColors;
-        if (style.phaseColors.empty() && style.pattern.cells != nullptr) style.phaseColors = style.pattern.cells->colors;
+        if (style.phaseColors.empty() && style.pattern.cells != nullptr)
+            style.phaseColors = style.pattern.cells->colors;
     }
 }
 
@@ -207,7 +236,14 @@ const StyleSheet& defaultStyle(bool withPatterns) {
 Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem::path& folder) {
     // Depth first: a parser that recurses must not meet more than it can bear.
     int depth = 0, deepest = 0;
-    for (const char c : text) {
+    bool isText = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') isText = !isText;
+        if (isText) {
+            i += c == '\\' ? 1 : 0;
+            continue;
+        }
         depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
         deepest = std::max(deepest, depth);
     }
@@ -227,19 +263,22 @@ Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem:
 
 Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
-    if (!stream) return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
+    if (!stream)
+        return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
     std::string text;
     constexpr std::size_t kMostBytes = std::size_t{16} << 20;
     text.resize(kMostBytes + 1);
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMostBytes) return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
+    if (text.size() > kMostBytes)
+        return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
     auto sheet = parseStyleSheet(text, file.parent_path());
     if (!sheet) return Error(sheet.error().code(), sheet.error().message(), {file.string(), 0, 0, {}});
     return sheet;
 }
 
-std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows, std::span<const StyleSheet* const> sheets,
+std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows,
+                                         std::span<const StyleSheet* const> sheets,
                                          std::span<const std::optional<Vec3f>> materialColors) {
     std::vector<ResolvedStyle> styles(rows.size());
     for (std::size_t s = 0; s < sheets.size(); ++s) {
@@ -252,7 +291,8 @@ std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows, 
     for (ResolvedStyle& style : styles) {
         const std::size_t phases = style.pattern.phaseCount();
         if (phases == 1) style.phaseColors.clear();
-        for (std::size_t p = style.phaseColors.size(); phases > 1 && p < phases; ++p) style.phaseColors.push_back(shade(style.color, p));
+        for (std::size_t p = style.phaseColors.size(); phases > 1 && p < phases; ++p)
+            style.phaseColors.push_back(shade(style.color, p));
     }
     return styles;
 }

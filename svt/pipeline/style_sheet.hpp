@@ -19,10 +19,10 @@ namespace svt::pipeline {
 /// One rule: what is set overrides what earlier rules set.
 struct StyleRule {
     model::Query select;
-    std::optional<Vec3f> color;                 ///< sRGB, 0..1
-    std::optional<float> opacity;               ///< fraction of light stopped by 1 m, 0..1; 1: opaque
+    std::optional<Vec3f> color;    ///< sRGB, 0..1
+    std::optional<float> opacity;  ///< fraction of light stopped by 1 m, 0..1; 1: opaque
     std::optional<voxelize::Pattern> pattern;
-    std::vector<Vec3f> patternColors;           ///< per phase; missing ones are shades of the colour
+    std::vector<Vec3f> patternColors;  ///< per phase; missing ones are shades of the colour
 };
 
 /// Rules in order; later ones win.
@@ -30,8 +30,8 @@ struct StyleSheet {
     std::vector<StyleRule> rules;
 };
 
-/// The built-in style: colours and opacities by class; with `withPatterns` also brick, block, concrete, timber, insulation
-/// by class and material.
+/// The built-in style: colours and opacities by class; with `withPatterns` also brick, block, concrete, timber,
+/// insulation by class and material.
 [[nodiscard]] const StyleSheet& defaultStyle(bool withPatterns);
 
 /// Reads a style file; files of image patterns are found relative to it.
@@ -51,8 +51,10 @@ struct ResolvedStyle {
 };
 
 /// Applies the sheets one after the other; entry per row.
-/// \param materialColors  per row: the model's own colour, stronger than the built-in sheet (the first), weaker than the others
-[[nodiscard]] std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows, std::span<const StyleSheet* const> sheets,
+/// \param materialColors  per row: the model's own colour, stronger than the built-in sheet (the first), weaker than
+/// the others
+[[nodiscard]] std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows,
+                                                       std::span<const StyleSheet* const> sheets,
                                                        std::span<const std::optional<Vec3f>> materialColors);
 
 }  // namespace svt::pipeline

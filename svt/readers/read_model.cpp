@@ -207,7 +207,8 @@ Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> mode
     for (model::Feature& feature : model->features)
         for (const Attribute& attribute : feature.attributes)
             if (attribute.name == "svtClass")
-                if (const auto* stated = std::get_if<std::string>(&attribute.value); stated != nullptr && !stated->empty())
+                if (const auto* stated = std::get_if<std::string>(&attribute.value);
+                    stated != nullptr && !stated->empty())
                     feature.className = model::canonicalClassName(*stated);
     return model;
 }

@@ -27,10 +27,10 @@ struct Format {
 /// All formats that can be read.
 [[nodiscard]] std::span<const Format> formats() noexcept;
 
-/// Reads a model file; one compressed with gzip is decompressed first. A feature with the attribute `svtClass` takes that
-/// class: a way to say BuildingConstructiveElement in formats that lack it.
-/// \param diagnostics  receives findings that did not stop the reading; may be null
-/// \return the model; CannotOpen (missing, unreadable, a folder, damaged gzip), UnknownFormat, InputTooBig for more
+/// Reads a model file; one compressed with gzip is decompressed first. A feature with the attribute `svtClass` takes
+/// that class: a way to say BuildingConstructiveElement in formats that lack it. \param diagnostics  receives findings
+/// that did not stop the reading; may be null \return the model; CannotOpen (missing, unreadable, a folder, damaged
+/// gzip), UnknownFormat, InputTooBig for more
 ///         than options.maxBytes (after decompression), or what the reader of the format returns
 /// Cost: the file is mapped, not copied; see the readers. Do not shorten the file while it is read.
 [[nodiscard]] Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options = {},

@@ -40,14 +40,16 @@ bool isEqual(std::span<const T> a, std::span<const T> b) noexcept {
 }
 
 // Everything that column() and scalarAt() rely on.
-Result<void> checkTile(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t nz, Scalar scalarCount,
-                       std::size_t number) {
+Result<void> checkTile(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t nz,
+                       Scalar scalarCount, std::size_t number) {
     const auto bad = [&](std::string_view what) {
         return Error(Code::BadVolume, fmt::format("tile {}: {}; the file is damaged, build it again", number, what));
     };
     if (tile.rowOf.size() != static_cast<std::size_t>(height)) return bad("wrong count of rows");
-    if (tile.columnStart.size() < 2 || tile.columnStart.size() > std::size_t(1) + 65536) return bad("wrong count of columns");
-    if (tile.columnStart.front() != 0 || tile.columnStart.back() != tile.runs.size()) return bad("column starts do not cover the runs");
+    if (tile.columnStart.size() < 2 || tile.columnStart.size() > std::size_t(1) + 65536)
+        return bad("wrong count of columns");
+    if (tile.columnStart.front() != 0 || tile.columnStart.back() != tile.runs.size())
+        return bad("column starts do not cover the runs");
     if (tile.rowColumns.empty() || tile.rowColumns.size() % static_cast<std::size_t>(width) != 0)
         return bad("wrong count of row entries");
     const std::size_t rows = tile.rowColumns.size() / static_cast<std::size_t>(width);
@@ -95,7 +97,8 @@ Result<ColumnVolume> ColumnVolume::fromViews(Vec3i dimension, std::vector<Column
     for (std::size_t t = 0; t < tiles.size(); ++t) {
         const auto tileX = static_cast<std::int32_t>(t % std::size_t(volume.tilesX()));
         const auto tileY = static_cast<std::int32_t>(t / std::size_t(volume.tilesX()));
-        if (auto checked = checkTile(tiles[t], volume.tileWidth(tileX), volume.tileHeight(tileY), dimension.z, scalarCount, t);
+        if (auto checked =
+                checkTile(tiles[t], volume.tileWidth(tileX), volume.tileHeight(tileY), dimension.z, scalarCount, t);
             !checked)
             return checked.error();
     }
@@ -117,7 +120,8 @@ ColumnVolume ColumnVolume::fromDense(Vec3i dimension, std::span<const Scalar> sc
             std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
             for (std::int32_t y = 0; y < shape.tileHeight(tileY); ++y) {
                 for (std::int32_t x = 0; x < width; ++x) {
-                    const std::size_t base = std::size_t(tileX * kTileSize + x) + nx * std::size_t(tileY * kTileSize + y);
+                    const std::size_t base =
+                        std::size_t(tileX * kTileSize + x) + nx * std::size_t(tileY * kTileSize + y);
                     runs.clear();
                     for (std::int32_t k = 0; k < dimension.z; ++k) {
                         const Scalar scalar = scalars[base + nx * ny * std::size_t(k)];
@@ -181,7 +185,8 @@ std::vector<std::uint64_t> ColumnVolume::countVoxels(Scalar scalarCount) const {
 std::size_t ColumnVolume::sizeBytes() const noexcept {
     std::size_t bytes = tiles_.size() * sizeof(ColumnTile);
     for (const ColumnTile& tile : tiles_)
-        bytes += tile.rowOf.size_bytes() + tile.rowColumns.size_bytes() + tile.columnStart.size_bytes() + tile.runs.size_bytes();
+        bytes += tile.rowOf.size_bytes() + tile.rowColumns.size_bytes() + tile.columnStart.size_bytes() +
+                 tile.runs.size_bytes();
     return bytes;
 }
 
@@ -190,8 +195,8 @@ bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept {
     for (std::size_t t = 0; t < a.tiles_.size(); ++t) {
         const ColumnTile& s = a.tiles_[t];
         const ColumnTile& u = b.tiles_[t];
-        if (!isEqual(s.rowOf, u.rowOf) || !isEqual(s.rowColumns, u.rowColumns) || !isEqual(s.columnStart, u.columnStart) ||
-            !isEqual(s.runs, u.runs))
+        if (!isEqual(s.rowOf, u.rowOf) || !isEqual(s.rowColumns, u.rowColumns) ||
+            !isEqual(s.columnStart, u.columnStart) || !isEqual(s.runs, u.runs))
             return false;
     }
     return true;

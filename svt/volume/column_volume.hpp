@@ -38,9 +38,9 @@ struct Run {
 
 /// Views of one tile's arrays; the volume's storage owns them.
 struct ColumnTile {
-    std::span<const std::uint8_t> rowOf;          ///< height entries
-    std::span<const std::uint16_t> rowColumns;    ///< width * (distinct rows) entries
-    std::span<const std::uint32_t> columnStart;   ///< distinct columns + 1 entries
+    std::span<const std::uint8_t> rowOf;         ///< height entries
+    std::span<const std::uint16_t> rowColumns;   ///< width * (distinct rows) entries
+    std::span<const std::uint32_t> columnStart;  ///< distinct columns + 1 entries
     std::span<const Run> runs;
 
     [[nodiscard]] std::span<const Run> column(std::uint32_t number) const noexcept {
@@ -67,11 +67,10 @@ public:
     /// From tiles in row order (x fastest), as a voxelizer makes them. Takes the tiles as they are.
     [[nodiscard]] static ColumnVolume fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles);
 
-    /// From views of memory that `storage` keeps alive (a mapped file). Everything is checked: sizes, indices, ascending
-    /// ends, last end, scalars below `scalarCount`.
-    /// \return the volume, or BadVolume that names the tile
-    [[nodiscard]] static Result<ColumnVolume> fromViews(Vec3i dimension, std::vector<ColumnTile> tiles, Scalar scalarCount,
-                                                        std::shared_ptr<const void> storage);
+    /// From views of memory that `storage` keeps alive (a mapped file). Everything is checked: sizes, indices,
+    /// ascending ends, last end, scalars below `scalarCount`. \return the volume, or BadVolume that names the tile
+    [[nodiscard]] static Result<ColumnVolume> fromViews(Vec3i dimension, std::vector<ColumnTile> tiles,
+                                                        Scalar scalarCount, std::shared_ptr<const void> storage);
 
     /// From a dense array, x fastest, then y, then z (index i + nx * (j + ny * k)).
     [[nodiscard]] static ColumnVolume fromDense(Vec3i dimension, std::span<const Scalar> scalars);
@@ -107,7 +106,8 @@ class ColumnTileBuilder {
 public:
     explicit ColumnTileBuilder(std::int32_t width);
 
-    /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in scalar.
+    /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in
+    /// scalar.
     [[nodiscard]] std::uint16_t addColumn(std::span<const Run> runs);
     /// The next row: `width` column numbers.
     void addRow(std::span<const std::uint16_t> columns);

@@ -254,7 +254,8 @@ TEST_F(ColumnViews, TileMissing) {
     const auto volume = open();
     ASSERT_FALSE(volume);
     EXPECT_EQ(volume.error().code(), Code::BadVolume);
-    EXPECT_NE(volume.error().message().find("1 tiles found, 2 expected"), std::string::npos) << volume.error().message();
+    EXPECT_NE(volume.error().message().find("1 tiles found, 2 expected"), std::string::npos)
+        << volume.error().message();
 }
 
 }  // namespace

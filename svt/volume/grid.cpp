@@ -13,16 +13,18 @@ Result<void> checkDimension(Vec3d dimension) {
     for (int axis = 0; axis < 3; ++axis) {
         const double count = dimension[axis];
         if (!(count >= 2 && count <= Grid::kMaxDimension))
-            return Error(Code::BadDimension,
-                         fmt::format("dimension {} along {} is out of range; 2 to {} samples are possible. Choose another "
-                                     "dimension or spacing.",
-                                     count, kAxisNames[axis], Grid::kMaxDimension));
+            return Error(
+                Code::BadDimension,
+                fmt::format("dimension {} along {} is out of range; 2 to {} samples are possible. Choose another "
+                            "dimension or spacing.",
+                            count, kAxisNames[axis], Grid::kMaxDimension));
     }
     const double columns = dimension.x * dimension.y;
     constexpr double kMaxColumns = 2147483648.0;
     if (columns > kMaxColumns)
-        return Error(Code::GridTooLarge, fmt::format("{} x {} columns are over the limit of {}; choose a coarser spacing.",
-                                                     dimension.x, dimension.y, kMaxColumns));
+        return Error(Code::GridTooLarge,
+                     fmt::format("{} x {} columns are over the limit of {}; choose a coarser spacing.", dimension.x,
+                                 dimension.y, kMaxColumns));
     return {};
 }
 
@@ -82,7 +84,8 @@ Result<Grid> Grid::fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin, const
         for (int b = 0; b < 3; ++b)
             if (!(std::abs(dot(axes[a], axes[b]) - (a == b ? 1.0 : 0.0)) < 1e-9))
                 return Error(Code::BadDimension, "the axes of the grid are no rotation");
-    if (!(dot(cross(axes[0], axes[1]), axes[2]) > 0)) return Error(Code::BadDimension, "the axes of the grid are mirrored, no rotation");
+    if (!(dot(cross(axes[0], axes[1]), axes[2]) > 0))
+        return Error(Code::BadDimension, "the axes of the grid are mirrored, no rotation");
     Grid grid;
     grid.dimension_ = dimension;
     grid.spacing_ = spacing;

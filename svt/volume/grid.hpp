@@ -33,12 +33,15 @@ public:
     [[nodiscard]] static Result<Grid> fromSpacing(const Box3d& envelope, Vec3d spacing);
 
     /// As stored: checked, then taken as it is.
-    [[nodiscard]] static Result<Grid> fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin, const std::array<Vec3d, 3>& axes);
+    [[nodiscard]] static Result<Grid> fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin,
+                                                const std::array<Vec3d, 3>& axes);
 
     [[nodiscard]] Vec3i dimension() const noexcept { return dimension_; }
-    [[nodiscard]] Vec3d spacing() const noexcept { return spacing_; }    ///< metres
-    [[nodiscard]] Vec3d origin() const noexcept { return origin_; }      ///< sample (0, 0, 0), world space
-    [[nodiscard]] const std::array<Vec3d, 3>& axes() const noexcept { return axes_; }  ///< unit vectors of i, j, k in world space
+    [[nodiscard]] Vec3d spacing() const noexcept { return spacing_; }  ///< metres
+    [[nodiscard]] Vec3d origin() const noexcept { return origin_; }    ///< sample (0, 0, 0), world space
+    [[nodiscard]] const std::array<Vec3d, 3>& axes() const noexcept {
+        return axes_;
+    }  ///< unit vectors of i, j, k in world space
     [[nodiscard]] std::uint64_t sampleCount() const noexcept;
     [[nodiscard]] double voxelVolume() const noexcept { return spacing_.x * spacing_.y * spacing_.z; }  ///< m3
     [[nodiscard]] bool isAxisParallel() const noexcept;

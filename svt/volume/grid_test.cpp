@@ -59,7 +59,8 @@ TEST(Grid, SpacingWidensTheEnvelopeEvenlyToWholeSteps) {
 
 TEST(Grid, WholeNumberOfStepsGetsNoStepMoreByRounding) {
     for (const double shift : {0.0, 458877.03, -0.7}) {
-        const auto grid = Grid::fromSpacing({{shift, shift, shift}, {shift + 0.3, shift + 0.7, shift + 16.5}}, {0.1, 0.1, 0.1});
+        const auto grid =
+            Grid::fromSpacing({{shift, shift, shift}, {shift + 0.3, shift + 0.7, shift + 16.5}}, {0.1, 0.1, 0.1});
         ASSERT_TRUE(grid);
         EXPECT_EQ(grid->dimension(), (Vec3i{4, 8, 166})) << shift;
     }
@@ -131,6 +132,11 @@ TEST(Grid, PartsThatAreNoGridAreRefused) {
     EXPECT_FALSE(Grid::fromParts({2, 2, 2}, {1, 1, 1}, {}, {Vec3d{2, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}));
     EXPECT_FALSE(Grid::fromParts({2, 2, 2}, {1, 1, 1}, {}, {Vec3d{1, 0, 0}, Vec3d{0.1, 1, 0}, Vec3d{0, 0, 1}}));
     EXPECT_FALSE(Grid::fromParts({2, 2, 2}, {1, 1, 1}, {}, {Vec3d{kInfinity, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}));
+}
+
+TEST(Grid, MirroredAxesAreNoRotation) {
+    EXPECT_FALSE(Grid::fromParts({2, 2, 2}, {1, 1, 1}, {}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, -1}}));
+    EXPECT_FALSE(Grid::fromParts({2, 2, 2}, {1, 1, 1}, {}, {Vec3d{0, 1, 0}, Vec3d{1, 0, 0}, Vec3d{0, 0, 1}}));
 }
 
 TEST(Grid, TurnedFrameGoesThereAndBack) {

@@ -18,14 +18,14 @@ inline constexpr std::uint32_t kNoLabel = 0xFFFFFFFFu;
 
 /// How an object got its voxels.
 enum class Filling : std::uint8_t {
-    None,         ///< no geometry, so no voxels (a storey that only groups)
-    Solid,        ///< closed mesh, filled exactly
-    TJunctions,   ///< closed up to T-junctions, filled exactly
-    Complemented, ///< open shell, closed with faces shared by XLink
-    Capped,       ///< open shell, closed by planar caps (ClosureSurface)
-    Winding,      ///< open shell, filled by generalized winding number
-    Surface,      ///< no solid meaning: a sheet one voxel thick
-    Body          ///< boundary surface that got the material behind it (thematic body)
+    None,          ///< no geometry, so no voxels (a storey that only groups)
+    Solid,         ///< closed mesh, filled exactly
+    TJunctions,    ///< closed up to T-junctions, filled exactly
+    Complemented,  ///< open shell, closed with faces shared by XLink
+    Capped,        ///< open shell, closed by planar caps (ClosureSurface)
+    Winding,       ///< open shell, filled by generalized winding number
+    Surface,       ///< no solid meaning: a sheet one voxel thick
+    Body           ///< boundary surface that got the material behind it (thematic body)
 };
 [[nodiscard]] std::string_view fillingName(Filling filling) noexcept;  ///< "solid", "t-junctions", ...
 [[nodiscard]] bool fillingFromName(std::string_view name, Filling& filling) noexcept;
@@ -36,18 +36,18 @@ struct Label {
     std::string className;
     std::string name;
     std::vector<Attribute> attributes;
-    std::uint32_t parent = kNoLabel;         ///< index of the parent label
-    std::uint32_t subtreeEnd = 0;            ///< labels [own index, subtreeEnd) are this feature and all below it
-    std::vector<std::uint32_t> groups;       ///< labels of groups, storeys and units that have it as a member
-    Scalar first = 0;                        ///< scalars [first, first + count)
-    Scalar count = 0;                        ///< 0: no object; 1: no pattern; else one scalar per pattern phase
+    std::uint32_t parent = kNoLabel;    ///< index of the parent label
+    std::uint32_t subtreeEnd = 0;       ///< labels [own index, subtreeEnd) are this feature and all below it
+    std::vector<std::uint32_t> groups;  ///< labels of groups, storeys and units that have it as a member
+    Scalar first = 0;                   ///< scalars [first, first + count)
+    Scalar count = 0;                   ///< 0: no object; 1: no pattern; else one scalar per pattern phase
     std::uint64_t voxels = 0;
-    double volume = 0;                       ///< m3 by the closed mesh; by voxels for bodies; 0 for surfaces
+    double volume = 0;  ///< m3 by the closed mesh; by voxels for bodies; 0 for surfaces
     Filling filling = Filling::None;
-    std::uint64_t thinVoxels = 0;            ///< voxels that only the pass for thin parts gave
-    std::uint64_t uncertainVoxels = 0;       ///< voxels that the winding number decided between 0.25 and 0.75
-    Vec3f color{0.8f, 0.8f, 0.8f};           ///< default style: sRGB, 0..1
-    float opacity = 1;                       ///< default style: fraction of light stopped by 1 m; 1 = opaque surface
+    std::uint64_t thinVoxels = 0;       ///< voxels that only the pass for thin parts gave
+    std::uint64_t uncertainVoxels = 0;  ///< voxels that the winding number decided between 0.25 and 0.75
+    Vec3f color{0.8f, 0.8f, 0.8f};      ///< default style: sRGB, 0..1
+    float opacity = 1;                  ///< default style: fraction of light stopped by 1 m; 1 = opaque surface
 
     friend bool operator==(const Label&, const Label&) = default;
 };
@@ -56,14 +56,14 @@ struct Label {
 struct Overlap {
     std::uint32_t a = 0, b = 0;  ///< labels
     std::uint64_t voxels = 0;
-    bool isNested = false;       ///< one contains the other by the model's hierarchy or grouping (room in building)
+    bool isNested = false;  ///< one contains the other by the model's hierarchy or grouping (room in building)
     friend bool operator==(const Overlap&, const Overlap&) = default;
 };
 
 /// All labels in tree order, and who owns a scalar.
 struct LabelTable {
     std::vector<Label> labels;
-    std::vector<Overlap> overlaps;   ///< ordered by (a, b)
+    std::vector<Overlap> overlaps;  ///< ordered by (a, b)
     /// Per scalar of an object with a pattern: the colour of that phase; empty where no object has a pattern.
     /// Entry s belongs to scalar s; has scalarCount() entries or none.
     std::vector<Vec3f> phaseColors;

@@ -39,8 +39,8 @@ TEST(LabelTable, EveryScalarKnowsItsOwner) {
 }
 
 TEST(LabelTable, FillingNamesGoThereAndBack) {
-    for (const Filling filling : {Filling::None, Filling::Solid, Filling::TJunctions, Filling::Complemented, Filling::Capped,
-                                  Filling::Winding, Filling::Surface, Filling::Body}) {
+    for (const Filling filling : {Filling::None, Filling::Solid, Filling::TJunctions, Filling::Complemented,
+                                  Filling::Capped, Filling::Winding, Filling::Surface, Filling::Body}) {
         Filling back = filling == Filling::None ? Filling::Body : Filling::None;
         EXPECT_TRUE(fillingFromName(fillingName(filling), back));
         EXPECT_EQ(back, filling);

@@ -15,8 +15,8 @@ using volume::Run;
 using volume::Scalar;
 
 struct Face {
-    Vec3d a, b, c;         // local space
-    std::uint32_t surface; // into the group
+    Vec3d a, b, c;          // local space
+    std::uint32_t surface;  // into the group
 };
 
 struct Group {
@@ -37,12 +37,20 @@ struct Block {
 // Splits a tile of one group into pieces per column, bottom up.
 class TileSplitter {
 public:
-    TileSplitter(const Group& group, const volume::Grid& grid, Vec3d origin, std::int32_t firstColumn, std::int32_t firstRow,
-                 std::int32_t width, std::int32_t height)
-        : group_(group), grid_(grid), origin_(origin), firstColumn_(firstColumn), firstRow_(firstRow), width_(width), height_(height),
-          pieces_(std::size_t(width) * std::size_t(height)), spacing_(grid.spacing()) {}
+    TileSplitter(const Group& group, const volume::Grid& grid, Vec3d origin, std::int32_t firstColumn,
+                 std::int32_t firstRow, std::int32_t width, std::int32_t height)
+        : group_(group),
+          grid_(grid),
+          origin_(origin),
+          firstColumn_(firstColumn),
+          firstRow_(firstRow),
+          width_(width),
+          height_(height),
+          pieces_(std::size_t(width) * std::size_t(height)),
+          spacing_(grid.spacing()) {}
 
-    // `low` and `high`: lowest and one past the highest sample of the group per column; columns without have low >= high.
+    // `low` and `high`: lowest and one past the highest sample of the group per column; columns without have low >=
+    // high.
     void split(const std::vector<std::int32_t>& low, const std::vector<std::int32_t>& high) {
         low_ = &low;
         high_ = &high;
@@ -92,10 +100,12 @@ private:
             fill(block, 0);  // nobody asks for these samples; the columns must stay without gaps
             return;
         }
-        const Vec3d center{firstColumn_ + block.low[0] + (block.size[0] - 1) / 2.0, firstRow_ + block.low[1] + (block.size[1] - 1) / 2.0,
+        const Vec3d center{firstColumn_ + block.low[0] + (block.size[0] - 1) / 2.0,
+                           firstRow_ + block.low[1] + (block.size[1] - 1) / 2.0,
                            block.low[2] + (block.size[2] - 1) / 2.0};
         const Vec3d point = grid_.worldFromIndex(center) - origin_;
-        const double radius = length(scaled(Vec3d{(block.size[0] - 1) / 2.0, (block.size[1] - 1) / 2.0, (block.size[2] - 1) / 2.0}, spacing_));
+        const double radius = length(
+            scaled(Vec3d{(block.size[0] - 1) / 2.0, (block.size[1] - 1) / 2.0, (block.size[2] - 1) / 2.0}, spacing_));
         double nearest = 1e300, nearestOther = 1e300;
         std::uint32_t best = 0;
         std::vector<double> distances(candidates.size());
@@ -123,7 +133,9 @@ private:
         for (std::int32_t z = 0; z < 2; ++z)
             for (std::int32_t y = 0; y < 2; ++y)
                 for (std::int32_t x = 0; x < 2; ++x)
-                    visit({{block.low[0] + x * half, block.low[1] + y * half, block.low[2] + z * half}, {half, half, half}}, kept);
+                    visit({{block.low[0] + x * half, block.low[1] + y * half, block.low[2] + z * half},
+                           {half, half, half}},
+                          kept);
     }
 
     const Group& group_;
@@ -170,7 +182,8 @@ ColumnVolume giveThematicBodies(const ColumnVolume& columns, const volume::Grid&
         for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
             const mesh::ObjectMesh& mesh = scene.objects[source.surfaces[s]];
             for (const mesh::Triangle& t : mesh.triangles)
-                group.faces.push_back({mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]], s});
+                group.faces.push_back(
+                    {mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]], s});
         }
         if (!group.faces.empty()) prepared.push_back(std::move(group));
     }
@@ -185,10 +198,12 @@ ColumnVolume giveThematicBodies(const ColumnVolume& columns, const volume::Grid&
         [&](std::int32_t tileX, std::int32_t tileY, const volume::ColumnTile& tile) -> ColumnRewriter {
             std::vector<std::ptrdiff_t> present;
             for (const Run& run : tile.runs)
-                if (const auto g = groupOf(run.scalar); g >= 0 && std::find(present.begin(), present.end(), g) == present.end())
+                if (const auto g = groupOf(run.scalar);
+                    g >= 0 && std::find(present.begin(), present.end(), g) == present.end())
                     present.push_back(g);
             if (present.empty()) return {};
-            const std::int32_t firstColumn = tileX * ColumnVolume::kTileSize, firstRow = tileY * ColumnVolume::kTileSize;
+            const std::int32_t firstColumn = tileX * ColumnVolume::kTileSize,
+                               firstRow = tileY * ColumnVolume::kTileSize;
             const std::int32_t width = columns.tileWidth(tileX), height = columns.tileHeight(tileY);
             auto splitters = std::make_shared<std::vector<std::pair<Scalar, std::unique_ptr<TileSplitter>>>>();
             for (const std::ptrdiff_t g : present) {
@@ -206,11 +221,13 @@ ColumnVolume giveThematicBodies(const ColumnVolume& columns, const volume::Grid&
                             begin = run.end;
                         }
                     }
-                splitters->emplace_back(group.source->from, std::make_unique<TileSplitter>(group, grid, scene.origin, firstColumn,
-                                                                                          firstRow, width, height));
+                splitters->emplace_back(
+                    group.source->from,
+                    std::make_unique<TileSplitter>(group, grid, scene.origin, firstColumn, firstRow, width, height));
                 splitters->back().second->split(low, high);
             }
-            return [splitters, &prepared, groupOf](std::int32_t i, std::int32_t j, std::span<const Run> runs, std::vector<Run>& out) {
+            return [splitters, &prepared, groupOf](std::int32_t i, std::int32_t j, std::span<const Run> runs,
+                                                   std::vector<Run>& out) {
                 std::uint32_t begin = 0;
                 for (const Run& run : runs) {
                     const auto found = std::find_if(splitters->begin(), splitters->end(),

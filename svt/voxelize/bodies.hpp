@@ -15,17 +15,18 @@ namespace svt::voxelize {
 
 /// One building: whose voxels are given away, and to whom.
 struct BodyGroup {
-    volume::Scalar from = 0;               ///< scalar of the building's solid
-    std::vector<std::uint32_t> surfaces;   ///< objects of the scene: its boundary surfaces, in tree order
-    std::vector<volume::Scalar> scalars;   ///< their scalars, same order
+    volume::Scalar from = 0;              ///< scalar of the building's solid
+    std::vector<std::uint32_t> surfaces;  ///< objects of the scene: its boundary surfaces, in tree order
+    std::vector<volume::Scalar> scalars;  ///< their scalars, same order
 };
 
-/// Gives every voxel of `from` to the surface nearest to its centre (world distance; at equal distance the earlier one).
-/// Exact: blocks are split until one surface is nearest in all of the block, or down to the voxel; surfaces too
+/// Gives every voxel of `from` to the surface nearest to its centre (world distance; at equal distance the earlier
+/// one). Exact: blocks are split until one surface is nearest in all of the block, or down to the voxel; surfaces too
 /// far for a block are not looked at again within it.
 /// Cost: O(area between the bodies), not their volume. The result does not depend on `threads`.
 [[nodiscard]] volume::ColumnVolume giveThematicBodies(const volume::ColumnVolume& columns, const volume::Grid& grid,
-                                                      const mesh::MeshScene& scene, const std::vector<BodyGroup>& groups, int threads);
+                                                      const mesh::MeshScene& scene,
+                                                      const std::vector<BodyGroup>& groups, int threads);
 
 /// Distance from `point` to the triangle a, b, c (Ericson 2005, 5.1.5).
 [[nodiscard]] double distanceToTriangle(Vec3d point, Vec3d a, Vec3d b, Vec3d c) noexcept;

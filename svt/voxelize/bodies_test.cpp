@@ -35,13 +35,13 @@ double sampledDistance(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
 
 TEST(DistanceToTriangle, KnownAnswers) {
     const Vec3d a{0, 0, 0}, b{4, 0, 0}, c{0, 3, 0};
-    EXPECT_DOUBLE_EQ(distanceToTriangle({1, 1, 2}, a, b, c), 2);       // over the inside
-    EXPECT_DOUBLE_EQ(distanceToTriangle({1, 1, 0}, a, b, c), 0);       // on it
-    EXPECT_DOUBLE_EQ(distanceToTriangle({-3, -4, 0}, a, b, c), 5);     // corner a
-    EXPECT_DOUBLE_EQ(distanceToTriangle({7, -4, 0}, a, b, c), 5);      // corner b
-    EXPECT_DOUBLE_EQ(distanceToTriangle({0, 15, 5}, a, b, c), 13);     // corner c
-    EXPECT_DOUBLE_EQ(distanceToTriangle({2, -3, 4}, a, b, c), 5);      // edge ab
-    EXPECT_DOUBLE_EQ(distanceToTriangle({-3, 1, 4}, a, b, c), 5);      // edge ac
+    EXPECT_DOUBLE_EQ(distanceToTriangle({1, 1, 2}, a, b, c), 2);              // over the inside
+    EXPECT_DOUBLE_EQ(distanceToTriangle({1, 1, 0}, a, b, c), 0);              // on it
+    EXPECT_DOUBLE_EQ(distanceToTriangle({-3, -4, 0}, a, b, c), 5);            // corner a
+    EXPECT_DOUBLE_EQ(distanceToTriangle({7, -4, 0}, a, b, c), 5);             // corner b
+    EXPECT_DOUBLE_EQ(distanceToTriangle({0, 15, 5}, a, b, c), 13);            // corner c
+    EXPECT_DOUBLE_EQ(distanceToTriangle({2, -3, 4}, a, b, c), 5);             // edge ab
+    EXPECT_DOUBLE_EQ(distanceToTriangle({-3, 1, 4}, a, b, c), 5);             // edge ac
     EXPECT_NEAR(distanceToTriangle({2 + 3, 1.5 + 4, 0}, a, b, c), 5, 1e-12);  // edge bc, along its normal (3, 4) / 5
 }
 
@@ -65,8 +65,11 @@ TEST(DistanceToTriangle, TriangleWithoutAreaIsASegmentOrAPoint) {
 }
 
 mesh::ObjectMesh sideOf(Vec3d low, Vec3d high, int side) {
-    const auto at = [&](int i) { return Vec3d{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; };
-    static constexpr int kCorners[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+    const auto at = [&](int i) {
+        return Vec3d{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    };
+    static constexpr int kCorners[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                           {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
     mesh::ObjectMesh mesh;
     for (const int corner : kCorners[side]) mesh.vertices.push_back(at(corner));
     test::addTriangle(mesh, 0, 1, 2);
@@ -75,8 +78,8 @@ mesh::ObjectMesh sideOf(Vec3d low, Vec3d high, int side) {
     return mesh;
 }
 
-// A building with one room, six surfaces outside and six around the room. Object 0 is the building, 1 the room, 2 to 13 the
-// surfaces; scalars are one more.
+// A building with one room, six surfaces outside and six around the room. Object 0 is the building, 1 the room, 2 to 13
+// the surfaces; scalars are one more.
 class House : public ::testing::Test {
 protected:
     House() {
@@ -102,8 +105,8 @@ protected:
         for (std::size_t s = 0; s < group_.surfaces.size(); ++s) {
             const mesh::ObjectMesh& mesh = scene_.objects[group_.surfaces[s]];
             for (const mesh::Triangle& t : mesh.triangles) {
-                const double distance = distanceToTriangle(world - origin_, mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]],
-                                                           mesh.vertices[t.corners[2]]);
+                const double distance = distanceToTriangle(world - origin_, mesh.vertices[t.corners[0]],
+                                                           mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]]);
                 if (distance < nearest) {
                     nearest = distance;
                     scalar = group_.scalars[s];
@@ -135,7 +138,8 @@ TEST_F(House, EveryVoxelOfTheMaterialGoesToTheNearestSurface) {
                 if (was != 1)
                     ASSERT_EQ(is, was) << i << ' ' << j << ' ' << k;
                 else
-                    ASSERT_EQ(is, nearestSurface(grid_.worldFromIndex({double(i), double(j), double(k)}))) << i << ' ' << j << ' ' << k;
+                    ASSERT_EQ(is, nearestSurface(grid_.worldFromIndex({double(i), double(j), double(k)})))
+                        << i << ' ' << j << ' ' << k;
             }
     EXPECT_EQ(hits[1], 0u);
     EXPECT_EQ(hits[2], columns_.countVoxels(16)[2]);
@@ -143,7 +147,8 @@ TEST_F(House, EveryVoxelOfTheMaterialGoesToTheNearestSurface) {
 }
 
 TEST_F(House, SameForAnyNumberOfThreads) {
-    EXPECT_TRUE(giveThematicBodies(columns_, grid_, scene_, {group_}, 1) == giveThematicBodies(columns_, grid_, scene_, {group_}, 4));
+    EXPECT_TRUE(giveThematicBodies(columns_, grid_, scene_, {group_}, 1) ==
+                giveThematicBodies(columns_, grid_, scene_, {group_}, 4));
 }
 
 TEST_F(House, AtEqualDistanceTheEarlierSurfaceGets) {
@@ -161,8 +166,10 @@ TEST_F(House, AtEqualDistanceTheEarlierSurfaceGets) {
 
 TEST_F(House, MiddleBetweenTwoWallsGoesToTheEarlier) {
     // A slab from x = 0 to 8 with walls at both ends and samples exactly in the middle.
-    const auto scene = test::sceneOf({test::box({0, 0, 0}, {8, 2, 2}), sideOf({0, 0, 0}, {8, 2, 2}, 3), sideOf({0, 0, 0}, {8, 2, 2}, 5)});
-    const Grid grid = *Grid::fromParts({9, 3, 3}, {1, 1, 1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    const auto scene = test::sceneOf(
+        {test::box({0, 0, 0}, {8, 2, 2}), sideOf({0, 0, 0}, {8, 2, 2}, 3), sideOf({0, 0, 0}, {8, 2, 2}, 5)});
+    const Grid grid =
+        *Grid::fromParts({9, 3, 3}, {1, 1, 1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
     const auto columns = volume::ColumnVolume::fromDense({9, 3, 3}, std::vector<Scalar>(81, 1));
     const auto given = giveThematicBodies(columns, grid, scene, {{1, {1, 2}, {5, 6}}}, 1);
     for (std::int32_t i = 0; i < 9; ++i) EXPECT_EQ(given.scalarAt(i, 1, 1), i >= 4 ? 5u : 6u) << i;

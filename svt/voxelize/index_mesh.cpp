@@ -25,14 +25,16 @@ QuantaPoint IndexFromLocal::quanta(Vec3d local) const noexcept {
     const Vec3d index = point(local);
     QuantaPoint snapped;
     for (int axis = 0; axis < 3; ++axis)
-        snapped[std::size_t(axis)] =
-            2 * static_cast<std::int32_t>(std::lrint(std::clamp(index[axis] * (double(kQuanta) / 2), -kFarthest / 2, kFarthest / 2)));
+        snapped[std::size_t(axis)] = 2 * static_cast<std::int32_t>(std::lrint(std::clamp(
+                                             index[axis] * (double(kQuanta) / 2), -kFarthest / 2, kFarthest / 2)));
     return snapped;
 }
 
 mesh::Plane IndexFromLocal::plane(const mesh::Plane& local) const noexcept {
     // Three points of the plane around the grid's origin carry it over, whatever the turn about z.
-    const auto on = [&](double x, double y) { return point({x, y, local.slopeX * x + local.slopeY * y + local.offset}); };
+    const auto on = [&](double x, double y) {
+        return point({x, y, local.slopeX * x + local.slopeY * y + local.offset});
+    };
     const Vec3d p = on(0, 0), q = on(1, 0), r = on(0, 1);
     const double ax = q.x - p.x, ay = q.y - p.y, az = q.z - p.z;
     const double bx = r.x - p.x, by = r.y - p.y, bz = r.z - p.z;

@@ -24,7 +24,7 @@ using QuantaPoint = std::array<std::int32_t, 3>;
 
 /// One object on the lattice.
 struct IndexMesh {
-    std::vector<QuantaPoint> points;   ///< per vertex of the mesh
+    std::vector<QuantaPoint> points;  ///< per vertex of the mesh
     const mesh::ObjectMesh* mesh = nullptr;
 };
 

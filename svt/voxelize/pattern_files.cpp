@@ -18,7 +18,9 @@ constexpr std::size_t kMostPhases = 64;
 
 using Pixel = std::array<std::uint8_t, 3>;
 
-Error badImage(const std::filesystem::path& file, std::string what) { return Error(Code::BadImage, std::move(what), {file.string(), 0, 0, {}}); }
+Error badImage(const std::filesystem::path& file, std::string what) {
+    return Error(Code::BadImage, std::move(what), {file.string(), 0, 0, {}});
+}
 
 // One box of median cut: pixels [begin, end) of an index list.
 struct ColorBox {
@@ -26,7 +28,8 @@ struct ColorBox {
 };
 
 // The channel with the largest spread in the box, and that spread.
-std::pair<std::size_t, int> widestChannel(const std::vector<Pixel>& colors, const std::vector<std::uint32_t>& order, const ColorBox& box) {
+std::pair<std::size_t, int> widestChannel(const std::vector<Pixel>& colors, const std::vector<std::uint32_t>& order,
+                                          const ColorBox& box) {
     std::pair<std::size_t, int> widest{0, 0};
     for (std::size_t channel = 0; channel < 3; ++channel) {
         int low = 255, high = 0;
@@ -55,7 +58,8 @@ void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCell
         if (spread == 0) break;
         const ColorBox box = boxes[best];
         const std::size_t channel = widestChannel(colors, order, box).first;
-        std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(box.begin), order.begin() + static_cast<std::ptrdiff_t>(box.end),
+        std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(box.begin),
+                         order.begin() + static_cast<std::ptrdiff_t>(box.end),
                          [&](std::uint32_t a, std::uint32_t b) { return colors[a][channel] < colors[b][channel]; });
         // Equal values stay together: the cut moves to the next step of the channel.
         std::size_t cut = (box.begin + box.end) / 2;
@@ -84,7 +88,8 @@ void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCell
 
 Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file, int maxColors) {
     if (maxColors < 2 || maxColors > static_cast<int>(kMostPhases))
-        return Error(Code::BadArgument, fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMostPhases));
+        return Error(Code::BadArgument,
+                     fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMostPhases));
     const auto mapped = MappedFile::open(file);
     if (!mapped) return mapped.error();
     png_image image;
@@ -93,7 +98,8 @@ Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesyst
     if (png_image_begin_read_from_memory(&image, mapped->bytes().data(), mapped->bytes().size()) == 0)
         return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
     if (image.width > kLargestImage || image.height > kLargestImage) {
-        const std::string size = fmt::format("{} x {} pixels are over the limit of {} x {}", image.width, image.height, kLargestImage, kLargestImage);
+        const std::string size = fmt::format("{} x {} pixels are over the limit of {} x {}", image.width, image.height,
+                                             kLargestImage, kLargestImage);
         png_image_free(&image);
         return badImage(file, size);
     }
@@ -117,20 +123,22 @@ Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesyst
 Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file, Vec3i dimension) {
     for (int axis = 0; axis < 3; ++axis)
         if (dimension[axis] < 1 || dimension[axis] > kLargestRaw)
-            return badImage(file, fmt::format("dimension {} is out of range; 1 to {} cells along an axis are possible", dimension[axis], kLargestRaw));
+            return badImage(file, fmt::format("dimension {} is out of range; 1 to {} cells along an axis are possible",
+                                              dimension[axis], kLargestRaw));
     const auto mapped = MappedFile::open(file);
     if (!mapped) return mapped.error();
     const std::size_t expected = std::size_t(dimension.x) * std::size_t(dimension.y) * std::size_t(dimension.z);
     if (mapped->bytes().size() != expected)
-        return badImage(file, fmt::format("{} bytes found, {} x {} x {} = {} expected", mapped->bytes().size(), dimension.x, dimension.y, dimension.z,
-                                          expected));
+        return badImage(file, fmt::format("{} bytes found, {} x {} x {} = {} expected", mapped->bytes().size(),
+                                          dimension.x, dimension.y, dimension.z, expected));
     std::array<bool, 256> isUsed{};
     for (const std::byte byte : mapped->bytes()) isUsed[std::to_integer<std::size_t>(byte)] = true;
     std::array<std::uint8_t, 256> phase{};
     std::size_t count = 0;
     for (std::size_t value = 0; value < 256; ++value)
         if (isUsed[value]) phase[value] = static_cast<std::uint8_t>(count++);
-    if (count > kMostPhases) return badImage(file, fmt::format("{} different values found; {} are possible", count, kMostPhases));
+    if (count > kMostPhases)
+        return badImage(file, fmt::format("{} different values found; {} are possible", count, kMostPhases));
     auto cells = std::make_shared<PatternCells>();
     cells->dimension = dimension;
     cells->phaseCount = static_cast<std::uint32_t>(count);

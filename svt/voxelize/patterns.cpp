@@ -80,7 +80,8 @@ std::uint32_t concrete(Vec3d p, double coarse, std::uint32_t seed) noexcept {
     for (int pass = 0; pass < 2; ++pass) {
         const double cell = pass == 0 ? coarse : coarse * 0.4;
         const double largest = pass == 0 ? 0.42 : 0.30;
-        const auto ci = static_cast<std::int64_t>(std::floor(p.x / cell)), cj = static_cast<std::int64_t>(std::floor(p.y / cell)),
+        const auto ci = static_cast<std::int64_t>(std::floor(p.x / cell)),
+                   cj = static_cast<std::int64_t>(std::floor(p.y / cell)),
                    ck = static_cast<std::int64_t>(std::floor(p.z / cell));
         const std::uint32_t h = hashCell(ci, cj, ck, seed + std::uint32_t(pass));
         const double radius = cell * largest * (0.35 + 0.65 * unit(h));
@@ -108,7 +109,8 @@ std::uint32_t cellPhase(const PatternCells& cells, Vec3d p, Vec3d size) noexcept
     const bool isImage = cells.dimension.z == 1;
     const std::int32_t j = isImage ? index(p.z, size.z, cells.dimension.y) : index(p.y, size.y, cells.dimension.y);
     const std::int32_t k = isImage ? 0 : index(p.z, size.z, cells.dimension.z);
-    return cells.phases[std::size_t(i) + std::size_t(cells.dimension.x) * (std::size_t(j) + std::size_t(cells.dimension.y) * std::size_t(k))];
+    return cells.phases[std::size_t(i) + std::size_t(cells.dimension.x) *
+                                             (std::size_t(j) + std::size_t(cells.dimension.y) * std::size_t(k))];
 }
 
 struct Defaults {
@@ -118,7 +120,7 @@ struct Defaults {
 
 Defaults defaultsOf(PatternKind kind) noexcept {
     switch (kind) {
-        case PatternKind::Brick: return {{0.25, 0.125, 0.0833}, 0.012};      // 24 x 11.5 x 7.1 cm with 1.2 cm joints
+        case PatternKind::Brick: return {{0.25, 0.125, 0.0833}, 0.012};  // 24 x 11.5 x 7.1 cm with 1.2 cm joints
         case PatternKind::Block: return {{0.50, 0.25, 0.25}, 0.010};
         case PatternKind::Hatch: return {{0.12, 0.12, 0.12}, 0.02};
         case PatternKind::Stripes: return {{0.20, 0.20, 0.20}, 0.10};
@@ -156,8 +158,7 @@ std::uint32_t Pattern::phaseCount() const noexcept {
         case PatternKind::None: return 1;
         case PatternKind::Concrete: return 3;
         case PatternKind::Image:
-        case PatternKind::Raw:
-            return cells == nullptr ? 1 : cells->phaseCount;
+        case PatternKind::Raw: return cells == nullptr ? 1 : cells->phaseCount;
         default: return 2;
     }
 }
@@ -190,16 +191,18 @@ Result<Pattern> makePattern(Pattern pattern) {
     for (int axis = 0; axis < 3; ++axis) {
         if (pattern.size[axis] == 0) pattern.size[axis] = defaults.size[axis];
         if (!(pattern.size[axis] >= kSmallest && pattern.size[axis] <= kLargest))
-            return Error(Code::BadPattern, fmt::format("pattern {}: size {} m along {} is out of range; {} to {} m are possible",
-                                                       patternName(pattern.kind), pattern.size[axis], "uvw"[axis], kSmallest, kLargest));
+            return Error(Code::BadPattern,
+                         fmt::format("pattern {}: size {} m along {} is out of range; {} to {} m are possible",
+                                     patternName(pattern.kind), pattern.size[axis], "uvw"[axis], kSmallest, kLargest));
     }
     if (pattern.line == 0) pattern.line = defaults.line;
     if (!(pattern.line >= kSmallest && pattern.line <= kLargest))
         return Error(Code::BadPattern, fmt::format("pattern {}: line {} m is out of range; {} to {} m are possible",
                                                    patternName(pattern.kind), pattern.line, kSmallest, kLargest));
     if (!(std::abs(pattern.angleDegrees) <= 360))
-        return Error(Code::BadPattern, fmt::format("pattern {}: angle {} is out of range; -360 to 360 degrees are possible",
-                                                   patternName(pattern.kind), pattern.angleDegrees));
+        return Error(Code::BadPattern,
+                     fmt::format("pattern {}: angle {} is out of range; -360 to 360 degrees are possible",
+                                 patternName(pattern.kind), pattern.angleDegrees));
     const bool needsCells = pattern.kind == PatternKind::Image || pattern.kind == PatternKind::Raw;
     if (needsCells && pattern.cells == nullptr)
         return Error(Code::BadPattern, fmt::format("pattern {}: needs a file", patternName(pattern.kind)));
@@ -217,7 +220,10 @@ ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
             const double plan = std::sqrt(edge.x * edge.x + edge.y * edge.y);
             if (!(plan > 1e-6) || std::abs(edge.z) > 1e-3 * plan) continue;
             if (edge.y < -1e-9 * plan || (std::abs(edge.y) <= 1e-9 * plan && edge.x < 0)) edge = -edge;
-            const int bin = std::clamp(static_cast<int>(std::lround(std::atan2(edge.y, edge.x) / 3.14159265358979 * kBins)), 0, kBins) % kBins;
+            const int bin =
+                std::clamp(static_cast<int>(std::lround(std::atan2(edge.y, edge.x) / 3.14159265358979 * kBins)), 0,
+                           kBins) %
+                kBins;
             weight[std::size_t(bin)] += plan;
             // Directions just under 180 degrees fall into bin 0 and count as just under 0.
             sum[std::size_t(bin)] = sum[std::size_t(bin)] + (bin == 0 && edge.x < 0 ? -edge : edge);
@@ -235,7 +241,8 @@ ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
     }
     Vec3d low{1e300, 1e300, 1e300};
     for (const Vec3d& vertex : mesh.vertices)
-        for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], dot(vertex, frame.axes[std::size_t(axis)]));
+        for (int axis = 0; axis < 3; ++axis)
+            low[axis] = std::min(low[axis], dot(vertex, frame.axes[std::size_t(axis)]));
     if (!mesh.vertices.empty()) frame.origin = frame.axes[0] * low.x + frame.axes[1] * low.y + frame.axes[2] * low.z;
     return frame;
 }
@@ -249,30 +256,34 @@ volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volu
     return rewriteColumns(
         columns,
         [&](std::int32_t, std::int32_t, const volume::ColumnTile& tile) -> ColumnRewriter {
-            const bool hasPattern =
-                std::any_of(tile.runs.begin(), tile.runs.end(), [&](const volume::Run& run) { return byScalar.count(run.scalar) != 0; });
+            const bool hasPattern = std::any_of(tile.runs.begin(), tile.runs.end(), [&](const volume::Run& run) {
+                return byScalar.count(run.scalar) != 0;
+            });
             if (!hasPattern) return {};
-            return [&](std::int32_t i, std::int32_t j, std::span<const volume::Run> runs, std::vector<volume::Run>& out) {
-                std::uint32_t begin = 0;
-                for (const volume::Run& run : runs) {
-                    const auto found = byScalar.find(run.scalar);
-                    if (found == byScalar.end()) {
-                        out.push_back(run);
-                    } else {
-                        const PatternedObject& object = *found->second;
-                        for (std::uint32_t k = begin; k < run.end; ++k) {
-                            const Vec3d local = grid.worldFromIndex({double(i), double(j), double(k)}) - sceneOrigin - object.frame.origin;
-                            const Vec3d uvw{dot(local, object.frame.axes[0]), dot(local, object.frame.axes[1]), dot(local, object.frame.axes[2])};
-                            const volume::Scalar scalar = object.first + object.pattern.phaseAt(uvw);
-                            if (!out.empty() && out.back().scalar == scalar && out.back().end == k)
-                                out.back().end = k + 1;
-                            else
-                                out.push_back({k + 1, scalar});
+            return
+                [&](std::int32_t i, std::int32_t j, std::span<const volume::Run> runs, std::vector<volume::Run>& out) {
+                    std::uint32_t begin = 0;
+                    for (const volume::Run& run : runs) {
+                        const auto found = byScalar.find(run.scalar);
+                        if (found == byScalar.end()) {
+                            out.push_back(run);
+                        } else {
+                            const PatternedObject& object = *found->second;
+                            for (std::uint32_t k = begin; k < run.end; ++k) {
+                                const Vec3d local = grid.worldFromIndex({double(i), double(j), double(k)}) -
+                                                    sceneOrigin - object.frame.origin;
+                                const Vec3d uvw{dot(local, object.frame.axes[0]), dot(local, object.frame.axes[1]),
+                                                dot(local, object.frame.axes[2])};
+                                const volume::Scalar scalar = object.first + object.pattern.phaseAt(uvw);
+                                if (!out.empty() && out.back().scalar == scalar && out.back().end == k)
+                                    out.back().end = k + 1;
+                                else
+                                    out.push_back({k + 1, scalar});
+                            }
                         }
+                        begin = run.end;
                     }
-                    begin = run.end;
-                }
-            };
+                };
         },
         threads);
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// Spatial patterns: solid textures in metres, laid in an object's own frame, repeated to fill its
-/// envelope and stencilled by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three directions, so
-/// every cut shows them right.
+/// envelope and stencilled by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three
+/// directions, so every cut shows them right.
 
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_scene.hpp>
@@ -48,16 +48,18 @@ struct PatternCells {
 /// A pattern and its measures, metres. u runs along the object's dominant horizontal edge, v across it, w up.
 struct Pattern {
     PatternKind kind = PatternKind::None;
-    Vec3d size{0, 0, 0};        ///< of one unit along u, v, w (brick, block, checker, grid cell, image, raw file); 0: the kind's default
-    double line = 0;            ///< width of joints and lines; 0: the kind's default
-    double angleDegrees = 45;   ///< hatch: from u towards w
-    std::uint32_t seed = 1;     ///< grains, rings
+    Vec3d size{
+        0, 0,
+        0};  ///< of one unit along u, v, w (brick, block, checker, grid cell, image, raw file); 0: the kind's default
+    double line = 0;                            ///< width of joints and lines; 0: the kind's default
+    double angleDegrees = 45;                   ///< hatch: from u towards w
+    std::uint32_t seed = 1;                     ///< grains, rings
     std::shared_ptr<const PatternCells> cells;  ///< image, raw
 
     /// Scalars that an object with this pattern owns: 1 for None.
     [[nodiscard]] std::uint32_t phaseCount() const noexcept;
-    /// Phase at a point of the object's frame (metres from the lower corner of its envelope in that frame), 0 .. phaseCount() - 1.
-    /// The same bits on every machine: no library functions but sqrt and floor.
+    /// Phase at a point of the object's frame (metres from the lower corner of its envelope in that frame), 0 ..
+    /// phaseCount() - 1. The same bits on every machine: no library functions but sqrt and floor.
     [[nodiscard]] std::uint32_t phaseAt(Vec3d uvw) const noexcept;
 };
 
@@ -66,27 +68,32 @@ struct Pattern {
 [[nodiscard]] Result<Pattern> makePattern(Pattern pattern);
 
 /// Reads a PNG as cells; colours are reduced to at most `maxColors` (2..64) by median cut. Limits: 4096 x 4096.
-[[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file, int maxColors = 8);
-/// Reads `dimension` bytes (x fastest); values are numbered in ascending order to at most 64 phases. Limits: 1024 along an axis.
-[[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file, Vec3i dimension);
+[[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file,
+                                                                           int maxColors = 8);
+/// Reads `dimension` bytes (x fastest); values are numbered in ascending order to at most 64 phases. Limits: 1024 along
+/// an axis.
+[[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file,
+                                                                         Vec3i dimension);
 
-/// An object's own frame: u along its dominant horizontal edge direction, w up; origin at the lower corner of its envelope.
+/// An object's own frame: u along its dominant horizontal edge direction, w up; origin at the lower corner of its
+/// envelope.
 struct ObjectFrame {
-    Vec3d origin{};                  ///< local space of the scene
+    Vec3d origin{};  ///< local space of the scene
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 };
 /// The direction that most of the length of horizontal edges has (in steps of one degree, then their mean).
 [[nodiscard]] ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept;
 
 struct PatternedObject {
-    volume::Scalar first = 0;   ///< its range is [first, first + pattern.phaseCount())
+    volume::Scalar first = 0;  ///< its range is [first, first + pattern.phaseCount())
     Pattern pattern;
     ObjectFrame frame;
 };
 
 /// Lays the patterns: a voxel with scalar `first` of a patterned object becomes first + phase at its centre.
 /// Cost: O(voxels of patterned objects).
-[[nodiscard]] volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid, Vec3d sceneOrigin,
-                                               const std::vector<PatternedObject>& objects, int threads);
+[[nodiscard]] volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid,
+                                               Vec3d sceneOrigin, const std::vector<PatternedObject>& objects,
+                                               int threads);
 
 }  // namespace svt::voxelize

@@ -53,7 +53,8 @@ ColumnVolume rewriteColumns(const ColumnVolume& columns, const TileRewriterFacto
             for (std::int32_t y = 0; y < columns.tileHeight(tileY); ++y) {
                 for (std::int32_t x = 0; x < width; ++x) {
                     runs.clear();
-                    const std::size_t entry = std::size_t(tile.rowOf[std::size_t(y)]) * std::size_t(width) + std::size_t(x);
+                    const std::size_t entry =
+                        std::size_t(tile.rowOf[std::size_t(y)]) * std::size_t(width) + std::size_t(x);
                     rewrite(tileX * ColumnVolume::kTileSize + x, tileY * ColumnVolume::kTileSize + y,
                             tile.column(tile.rowColumns[entry]), runs);
                     joinEqualRuns(runs);
@@ -75,13 +76,14 @@ ColumnVolume editVoxels(const ColumnVolume& columns, std::vector<VoxelEdit> edit
         columns,
         [&](std::int32_t tileX, std::int32_t tileY, const ColumnTile&) -> ColumnRewriter {
             const bool isTouched = std::any_of(edits.begin(), edits.end(), [&](const VoxelEdit& edit) {
-                return edit.voxel.x / ColumnVolume::kTileSize == tileX && edit.voxel.y / ColumnVolume::kTileSize == tileY;
+                return edit.voxel.x / ColumnVolume::kTileSize == tileX &&
+                       edit.voxel.y / ColumnVolume::kTileSize == tileY;
             });
             if (!isTouched) return {};
             return [&edits](std::int32_t i, std::int32_t j, std::span<const Run> runs, std::vector<Run>& out) {
-                auto edit = std::lower_bound(edits.begin(), edits.end(), std::tuple(j, i), [](const VoxelEdit& e, const auto& at) {
-                    return std::tuple(e.voxel.y, e.voxel.x) < at;
-                });
+                auto edit = std::lower_bound(
+                    edits.begin(), edits.end(), std::tuple(j, i),
+                    [](const VoxelEdit& e, const auto& at) { return std::tuple(e.voxel.y, e.voxel.x) < at; });
                 for (const Run& run : runs) {
                     for (; edit != edits.end() && edit->voxel.y == j && edit->voxel.x == i &&
                            static_cast<std::uint32_t>(edit->voxel.z) < run.end;

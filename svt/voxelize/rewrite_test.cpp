@@ -14,7 +14,8 @@ using Runs = std::vector<volume::Run>;
 const Vec3i kDimension{131, 70, 9};
 
 std::size_t at(Vec3i v) {
-    return std::size_t(v.x) + std::size_t(kDimension.x) * (std::size_t(v.y) + std::size_t(kDimension.y) * std::size_t(v.z));
+    return std::size_t(v.x) +
+           std::size_t(kDimension.x) * (std::size_t(v.y) + std::size_t(kDimension.y) * std::size_t(v.z));
 }
 
 std::vector<Scalar> randomDense(std::uint32_t seed) {
@@ -46,7 +47,8 @@ TEST(EditVoxels, SetsExactlyTheVoxelsAsked) {
 }
 
 TEST(EditVoxels, ValueThatIsThereKeepsTheVolumeCanonical) {
-    const ColumnVolume before = ColumnVolume::fromDense({2, 2, 4}, {1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2});
+    const ColumnVolume before =
+        ColumnVolume::fromDense({2, 2, 4}, std::vector<Scalar>{1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2});
     EXPECT_TRUE(editVoxels(before, {{{0, 0, 1}, 1}, {{1, 1, 2}, 2}}, 1) == before);
     // The edit joins the runs below and above.
     const auto edited = editVoxels(before, {{{0, 0, 1}, 2}, {{0, 0, 0}, 2}}, 1);
@@ -57,7 +59,8 @@ TEST(EditVoxels, ValueThatIsThereKeepsTheVolumeCanonical) {
 TEST(EditVoxels, VoxelsOutsideAreIgnored) {
     const std::vector<Scalar> dense = randomDense(5);
     const ColumnVolume before = ColumnVolume::fromDense(kDimension, dense);
-    EXPECT_TRUE(editVoxels(before, {{{131, 0, 0}, 9}, {{0, 70, 0}, 9}, {{0, 0, 9}, 9}, {{500, 500, 500}, 9}}, 1) == before);
+    EXPECT_TRUE(editVoxels(before, {{{131, 0, 0}, 9}, {{0, 70, 0}, 9}, {{0, 0, 9}, 9}, {{500, 500, 500}, 9}}, 1) ==
+                before);
 }
 
 TEST(RewriteColumns, EqualNeighboursAreJoinedAndTilesWithoutRewriterStay) {

@@ -8,8 +8,8 @@
 namespace svt::voxelize {
 namespace {
 
-// Steeper planes, in quanta per sample (64 voxels up for one along), take the height from the snapped corners: there the
-// snap matters more than who shares the face, and heights are clamped to the triangle.
+// Steeper planes, in quanta per sample (64 voxels up for one along), take the height from the snapped corners: there
+// the snap matters more than who shares the face, and heights are clamped to the triangle.
 constexpr double kSteepest = 64.0 * double(kQuanta);
 
 // Slopes whose heights over the whole grid would not fit 63 bits.
@@ -27,8 +27,8 @@ Height heightAtSamples(double slopeX, double slopeY, double offset) {
 
 }  // namespace
 
-bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes, const mesh::Plane* plane,
-               ScanTriangle& out) noexcept {
+bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes,
+               const mesh::Plane* plane, ScanTriangle& out) noexcept {
     const QuantaPoint* corner[3] = {&a, &b, &c};
     const auto x = [&](int i) { return (*corner[i])[axes.x]; };
     const auto y = [&](int i) { return (*corner[i])[axes.y]; };
@@ -63,7 +63,8 @@ bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
         const double slopeX = (double(az) * double(by) - double(ay) * double(bz)) / double(area) * double(kQuanta);
         const double slopeY = (double(ax) * double(bz) - double(az) * double(bx)) / double(area) * double(kQuanta);
         const double offset = double(z(0)) - (slopeX * double(x(0)) + slopeY * double(y(0))) / double(kQuanta);
-        // So steep that every sample it crosses lies within the snap of the face: any height between the corners is right.
+        // So steep that every sample it crosses lies within the snap of the face: any height between the corners is
+        // right.
         if (std::abs(slopeX) > kUnstable || std::abs(slopeY) > kUnstable)
             out.height = {((std::int64_t(out.lowest) + out.highest) / 2 * kQuanta) << Height::kBits, 0, 0};
         else

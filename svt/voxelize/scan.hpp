@@ -21,14 +21,14 @@ struct Height {
 
 /// A triangle ready for scan conversion. Corner y ascends.
 struct ScanTriangle {
-    std::int32_t x[3], y[3];         ///< quanta
-    std::int32_t firstRow, endRow;   ///< rows (samples along y) with firstRow <= j < endRow
+    std::int32_t x[3], y[3];        ///< quanta
+    std::int32_t firstRow, endRow;  ///< rows (samples along y) with firstRow <= j < endRow
     std::int32_t firstColumn, endColumn;
-    std::int32_t lowest, highest;    ///< first sample above its lowest and highest corner: heights are clamped to it
+    std::int32_t lowest, highest;  ///< first sample above its lowest and highest corner: heights are clamped to it
     Height height;
-    std::uint32_t claim = 0;         ///< priority order of the claim it bounds
-    std::int8_t sign = 0;            ///< winding change when passing upwards: +1 enters (face looks down), -1 leaves
-    bool isMiddleRight = false;      ///< corner 1 lies right of the edge from corner 0 to corner 2
+    std::uint32_t claim = 0;     ///< priority order of the claim it bounds
+    std::int8_t sign = 0;        ///< winding change when passing upwards: +1 enters (face looks down), -1 leaves
+    bool isMiddleRight = false;  ///< corner 1 lies right of the edge from corner 0 to corner 2
 };
 
 /// First sample strictly above the height at (i, j).
@@ -45,7 +45,8 @@ struct ScanAxes {
     bool isMirrored = false;  ///< an odd permutation
 };
 
-/// Sample lines along x, y and z; where lines run along x or y, rows run along z, so that upright sheets give long runs.
+/// Sample lines along x, y and z; where lines run along x or y, rows run along z, so that upright sheets give long
+/// runs.
 inline constexpr ScanAxes kScanAxes[3] = {{2, 1, 0, true}, {2, 0, 1, false}, {0, 1, 2, false}};
 
 /// Sets up the triangle with corners a, b, c for scanning.
@@ -57,8 +58,8 @@ inline constexpr ScanAxes kScanAxes[3] = {{2, 1, 0, true}, {2, 0, 1, false}, {0,
 /// Calls `body(j, begin, end)` for each row of `t` within [firstRow, endRow) and the samples [begin, end) of it within
 /// [firstColumn, endColumn). Exact: neighbours over an edge share no sample and leave none.
 template <class Body>
-void scanRows(const ScanTriangle& t, std::int32_t firstRow, std::int32_t endRow, std::int32_t firstColumn, std::int32_t endColumn,
-              Body&& body);
+void scanRows(const ScanTriangle& t, std::int32_t firstRow, std::int32_t endRow, std::int32_t firstColumn,
+              std::int32_t endColumn, Body&& body);
 
 /// Crossing of an edge with rising rows, as sample number: the first sample at or right of the edge, stepped exactly.
 class EdgeWalk {
@@ -92,8 +93,8 @@ private:
 };
 
 template <class Body>
-void scanRows(const ScanTriangle& t, std::int32_t firstRow, std::int32_t endRow, std::int32_t firstColumn, std::int32_t endColumn,
-              Body&& body) {
+void scanRows(const ScanTriangle& t, std::int32_t firstRow, std::int32_t endRow, std::int32_t firstColumn,
+              std::int32_t endColumn, Body&& body) {
     firstRow = firstRow > t.firstRow ? firstRow : t.firstRow;
     endRow = endRow < t.endRow ? endRow : t.endRow;
     if (firstRow >= endRow) return;

@@ -26,7 +26,8 @@ std::map<Sample, int> scanned(const QuantaPoint& a, const QuantaPoint& b, const 
     return samples;
 }
 
-// The same by three edge functions at sample (512 i + 1, 512 j + 1); an even vertex makes no zero on axis-parallel edges.
+// The same by three edge functions at sample (512 i + 1, 512 j + 1); an even vertex makes no zero on axis-parallel
+// edges.
 bool isInside(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Sample at, bool& isOnEdge) {
     const std::int64_t x = std::int64_t(at.first) * kQuanta + 1, y = std::int64_t(at.second) * kQuanta + 1;
     const auto side = [&](const QuantaPoint& p, const QuantaPoint& q) {
@@ -58,15 +59,17 @@ TEST(ScanRows, FanAroundAPointCoversEverySampleOnce) {
     // Whatever the point in the middle, also on sample lines and edges through samples.
     std::mt19937_64 random(6);
     std::uniform_int_distribution<int> uniform(100, 256 * 11);
-    const std::vector<QuantaPoint> rim{corner(-10, -10), corner(1500, -200), corner(256 * 12 + 7, 0), corner(256 * 12, 256 * 12),
-                                       corner(700, 256 * 13 + 3), corner(-90, 256 * 11)};
+    const std::vector<QuantaPoint> rim{corner(-10, -10),           corner(1500, -200),        corner(256 * 12 + 7, 0),
+                                       corner(256 * 12, 256 * 12), corner(700, 256 * 13 + 3), corner(-90, 256 * 11)};
     std::map<Sample, int> whole;
     for (int n = 0; n < 200; ++n) {
         const QuantaPoint middle = corner(uniform(random), uniform(random));
         std::map<Sample, int> covered;
         for (std::size_t r = 0; r < rim.size(); ++r)
-            for (const auto& [sample, count] : scanned(middle, rim[r], rim[(r + 1) % rim.size()])) covered[sample] += count;
-        for (const auto& [sample, count] : covered) ASSERT_EQ(count, 1) << n << ": " << sample.first << ' ' << sample.second;
+            for (const auto& [sample, count] : scanned(middle, rim[r], rim[(r + 1) % rim.size()]))
+                covered[sample] += count;
+        for (const auto& [sample, count] : covered)
+            ASSERT_EQ(count, 1) << n << ": " << sample.first << ' ' << sample.second;
         if (n == 0) whole = covered;
         ASSERT_EQ(covered, whole) << n;
     }
@@ -75,8 +78,10 @@ TEST(ScanRows, FanAroundAPointCoversEverySampleOnce) {
 
 TEST(SetUpScan, TriangleThatMeetsNoSampleLineIsNone) {
     ScanTriangle triangle;
-    EXPECT_FALSE(setUpScan(corner(10, 10), corner(200, 10), corner(10, 200), kScanAxes[2], nullptr, triangle));    // between lines
-    EXPECT_FALSE(setUpScan(corner(0, 0), corner(500, 500), corner(1000, 1000), kScanAxes[2], nullptr, triangle));  // upright
+    EXPECT_FALSE(
+        setUpScan(corner(10, 10), corner(200, 10), corner(10, 200), kScanAxes[2], nullptr, triangle));  // between lines
+    EXPECT_FALSE(
+        setUpScan(corner(0, 0), corner(500, 500), corner(1000, 1000), kScanAxes[2], nullptr, triangle));  // upright
 }
 
 TEST(SetUpScan, SignTellsWhichWayTheFaceLooks) {
@@ -98,15 +103,16 @@ TEST(SampleAbove, IsTheFirstSampleOverTheFace) {
     ASSERT_TRUE(setUpScan(corner(0, 0, 640), corner(2000, 0, 640), corner(0, 2000, 640), kScanAxes[2], nullptr, flat));
     EXPECT_TRUE(flat.height.isFlat());
     EXPECT_EQ(sampleAbove(flat, flat.height.base), 3);  // 1280 quanta are 2.5 voxels
-    ScanTriangle slope;  // one voxel up for two along
-    ASSERT_TRUE(setUpScan(corner(0, 0, 0), corner(256 * 20, 0, 256 * 10), corner(0, 256 * 20, 0), kScanAxes[2], nullptr, slope));
+    ScanTriangle slope;                                 // one voxel up for two along
+    ASSERT_TRUE(setUpScan(corner(0, 0, 0), corner(256 * 20, 0, 256 * 10), corner(0, 256 * 20, 0), kScanAxes[2], nullptr,
+                          slope));
     for (std::int32_t i = 1; i < 10; ++i)
         EXPECT_EQ(sampleAbove(slope, slope.height.base + slope.height.slopeX * i), i / 2 + (i % 2 == 0 ? 0 : 1)) << i;
 }
 
 TEST(FirstSampleAbove, EvenCoordinatesMeetNoSample) {
-    EXPECT_EQ(firstSampleAbove(0), 0);     // sample 0 stands at 1
-    EXPECT_EQ(firstSampleAbove(2), 1);     // sample 1 at 513
+    EXPECT_EQ(firstSampleAbove(0), 0);  // sample 0 stands at 1
+    EXPECT_EQ(firstSampleAbove(2), 1);  // sample 1 at 513
     EXPECT_EQ(firstSampleAbove(512), 1);
     EXPECT_EQ(firstSampleAbove(514), 2);
     EXPECT_EQ(firstSampleAbove(-510), 0);

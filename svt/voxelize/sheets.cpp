@@ -13,8 +13,8 @@ namespace {
 std::int32_t along(Vec3i dimension, std::size_t axis) { return dimension[int(axis)]; }
 
 // A stretch of samples [begin, end) along axes.x, in row `row` along axes.y, at sample `at` along axes.z.
-void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at, std::uint32_t claim,
-                std::vector<ClaimedBox>& boxes) {
+void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
+                std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     if (axes.z == 2)
         boxes.push_back({row, begin, end, at, at + 1, claim});
     else if (axes.z == 0)
@@ -26,7 +26,7 @@ void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std:
 // Joins neighbours in a row that lie at the same sample.
 template <class SampleAt>
 void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::uint32_t claim,
-                              std::vector<ClaimedBox>& boxes, SampleAt&& sampleAt) {
+                     std::vector<ClaimedBox>& boxes, SampleAt&& sampleAt) {
     constexpr std::int32_t kNone = -1;
     std::int32_t from = begin, current = kNone;
     for (std::int32_t x = begin; x <= end; ++x) {
@@ -44,7 +44,8 @@ std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, 
     for (const ClaimedBox& box : raw)
         for (std::int32_t i = box.begin; i < box.end; ++i)
             for (std::int32_t k = box.low; k < box.high; ++k)
-                voxels.push_back((std::uint64_t(box.j) * std::uint64_t(dimension.x) + std::uint64_t(i)) * std::uint64_t(dimension.z) +
+                voxels.push_back((std::uint64_t(box.j) * std::uint64_t(dimension.x) + std::uint64_t(i)) *
+                                     std::uint64_t(dimension.z) +
                                  std::uint64_t(k));
     std::sort(voxels.begin(), voxels.end());
     voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
@@ -65,7 +66,8 @@ std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, 
     const std::size_t first = boxes.size();
     for (const ClaimedBox& run : runs) {
         ClaimedBox* last = boxes.size() > first ? &boxes.back() : nullptr;
-        if (last != nullptr && last->j == run.j && last->low == run.low && last->high == run.high && last->end == run.begin)
+        if (last != nullptr && last->j == run.j && last->low == run.low && last->high == run.high &&
+            last->end == run.begin)
             last->end = run.end;
         else
             boxes.push_back(run);
@@ -88,7 +90,8 @@ void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<C
 bool touchesBox(const std::array<Vec3d, 3>& triangle, Vec3d center, double h) {
     const Vec3d v[3] = {triangle[0] - center, triangle[1] - center, triangle[2] - center};
     for (int axis = 0; axis < 3; ++axis)
-        if (std::min({v[0][axis], v[1][axis], v[2][axis]}) > h || std::max({v[0][axis], v[1][axis], v[2][axis]}) < -h) return false;
+        if (std::min({v[0][axis], v[1][axis], v[2][axis]}) > h || std::max({v[0][axis], v[1][axis], v[2][axis]}) < -h)
+            return false;
     const Vec3d edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     const auto isSeparating = [&](Vec3d axis) {
         const double p[3] = {dot(axis, v[0]), dot(axis, v[1]), dot(axis, v[2])};
@@ -97,7 +100,9 @@ bool touchesBox(const std::array<Vec3d, 3>& triangle, Vec3d center, double h) {
     };
     if (isSeparating(cross(edges[0], edges[1]))) return false;
     for (const Vec3d& edge : edges)
-        if (isSeparating({0, -edge.z, edge.y}) || isSeparating({edge.z, 0, -edge.x}) || isSeparating({-edge.y, edge.x, 0})) return false;
+        if (isSeparating({0, -edge.z, edge.y}) || isSeparating({edge.z, 0, -edge.x}) ||
+            isSeparating({-edge.y, edge.x, 0}))
+            return false;
     return true;
 }
 
@@ -107,8 +112,8 @@ void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, s
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         for (const ScanAxes& axes : kScanAxes) {
             ScanTriangle scan;
-            if (!setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]], mesh.points[triangle.corners[2]], axes,
-                           nullptr, scan))
+            if (!setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
+                           mesh.points[triangle.corners[2]], axes, nullptr, scan))
                 continue;
             const std::int32_t behind = scan.sign < 0 ? -1 : 0;  // the face looks up: its back is the sample below
             const std::int32_t count = along(dimension, axes.z);
@@ -141,7 +146,9 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
                 high[axis] = std::max(high[axis], corner[c][axis]);
             }
         }
-        const auto first = [&](int axis) { return std::max(0, static_cast<std::int32_t>(std::ceil(low[axis] - kTouch))); };
+        const auto first = [&](int axis) {
+            return std::max(0, static_cast<std::int32_t>(std::ceil(low[axis] - kTouch)));
+        };
         const auto last = [&](int axis) {
             return std::min(dimension[axis] - 1, static_cast<std::int32_t>(std::floor(high[axis] + kTouch)));
         };
@@ -151,8 +158,10 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
                 std::int32_t k0 = first(2), k1 = last(2);
                 if (std::abs(normal.z) > 1e-9) {
                     // The plane bounds the stretch of the column that can touch.
-                    const double at = corner[0].z - (normal.x * (i - corner[0].x) + normal.y * (j - corner[0].y)) / normal.z;
-                    const double reach = kTouch * (1 + (std::abs(normal.x) + std::abs(normal.y)) / std::abs(normal.z)) + 1e-6;
+                    const double at =
+                        corner[0].z - (normal.x * (i - corner[0].x) + normal.y * (j - corner[0].y)) / normal.z;
+                    const double reach =
+                        kTouch * (1 + (std::abs(normal.x) + std::abs(normal.y)) / std::abs(normal.z)) + 1e-6;
                     k0 = static_cast<std::int32_t>(std::max<double>(k0, std::floor(at - reach)));
                     k1 = static_cast<std::int32_t>(std::min<double>(k1, std::ceil(at + reach)));
                 }
@@ -170,14 +179,15 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
     }
 }
 
-std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension, std::uint32_t claim,
-                           std::vector<ClaimedBox>& boxes) {
+std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
+                           std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     std::vector<ClaimedBox> raw;
     std::set<std::pair<Vec3i, Vec3i>> rodLines;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         if (!std::isfinite(triangle.thickness)) continue;
-        const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]], c = vertices[triangle.corners[2]];
+        const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]],
+                    c = vertices[triangle.corners[2]];
         const Vec3d inward = indexFromLocal.direction(-normalized(cross(b - a, c - a)) * double(triangle.thickness));
         const Vec3d ab = indexFromLocal.direction(b - a), ac = indexFromLocal.direction(c - a);
         const Vec3d normal = cross(ab, ac);
@@ -189,8 +199,8 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
 
         const ScanAxes& axes = kScanAxes[axis];
         ScanTriangle scan;
-        if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]], mesh.points[triangle.corners[2]], axes, nullptr,
-                      scan) &&
+        if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
+                      mesh.points[triangle.corners[2]], axes, nullptr, scan) &&
             scan.sign > 0) {
             // Only faces that look down the axis: those on the other side of the sheet would find the same voxels.
             const auto depth = static_cast<std::int64_t>(std::ldexp(chord * double(kQuanta), Height::kBits));
@@ -201,16 +211,19 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
                          addRowOfSamples(axes, row, begin, end, claim, raw, [&](std::int32_t x) {
                              const std::int64_t entry = base + scan.height.slopeX * x;
                              const std::int64_t one = std::int64_t{1} << Height::kBits;
-                             const auto above = [&](std::int64_t height) { return ((height - one) >> (Height::kBits + kQuantaBits)) + 1; };
+                             const auto above = [&](std::int64_t height) {
+                                 return ((height - one) >> (Height::kBits + kQuantaBits)) + 1;
+                             };
                              if (above(entry) != above(entry + depth)) return -1;
                              const std::int64_t sample = above(entry + depth / 2 - half);
-                             return static_cast<std::int32_t>(sample >= 0 && sample < along(dimension, axes.z) ? sample : -1);
+                             return static_cast<std::int32_t>(sample >= 0 && sample < along(dimension, axes.z) ? sample
+                                                                                                               : -1);
                          });
                      });
         }
-        // A rod: the face itself is narrower than a voxel, so sample lines may pass it by. One line along its longest edge, in
-        // the middle of the material, with one voxel per step of its dominant axis. The faces around a rod all give nearly
-        // the same line; one is enough.
+        // A rod: the face itself is narrower than a voxel, so sample lines may pass it by. One line along its longest
+        // edge, in the middle of the material, with one voxel per step of its dominant axis. The faces around a rod all
+        // give nearly the same line; one is enough.
         const Vec3d points[3] = {a, b, c};
         std::size_t longest = 0;
         double longestLength = 0;

@@ -9,9 +9,9 @@
 
 namespace svt::voxelize {
 
-/// 6-separating sheet: wherever the surface passes between two samples that are neighbours along x, y or z, the one behind
-/// the face gets a voxel. A path of 6-neighbours cannot cross it, and of two sheets on the two sides of one
-/// face each gets its own voxels. Clipped to `dimension`.
+/// 6-separating sheet: wherever the surface passes between two samples that are neighbours along x, y or z, the one
+/// behind the face gets a voxel. A path of 6-neighbours cannot cross it, and of two sheets on the two sides of one face
+/// each gets its own voxels. Clipped to `dimension`.
 void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes);
 
 /// Every voxel whose box the surface touches: separating axis test of triangle and box (Akenine-Moeller 2001).
@@ -21,7 +21,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
 /// of material and no sample in it, the nearest sample gets a voxel; rods thinner than a voxel in two directions
 /// get the voxels along their edges.
 /// \return count of voxels added, before priority
-std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension, std::uint32_t claim,
-                           std::vector<ClaimedBox>& boxes);
+std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
+                           std::uint32_t claim, std::vector<ClaimedBox>& boxes);
 
 }  // namespace svt::voxelize

@@ -65,9 +65,10 @@ inline ObjectMesh ball(Vec3d center, double radius, int slices = 24) {
     mesh.vertices.push_back(center - Vec3d{0, 0, radius});
     for (int s = 1; s < stacks; ++s)
         for (int t = 0; t < slices; ++t) {
-            const double theta = std::numbers::pi * s / stacks - std::numbers::pi / 2, phi = 2 * std::numbers::pi * t / slices;
-            mesh.vertices.push_back(center + Vec3d{radius * std::cos(theta) * std::cos(phi), radius * std::cos(theta) * std::sin(phi),
-                                                   radius * std::sin(theta)});
+            const double theta = std::numbers::pi * s / stacks - std::numbers::pi / 2,
+                         phi = 2 * std::numbers::pi * t / slices;
+            mesh.vertices.push_back(center + Vec3d{radius * std::cos(theta) * std::cos(phi),
+                                                   radius * std::cos(theta) * std::sin(phi), radius * std::sin(theta)});
         }
     mesh.vertices.push_back(center + Vec3d{0, 0, radius});
     const auto at = [&](int s, int t) { return static_cast<std::uint32_t>(1 + (s - 1) * slices + t % slices); };
@@ -113,8 +114,8 @@ inline mesh::MeshScene sceneOf(std::vector<ObjectMesh> objects, Vec3d origin = {
     return scene;
 }
 
-/// Exact point-in-solid: vertices and point are taken to a lattice of 1 nm, the ray is cast in 128-bit integers, and another direction is
-/// taken where it meets an edge. Independent of the voxelizer.
+/// Exact point-in-solid: vertices and point are taken to a lattice of 1 nm, the ray is cast in 128-bit integers, and
+/// another direction is taken where it meets an edge. Independent of the voxelizer.
 class SolidOracle {
 public:
     explicit SolidOracle(const ObjectMesh& mesh) : mesh_(mesh) {
@@ -124,8 +125,8 @@ public:
     /// Winding number > 0.
     [[nodiscard]] bool contains(Vec3d local) const {
         const Point p = lattice(local);
-        for (const Point& step : {Point{1000003, 7919, 104729}, Point{-7919, 1000003, 611953}, Point{104729, -611953, 1000003},
-                                  Point{-999983, -15485863 / 16, 32452843 / 64}}) {
+        for (const Point& step : {Point{1000003, 7919, 104729}, Point{-7919, 1000003, 611953},
+                                  Point{104729, -611953, 1000003}, Point{-999983, -15485863 / 16, 32452843 / 64}}) {
             const Point far{p[0] + step[0] * 100000, p[1] + step[1] * 100000, p[2] + step[2] * 100000};
             int winding = 0;
             bool isDegenerate = false;
@@ -152,8 +153,9 @@ public:
         double nearest = 1e300;
         const auto scale = [&](Vec3d v) { return Vec3d{v.x / spacing.x, v.y / spacing.y, v.z / spacing.z}; };
         for (const mesh::Triangle& t : mesh_.triangles)
-            nearest = std::min(nearest, pointTriangle(scale(local), scale(mesh_.vertices[t.corners[0]]), scale(mesh_.vertices[t.corners[1]]),
-                                                      scale(mesh_.vertices[t.corners[2]])));
+            nearest = std::min(nearest,
+                               pointTriangle(scale(local), scale(mesh_.vertices[t.corners[0]]),
+                                             scale(mesh_.vertices[t.corners[1]]), scale(mesh_.vertices[t.corners[2]])));
         return nearest;
     }
 
@@ -183,8 +185,10 @@ private:
         double nearest = std::min({segment(a, b), segment(b, c), segment(c, a)});
         const Vec3d n = cross(b - a, c - a);
         if (length(n) > 0) {
-            const double side[3] = {dot(cross(b - a, p - a), n), dot(cross(c - b, p - b), n), dot(cross(a - c, p - c), n)};
-            if (side[0] >= 0 && side[1] >= 0 && side[2] >= 0) nearest = std::min(nearest, std::abs(dot(p - a, normalized(n))));
+            const double side[3] = {dot(cross(b - a, p - a), n), dot(cross(c - b, p - b), n),
+                                    dot(cross(a - c, p - c), n)};
+            if (side[0] >= 0 && side[1] >= 0 && side[2] >= 0)
+                nearest = std::min(nearest, std::abs(dot(p - a, normalized(n))));
         }
         return nearest;
     }

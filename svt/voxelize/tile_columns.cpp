@@ -55,8 +55,9 @@ void TileColumns::mergeSpans(std::vector<Span>& spans) {
     for (std::size_t s = 1; s < spans.size(); ++s) {
         Span& last = spans[kept];
         const Span& next = spans[s];
-        if (last.claim == next.claim && last.sign == next.sign && last.flatK == next.flatK && last.slope == next.slope &&
-            last.base == next.base && last.lowest == next.lowest && last.highest == next.highest && last.end == next.begin)
+        if (last.claim == next.claim && last.sign == next.sign && last.flatK == next.flatK &&
+            last.slope == next.slope && last.base == next.base && last.lowest == next.lowest &&
+            last.highest == next.highest && last.end == next.begin)
             last.end = next.end;
         else
             spans[++kept] = next;
@@ -89,7 +90,8 @@ void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
         for (std::size_t a = 0; a + 1 < active_.size(); ++a) {
             if (!input.claims[active_[a]].isSolid) continue;
             for (std::size_t b = a + 1; b < active_.size(); ++b)
-                if (input.claims[active_[b]].isSolid) rowShared_.push_back({active_[a], active_[b], (to - from) * columns});
+                if (input.claims[active_[b]].isSolid)
+                    rowShared_.push_back({active_[a], active_[b], (to - from) * columns});
         }
         from = to;
     };

@@ -3,8 +3,8 @@
 /// One tile of 64 x 64 columns from the crossings of all claims: the sweep that turns signed
 /// crossings into labelled runs, settles overlaps by priority and shares equal columns and rows.
 
-#include <svt/voxelize/scan.hpp>
 #include <svt/volume/column_volume.hpp>
+#include <svt/voxelize/scan.hpp>
 
 #include <cstdint>
 #include <span>
@@ -16,7 +16,7 @@ namespace svt::voxelize {
 struct OrderedClaim {
     volume::Scalar scalar = 0;
     std::uint32_t object = 0;
-    bool isSolid = false;   ///< counts in overlaps; sheets and thin parts do not
+    bool isSolid = false;  ///< counts in overlaps; sheets and thin parts do not
 };
 
 /// Samples [begin, end) along x in row j, [low, high) along z, claimed as a whole (sheets, thin parts, winding fills).
@@ -35,7 +35,7 @@ struct TileInput {
     std::int32_t firstColumn = 0, firstRow = 0, width = 0, height = 0, depth = 0;  ///< samples
     std::span<const ScanTriangle> triangles;
     std::span<const std::uint32_t> triangleIndices;  ///< those that touch the tile
-    std::span<const ClaimedBox> boxes;               ///< those of the tile's rows, by row; may reach over the tile's sides
+    std::span<const ClaimedBox> boxes;  ///< those of the tile's rows, by row; may reach over the tile's sides
     std::span<const OrderedClaim> claims;
 };
 
@@ -48,12 +48,12 @@ public:
 private:
     // A stretch of a row over which one claim's boundary is crossed, at one height or along one plane.
     struct Span {
-        std::int32_t begin, end;      // columns of the tile
+        std::int32_t begin, end;  // columns of the tile
         std::uint32_t claim;
         std::int32_t sign;
-        std::int32_t flatK;           // first sample above, where slope == 0
-        std::int32_t lowest, highest; // clamp of a steep face
-        std::int64_t slope, base;     // Height along the row: base + slope * column
+        std::int32_t flatK;            // first sample above, where slope == 0
+        std::int32_t lowest, highest;  // clamp of a steep face
+        std::int64_t slope, base;      // Height along the row: base + slope * column
         friend bool operator==(const Span&, const Span&) = default;
     };
     struct Crossing {
@@ -69,12 +69,12 @@ private:
 
     std::vector<Span> rows_[volume::ColumnVolume::kTileSize];
     std::vector<Span> spans_, previousSpans_, previousRaw_;
-    std::vector<std::int32_t> heights_;       // of the row's sloped spans, width each
+    std::vector<std::int32_t> heights_;  // of the row's sloped spans, width each
     std::vector<Crossing> crossings_;
     std::vector<volume::Run> runs_;
     std::vector<std::uint16_t> row_;
-    std::vector<std::uint32_t> active_;       // orders with winding > 0, ascending
-    std::vector<std::int32_t> winding_;       // per order
+    std::vector<std::uint32_t> active_;  // orders with winding > 0, ascending
+    std::vector<std::int32_t> winding_;  // per order
     std::vector<SharedCount> rowShared_;
     volume::ColumnTileBuilder* builder_ = nullptr;
 };

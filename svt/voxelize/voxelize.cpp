@@ -36,7 +36,8 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
         entries.push_back({o, false});
         entries.push_back({o, true});
     }
-    // The finer component first; at equal rank what is truly inside before what is only near, then the smaller, then the id.
+    // The finer component first; at equal rank what is truly inside before what is only near, then the smaller, then
+    // the id.
     std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
         const auto key = [&](const Entry& e) {
             return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t>(
@@ -85,7 +86,8 @@ TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, R
     return bins;
 }
 
-void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std::int32_t& tileFirst, std::int32_t& tileEnd) {
+void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std::int32_t& tileFirst,
+               std::int32_t& tileEnd) {
     first = std::clamp(first, 0, dimension);
     end = std::clamp(end, 0, dimension);
     tileFirst = first / ColumnVolume::kTileSize;
@@ -102,8 +104,8 @@ struct Prepared {
 };
 
 void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const mesh::Plane> planes,
-                   const IndexFromLocal& indexFromLocal, const Claims& claims, const VoxelizeOptions& options, std::uint32_t object,
-                   Prepared& out) {
+                   const IndexFromLocal& indexFromLocal, const Claims& claims, const VoxelizeOptions& options,
+                   std::uint32_t object, Prepared& out) {
     const mesh::ObjectMesh& mesh = scene.objects[object];
     out.index = makeIndexMesh(mesh, indexFromLocal);
     if (mesh.closure == mesh::Closure::Surface) {
@@ -121,7 +123,8 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::
         if (!setUpScan(out.index.points[triangle.corners[0]], out.index.points[triangle.corners[1]],
                        out.index.points[triangle.corners[2]], kScanAxes[2], plane, scan))
             continue;
-        if (scan.endRow <= 0 || scan.endColumn <= 0 || scan.firstRow >= dimension.y || scan.firstColumn >= dimension.x) continue;
+        if (scan.endRow <= 0 || scan.endColumn <= 0 || scan.firstRow >= dimension.y || scan.firstColumn >= dimension.x)
+            continue;
         scan.claim = claims.solidOrder[object];
         out.triangles.push_back(scan);
     }
@@ -145,8 +148,9 @@ double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& i
 }
 
 void addPairs(std::vector<SharedCount>& pairs) {
-    std::sort(pairs.begin(), pairs.end(),
-              [](const SharedCount& p, const SharedCount& q) { return std::tie(p.first, p.second) < std::tie(q.first, q.second); });
+    std::sort(pairs.begin(), pairs.end(), [](const SharedCount& p, const SharedCount& q) {
+        return std::tie(p.first, p.second) < std::tie(q.first, q.second);
+    });
     std::size_t kept = 0;
     for (std::size_t i = 1; i < pairs.size(); ++i) {
         if (pairs[kept].first == pairs[i].first && pairs[kept].second == pairs[i].second)
@@ -157,16 +161,20 @@ void addPairs(std::vector<SharedCount>& pairs) {
     if (!pairs.empty()) pairs.resize(kept + 1);
 }
 
-// Objects that lost every voxel get the one nearest to the middle of their first face, if no other object lives by it alone.
-ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
-                          std::span<const ObjectClaim> claims, std::vector<std::uint64_t>& thinVoxels, int threads) {
+// Objects that lost every voxel get the one nearest to the middle of their first face, if no other object lives by it
+// alone.
+ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, const volume::Grid& grid,
+                          const IndexFromLocal& indexFromLocal, std::span<const ObjectClaim> claims,
+                          std::vector<std::uint64_t>& thinVoxels, int threads) {
     volume::Scalar scalarCount = 1;
     for (const ObjectClaim& claim : claims) scalarCount = std::max(scalarCount, claim.scalar + 1);
     // Every run of a tile's dictionary is in use, so a look at the runs tells who is there.
     std::vector<std::uint8_t> isPresent(scalarCount, 0);
     for (const volume::ColumnTile& tile : columns.tiles())
         for (const volume::Run& run : tile.runs) isPresent[run.scalar] = 1;
-    if (std::all_of(claims.begin(), claims.end(), [&](const ObjectClaim& claim) { return isPresent[claim.scalar] != 0; })) return columns;
+    if (std::all_of(claims.begin(), claims.end(),
+                    [&](const ObjectClaim& claim) { return isPresent[claim.scalar] != 0; }))
+        return columns;
     std::vector<std::uint64_t> counts = columns.countVoxels(scalarCount);
     std::vector<VoxelEdit> edits;
     const Vec3i dimension = grid.dimension();
@@ -175,14 +183,17 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
         const mesh::ObjectMesh& mesh = scene.objects[o];
         for (const mesh::Triangle& triangle : mesh.triangles) {
             const Vec3d center = (mesh.vertices[triangle.corners[0]] + mesh.vertices[triangle.corners[1]] +
-                                  mesh.vertices[triangle.corners[2]]) / 3.0;
+                                  mesh.vertices[triangle.corners[2]]) /
+                                 3.0;
             const Vec3d index = indexFromLocal.point(center);
             const Vec3i voxel{static_cast<std::int32_t>(std::lrint(std::clamp(index.x, -1.0, 1e6))),
                               static_cast<std::int32_t>(std::lrint(std::clamp(index.y, -1.0, 1e6))),
                               static_cast<std::int32_t>(std::lrint(std::clamp(index.z, -1.0, 1e6)))};
-            if (voxel.x < 0 || voxel.y < 0 || voxel.z < 0 || voxel.x >= dimension.x || voxel.y >= dimension.y || voxel.z >= dimension.z)
+            if (voxel.x < 0 || voxel.y < 0 || voxel.z < 0 || voxel.x >= dimension.x || voxel.y >= dimension.y ||
+                voxel.z >= dimension.z)
                 continue;
-            const bool isTaken = std::any_of(edits.begin(), edits.end(), [&](const VoxelEdit& edit) { return edit.voxel == voxel; });
+            const bool isTaken =
+                std::any_of(edits.begin(), edits.end(), [&](const VoxelEdit& edit) { return edit.voxel == voxel; });
             const volume::Scalar owner = columns.scalarAt(voxel.x, voxel.y, voxel.z);
             if (isTaken || (owner != 0 && counts[owner] <= 1)) continue;
             if (owner != 0) --counts[owner];
@@ -201,15 +212,17 @@ struct Geometry {
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
 };
 
-Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
-                                const Claims& claims, const VoxelizeOptions& options) {
+Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid,
+                                const IndexFromLocal& indexFromLocal, const Claims& claims,
+                                const VoxelizeOptions& options) {
     std::vector<mesh::Plane> planes(scene.planes.size());
     if (indexFromLocal.keepsVertical())
         for (std::size_t p = 0; p < planes.size(); ++p) planes[p] = indexFromLocal.plane(scene.planes[p]);
     std::vector<Prepared> prepared(scene.objects.size());
     parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o)
-            prepareObject(scene, grid, planes, indexFromLocal, claims, options, static_cast<std::uint32_t>(o), prepared[o]);
+            prepareObject(scene, grid, planes, indexFromLocal, claims, options, static_cast<std::uint32_t>(o),
+                          prepared[o]);
     });
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
         if (scene.objects[o].closure != mesh::Closure::Open) continue;
@@ -268,10 +281,11 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
             tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
             tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
         });
-    const TileBins boxBins = fillBins(boxes.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
-        tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
-        tileRange(boxes[n].j, boxes[n].j + 1, dimension.y, y0, y1);
-    });
+    const TileBins boxBins =
+        fillBins(boxes.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+            tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
+            tileRange(boxes[n].j, boxes[n].j + 1, dimension.y, y0, y1);
+        });
 
     const std::size_t tileCount = std::size_t(tilesX) * std::size_t(tilesY);
     Tiles result;
@@ -307,15 +321,17 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
 
 }  // namespace
 
-Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const ObjectClaim> claims,
-                                const VoxelizeOptions& options) {
+Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid,
+                                std::span<const ObjectClaim> claims, const VoxelizeOptions& options) {
     SVT_CHECK(claims.size() == scene.objects.size());
     Progress::tell(options.progress, "voxelize", 0);
     const IndexFromLocal indexFromLocal(scene, grid);
     constexpr double kMostSheetVoxels = 5e8;
     if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMostSheetVoxels)
-        return Error(Code::GridTooLarge, fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
-                                                     "choose a coarser spacing", sheets, kMostSheetVoxels));
+        return Error(Code::GridTooLarge,
+                     fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
+                                 "choose a coarser spacing",
+                                 sheets, kMostSheetVoxels));
     const Claims ordered = orderClaims(scene, claims);
     auto geometry = prepareObjects(scene, grid, indexFromLocal, ordered, options);
     if (!geometry) return geometry.error();
@@ -326,11 +342,12 @@ Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid
     result.thinVoxels = std::move(geometry->thinVoxels);
     result.uncertainVoxels = std::move(geometry->uncertainVoxels);
     for (const SharedCount& pair : swept.shared)
-        result.overlaps.push_back({ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
+        result.overlaps.push_back(
+            {ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
     std::sort(result.overlaps.begin(), result.overlaps.end(),
               [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
-    result.columns = keepVanished(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), scene, grid, indexFromLocal, claims,
-                                  result.thinVoxels, options.threads);
+    result.columns = keepVanished(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), scene, grid,
+                                  indexFromLocal, claims, result.thinVoxels, options.threads);
     Progress::tell(options.progress, "voxelize", 1);
     return result;
 }

@@ -3,8 +3,8 @@
 /// Meshes to the canonical label volume. Never dense on the way: every column is made as runs, equal columns and
 /// rows are shared as they come.
 ///
-/// Exactness. In index space vertices are snapped to even multiples of 1/512 voxel and samples stand 1/512 voxel off them
-/// along each axis, so no vertex and no axis-parallel edge or face ever meets a sample. What remains is decided in
+/// Exactness. In index space vertices are snapped to even multiples of 1/512 voxel and samples stand 1/512 voxel off
+/// them along each axis, so no vertex and no axis-parallel edge or face ever meets a sample. What remains is decided in
 /// 64-bit integers with half-open rules, and heights come from planes that all objects share:
 /// a voxel is inside exactly when its centre is, save for centres within 1/256 voxel of a face, and solids that share
 /// a face never both claim a voxel there and never leave one between them.
@@ -24,9 +24,9 @@ namespace svt::voxelize {
 
 /// What the voxelizer must know of an object beside its mesh.
 struct ObjectClaim {
-    volume::Scalar scalar = 0;   ///< written to its voxels, > 0
-    std::uint8_t rank = 0;       ///< who wins where objects overlap: the lower rank, then the smaller volume, then the id
-    std::string id;              ///< last tie-break
+    volume::Scalar scalar = 0;  ///< written to its voxels, > 0
+    std::uint8_t rank = 0;  ///< who wins where objects overlap: the lower rank, then the smaller volume, then the id
+    std::string id;         ///< last tie-break
 };
 
 enum class SheetMode : std::uint8_t {
@@ -50,7 +50,8 @@ struct ClaimPair {
 
 struct VoxelizeResult {
     volume::ColumnVolume columns;
-    std::vector<std::uint64_t> thinVoxels;       ///< per object: voxels claimed by the pass for thin parts alone, before priority
+    std::vector<std::uint64_t>
+        thinVoxels;  ///< per object: voxels claimed by the pass for thin parts alone, before priority
     std::vector<std::uint64_t> uncertainVoxels;  ///< per object: decided by a winding number between 0.25 and 0.75
     std::vector<ClaimPair> overlaps;             ///< ordered by (a, b); between solids only
 };
@@ -58,8 +59,8 @@ struct VoxelizeResult {
 /// Voxelizes all objects of `scene` into one volume.
 ///
 /// Solids by signed crossings along z (inside = winding number > 0), open shells with solid meaning by the generalized
-/// winding number (Jacobson 2013, evaluated after Martens & Bessmeltsev 2025), other surfaces as sheets. Every object with
-/// geometry gets at least one voxel.
+/// winding number (Jacobson 2013, evaluated after Martens & Bessmeltsev 2025), other surfaces as sheets. Every object
+/// with geometry gets at least one voxel.
 ///
 /// \param claims  one per scene.objects, same order
 /// \param grid    its world box need not hold all objects; what is outside is cut away

@@ -27,7 +27,8 @@ Grid gridWith(Vec3d origin, Vec3d spacing, Vec3i dimension) {
 
 std::vector<ObjectClaim> claimsFor(const mesh::MeshScene& scene, std::uint8_t rank = 3) {
     std::vector<ObjectClaim> claims;
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) claims.push_back({o + 1, rank, "object" + std::to_string(o)});
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o)
+        claims.push_back({o + 1, rank, "object" + std::to_string(o)});
     return claims;
 }
 
@@ -52,7 +53,8 @@ TEST(Voxelize, BoxHasExactlyTheSamplesInside) {
             for (int j = 0; j < 61; ++j)
                 for (int i = 0; i < 37; ++i) {
                     const Vec3d at = grid.worldFromIndex({double(i), double(j), double(k)}) - origin;
-                    const bool isInside = at.x > 0.3 && at.x < 2.75 && at.y > 0.4 && at.y < 3.1 && at.z > 0.5 && at.z < 1.9;
+                    const bool isInside =
+                        at.x > 0.3 && at.x < 2.75 && at.y > 0.4 && at.y < 3.1 && at.z > 0.5 && at.z < 1.9;
                     expected += isInside;
                     ASSERT_EQ(result->columns.scalarAt(i, j, k) != 0, isInside) << i << ' ' << j << ' ' << k;
                 }
@@ -86,7 +88,8 @@ TEST(Voxelize, ObliqueFaceSharedWithOtherTriangulationLeavesNoGap) {
     // Two wedges that make a box; the shared slanted face is cut along different diagonals.
     const auto wedge = [](bool isLower, bool otherDiagonal) {
         mesh::ObjectMesh mesh;
-        mesh.vertices = {{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}, {0, 0, 1.3}, {3, 0, 1.3}, {3, 2, 1.3}, {0, 2, 1.3}};
+        mesh.vertices = {{0, 0, 0},   {3, 0, 0},   {3, 2, 0},   {0, 2, 0},
+                         {0, 0, 1.3}, {3, 0, 1.3}, {3, 2, 1.3}, {0, 2, 1.3}};
         const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, bool other) {
             if (other) {
                 test::addTriangle(mesh, b, c, d);
@@ -150,7 +153,8 @@ TEST(Voxelize, ExactOracleAgreesOnRandomAndNearFaceSamples) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (const Vec3d origin : {Vec3d{0, 0, 0}, Vec3d{458877.123, 5438353.777, 111.6}}) {
-        std::vector<mesh::ObjectMesh> solids{ball({1.1, 1.3, 0.9}, 0.83), test::turnedBox({2.1, 0.2, 0.1}, {3.7, 1.9, 1.4}, 31),
+        std::vector<mesh::ObjectMesh> solids{ball({1.1, 1.3, 0.9}, 0.83),
+                                             test::turnedBox({2.1, 0.2, 0.1}, {3.7, 1.9, 1.4}, 31),
                                              test::prism({{0.2, 2.3}, {1.9, 2.2}, {2.6, 3.3}, {1.0, 3.9}}, 0.15, 1.73)};
         const auto scene = sceneOf(solids, origin);
         const Grid grid = gridOver(scene, {83, 91, 67});
@@ -183,7 +187,8 @@ TEST(Voxelize, ExactOracleAgreesOnRandomAndNearFaceSamples) {
 }
 
 TEST(Voxelize, FinerComponentWinsAndTheOverlapIsCounted) {
-    const auto scene = sceneOf({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3}), box({1.5, 1.5, 1.5}, {1.9, 1.9, 1.9})});
+    const auto scene =
+        sceneOf({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3}), box({1.5, 1.5, 1.5}, {1.9, 1.9, 1.9})});
     const Grid grid = gridWith({-0.05, -0.05, -0.05}, {0.1, 0.1, 0.1}, {33, 33, 33});
     const std::vector<ObjectClaim> claims{{1, 4, "room"}, {2, 3, "wall"}, {3, 0, "table"}};
     const auto result = voxelize(scene, grid, claims, solidsOnly());
@@ -212,7 +217,8 @@ TEST(Voxelize, SameBytesForAnyNumberOfThreads) {
 
 TEST(Voxelize, PaneThinnerThanAVoxelStaysWhole) {
     // A pane of 5 mm turned by 30 degrees in voxels of 20 mm: a flood from one side must not reach the other.
-    const auto scene = sceneOf({test::turnedBox({-1, -0.0025, 0}, {1, 0.0025, 1}, 30), box({-1.2, -1.2, -0.1}, {1.2, 1.2, -0.05})});
+    const auto scene =
+        sceneOf({test::turnedBox({-1, -0.0025, 0}, {1, 0.0025, 1}, 30), box({-1.2, -1.2, -0.1}, {1.2, 1.2, -0.05})});
     const Grid grid = gridOver(scene, {121, 121, 56});
     const auto result = voxelize(scene, grid, claimsFor(scene));
     ASSERT_TRUE(result);
@@ -259,7 +265,8 @@ TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
 
 TEST(Voxelize, NoObjectWithGeometryEndsWithZeroVoxels) {
     // A grain, and one of two equal boxes that the other one covers.
-    const auto scene = sceneOf({box({0.5, 0.5, 0.5}, {0.5001, 0.5001, 0.5001}), box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1})});
+    const auto scene =
+        sceneOf({box({0.5, 0.5, 0.5}, {0.5001, 0.5001, 0.5001}), box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1})});
     const auto result = voxelize(scene, gridOver(scene, {20, 20, 20}), claimsFor(scene));
     ASSERT_TRUE(result);
     for (volume::Scalar s = 1; s <= 3; ++s) EXPECT_GT(countOf(*result, s), 0u) << s;
@@ -275,7 +282,8 @@ mesh::ObjectMesh sheet(std::vector<Vec3d> quad) {
 }
 
 TEST(Voxelize, ThinSheetSeparatesSixNeighboursEverywhere) {
-    // Slanted in all directions, reaching out of the grid: from one corner no path of face neighbours leads to the opposite one.
+    // Slanted in all directions, reaching out of the grid: from one corner no path of face neighbours leads to the
+    // opposite one.
     const auto scene = sceneOf({sheet({{-2, -2, 3.9}, {4, -2, 1.9}, {4, 4, -2.1}, {-2, 4, -0.1}})});
     const Grid grid = gridWith({0, 0, 0}, {0.05, 0.05, 0.05}, {41, 37, 43});
     const auto result = voxelize(scene, grid, claimsFor(scene));
@@ -345,9 +353,11 @@ TEST(Voxelize, OpenShellIsFilledLikeItsWindingNumber) {
     for (int k = 0; k < 39; ++k)
         for (int j = 0; j < 43; ++j)
             for (int i = 0; i < 41; ++i) {
-                const double w = windingNumber(scene.objects[0], grid.worldFromIndex({i + 1 / 512.0, j + 1 / 512.0, k + 1 / 512.0}));
+                const double w =
+                    windingNumber(scene.objects[0], grid.worldFromIndex({i + 1 / 512.0, j + 1 / 512.0, k + 1 / 512.0}));
                 if (std::abs(w - 0.5) < 0.02) continue;
-                if (SolidOracle(scene.objects[0]).distance(grid.worldFromIndex({double(i), double(j), double(k)}), grid.spacing()) < 1.0 / 128)
+                if (SolidOracle(scene.objects[0])
+                        .distance(grid.worldFromIndex({double(i), double(j), double(k)}), grid.spacing()) < 1.0 / 128)
                     continue;
                 ASSERT_EQ(result->columns.scalarAt(i, j, k) != 0, w > 0.5) << i << ' ' << j << ' ' << k << ' ' << w;
                 inside += w > 0.5;
@@ -364,10 +374,10 @@ TEST(Voxelize, TurnedGridGivesTheVolumeOfTheStraightModel) {
         for (Vec3d& v : object.vertices) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
     turned = sceneOf(turned.objects);
     const Grid grid = gridWith({-0.013, -0.017, -0.011}, {0.051, 0.049, 0.05}, {93, 67, 44});
-    const Grid turnedGrid = *Grid::fromParts(grid.dimension(), grid.spacing(),
-                                             Vec3d{c * grid.origin().x - s * grid.origin().y, s * grid.origin().x + c * grid.origin().y,
-                                                   grid.origin().z},
-                                             {Vec3d{c, s, 0}, Vec3d{-s, c, 0}, Vec3d{0, 0, 1}});
+    const Grid turnedGrid = *Grid::fromParts(
+        grid.dimension(), grid.spacing(),
+        Vec3d{c * grid.origin().x - s * grid.origin().y, s * grid.origin().x + c * grid.origin().y, grid.origin().z},
+        {Vec3d{c, s, 0}, Vec3d{-s, c, 0}, Vec3d{0, 0, 1}});
     const auto a = voxelize(straight, grid, claimsFor(straight));
     const auto b = voxelize(turned, turnedGrid, claimsFor(turned));
     ASSERT_TRUE(a && b);

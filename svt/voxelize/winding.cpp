@@ -49,13 +49,14 @@ struct Crossing {
 double windingNumber(const mesh::ObjectMesh& mesh, Vec3d point) noexcept {
     double sum = 0;
     for (const mesh::Triangle& triangle : mesh.triangles)
-        sum += solidAngle(normalized(mesh.vertices[triangle.corners[0]] - point), normalized(mesh.vertices[triangle.corners[1]] - point),
+        sum += solidAngle(normalized(mesh.vertices[triangle.corners[0]] - point),
+                          normalized(mesh.vertices[triangle.corners[1]] - point),
                           normalized(mesh.vertices[triangle.corners[2]] - point));
     return sum / (4 * kPi);
 }
 
-std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene, const volume::Grid& grid, std::uint32_t claim,
-                             int threads, std::vector<ClaimedBox>& boxes) {
+std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene, const volume::Grid& grid,
+                             std::uint32_t claim, int threads, std::vector<ClaimedBox>& boxes) {
     const Vec3i dimension = grid.dimension();
     QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
     for (const QuantaPoint& point : mesh.points)
@@ -65,12 +66,15 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
         }
     // Outside the hull the winding number stays below 1/2.
     const auto first = [&](std::size_t axis) {
-        return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(low[axis])), 0, dimension[int(axis)]);
+        return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(low[axis])), 0,
+                                        dimension[int(axis)]);
     };
     const auto end = [&](std::size_t axis) {
-        return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(high[axis])), 0, dimension[int(axis)]);
+        return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(high[axis])), 0,
+                                        dimension[int(axis)]);
     };
-    const std::int32_t firstI = first(0), endI = end(0), firstJ = first(1), endJ = end(1), firstK = first(2), endK = end(2);
+    const std::int32_t firstI = first(0), endI = end(0), firstJ = first(1), endJ = end(1), firstK = first(2),
+                       endK = end(2);
     if (firstI >= endI || firstJ >= endJ || firstK >= endK) return 0;
 
     Rim rim;
@@ -81,8 +85,8 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
     std::vector<ScanTriangle> triangles;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         ScanTriangle scan;
-        if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]], mesh.points[triangle.corners[2]], kScanAxes[2],
-                      nullptr, scan))
+        if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
+                      mesh.points[triangle.corners[2]], kScanAxes[2], nullptr, scan))
             triangles.push_back(scan);
     }
 
@@ -98,7 +102,8 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
             for (const ScanTriangle& t : triangles)
                 scanRows(t, j, j + 1, firstI, endI, [&](std::int32_t, std::int32_t from, std::int32_t to) {
                     for (std::int32_t i = from; i < to; ++i)
-                        crossings.push_back({i, sampleAbove(t, t.height.base + t.height.slopeX * i + t.height.slopeY * j), -t.sign});
+                        crossings.push_back(
+                            {i, sampleAbove(t, t.height.base + t.height.slopeX * i + t.height.slopeY * j), -t.sign});
                 });
             std::sort(crossings.begin(), crossings.end(),
                       [](const Crossing& p, const Crossing& q) { return std::tie(p.i, p.k) < std::tie(q.i, q.k); });
@@ -115,8 +120,8 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
                     double nearest = 0;
                     const double w = above - rim.curtains(grid.worldFromIndex(at) - scene.origin, nearest);
                     const bool isInside = w >= 0.5;
-                    const double reach =
-                        std::min(nearest / 2, std::abs(w - 0.5) * kPi * nearest * nearest / std::max(rim.totalLength, 1e-300));
+                    const double reach = std::min(
+                        nearest / 2, std::abs(w - 0.5) * kPi * nearest * nearest / std::max(rim.totalLength, 1e-300));
                     std::int32_t next = k + 1 + static_cast<std::int32_t>(std::min(reach / step, 1e6));
                     next = std::min(next, c < cEnd ? std::max(crossings[c].k, k + 1) : endK);
                     next = std::min(next, endK);

@@ -13,7 +13,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-constexpr int kUsage = 2, kInput = 3, kInvalid = 4, kOutput = 5, kLimit = 8;
+constexpr int kUsage = 2, kInput = 3, kInvalid = 4, kLimit = 8;
 
 struct BadInput {
     const char* name;                    ///< of the test
@@ -259,6 +259,12 @@ const std::vector<BadInput> kGeometry{
          return cityModel(building("b", solid(f)));
      },
      kCheck, kInvalid, "E209 ShellCapped: bad\\.gml:[0-9]+ \\(id 'b'\\): 4 edges"},
+    {"MovedCorner", "a corner of the roof that is 4 cm away from that of the walls", "bad.gml",
+     [] {
+         return withRoof(
+             "500000 5400000 103 500004 5400000 103 500004 5400006.04 103 500000 5400006 103 500000 5400000 103");
+     },
+     kCheck, kInvalid, "E209 ShellCapped: bad\\.gml:[0-9]+ \\(id 'b'\\): .*leak"},
     {"EmptySolid", "a solid without faces", "bad.gml", [] { return cityModel(building("b", solid({}))); }, kBuild,
      kInput, "E(109|213)"},
     {"MixedDimensions", "a ring of two coordinates per point among others of three", "bad.gml",

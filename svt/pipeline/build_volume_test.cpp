@@ -1,0 +1,313 @@
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/mesh/models_test.hpp>
+#include <svt/pipeline/build_volume.hpp>
+#include <svt/samples/sample.hpp>
+#include <svt/volume/volume_json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace svt::pipeline {
+namespace {
+
+using model::FeatureIndex;
+using test::addBoxFeature;
+using test::addFeature;
+using volume::Label;
+
+BuildOutput build(model::BuildingModel model, const BuildOptions& options = {}, Diagnostics* log = nullptr) {
+    auto output = buildVolume(model, options, log);
+    EXPECT_TRUE(output) << output.error().toString();
+    if (!output) return {};
+    EXPECT_TRUE(volume::checkLabels(output->volume.labels));
+    return *output;
+}
+
+const Label& labelOf(const BuildOutput& output, const std::string& id) {
+    for (const Label& label : output.volume.labels.labels)
+        if (label.id == id) return label;
+    ADD_FAILURE() << "no label " << id;
+    static const Label none;
+    return none;
+}
+
+BuildOptions withSpacing(double spacing) {
+    BuildOptions options;
+    options.spacing = Vec3d{spacing, spacing, spacing};
+    return options;
+}
+
+// A building of 6 x 5 x 3 m with one room and the surfaces of both.
+model::BuildingModel thematicHouse() {
+    model::BuildingModel model;
+    const Vec3d low{0, 0, 0}, high{6, 5, 3}, roomLow{0.4, 0.4, 0.4}, roomHigh{5.6, 4.6, 2.6};
+    const FeatureIndex house = addBoxFeature(model, "Building", "house", low, high);
+    const char* const outer[6] = {"GroundSurface", "RoofSurface", "WallSurface", "WallSurface", "WallSurface", "WallSurface"};
+    for (int side = 0; side < 6; ++side)
+        addFeature(model, outer[side], "outer-" + std::to_string(side), house,
+                   {test::surfaceOf({{test::addRings(model, {test::boxRing(low, high, side)}), false}})});
+    const FeatureIndex room = addBoxFeature(model, "BuildingRoom", "room", roomLow, roomHigh, house);
+    const char* const inner[6] = {"FloorSurface",        "CeilingSurface",      "InteriorWallSurface",
+                                  "InteriorWallSurface", "InteriorWallSurface", "InteriorWallSurface"};
+    for (int side = 0; side < 6; ++side) {
+        test::Ring ring = test::boxRing(roomLow, roomHigh, side);
+        std::reverse(ring.begin(), ring.end());  // seen from the material
+        addFeature(model, inner[side], "inner-" + std::to_string(side), room, {test::surfaceOf({{test::addRings(model, {ring}), false}})});
+    }
+    return model;
+}
+
+TEST(BuildVolume, BoxHasItsVoxelsAndFigures) {
+    model::BuildingModel model;
+    model.source = "folder/house.gml";
+    model.name = "House";
+    model.crs.name = "EPSG:25832";
+    addBoxFeature(model, "Building", "house", {0, 0, 0}, {4, 3, 2});
+    const BuildOutput output = build(model, withSpacing(0.1));
+    const Label& house = labelOf(output, "house");
+    EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{41, 31, 21}));
+    // The last samples along each axis stand on the envelope and the first ones too: one of the two belongs to the box.
+    EXPECT_EQ(house.voxels, 40u * 30 * 20);
+    EXPECT_NEAR(double(house.voxels) * output.volume.grid.voxelVolume(), house.volume, 1e-9);
+    EXPECT_EQ(output.report.objects, 1u);
+    EXPECT_EQ(output.report.triangles, 12u);
+    EXPECT_EQ(output.report.open, 0u);
+    EXPECT_EQ(output.volume.source, "house.gml");
+    EXPECT_EQ(output.volume.modelName, "House");
+    EXPECT_EQ(output.volume.crsName, "EPSG:25832");
+}
+
+TEST(BuildVolume, CapsAreLabelsWithoutVoxels) {
+    model::BuildingModel model;
+    addFeature(model, "BuildingRoom", "room", model::kNoFeature,
+               {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop}))});
+    Diagnostics log;
+    const BuildOutput output = build(model, withSpacing(0.1), &log);
+    const Label& cap = labelOf(output, "room_cap_1");
+    EXPECT_EQ(cap.className, "ClosureSurface");
+    EXPECT_EQ(cap.count, 0u);
+    EXPECT_EQ(cap.voxels, 0u);
+    EXPECT_NEAR(std::get<double>(cap.attributes.back().value), 12, 1e-12);
+    EXPECT_EQ(labelOf(output, "room").voxels, 24000u);
+    EXPECT_EQ(labelOf(output, "room").filling, volume::Filling::Capped);
+    EXPECT_EQ(output.report.open, 1u);
+    EXPECT_EQ(log.count(Code::ShellCapped), 1u);
+}
+
+TEST(BuildVolume, OverlapsTellNestedFromConflicting) {
+    model::BuildingModel model;
+    const FeatureIndex house = addBoxFeature(model, "Building", "house", {0, 0, 0}, {8, 4, 4});
+    const FeatureIndex room = addBoxFeature(model, "BuildingRoom", "room", {1, 1, 1}, {4, 3, 3}, house);
+    addBoxFeature(model, "BuildingFurniture", "table", {2, 1.5, 1}, {3, 2.5, 2}, room);
+    addBoxFeature(model, "BuildingRoom", "rival", {3.5, 1, 1}, {6, 3, 3}, house);
+    const FeatureIndex unit = addBoxFeature(model, "BuildingUnit", "flat", {0.5, 0.5, 0.5}, {4.5, 3.5, 3.5}, house);
+    model.memberships.push_back({unit, room, ""});
+    const BuildOutput output = build(model, withSpacing(0.1));
+    std::map<std::pair<std::string, std::string>, std::pair<std::uint64_t, bool>> found;
+    const auto& labels = output.volume.labels.labels;
+    for (const volume::Overlap& overlap : output.volume.labels.overlaps)
+        found[{labels[overlap.a].id, labels[overlap.b].id}] = {overlap.voxels, overlap.isNested};
+    using Entry = std::pair<std::uint64_t, bool>;
+    EXPECT_EQ((found[{"room", "house"}]), (Entry{30 * 20 * 20, true}));
+    EXPECT_EQ((found[{"table", "room"}]), (Entry{1000, true}));
+    EXPECT_EQ((found[{"room", "flat"}]), (Entry{30 * 20 * 20, true}));   // a member
+    EXPECT_EQ((found[{"table", "flat"}]), (Entry{1000, true}));          // below a member
+    EXPECT_EQ((found[{"rival", "room"}]), (Entry{5 * 20 * 20, false}));   // the smaller room wins
+    EXPECT_EQ((found[{"rival", "flat"}]), (Entry{10 * 20 * 20, false}));  // rooms come before flats
+    EXPECT_TRUE(std::is_sorted(output.volume.labels.overlaps.begin(), output.volume.labels.overlaps.end(),
+                               [](const auto& p, const auto& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); }));
+}
+
+TEST(BuildVolume, GridByDimensionSpacingOrLongestSide) {
+    model::BuildingModel model;
+    addBoxFeature(model, "Building", "house", {100, 200, 10}, {108, 204, 12});
+    BuildOptions options;
+    EXPECT_EQ(build(model, options).volume.grid.dimension().x, BuildOptions::kDefaultSamples);
+    EXPECT_NEAR(build(model, options).volume.grid.spacing().y, 8.0 / 399, 1e-12);
+    options.spacing = Vec3d{0.5, 0.25, 0.125};
+    EXPECT_EQ(build(model, options).volume.grid.dimension(), (Vec3i{17, 17, 17}));
+    options.dimension = Vec3i{5, 6, 7};  // stronger than spacing
+    const BuildOutput output = build(model, options);
+    EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{5, 6, 7}));
+    EXPECT_EQ(output.volume.grid.origin(), (Vec3d{100, 200, 10}));
+    options.dimension = Vec3i{1, 6, 7};
+    EXPECT_EQ(buildVolume(model, options).error().code(), Code::BadDimension);
+}
+
+TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
+    // A box of 8 x 4 m turned by 30 degrees: in its own frame it fills the grid.
+    const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
+    const Vec3d world{458877, 5438353, 100};
+    model::BuildingModel model;
+    addBoxFeature(model, "Building", "house", {0, 0, 0}, {8, 4, 2});
+    for (model::Polygon& polygon : model.polygons)
+        for (Vec3d& p : polygon.points) p = Vec3d{c * p.x - s * p.y, s * p.x + c * p.y, p.z} + world;
+    BuildOptions options = withSpacing(0.1);
+    const BuildOutput straight = build(model, options);
+    options.frame = FrameKind::Building;
+    const BuildOutput turned = build(model, options);
+    EXPECT_TRUE(straight.volume.grid.isAxisParallel());
+    EXPECT_FALSE(turned.volume.grid.isAxisParallel());
+    const Vec3i n = turned.volume.grid.dimension();
+    EXPECT_EQ(std::max(n.x, n.y), 81);
+    EXPECT_EQ(std::min(n.x, n.y), 41);
+    EXPECT_EQ(labelOf(turned, "house").voxels, 80u * 40 * 20);
+    EXPECT_NEAR(double(labelOf(straight, "house").voxels), 80.0 * 40 * 20, 640);
+    EXPECT_LT(turned.volume.grid.sampleCount(), straight.volume.grid.sampleCount());
+}
+
+TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
+    BuildOptions options = withSpacing(0.037);  // no layer of samples in the middle of a wall
+    const BuildOutput given = build(thematicHouse(), options);
+    options.giveThematicBodies = false;
+    const BuildOutput kept = build(thematicHouse(), options);
+    const auto solidVoxels = [](const BuildOutput& output) {
+        std::uint64_t sum = labelOf(output, "house").voxels;
+        for (int side = 0; side < 6; ++side)
+            sum += labelOf(output, "outer-" + std::to_string(side)).voxels + labelOf(output, "inner-" + std::to_string(side)).voxels;
+        return sum;
+    };
+    EXPECT_EQ(labelOf(given, "house").voxels, 0u);
+    EXPECT_GT(labelOf(kept, "house").voxels, 0u);
+    EXPECT_EQ(solidVoxels(given), solidVoxels(kept));
+    EXPECT_EQ(labelOf(given, "room").voxels, labelOf(kept, "room").voxels);
+    for (int side = 0; side < 6; ++side) {
+        const Label& body = labelOf(given, "outer-" + std::to_string(side));
+        EXPECT_EQ(body.filling, volume::Filling::Body);
+        EXPECT_NEAR(body.volume, double(body.voxels) * given.volume.grid.voxelVolume(), 1e-9);
+        const Label& sheet = labelOf(kept, "outer-" + std::to_string(side));
+        EXPECT_EQ(sheet.filling, volume::Filling::Surface);
+        EXPECT_EQ(sheet.volume, 0);
+        EXPECT_GT(body.voxels, sheet.voxels);
+    }
+    // The outer half of the ground slab, mitred at the walls: the integral of (6 - 2 d) (5 - 2 d) over d = 0 .. 0.2.
+    EXPECT_NEAR(labelOf(given, "outer-0").volume, 5.5707, 30 * 0.037 / 2);
+}
+
+TEST(BuildVolume, PatternsSplitScalarsAndKeepTheVoxels) {
+    BuildOptions options = withSpacing(0.05);
+    const BuildOutput plain = build(thematicHouse(), options);
+    options.usePatterns = true;
+    const BuildOutput patterned = build(thematicHouse(), options);
+    EXPECT_EQ(labelOf(plain, "outer-2").count, 1u);
+    EXPECT_TRUE(plain.volume.labels.phaseColors.empty());
+    const Label& wall = labelOf(patterned, "outer-2");
+    EXPECT_EQ(wall.count, 2u);
+    EXPECT_EQ(patterned.volume.labels.phaseColors.size(), patterned.volume.labels.scalarCount());
+    const auto counts = patterned.volume.columns.countVoxels(patterned.volume.labels.scalarCount());
+    EXPECT_GT(counts[wall.first], counts[wall.first + 1]);
+    EXPECT_GT(counts[wall.first + 1], 0u);
+    ASSERT_EQ(plain.volume.labels.labels.size(), patterned.volume.labels.labels.size());
+    for (std::size_t l = 0; l < plain.volume.labels.labels.size(); ++l)
+        EXPECT_EQ(plain.volume.labels.labels[l].voxels, patterned.volume.labels.labels[l].voxels) << plain.volume.labels.labels[l].id;
+}
+
+TEST(BuildVolume, StyleOfTheCallerIsStrongerThanTheBuiltInOne) {
+    const auto style = parseStyleSheet(R"({"rules": [{"select": "id=room", "color": "red", "opacity": 0.75}]})", {});
+    ASSERT_TRUE(style);
+    BuildOptions options = withSpacing(0.2);
+    options.style = &*style;
+    const BuildOutput output = build(thematicHouse(), options);
+    EXPECT_EQ(labelOf(output, "room").color, (Vec3f{1, 0, 0}));
+    EXPECT_EQ(labelOf(output, "room").opacity, 0.75f);
+    EXPECT_EQ(labelOf(output, "outer-1").color, *parseColor("#a8483a"));
+}
+
+TEST(BuildVolume, SameForAnyNumberOfThreads) {
+    BuildOptions one = withSpacing(0.05), many = one;
+    one.usePatterns = many.usePatterns = true;
+    one.threads = 1;
+    many.threads = 4;
+    const BuildOutput a = build(thematicHouse(), one), b = build(thematicHouse(), many);
+    EXPECT_TRUE(a.volume.columns == b.volume.columns);
+    EXPECT_TRUE(a.volume.labels == b.volume.labels);
+    EXPECT_TRUE(a.volume.grid == b.volume.grid);
+}
+
+TEST(BuildVolume, EmptyModelAndCancelAreErrors) {
+    model::BuildingModel empty;
+    EXPECT_EQ(buildVolume(empty).error().code(), Code::EmptyModel);
+    EXPECT_EQ(buildVolume(std::span<const std::filesystem::path>{}).error().code(), Code::BadArgument);
+    model::BuildingModel model = thematicHouse();
+    Progress progress;
+    progress.cancel = true;
+    BuildOptions options = withSpacing(0.2);
+    options.progress = &progress;
+    EXPECT_EQ(buildVolume(model, options).error().code(), Code::Cancelled);
+}
+
+class TwoFiles : public ::testing::Test {
+protected:
+    void SetUp() override {
+        samples::SampleOptions options;
+        for (int file = 0; file < 2; ++file) {
+            const auto text = samples::writeSample(samples::SampleKind::House, samples::SampleFormat::CityJson2, options);
+            ASSERT_TRUE(text);
+            files_.push_back(folder_ / ("house-" + std::to_string(file) + ".city.json"));
+            test::writeText(files_.back(), *text);
+            options.origin.x += 30;
+        }
+    }
+    test::TemporaryFolder folder_;
+    std::vector<std::filesystem::path> files_;
+};
+
+TEST_F(TwoFiles, EqualIdsAreToldApart) {
+    Diagnostics log;
+    const auto one = readModels(std::span(files_).first(1), 0, nullptr, nullptr);
+    const auto both = readModels(files_, 0, nullptr, &log);
+    ASSERT_TRUE(one && both);
+    const std::size_t count = one->features.size();
+    ASSERT_EQ(both->features.size(), 2 * count);
+    EXPECT_EQ(both->polygons.size(), 2 * one->polygons.size());
+    EXPECT_EQ(both->roots.size(), 2 * one->roots.size());
+    EXPECT_EQ(both->memberships.size(), 2 * one->memberships.size());
+    EXPECT_EQ(log.count(Code::DuplicateId), count);
+    std::set<std::string> ids;
+    for (const model::Feature& feature : both->features) ids.insert(feature.id);
+    EXPECT_EQ(ids.size(), 2 * count);
+    for (std::size_t f = 0; f < count; ++f) {
+        const model::Feature &a = both->features[f], &b = both->features[count + f];
+        EXPECT_EQ(b.id, a.id + "@2");
+        EXPECT_EQ(b.parent == model::kNoFeature, a.parent == model::kNoFeature);
+        if (a.parent != model::kNoFeature) {
+            EXPECT_EQ(b.parent, a.parent + count);
+        }
+    }
+}
+
+TEST_F(TwoFiles, BothHousesHaveTheSameVolumes) {
+    BuildOptions options = withSpacing(0.1);
+    const auto output = buildVolume(files_, options);
+    ASSERT_TRUE(output) << output.error().toString();
+    const auto& labels = output->volume.labels.labels;
+    ASSERT_EQ(labels.size() % 2, 0u);
+    for (std::size_t l = 0; l < labels.size() / 2; ++l) {
+        const Label &a = labels[l], &b = labels[labels.size() / 2 + l];
+        EXPECT_EQ(b.id, a.id + "@2");
+        EXPECT_NEAR(a.volume, b.volume, 1e-6 + 1e-9 * a.volume);
+        EXPECT_EQ(a.filling, b.filling);
+    }
+    EXPECT_EQ(output->volume.source, "house-0.city.json");
+    EXPECT_GT(output->report.seconds.total, 0);
+}
+
+TEST_F(TwoFiles, ThreeEqualFilesStayApart) {
+    files_.push_back(files_[0]);
+    const auto all = readModels(files_, 0, nullptr, nullptr);
+    ASSERT_TRUE(all);
+    std::set<std::string> ids;
+    for (const model::Feature& feature : all->features) ids.insert(feature.id);
+    EXPECT_EQ(ids.size(), all->features.size());
+}
+
+TEST_F(TwoFiles, MissingFileIsAnError) {
+    files_.push_back(folder_ / "missing.gml");
+    const auto all = readModels(files_, 0, nullptr, nullptr);
+    ASSERT_FALSE(all);
+    EXPECT_EQ(all.error().code(), Code::CannotOpen);
+}
+
+}  // namespace
+}  // namespace svt::pipeline

@@ -1,0 +1,168 @@
+#include <svt/mesh/models_test.hpp>
+#include <svt/pipeline/labels.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::pipeline {
+namespace {
+
+using model::FeatureIndex;
+using test::addBoxFeature;
+using test::addFeature;
+
+Labelling labelsOf(model::BuildingModel& model, const StyleSheet& style = defaultStyle(false)) {
+    const auto scene = mesh::buildMeshes(model);
+    EXPECT_TRUE(scene);
+    addCapFeatures(model, *scene);
+    const StyleSheet* sheets[] = {&style};
+    auto labelling = makeLabels(model, *scene, sheets);
+    EXPECT_TRUE(labelling);
+    return *labelling;
+}
+
+std::uint32_t indexOf(const Labelling& labelling, const std::string& id) {
+    for (std::uint32_t l = 0; l < labelling.table.labels.size(); ++l)
+        if (labelling.table.labels[l].id == id) return l;
+    ADD_FAILURE() << "no label " << id;
+    return 0;
+}
+
+const volume::Label& labelOf(const Labelling& labelling, const std::string& id) {
+    return labelling.table.labels[indexOf(labelling, id)];
+}
+
+// A house with two storeys, two rooms in each, one of them with a table; a shed. Not added in tree order.
+model::BuildingModel village() {
+    model::BuildingModel model;
+    const FeatureIndex house = addFeature(model, "Building", "house");
+    addBoxFeature(model, "Building", "shed", {20, 0, 0}, {22, 2, 2});
+    const FeatureIndex ground = addFeature(model, "Storey", "ground", house), upper = addFeature(model, "Storey", "upper", house);
+    addBoxFeature(model, "BuildingRoom", "hall", {0, 0, 0}, {4, 3, 2}, ground);
+    addBoxFeature(model, "BuildingRoom", "attic", {0, 0, 2}, {4, 3, 4}, upper);
+    const FeatureIndex kitchen = addBoxFeature(model, "BuildingRoom", "kitchen", {4, 0, 0}, {8, 3, 2}, ground);
+    addBoxFeature(model, "BuildingFurniture", "table", {5, 1, 0}, {6, 2, 1}, kitchen);
+    return model;
+}
+
+TEST(MakeLabels, TreeOrderGivesEverySubtreeOneRange) {
+    model::BuildingModel model = village();
+    const Labelling labelling = labelsOf(model);
+    std::vector<std::string> ids;
+    for (const volume::Label& label : labelling.table.labels) ids.push_back(label.id);
+    EXPECT_EQ(ids, (std::vector<std::string>{"house", "ground", "hall", "kitchen", "table", "upper", "attic", "shed"}));
+    EXPECT_EQ(labelOf(labelling, "house").subtreeEnd, 7u);
+    EXPECT_EQ(labelOf(labelling, "ground").subtreeEnd, 5u);
+    EXPECT_EQ(labelOf(labelling, "shed").subtreeEnd, 8u);
+    EXPECT_EQ(labelOf(labelling, "table").parent, indexOf(labelling, "kitchen"));
+    EXPECT_EQ(labelOf(labelling, "house").parent, volume::kNoLabel);
+    // Scalars of any subtree are contiguous and those of no other feature lie between.
+    const auto& labels = labelling.table.labels;
+    volume::Scalar next = 1;
+    for (const volume::Label& label : labels) {
+        if (label.count == 0) continue;
+        EXPECT_EQ(label.first, next) << label.id;
+        next += label.count;
+    }
+    EXPECT_EQ(next, labelling.table.scalarCount());
+}
+
+TEST(MakeLabels, OnlyFeaturesWithGeometryOwnScalars) {
+    model::BuildingModel model = village();
+    const Labelling labelling = labelsOf(model);
+    EXPECT_EQ(labelOf(labelling, "house").count, 0u);
+    EXPECT_EQ(labelOf(labelling, "house").filling, volume::Filling::None);
+    EXPECT_EQ(labelOf(labelling, "hall").first, 1u);
+    EXPECT_EQ(labelOf(labelling, "hall").filling, volume::Filling::Solid);
+    EXPECT_NEAR(labelOf(labelling, "hall").volume, 24, 1e-12);
+    EXPECT_EQ(labelling.table.scalarCount(), 6u);
+    ASSERT_EQ(labelling.claims.size(), 5u);
+    for (std::size_t o = 0; o < labelling.claims.size(); ++o)
+        EXPECT_EQ(labelling.claims[o].scalar, labelling.table.labels[labelling.labelOfObject[o]].first);
+    EXPECT_TRUE(labelling.patterns.empty());
+    EXPECT_TRUE(labelling.table.phaseColors.empty());
+}
+
+TEST(MakeLabels, FurnitureComesBeforeRooms) {
+    model::BuildingModel model = village();
+    const Labelling labelling = labelsOf(model);
+    std::map<std::string, int> rank;
+    for (const voxelize::ObjectClaim& claim : labelling.claims) rank[claim.id] = claim.rank;
+    EXPECT_LT(rank["table"], rank["kitchen"]);
+    EXPECT_LT(rank["kitchen"], rank["shed"]);
+}
+
+TEST(MakeLabels, PatternGivesOneScalarPerPhase) {
+    model::BuildingModel model = village();
+    const auto style = parseStyleSheet(R"({"rules": [{"select": "all", "color": "white"},
+        {"select": "id=hall", "pattern": {"type": "concrete", "colors": ["red", "lime", "blue"]}},
+        {"select": "id=house", "pattern": {"type": "brick"}}]})",
+                                       {});
+    ASSERT_TRUE(style);
+    const Labelling labelling = labelsOf(model, *style);
+    EXPECT_EQ(labelOf(labelling, "hall").first, 1u);
+    EXPECT_EQ(labelOf(labelling, "hall").count, 3u);
+    EXPECT_EQ(labelOf(labelling, "kitchen").first, 4u);
+    EXPECT_EQ(labelOf(labelling, "house").count, 0u);  // no geometry, nothing to lay a pattern into
+    ASSERT_EQ(labelling.patterns.size(), 1u);
+    EXPECT_EQ(labelling.patterns[0].first, 1u);
+    ASSERT_EQ(labelling.table.phaseColors.size(), labelling.table.scalarCount());
+    EXPECT_EQ(labelling.table.phaseColors[1], (Vec3f{1, 0, 0}));
+    EXPECT_EQ(labelling.table.phaseColors[3], (Vec3f{0, 0, 1}));
+    EXPECT_EQ(labelling.table.phaseColors[4], (Vec3f{1, 1, 1}));
+}
+
+TEST(MakeLabels, MembersKnowTheirGroups) {
+    model::BuildingModel model = village();
+    const FeatureIndex unit = addFeature(model, "BuildingUnit", "flat", 0);
+    model.memberships = {{unit, 6, ""}, {unit, 4, ""}, {unit, 6, "again"}};
+    const Labelling labelling = labelsOf(model);
+    const std::uint32_t flat = indexOf(labelling, "flat");
+    EXPECT_EQ(labelOf(labelling, "kitchen").groups, std::vector<std::uint32_t>{flat});
+    EXPECT_EQ(labelOf(labelling, "hall").groups, std::vector<std::uint32_t>{flat});
+    EXPECT_TRUE(labelOf(labelling, "attic").groups.empty());
+}
+
+TEST(MakeLabels, MaterialOfMostPolygonsColoursTheObject) {
+    model::BuildingModel model = village();
+    model.materials = {{"stone", {0.1f, 0.2f, 0.3f}, 0}, {"glass", {0.4f, 0.5f, 0.6f}, 0}};
+    const auto& uses = model.features[4].geometries[0].solids[0].exterior;  // hall
+    for (std::size_t u = 0; u < uses.size(); ++u) model.polygons[uses[u].polygon].material = u < 2 ? 0 : u < 5 ? 1 : -1;
+    EXPECT_EQ(labelOf(labelsOf(model), "hall").color, (Vec3f{0.4f, 0.5f, 0.6f}));
+}
+
+TEST(AddCapFeatures, CapIsAClosureSurfaceWithItsArea) {
+    model::BuildingModel model;
+    addFeature(model, "BuildingRoom", "room", model::kNoFeature,
+               {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop, test::kWest}))});
+    addBoxFeature(model, "BuildingRoom", "next", {8, 0, 0}, {9, 1, 1});
+    Labelling labelling = labelsOf(model);
+    // The top and the west side share an edge: one loop, which is no planar hole, would stay open.
+    EXPECT_EQ(labelOf(labelling, "room").filling, volume::Filling::Winding);
+    model = {};
+    addFeature(model, "BuildingRoom", "room", model::kNoFeature,
+               {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop}))});
+    addBoxFeature(model, "BuildingRoom", "next", {8, 0, 0}, {9, 1, 1});
+    labelling = labelsOf(model);
+    const volume::Label& cap = labelOf(labelling, "room_cap_1");
+    EXPECT_EQ(cap.className, "ClosureSurface");
+    EXPECT_EQ(cap.count, 0u);
+    EXPECT_EQ(cap.parent, indexOf(labelling, "room"));
+    ASSERT_EQ(cap.attributes.size(), 2u);
+    EXPECT_EQ(cap.attributes[1].name, "area");
+    EXPECT_NEAR(std::get<double>(cap.attributes[1].value), 12, 1e-12);
+    EXPECT_EQ(cap.attributes[1].unit, "m2");
+    EXPECT_EQ(labelOf(labelling, "room").filling, volume::Filling::Capped);
+    EXPECT_EQ(labelOf(labelling, "room").subtreeEnd, 2u);
+}
+
+TEST(AddCapFeatures, ModelBuiltAgainGetsNoSecondCap) {
+    model::BuildingModel model;
+    addFeature(model, "BuildingRoom", "room", model::kNoFeature,
+               {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop}))});
+    (void)labelsOf(model);
+    EXPECT_EQ(labelsOf(model).table.labels.size(), 2u);
+    EXPECT_EQ(model.features.size(), 2u);
+}
+
+}  // namespace
+}  // namespace svt::pipeline
