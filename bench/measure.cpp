@@ -65,7 +65,7 @@ std::vector<Measurement> measureInTurns(const std::vector<Contestant>& contestan
         if (round >= options.leastRuns && spent > options.secondsInAll) break;
         for (std::size_t c = 0; c < contestants.size(); ++c) {
             const double own = std::accumulate(seconds[c].begin(), seconds[c].end(), 0.0);
-            if (round >= 3 && own > options.secondsEach) continue;
+            if (own > (round >= 3 ? options.secondsEach : 4 * options.secondsEach)) continue;
             seconds[c].push_back(secondsOf(contestants[c].run));
         }
     }

@@ -29,8 +29,8 @@ struct MeasureOptions {
     int leastRuns = 5;
     int mostRuns = 15;
     double secondsInAll = 12;  ///< no new round begins after this, once all had `leastRuns`
-    /// A contestant that has used this much stops after three runs, seconds.
-    double secondsEach = 8;
+    double secondsEach =
+        8;  ///< a contestant that has used this much after three runs, or four times this after any, stops
 };
 
 /// Runs all contestants once to warm up (and for the memory), then in turns.

@@ -61,16 +61,20 @@ std::string Row::id() const { return slug(stage) + '/' + slug(input) + '/' + slu
 
 std::string Report::markdown() const {
     std::string text =
-        "| work | input | size | SVT | beside it | its time | ratio | notes |\n|---|---|---|---|---|---|---|---|\n";
+        "| work | input | size | SVT | beside it | its time | ratio | memory | its memory | notes "
+        "|\n|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Row& row : rows) {
         if (row.isStage) continue;
         const std::string head =
             fmt::format("| {} | {} | {} | {} |", row.stage, row.input, row.size, secondsText(row.ours.median));
-        if (row.beside.empty() && row.missing.empty()) text += fmt::format("{} - | - | - | {} |\n", head, row.note);
+        if (row.beside.empty() && row.missing.empty())
+            text += fmt::format("{} - | - | - | {} | - | {} |\n", head, memoryText(row.ours), row.note);
         for (const Beside& beside : row.beside)
-            text += fmt::format("{} {} | {} | {} | {} |\n", head, beside.measurement.name,
-                                secondsText(beside.measurement.median), ratioText(ratioOf(row, beside)), beside.note);
-        for (const std::string& missing : row.missing) text += fmt::format("{} - | - | - | {} |\n", head, missing);
+            text += fmt::format("{} {} | {} | {} | {} | {} | {} |\n", head, beside.measurement.name,
+                                secondsText(beside.measurement.median), ratioText(ratioOf(row, beside)),
+                                memoryText(row.ours), memoryText(beside.measurement), beside.note);
+        for (const std::string& missing : row.missing)
+            text += fmt::format("{} - | - | - | {} | - | {} |\n", head, memoryText(row.ours), missing);
     }
     text += "\n| stage | input | size | time | most memory | result |\n|---|---|---|---|---|---|\n";
     for (const Row& row : rows) {

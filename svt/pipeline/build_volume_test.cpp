@@ -43,7 +43,8 @@ model::BuildingModel thematicHouse() {
     model::BuildingModel model;
     const Vec3d low{0, 0, 0}, high{6, 5, 3}, roomLow{0.4, 0.4, 0.4}, roomHigh{5.6, 4.6, 2.6};
     const FeatureIndex house = addBoxFeature(model, "Building", "house", low, high);
-    const char* const outer[6] = {"GroundSurface", "RoofSurface", "WallSurface", "WallSurface", "WallSurface", "WallSurface"};
+    const char* const outer[6] = {"GroundSurface", "RoofSurface", "WallSurface",
+                                  "WallSurface",   "WallSurface", "WallSurface"};
     for (int side = 0; side < 6; ++side)
         addFeature(model, outer[side], "outer-" + std::to_string(side), house,
                    {test::surfaceOf({{test::addRings(model, {test::boxRing(low, high, side)}), false}})});
@@ -53,7 +54,8 @@ model::BuildingModel thematicHouse() {
     for (int side = 0; side < 6; ++side) {
         test::Ring ring = test::boxRing(roomLow, roomHigh, side);
         std::reverse(ring.begin(), ring.end());  // seen from the material
-        addFeature(model, inner[side], "inner-" + std::to_string(side), room, {test::surfaceOf({{test::addRings(model, {ring}), false}})});
+        addFeature(model, inner[side], "inner-" + std::to_string(side), room,
+                   {test::surfaceOf({{test::addRings(model, {ring}), false}})});
     }
     return model;
 }
@@ -111,8 +113,8 @@ TEST(BuildVolume, OverlapsTellNestedFromConflicting) {
     using Entry = std::pair<std::uint64_t, bool>;
     EXPECT_EQ((found[{"room", "house"}]), (Entry{30 * 20 * 20, true}));
     EXPECT_EQ((found[{"table", "room"}]), (Entry{1000, true}));
-    EXPECT_EQ((found[{"room", "flat"}]), (Entry{30 * 20 * 20, true}));   // a member
-    EXPECT_EQ((found[{"table", "flat"}]), (Entry{1000, true}));          // below a member
+    EXPECT_EQ((found[{"room", "flat"}]), (Entry{30 * 20 * 20, true}));    // a member
+    EXPECT_EQ((found[{"table", "flat"}]), (Entry{1000, true}));           // below a member
     EXPECT_EQ((found[{"rival", "room"}]), (Entry{5 * 20 * 20, false}));   // the smaller room wins
     EXPECT_EQ((found[{"rival", "flat"}]), (Entry{10 * 20 * 20, false}));  // rooms come before flats
     EXPECT_TRUE(std::is_sorted(output.volume.labels.overlaps.begin(), output.volume.labels.overlaps.end(),
@@ -165,7 +167,8 @@ TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
     const auto solidVoxels = [](const BuildOutput& output) {
         std::uint64_t sum = labelOf(output, "house").voxels;
         for (int side = 0; side < 6; ++side)
-            sum += labelOf(output, "outer-" + std::to_string(side)).voxels + labelOf(output, "inner-" + std::to_string(side)).voxels;
+            sum += labelOf(output, "outer-" + std::to_string(side)).voxels +
+                   labelOf(output, "inner-" + std::to_string(side)).voxels;
         return sum;
     };
     EXPECT_EQ(labelOf(given, "house").voxels, 0u);
@@ -200,7 +203,8 @@ TEST(BuildVolume, PatternsSplitScalarsAndKeepTheVoxels) {
     EXPECT_GT(counts[wall.first + 1], 0u);
     ASSERT_EQ(plain.volume.labels.labels.size(), patterned.volume.labels.labels.size());
     for (std::size_t l = 0; l < plain.volume.labels.labels.size(); ++l)
-        EXPECT_EQ(plain.volume.labels.labels[l].voxels, patterned.volume.labels.labels[l].voxels) << plain.volume.labels.labels[l].id;
+        EXPECT_EQ(plain.volume.labels.labels[l].voxels, patterned.volume.labels.labels[l].voxels)
+            << plain.volume.labels.labels[l].id;
 }
 
 TEST(BuildVolume, StyleOfTheCallerIsStrongerThanTheBuiltInOne) {
@@ -242,7 +246,8 @@ protected:
     void SetUp() override {
         samples::SampleOptions options;
         for (int file = 0; file < 2; ++file) {
-            const auto text = samples::writeSample(samples::SampleKind::House, samples::SampleFormat::CityJson2, options);
+            const auto text =
+                samples::writeSample(samples::SampleKind::House, samples::SampleFormat::CityJson2, options);
             ASSERT_TRUE(text);
             files_.push_back(folder_ / ("house-" + std::to_string(file) + ".city.json"));
             test::writeText(files_.back(), *text);

@@ -36,7 +36,8 @@ model::BuildingModel village() {
     model::BuildingModel model;
     const FeatureIndex house = addFeature(model, "Building", "house");
     addBoxFeature(model, "Building", "shed", {20, 0, 0}, {22, 2, 2});
-    const FeatureIndex ground = addFeature(model, "Storey", "ground", house), upper = addFeature(model, "Storey", "upper", house);
+    const FeatureIndex ground = addFeature(model, "Storey", "ground", house),
+                       upper = addFeature(model, "Storey", "upper", house);
     addBoxFeature(model, "BuildingRoom", "hall", {0, 0, 0}, {4, 3, 2}, ground);
     addBoxFeature(model, "BuildingRoom", "attic", {0, 0, 2}, {4, 3, 4}, upper);
     const FeatureIndex kitchen = addBoxFeature(model, "BuildingRoom", "kitchen", {4, 0, 0}, {8, 3, 2}, ground);

@@ -18,7 +18,8 @@ void expectBad(const std::string& json, Code code, const std::vector<std::string
     const auto sheet = parseStyleSheet(json, {});
     ASSERT_FALSE(sheet) << json;
     EXPECT_EQ(sheet.error().code(), code) << sheet.error().toString();
-    for (const std::string& word : words) EXPECT_NE(sheet.error().message().find(word), std::string::npos) << word << " in: " << sheet.error().message();
+    for (const std::string& word : words)
+        EXPECT_NE(sheet.error().message().find(word), std::string::npos) << word << " in: " << sheet.error().message();
 }
 
 TEST(DefaultStyle, BuiltInSheetsParse) {
@@ -57,7 +58,8 @@ TEST(ParseColor, HexShortHexAndNames) {
     EXPECT_EQ(*parseColor("#f80"), (Vec3f{1, 136 / 255.0f, 0}));
     EXPECT_EQ(*parseColor("tomato"), (Vec3f{1, 99 / 255.0f, 71 / 255.0f}));
     EXPECT_EQ(*parseColor("white"), (Vec3f{1, 1, 1}));
-    for (const char* bad : {"", "#", "#12", "#12345", "#1234567", "#12345g", "Tomato ", "rgb(1,2,3)", "#-12345", "0xffffff"}) {
+    for (const char* bad :
+         {"", "#", "#12", "#12345", "#1234567", "#12345g", "Tomato ", "rgb(1,2,3)", "#-12345", "0xffffff"}) {
         const auto color = parseColor(bad);
         ASSERT_FALSE(color) << bad;
         EXPECT_EQ(color.error().code(), Code::BadStyle);
@@ -93,7 +95,8 @@ TEST(ParseStyleSheet, PatternsOfAllKindsParse) {
     for (int k = 0; k < voxelize::kPatternKinds; ++k) {
         const auto kind = static_cast<PatternKind>(k);
         if (kind == PatternKind::Image || kind == PatternKind::Raw) continue;
-        const auto sheet = parseStyleSheet(ruleWith(R"(, "pattern": {"type": ")" + std::string(patternName(kind)) + R"(", "size": 0.2})"), {});
+        const auto sheet = parseStyleSheet(
+            ruleWith(R"(, "pattern": {"type": ")" + std::string(patternName(kind)) + R"(", "size": 0.2})"), {});
         ASSERT_TRUE(sheet) << patternName(kind) << ": " << sheet.error().toString();
         EXPECT_EQ(sheet->rules[0].pattern->kind, kind);
         EXPECT_EQ(sheet->rules[0].pattern->size, (Vec3d{0.2, 0.2, 0.2}));
@@ -103,7 +106,8 @@ TEST(ParseStyleSheet, PatternsOfAllKindsParse) {
 TEST(ParseStyleSheet, FilesAreFoundBesideTheSheet) {
     const test::TemporaryFolder folder;
     test::writeText(folder / "grain.raw", std::string("\x01\x02\x03\x04\x05\x01\x01\x01", 8));
-    test::writeText(folder / "style.json", ruleWith(R"(, "pattern": {"type": "raw", "file": "grain.raw", "dimension": [2, 2, 2]})"));
+    test::writeText(folder / "style.json",
+                    ruleWith(R"(, "pattern": {"type": "raw", "file": "grain.raw", "dimension": [2, 2, 2]})"));
     const auto sheet = readStyleSheet(folder / "style.json");
     ASSERT_TRUE(sheet) << sheet.error().toString();
     EXPECT_EQ(sheet->rules[0].pattern->phaseCount(), 5u);
@@ -170,8 +174,10 @@ TEST(ParseStyleSheet, PatternErrorsNameThePath) {
     bad(R"({"type": "image"})", Code::BadPattern, {"rules[0].pattern", "needs a file"});
     bad(R"({"type": "image", "file": "missing.png"})", Code::CannotOpen, {"rules[0].pattern.file"});
     bad(R"({"type": "raw", "file": "missing.raw"})", Code::BadStyle, {"rules[0].pattern", "dimension"});
-    bad(R"({"type": "raw", "file": "missing.raw", "dimension": [2, 2.5, 2]})", Code::BadStyle, {"rules[0].pattern.dimension"});
-    bad(R"({"type": "raw", "file": "missing.raw", "dimension": [2, 2, 2000]})", Code::BadStyle, {"rules[0].pattern.dimension"});
+    bad(R"({"type": "raw", "file": "missing.raw", "dimension": [2, 2.5, 2]})", Code::BadStyle,
+        {"rules[0].pattern.dimension"});
+    bad(R"({"type": "raw", "file": "missing.raw", "dimension": [2, 2, 2000]})", Code::BadStyle,
+        {"rules[0].pattern.dimension"});
 }
 
 TEST(ParseStyleSheet, BracketsInTextDoNotNest) {
@@ -197,7 +203,8 @@ protected:
 };
 
 TEST_F(Resolving, LaterRulesWinMemberByMember) {
-    const StyleSheet first = sheet(R"({"select": "all", "color": "red", "opacity": 0.5}, {"select": "id=b", "color": "lime"})");
+    const StyleSheet first =
+        sheet(R"({"select": "all", "color": "red", "opacity": 0.5}, {"select": "id=b", "color": "lime"})");
     const StyleSheet* sheets[] = {&first};
     const auto styles = resolveStyles(rows_, sheets, {});
     EXPECT_EQ(styles[0].color, (Vec3f{1, 0, 0}));
@@ -206,7 +213,8 @@ TEST_F(Resolving, LaterRulesWinMemberByMember) {
 }
 
 TEST_F(Resolving, MaterialColoursStandBetweenTheBuiltInSheetAndTheOthers) {
-    const StyleSheet first = sheet(R"({"select": "all", "color": "red"})"), second = sheet(R"({"select": "id=c", "color": "lime"})");
+    const StyleSheet first = sheet(R"({"select": "all", "color": "red"})"),
+                     second = sheet(R"({"select": "id=c", "color": "lime"})");
     const StyleSheet* sheets[] = {&first, &second};
     const Vec3f blue{0, 0, 1};
     const std::vector<std::optional<Vec3f>> materials{std::nullopt, blue, blue};

@@ -120,7 +120,8 @@ TEST(AddThinSheet, EveryPairOfSamplesWithTheSheetBetweenIsParted) {
                         low[(axis + 1) % 3] = a;
                         low[(axis + 2) % 3] = b;
                         low[axis] = c;
-                        // Where the line from this sample to the next meets the plane; not told near its ends and near edges.
+                        // Where the line from this sample to the next meets the plane; not told near its ends and near
+                        // edges.
                         if (std::abs(normal[axis]) < 1e-3) continue;
                         const double t = dot(v[0] - low, normal) / normal[axis];
                         if (t < 0.02 || t > 0.98) continue;
@@ -128,7 +129,8 @@ TEST(AddThinSheet, EveryPairOfSamplesWithTheSheetBetweenIsParted) {
                         hit[axis] += t;
                         double inside = 1e9;
                         for (int e = 0; e < 3; ++e)
-                            inside = std::min(inside, dot(cross(v[(e + 1) % 3] - v[e], hit - v[e]), normal) / length(v[(e + 1) % 3] - v[e]));
+                            inside = std::min(inside, dot(cross(v[(e + 1) % 3] - v[e], hit - v[e]), normal) /
+                                                          length(v[(e + 1) % 3] - v[e]));
                         if (inside < 0.02) continue;
                         Vec3d high = low;
                         high[axis] += 1;
@@ -141,8 +143,8 @@ TEST(AddThinSheet, EveryPairOfSamplesWithTheSheetBetweenIsParted) {
 }
 
 TEST(AddConservativeSheet, AreTheBoxesThatItTouches) {
-    // A triangle in the plane x + y + z = 12.1, touched boxes by brute force: the plane cuts the box and the overlap in the plane
-    // is found by clipping the triangle to the box.
+    // A triangle in the plane x + y + z = 12.1, touched boxes by brute force: the plane cuts the box and the overlap in
+    // the plane is found by clipping the triangle to the box.
     const Vec3d v[3] = {{8.3, 1.9, 1.9}, {2.1, 7.6, 2.4}, {1.7, 2.2, 8.2}};
     const auto voxels = conservativeSheet(triangleMesh(v[0], v[1], v[2]));
     const auto touches = [&](Vec3d center, double half) {
@@ -152,7 +154,8 @@ TEST(AddConservativeSheet, AreTheBoxesThatItTouches) {
                 std::vector<Vec3d> clipped;
                 for (std::size_t c = 0; c < ring.size(); ++c) {
                     const Vec3d p = ring[c], q = ring[(c + 1) % ring.size()];
-                    const double dp = half - sign * (p[axis] - center[axis]), dq = half - sign * (q[axis] - center[axis]);
+                    const double dp = half - sign * (p[axis] - center[axis]),
+                                 dq = half - sign * (q[axis] - center[axis]);
                     if (dp >= 0) clipped.push_back(p);
                     if ((dp >= 0) != (dq >= 0)) clipped.push_back(p + (q - p) * (dp / (dp - dq)));
                 }
@@ -195,7 +198,8 @@ std::pair<std::set<Voxel>, std::uint64_t> thinParts(const mesh::ObjectMesh& mesh
     const auto scene = test::sceneOf({mesh});
     const IndexFromLocal indexFromLocal(scene, unitGrid());
     std::vector<ClaimedBox> boxes;
-    const std::uint64_t count = addThinParts(makeIndexMesh(scene.objects[0], indexFromLocal), indexFromLocal, kDimension, 5, boxes);
+    const std::uint64_t count =
+        addThinParts(makeIndexMesh(scene.objects[0], indexFromLocal), indexFromLocal, kDimension, 5, boxes);
     return {voxelsOf(boxes), count};
 }
 
