@@ -32,13 +32,18 @@ struct Source {
     bool isAssembled = false;
     bool hasSolidMeaning = false;  // an open shell is to be closed
     std::vector<SurfaceUse> uses;
+    std::vector<std::pair<std::size_t, std::size_t>> voids;  // stretches of `uses` that are shells of voids
 };
 
-void appendUses(const model::Geometry& geometry, std::vector<SurfaceUse>& uses) {
+void appendUses(const model::Geometry& geometry, Source& source) {
+    auto& uses = source.uses;
     uses.insert(uses.end(), geometry.surfaces.begin(), geometry.surfaces.end());
     for (const model::Solid& solid : geometry.solids) {
         uses.insert(uses.end(), solid.exterior.begin(), solid.exterior.end());
-        for (const auto& interior : solid.interiors) uses.insert(uses.end(), interior.begin(), interior.end());
+        for (const auto& interior : solid.interiors) {
+            source.voids.emplace_back(uses.size(), uses.size() + interior.size());
+            uses.insert(uses.end(), interior.begin(), interior.end());
+        }
     }
 }
 
@@ -54,7 +59,7 @@ void appendBoundary(const BuildingModel& model, FeatureIndex space, const model:
         if (const int chosen = lod.choose(feature); chosen >= 0) {
             const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
             source.lod = std::max(source.lod, geometry.lod);
-            appendUses(geometry, source.uses);
+            appendUses(geometry, source);
         }
         appendBoundary(model, child, lod, isCoarser, source);
     }
@@ -102,7 +107,7 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
     for (const FeatureIndex index : order) {
         if (isCoarser[index]) continue;
         const Feature& feature = model.features[index];
-        Source own{index, -1, false, false, {}};
+        Source own{index, -1, false, false, {}, {}};
         if (const int chosen = lod.choose(feature); chosen >= 0) {
             const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
             own.lod = geometry.lod;
@@ -110,10 +115,10 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
             // tells.
             own.hasSolidMeaning = model::isFilling(feature.className) ? geometry.kind == model::GeometryKind::Solid
                                                                       : model::hasSolidMeaning(feature.className);
-            appendUses(geometry, own.uses);
+            appendUses(geometry, own);
         }
         if (model::hasSolidMeaning(feature.className)) {
-            Source assembled{index, -1, true, true, {}};
+            Source assembled{index, -1, true, true, {}, {}};
             appendBoundary(model, index, lod, isCoarser, assembled);
             if (!assembled.uses.empty() && (own.uses.empty() || assembled.lod > own.lod)) own = std::move(assembled);
         }
@@ -130,9 +135,37 @@ struct Gathered {
     std::uint32_t duplicateFaces = 0;
 };
 
+// Turns the closed shells of voids that face outwards: the file says that they are voids.
+// Returns the count of turned triangles.
+std::uint32_t turnVoidsInwards(const Source& source, const LocalPolygons& polygons, std::vector<SurfaceUse>& uses) {
+    std::uint32_t turned = 0;
+    std::vector<Triangle> shell;
+    for (const auto& [begin, end] : source.voids) {
+        shell.clear();
+        double volume = 0;
+        Vec3d base{};
+        for (std::size_t u = begin; u < end; ++u)
+            for (const auto& corners : polygons.trianglesOf(uses[u].polygon)) {
+                if (shell.empty()) base = polygons.points[corners[0]];
+                const double part = dot(polygons.points[corners[0]] - base,
+                                        cross(polygons.points[corners[1]] - base, polygons.points[corners[2]] - base));
+                volume += uses[u].isReversed ? -part : part;
+                Triangle triangle;
+                for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = polygons.pointIds[corners[c]];
+                if (uses[u].isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
+                shell.push_back(triangle);
+            }
+        if (!(volume > 0) || !findOpenEdges(shell).empty()) continue;
+        for (std::size_t u = begin; u < end; ++u) uses[u].isReversed = !uses[u].isReversed;
+        turned += static_cast<std::uint32_t>(shell.size());
+    }
+    return turned;
+}
+
 Gathered gather(const Source& source, const LocalPolygons& polygons, ObjectMesh& mesh) {
     Gathered gathered;
     std::vector<SurfaceUse> uses = source.uses;
+    mesh.flippedFaces = turnVoidsInwards(source, polygons, uses);
     std::set<std::pair<model::PolygonIndex, bool>> seen;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> vertexOfPoint;  // sorted later: (point, vertex)
     for (const SurfaceUse& use : uses) {
@@ -199,7 +232,8 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
     }
     if (!mesh.openEdges.empty()) {
         std::vector<Triangle> single = mesh.triangles;
-        if (const std::uint32_t removed = removeDoubledFaces(single); removed != 0 && findOpenEdges(single).empty()) {
+        if (const std::uint32_t removed = removeDoubledFaces(mesh.vertices, single);
+            removed != 0 && findOpenEdges(single).empty()) {
             mesh.triangles = std::move(single);
             mesh.openEdges.clear();
             work.gathered.duplicateFaces += removed;
@@ -207,8 +241,9 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
     }
     if (!mesh.openEdges.empty()) {
         // Two edges that run the same way are no leak but faces that disagree.
-        mesh.flippedFaces = orientConsistently(mesh.triangles);
-        if (mesh.flippedFaces != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
+        const std::uint32_t turned = orientConsistently(mesh.triangles);
+        mesh.flippedFaces += turned;
+        if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
     }
     mesh.leakCount = static_cast<std::uint32_t>(mesh.openEdges.size());
     for (const OpenEdge& edge : mesh.openEdges) {

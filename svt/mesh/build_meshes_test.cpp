@@ -311,16 +311,23 @@ TEST(BuildMeshes, ShellInsideOutIsTurned) {
     EXPECT_EQ(log.count(Code::FaceFlipped), 1u);
 }
 
-TEST(BuildMeshes, VoidsAreTakenAway) {
-    BuildingModel model;
-    model::Geometry geometry = solidOf(addBox(model, kLow, kHigh));
-    auto hole = addBox(model, {1, 1, 0.5}, {2, 2, 1.5});
-    for (SurfaceUse& use : hole) use.isReversed = true;
-    geometry.solids[0].interiors.push_back(hole);
-    addFeature(model, "Building", "house", model::kNoFeature, {geometry});
-    const MeshScene scene = meshesOf(model);
-    EXPECT_EQ(scene.objects[0].closure, Closure::Closed);
-    EXPECT_NEAR(scene.objects[0].volume, 23, 1e-12);
+TEST(BuildMeshes, VoidsAreTakenAwayWhicheverWayTheShellsFace) {
+    for (const bool isExteriorReversed : {false, true})
+        for (const bool isVoidReversed : {false, true}) {
+            BuildingModel model;
+            auto exterior = addBox(model, kLow, kHigh), hole = addBox(model, {1, 1, 0.5}, {2, 2, 1.5});
+            for (SurfaceUse& use : exterior) use.isReversed = isExteriorReversed;
+            for (SurfaceUse& use : hole) use.isReversed = isVoidReversed;
+            model::Geometry geometry = solidOf(exterior);
+            geometry.solids[0].interiors.push_back(hole);
+            addFeature(model, "Building", "house", model::kNoFeature, {geometry});
+            Diagnostics log;
+            const MeshScene scene = meshesOf(model, &log);
+            EXPECT_EQ(scene.objects[0].closure, Closure::Closed);
+            EXPECT_NEAR(scene.objects[0].volume, 23, 1e-12);
+            EXPECT_EQ(scene.objects[0].flippedFaces, (isExteriorReversed ? 12u : 0u) + (isVoidReversed ? 0u : 12u));
+            EXPECT_EQ(log.count(Code::FaceFlipped), isVoidReversed && !isExteriorReversed ? 0u : 1u);
+        }
 }
 
 TEST(BuildMeshes, EdgesThatMatchOnlyInPartsAreTJunctions) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace svt::mesh {
 namespace {
@@ -77,25 +78,34 @@ std::uint32_t FaceFinder::complement(ObjectMesh& mesh, std::vector<std::uint32_t
         model::PolygonIndex polygon;
         bool isReversed;
     };
+    // Of all that gain, the first is taken each time. One that did not gain is looked at again once one of its edges
+    // changed.
+    std::vector<std::vector<DirectedEdge>> edgesOf(candidates.size());
+    std::map<DirectedEdge, std::vector<std::size_t>> users;  // undirected edge (low, high) -> candidates
+    std::set<std::size_t> waiting;
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+        edgesOf[c] = ringEdges(polygons_, model_, candidates[c]);
+        for (const auto& [a, b] : edgesOf[c]) users[std::minmax(a, b)].push_back(c);
+        waiting.insert(waiting.end(), c);
+    }
     std::vector<Choice> chosen;
-    for (bool hasChanged = true; hasChanged && !candidates.empty();) {
-        hasChanged = false;
-        for (std::size_t c = 0; c < candidates.size(); ++c) {
-            const auto edges = ringEdges(polygons_, model_, candidates[c]);
-            const int gain = gainOf(edges, need, false), reversedGain = gainOf(edges, need, true);
-            if (std::max(gain, reversedGain) <= 0) continue;
-            const bool isReversed = reversedGain > gain;
-            for (const auto& [a, b] : edges) {
-                const DirectedEdge used = isReversed ? DirectedEdge{b, a} : DirectedEdge{a, b};
-                if (int& missing = need[used]; missing > 0)
-                    --missing;
-                else
-                    ++need[{used.second, used.first}];
-            }
-            chosen.push_back({candidates[c], isReversed});
-            candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(c));
-            hasChanged = true;
-            break;
+    std::vector<std::uint8_t> isChosen(candidates.size(), 0);
+    while (!waiting.empty()) {
+        const std::size_t c = *waiting.begin();
+        waiting.erase(waiting.begin());
+        const int gain = gainOf(edgesOf[c], need, false), reversedGain = gainOf(edgesOf[c], need, true);
+        if (std::max(gain, reversedGain) <= 0) continue;
+        const bool isReversed = reversedGain > gain;
+        chosen.push_back({candidates[c], isReversed});
+        isChosen[c] = 1;
+        for (const auto& [a, b] : edgesOf[c]) {
+            const DirectedEdge used = isReversed ? DirectedEdge{b, a} : DirectedEdge{a, b};
+            if (int& missing = need[used]; missing > 0)
+                --missing;
+            else
+                ++need[{used.second, used.first}];
+            for (const std::size_t user : users[std::minmax(a, b)])
+                if (isChosen[user] == 0) waiting.insert(user);
         }
     }
     if (chosen.empty()) return 0;

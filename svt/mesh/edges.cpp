@@ -181,6 +181,26 @@ void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint
     out.push_back(last);
 }
 
+// True where a triangle of `others` lies under the middle of `triangle`, in its plane and facing its way.
+bool isCovered(const std::vector<Vec3d>& vertices, const Triangle& triangle, const std::vector<Triangle>& others) {
+    constexpr double kSamePlane = 1e-4;
+    const auto corner = [&](const Triangle& t, std::size_t c) { return vertices[t.corners[c]]; };
+    const auto normalOf = [&](const Triangle& t) {
+        return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    };
+    const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
+    const Vec3d unit = normalized(normalOf(triangle));
+    return std::any_of(others.begin(), others.end(), [&](const Triangle& other) {
+        if (std::abs(dot(middle - corner(other, 0), unit)) > kSamePlane) return false;
+        if (!(dot(normalized(normalOf(other)), unit) > 0.99)) return false;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Vec3d edge = corner(other, (c + 1) % 3) - corner(other, c);
+            if (dot(cross(edge, middle - corner(other, c)), unit) < -1e-9 * length(edge)) return false;
+        }
+        return true;
+    });
+}
+
 void flip(Triangle& triangle) { std::swap(triangle.corners[1], triangle.corners[2]); }
 
 // Signed crossings of the ray from `point` towards +z with a component; odd-axis ties do not matter for a containment
@@ -256,7 +276,7 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
     return count;
 }
 
-std::uint32_t removeDoubledFaces(std::vector<Triangle>& triangles) {
+std::uint32_t removeDoubledFaces(const std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;  // per directed edge
     for (const Triangle& triangle : triangles)
         for (std::size_t c = 0; c < 3; ++c) ++uses[{triangle.corners[c], triangle.corners[(c + 1) % 3]}];
@@ -286,6 +306,8 @@ std::uint32_t removeDoubledFaces(std::vector<Triangle>& triangles) {
     std::vector<Triangle> kept;
     for (std::size_t t = 0; t < triangles.size(); ++t)
         if (!isGone[t]) kept.push_back(triangles[t]);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (isGone[t] && !isCovered(vertices, triangles[t], kept)) return 0;
     if (kept.empty() || findOpenEdges(kept).size() >= findOpenEdges(triangles).size()) return 0;
     triangles = std::move(kept);
     return removed;

@@ -19,9 +19,10 @@ namespace svt::mesh {
 /// Cost: O(open edges log + pairs near each other).
 std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance);
 
-/// Removes faces that stand doubled with another triangulation: triangles on edges that are used in both directions but
-/// more often in theirs, if that closes the mesh further. \return count of removed triangles, 0 where it would not help
-std::uint32_t removeDoubledFaces(std::vector<Triangle>& triangles);
+/// Removes faces that stand doubled with another triangulation: triangles on edges that their direction uses more often
+/// than the other, where a triangle that stays covers them, if that closes the mesh further. \return count of removed
+/// triangles, 0 where it would not help
+std::uint32_t removeDoubledFaces(const std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles);
 
 /// Turns triangles until neighbours over edges with two uses agree, component by component; a component that agrees
 /// already, or cannot agree (Moebius), stays. The larger part of a component decides.

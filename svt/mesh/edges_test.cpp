@@ -163,18 +163,18 @@ TEST(RemoveDoubledFaces, FaceWithTheOtherDiagonalGoes) {
     auto mesh = boxMesh(kLow, kHigh);
     for (const auto& t : trianglesOf({{5, 7, 6}, {5, 6, 4}})) mesh.triangles.push_back(t);  // the top once more
     ASSERT_FALSE(findOpenEdges(mesh.triangles).empty());
-    EXPECT_EQ(removeDoubledFaces(mesh.triangles), 2u);
+    EXPECT_EQ(removeDoubledFaces(mesh.vertices, mesh.triangles), 2u);
     EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
     EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-12);
 }
 
 TEST(RemoveDoubledFaces, HolesAndClosedMeshesAreLeftAlone) {
     auto closed = boxMesh(kLow, kHigh).triangles;
-    EXPECT_EQ(removeDoubledFaces(closed), 0u);
+    EXPECT_EQ(removeDoubledFaces(boxMesh(kLow, kHigh).vertices, closed), 0u);
     EXPECT_EQ(closed.size(), 12u);
     auto open = boxMesh(kLow, kHigh).triangles;
     open.resize(10);
-    EXPECT_EQ(removeDoubledFaces(open), 0u);
+    EXPECT_EQ(removeDoubledFaces(boxMesh(kLow, kHigh).vertices, open), 0u);
     EXPECT_EQ(open.size(), 10u);
 }
 

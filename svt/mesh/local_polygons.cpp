@@ -70,6 +70,14 @@ void judge(const Triangulation& result, const model::Polygon& polygon, std::vect
                          result.planeDeviation, at)});
 }
 
+// To a tenth of a micrometre: the same decimal number gives the same bits, written out in XML or as integer times scale
+// in JSON.
+Vec3d rounded(Vec3d point) {
+    constexpr double kSteps = 1e7;
+    return {std::nearbyint(point.x * kSteps) / kSteps, std::nearbyint(point.y * kSteps) / kSteps,
+            std::nearbyint(point.z * kSteps) / kSteps};
+}
+
 // Lays the points of all used polygons out flat, relative to a whole-metre origin.
 void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint8_t>& isUsed, LocalPolygons& out,
                   Diagnostics* log) {
@@ -98,7 +106,7 @@ void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint
         out.firstPoint[p] = static_cast<std::uint32_t>(out.points.size());
         if (!isGood[p]) continue;
         out.pointCount[p] = static_cast<std::uint32_t>(model.polygons[p].points.size());
-        for (const Vec3d& point : model.polygons[p].points) out.points.push_back(point - out.origin);
+        for (const Vec3d& point : model.polygons[p].points) out.points.push_back(rounded(point - out.origin));
     }
 }
 

@@ -273,7 +273,9 @@ Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
     if (text.size() > kMostBytes)
         return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
     auto sheet = parseStyleSheet(text, file.parent_path());
-    if (!sheet) return Error(sheet.error().code(), sheet.error().message(), {file.string(), 0, 0, {}});
+    // An error of a pattern's own file keeps that file as its place.
+    if (!sheet && sheet.error().where().file.empty())
+        return Error(sheet.error().code(), sheet.error().message(), {file.string(), 0, 0, {}});
     return sheet;
 }
 

@@ -202,7 +202,7 @@ bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept {
     return true;
 }
 
-ColumnTileBuilder::ColumnTileBuilder(std::int32_t width) : width_(width), columnTable_(128, 0) {
+ColumnTileBuilder::ColumnTileBuilder(std::int32_t width) : width_(width), columnTable_(512, 0) {
     data_.rowOf.reserve(static_cast<std::size_t>(ColumnVolume::kTileSize));
     data_.columnStart.push_back(0);
 }

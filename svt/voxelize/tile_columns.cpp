@@ -10,6 +10,15 @@ std::uint32_t clampToDepth(std::int32_t k, std::int32_t depth) noexcept {
     return static_cast<std::uint32_t>(k < 0 ? 0 : k > depth ? depth : k);
 }
 
+// A crossing in one word, in the order in which the sweep meets them: depth up to 2^16, 2^31 claims.
+constexpr int kDepthShift = 40;
+std::uint64_t packCrossing(std::uint32_t k, std::uint32_t claim, bool isEntry) noexcept {
+    return std::uint64_t(k) << kDepthShift | std::uint64_t(claim) << 1 | std::uint64_t(isEntry);
+}
+std::uint32_t claimOf(std::uint64_t crossing) noexcept {
+    return static_cast<std::uint32_t>(crossing >> 1 & 0x7FFFFFFFu);
+}
+
 }  // namespace
 
 void TileColumns::collectSpans(const TileInput& input) {
@@ -20,14 +29,17 @@ void TileColumns::collectSpans(const TileInput& input) {
         const std::int32_t flatK = isFlat ? sampleAbove(t, t.height.base) : 0;
         scanRows(t, input.firstRow, input.firstRow + input.height, input.firstColumn, input.firstColumn + input.width,
                  [&](std::int32_t j, std::int32_t begin, std::int32_t end) {
-                     Span span{begin - input.firstColumn, end - input.firstColumn, t.claim, t.sign, flatK, 0, 0, 0, 0};
+                     const bool isEntry = t.sign > 0;
+                     Span span{keyOf(t.claim, isEntry, flatK), 0, 0, 0, 0, begin - input.firstColumn,
+                               end - input.firstColumn};
                      if (!isFlat) {
-                         span.base = t.height.base + t.height.slopeY * j + t.height.slopeX * input.firstColumn;
-                         span.slope = t.height.slopeX;
-                         if (span.slope == 0) {
-                             span.flatK = sampleAbove(t, span.base);
-                             span.base = 0;
+                         const std::int64_t base =
+                             t.height.base + t.height.slopeY * j + t.height.slopeX * input.firstColumn;
+                         if (t.height.slopeX == 0) {
+                             span.key = keyOf(t.claim, isEntry, sampleAbove(t, base));
                          } else {
+                             span.base = base;
+                             span.slope = t.height.slopeX;
                              span.lowest = t.lowest;
                              span.highest = t.highest;
                          }
@@ -40,24 +52,25 @@ void TileColumns::collectSpans(const TileInput& input) {
         const std::int32_t end = std::min(box.end - input.firstColumn, input.width);
         if (begin >= end) continue;
         auto& spans = rows_[box.j - input.firstRow];
-        spans.push_back({begin, end, box.claim, 1, box.low, 0, 0, 0, 0});
-        spans.push_back({begin, end, box.claim, -1, box.high, 0, 0, 0, 0});
+        spans.push_back({keyOf(box.claim, true, box.low), 0, 0, 0, 0, begin, end});
+        spans.push_back({keyOf(box.claim, false, box.high), 0, 0, 0, 0, begin, end});
     }
 }
 
 // Joins neighbours on the same plane, so that the row reads the same however faces were triangulated.
 void TileColumns::mergeSpans(std::vector<Span>& spans) {
     std::sort(spans.begin(), spans.end(), [](const Span& p, const Span& q) {
-        return std::tie(p.claim, p.sign, p.flatK, p.slope, p.base, p.begin, p.end) <
-               std::tie(q.claim, q.sign, q.flatK, q.slope, q.base, q.begin, q.end);
+        if (p.key != q.key) return p.key < q.key;
+        if (p.slope != q.slope) return p.slope < q.slope;
+        if (p.base != q.base) return p.base < q.base;
+        return p.begin != q.begin ? p.begin < q.begin : p.end < q.end;
     });
     std::size_t kept = 0;
     for (std::size_t s = 1; s < spans.size(); ++s) {
         Span& last = spans[kept];
         const Span& next = spans[s];
-        if (last.claim == next.claim && last.sign == next.sign && last.flatK == next.flatK &&
-            last.slope == next.slope && last.base == next.base && last.lowest == next.lowest &&
-            last.highest == next.highest && last.end == next.begin)
+        if (last.key == next.key && last.end == next.begin && last.slope == next.slope && last.base == next.base &&
+            last.lowest == next.lowest && last.highest == next.highest)
             last.end = next.end;
         else
             spans[++kept] = next;
@@ -65,18 +78,18 @@ void TileColumns::mergeSpans(std::vector<Span>& spans) {
     if (!spans.empty()) spans.resize(kept + 1);
 }
 
-void TileColumns::changeWinding(std::uint32_t claim, std::int32_t sign) {
-    const std::int32_t before = winding_[claim];
-    winding_[claim] += sign;
-    if (before <= 0 && winding_[claim] > 0)
-        active_.insert(std::lower_bound(active_.begin(), active_.end(), claim), claim);
-    else if (before > 0 && winding_[claim] <= 0)
+void TileColumns::changeWinding(std::uint32_t claim, bool isEntry) {
+    std::int32_t& winding = winding_[claim];
+    if (isEntry) {
+        if (++winding == 1) active_.insert(std::lower_bound(active_.begin(), active_.end(), claim), claim);
+    } else if (--winding == 0) {
         active_.erase(std::lower_bound(active_.begin(), active_.end(), claim));
+    }
 }
 
 // crossings_ to runs_; `columns` equal columns stand side by side.
 void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
-    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& p, const Crossing& q) { return p.k < q.k; });
+    std::sort(crossings_.begin(), crossings_.end());
     runs_.clear();
     const auto depth = static_cast<std::uint32_t>(input.depth);
     std::uint32_t from = 0;
@@ -95,12 +108,12 @@ void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
         }
         from = to;
     };
-    for (const Crossing& crossing : crossings_) {
-        emit(crossing.k);
-        changeWinding(crossing.claim, crossing.sign);
+    for (const std::uint64_t crossing : crossings_) {
+        emit(static_cast<std::uint32_t>(crossing >> kDepthShift));
+        changeWinding(claimOf(crossing), (crossing & 1) != 0);
     }
     emit(depth);
-    for (const Crossing& crossing : crossings_) winding_[crossing.claim] = 0;
+    for (const std::uint64_t crossing : crossings_) winding_[claimOf(crossing)] = 0;
     active_.clear();
 }
 
@@ -139,8 +152,8 @@ void TileColumns::addRow(const TileInput& input, std::vector<SharedCount>& share
             const std::size_t heights = sloped;
             if (span.slope != 0) sloped += width;
             if (x < span.begin || x >= span.end) continue;
-            const std::int32_t k = span.slope == 0 ? span.flatK : heights_[heights + std::size_t(x)];
-            crossings_.push_back({clampToDepth(k, input.depth), span.claim, span.sign});
+            const std::int32_t k = span.slope == 0 ? span.flatK() : heights_[heights + std::size_t(x)];
+            crossings_.push_back(packCrossing(clampToDepth(k, input.depth), span.claim(), span.isEntry()));
         }
         sweepColumn(input, static_cast<std::uint64_t>(next - x));
         const std::uint16_t column = builder_->addColumn(runs_);
@@ -157,7 +170,7 @@ volume::ColumnTileData TileColumns::make(const TileInput& input, std::vector<Sha
     builder_ = &builder;
     for (std::int32_t row = 0; row < input.height; ++row) {
         // Most rows repeat the one before: as they come, or once faces are joined.
-        if (row > 0 && rows_[row] == previousRaw_) {
+        if (row > 0 && rows_[row] == rows_[row - 1]) {
             builder.repeatRow();
             shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
             continue;
@@ -171,7 +184,6 @@ volume::ColumnTileData TileColumns::make(const TileInput& input, std::vector<Sha
             addRow(input, shared);
             std::swap(previousSpans_, spans_);
         }
-        previousRaw_ = rows_[row];
     }
     builder_ = nullptr;
     return builder.finish();

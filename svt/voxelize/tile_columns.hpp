@@ -48,29 +48,29 @@ public:
 private:
     // A stretch of a row over which one claim's boundary is crossed, at one height or along one plane.
     struct Span {
-        std::int32_t begin, end;  // columns of the tile
-        std::uint32_t claim;
-        std::int32_t sign;
-        std::int32_t flatK;            // first sample above, where slope == 0
+        std::uint64_t key;             // claim, sign, flatK: what most spans are told apart by (see keyOf)
+        std::int64_t slope, base;      // Height along the row: base + slope * column; 0 where flat
         std::int32_t lowest, highest;  // clamp of a steep face
-        std::int64_t slope, base;      // Height along the row: base + slope * column
+        std::int32_t begin, end;       // columns of the tile
+        [[nodiscard]] std::uint32_t claim() const noexcept { return static_cast<std::uint32_t>(key >> 33); }
+        [[nodiscard]] bool isEntry() const noexcept { return (key >> 32 & 1) != 0; }
+        [[nodiscard]] std::int32_t flatK() const noexcept { return static_cast<std::int32_t>(key & 0xFFFFFFFFu); }
         friend bool operator==(const Span&, const Span&) = default;
     };
-    struct Crossing {
-        std::uint32_t k, claim;
-        std::int32_t sign;
-    };
+    static std::uint64_t keyOf(std::uint32_t claim, bool isEntry, std::int32_t flatK) noexcept {
+        return std::uint64_t(claim) << 33 | std::uint64_t(isEntry) << 32 | static_cast<std::uint32_t>(flatK);
+    }
 
     void collectSpans(const TileInput& input);
     void mergeSpans(std::vector<Span>& spans);
     void addRow(const TileInput& input, std::vector<SharedCount>& shared);
     void sweepColumn(const TileInput& input, std::uint64_t columns);
-    void changeWinding(std::uint32_t claim, std::int32_t sign);
+    void changeWinding(std::uint32_t claim, bool isEntry);
 
     std::vector<Span> rows_[volume::ColumnVolume::kTileSize];
-    std::vector<Span> spans_, previousSpans_, previousRaw_;
-    std::vector<std::int32_t> heights_;  // of the row's sloped spans, width each
-    std::vector<Crossing> crossings_;
+    std::vector<Span> spans_, previousSpans_;
+    std::vector<std::int32_t> heights_;     // of the row's sloped spans, width each
+    std::vector<std::uint64_t> crossings_;  // of a column: sample above, claim, entry (1 bit)
     std::vector<volume::Run> runs_;
     std::vector<std::uint16_t> row_;
     std::vector<std::uint32_t> active_;  // orders with winding > 0, ascending

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <numeric>
 
@@ -266,6 +267,26 @@ private:
     std::mutex mutex_;
 };
 
+// Tile makers with their buffers, lent from task to task.
+class MakerPool {
+public:
+    std::unique_ptr<TileColumns> take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) return std::make_unique<TileColumns>();
+        auto maker = std::move(free_.back());
+        free_.pop_back();
+        return maker;
+    }
+    void giveBack(std::unique_ptr<TileColumns> maker) {
+        const std::lock_guard lock(mutex_);
+        free_.push_back(std::move(maker));
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<TileColumns>> free_;
+};
+
 struct Tiles {
     std::vector<volume::ColumnTileData> tiles;
     std::vector<SharedCount> shared;
@@ -292,8 +313,9 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
     result.tiles.resize(tileCount);
     std::vector<std::vector<SharedCount>> shared(tileCount);
     TileProgress progress(options.progress, tileCount);
+    MakerPool makers;
     parallelFor(tileCount, 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        TileColumns maker;
+        auto maker = makers.take();
         std::vector<ClaimedBox> tileBoxes;
         for (std::size_t tile = begin; tile < end; ++tile) {
             if (Progress::isCancelled(options.progress)) return;
@@ -309,10 +331,11 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
             input.triangleIndices = triangleBins.of(tile);
             input.boxes = tileBoxes;
             input.claims = claims.ordered;
-            result.tiles[tile] = maker.make(input, shared[tile]);
+            result.tiles[tile] = maker->make(input, shared[tile]);
             addPairs(shared[tile]);
             progress.tileDone();
         }
+        makers.giveBack(std::move(maker));
     });
     for (const auto& pairs : shared) result.shared.insert(result.shared.end(), pairs.begin(), pairs.end());
     addPairs(result.shared);
