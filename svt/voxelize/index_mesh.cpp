@@ -11,6 +11,7 @@ IndexFromLocal::IndexFromLocal(const mesh::MeshScene& scene, const volume::Grid&
         rows_[std::size_t(axis)] = grid.axes()[std::size_t(axis)] / grid.spacing()[axis];
         offset_[axis] = dot(grid.axes()[std::size_t(axis)], shift) / grid.spacing()[axis];
     }
+    largestSpacing_ = std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z});
     keepsVertical_ = grid.axes()[2] == Vec3d{0, 0, 1};
 }
 

@@ -38,6 +38,8 @@ public:
     [[nodiscard]] QuantaPoint quanta(Vec3d local) const noexcept;
     /// True where z of index space depends on z of local space alone, so that planes over (x, y) carry over.
     [[nodiscard]] bool keepsVertical() const noexcept { return keepsVertical_; }
+    /// Of the three axes, metres.
+    [[nodiscard]] double largestSpacing() const noexcept { return largestSpacing_; }
     /// A plane z = a x + b y + c of local space in index space (quanta of z per voxel of x and y).
     [[nodiscard]] mesh::Plane plane(const mesh::Plane& local) const noexcept;
 
@@ -45,6 +47,7 @@ private:
     std::array<Vec3d, 3> rows_;  // index = rows * local + offset
     Vec3d offset_;
     bool keepsVertical_ = true;
+    double largestSpacing_ = 0;
 };
 
 [[nodiscard]] IndexMesh makeIndexMesh(const mesh::ObjectMesh& mesh, const IndexFromLocal& indexFromLocal);

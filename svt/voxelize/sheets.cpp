@@ -181,11 +181,12 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
 
 std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
                            std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
+    const double widest = indexFromLocal.largestSpacing();
     std::vector<ClaimedBox> raw;
     std::set<std::pair<Vec3i, Vec3i>> rodLines;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
-        if (!std::isfinite(triangle.thickness)) continue;
+        if (!(triangle.thickness < widest)) continue;  // no chord through it can be shorter than a voxel
         const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]],
                     c = vertices[triangle.corners[2]];
         const Vec3d inward = indexFromLocal.direction(-normalized(cross(b - a, c - a)) * double(triangle.thickness));

@@ -59,12 +59,25 @@ void TileColumns::collectSpans(const TileInput& input) {
 
 // Joins neighbours on the same plane, so that the row reads the same however faces were triangulated.
 void TileColumns::mergeSpans(std::vector<Span>& spans) {
-    std::sort(spans.begin(), spans.end(), [](const Span& p, const Span& q) {
+    const auto isBefore = [](const Span& p, const Span& q) {
         if (p.key != q.key) return p.key < q.key;
         if (p.slope != q.slope) return p.slope < q.slope;
         if (p.base != q.base) return p.base < q.base;
         return p.begin != q.begin ? p.begin < q.begin : p.end < q.end;
-    });
+    };
+    // Triangles come in the order of claims, so short rows are nearly sorted: insertion is the faster way.
+    constexpr std::size_t kShort = 64;
+    if (spans.size() > kShort) {
+        std::sort(spans.begin(), spans.end(), isBefore);
+    } else {
+        for (std::size_t s = 1; s < spans.size(); ++s) {
+            if (!isBefore(spans[s], spans[s - 1])) continue;
+            const Span moving = spans[s];
+            std::size_t to = s;
+            for (; to > 0 && isBefore(moving, spans[to - 1]); --to) spans[to] = spans[to - 1];
+            spans[to] = moving;
+        }
+    }
     std::size_t kept = 0;
     for (std::size_t s = 1; s < spans.size(); ++s) {
         Span& last = spans[kept];
@@ -117,14 +130,14 @@ void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
     active_.clear();
 }
 
-// spans_ to a row of columns.
-void TileColumns::addRow(const TileInput& input, std::vector<SharedCount>& shared) {
+// Merged spans to a row of columns.
+void TileColumns::addRow(const TileInput& input, const std::vector<Span>& spans, std::vector<SharedCount>& shared) {
     const auto width = static_cast<std::size_t>(input.width);
     rowShared_.clear();
     // Bit x is set where some crossing begins, ends or changes its sample.
     std::uint64_t breaks = 1;
     heights_.clear();
-    for (Span& span : spans_) {
+    for (const Span& span : spans) {
         breaks |= std::uint64_t{1} << span.begin;
         if (span.end < 64) breaks |= std::uint64_t{1} << span.end;
         if (span.slope == 0) continue;
@@ -148,7 +161,7 @@ void TileColumns::addRow(const TileInput& input, std::vector<SharedCount>& share
         const int next = breaks != 0 ? std::countr_zero(breaks) : input.width;
         crossings_.clear();
         std::size_t sloped = 0;
-        for (const Span& span : spans_) {
+        for (const Span& span : spans) {
             const std::size_t heights = sloped;
             if (span.slope != 0) sloped += width;
             if (x < span.begin || x >= span.end) continue;
@@ -169,20 +182,12 @@ volume::ColumnTileData TileColumns::make(const TileInput& input, std::vector<Sha
     volume::ColumnTileBuilder builder(input.width);
     builder_ = &builder;
     for (std::int32_t row = 0; row < input.height; ++row) {
-        // Most rows repeat the one before: as they come, or once faces are joined.
+        mergeSpans(rows_[row]);
         if (row > 0 && rows_[row] == rows_[row - 1]) {
             builder.repeatRow();
             shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
-            continue;
-        }
-        spans_ = rows_[row];
-        mergeSpans(spans_);
-        if (row > 0 && spans_ == previousSpans_) {
-            builder.repeatRow();
-            shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
         } else {
-            addRow(input, shared);
-            std::swap(previousSpans_, spans_);
+            addRow(input, rows_[row], shared);
         }
     }
     builder_ = nullptr;

@@ -63,12 +63,11 @@ private:
 
     void collectSpans(const TileInput& input);
     void mergeSpans(std::vector<Span>& spans);
-    void addRow(const TileInput& input, std::vector<SharedCount>& shared);
+    void addRow(const TileInput& input, const std::vector<Span>& spans, std::vector<SharedCount>& shared);
     void sweepColumn(const TileInput& input, std::uint64_t columns);
     void changeWinding(std::uint32_t claim, bool isEntry);
 
     std::vector<Span> rows_[volume::ColumnVolume::kTileSize];
-    std::vector<Span> spans_, previousSpans_;
     std::vector<std::int32_t> heights_;     // of the row's sloped spans, width each
     std::vector<std::uint64_t> crossings_;  // of a column: sample above, claim, entry (1 bit)
     std::vector<volume::Run> runs_;

@@ -246,6 +246,11 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
         all.uncertainVoxels.push_back(object.uncertainVoxels);
         object = {};
     }
+    // In the order of claims, so that the rows of a tile are filled nearly sorted.
+    std::stable_sort(all.triangles.begin(), all.triangles.end(), [](const ScanTriangle& p, const ScanTriangle& q) {
+        if (p.claim != q.claim) return p.claim < q.claim;
+        return p.sign != q.sign ? p.sign < q.sign : p.height.base < q.height.base;
+    });
     return all;
 }
 
