@@ -174,7 +174,7 @@ std::vector<std::uint64_t> ColumnVolume::countVoxels(Scalar scalarCount) const {
         for (std::size_t c = 0; c < uses.size(); ++c) {
             std::uint32_t begin = 0;
             for (const Run& run : tile.column(static_cast<std::uint32_t>(c))) {
-                counts[run.scalar] += uses[c] * (run.end - begin);
+                if (run.scalar < scalarCount) counts[run.scalar] += uses[c] * (run.end - begin);
                 begin = run.end;
             }
         }

@@ -87,7 +87,8 @@ public:
     /// Scalar of sample (i, j, k). Cost O(log runs).
     [[nodiscard]] Scalar scalarAt(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept;
 
-    /// Voxels per scalar; entry s of `scalarCount` entries. Cost O(distinct columns' runs + rows).
+    /// Voxels per scalar; entry s of `scalarCount` entries, larger scalars are not counted. Cost O(distinct columns'
+    /// runs + rows).
     [[nodiscard]] std::vector<std::uint64_t> countVoxels(Scalar scalarCount) const;
     /// Bytes of all arrays.
     [[nodiscard]] std::size_t sizeBytes() const noexcept;

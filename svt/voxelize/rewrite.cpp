@@ -69,6 +69,11 @@ ColumnVolume rewriteColumns(const ColumnVolume& columns, const TileRewriterFacto
 }
 
 ColumnVolume editVoxels(const ColumnVolume& columns, std::vector<VoxelEdit> edits, int threads) {
+    const Vec3i d = columns.dimension();
+    std::erase_if(edits, [d](const VoxelEdit& edit) {
+        const Vec3i v = edit.voxel;
+        return v.x < 0 || v.y < 0 || v.z < 0 || v.x >= d.x || v.y >= d.y || v.z >= d.z;
+    });
     const auto place = [](const Vec3i& v) { return std::tuple(v.y, v.x, v.z); };
     std::stable_sort(edits.begin(), edits.end(),
                      [&](const VoxelEdit& p, const VoxelEdit& q) { return place(p.voxel) < place(q.voxel); });

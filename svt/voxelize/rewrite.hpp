@@ -31,7 +31,7 @@ struct VoxelEdit {
     volume::Scalar scalar = 0;
 };
 
-/// Sets single voxels.
+/// Sets single voxels; of several edits of one voxel the first counts, edits outside the volume do nothing.
 [[nodiscard]] volume::ColumnVolume editVoxels(const volume::ColumnVolume& columns, std::vector<VoxelEdit> edits,
                                               int threads);
 

@@ -151,7 +151,7 @@ TEST(City, BerlinIsBuiltInSpiteOfItsDefects) {
     const json built =
         runSvtForJson(folder.path(), {"build", model.string(), "-o", "b.svt", "--spacing", "1", "--json"});
     EXPECT_EQ(runSvtForJson(folder.path(), {"query", "b.svt", "class=Building", "--json"}).size(), 61u);
-    EXPECT_EQ(built["open"], 3);
+    EXPECT_EQ(built["open"], 4);
 }
 
 TEST(City, HundredBuildingsAreHundredClosedBuildings) {
