@@ -239,18 +239,21 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
     }
     all.triangles.reserve(triangleCount);
     all.boxes.reserve(boxCount);
-    for (Prepared& object : prepared) {
+    // In the order of claims, so that the rows of a tile are filled nearly sorted.
+    std::vector<std::uint32_t> objects(prepared.size());
+    std::iota(objects.begin(), objects.end(), 0u);
+    std::sort(objects.begin(), objects.end(),
+              [&](std::uint32_t p, std::uint32_t q) { return claims.solidOrder[p] < claims.solidOrder[q]; });
+    all.thinVoxels.resize(prepared.size());
+    all.uncertainVoxels.resize(prepared.size());
+    for (const std::uint32_t o : objects) {
+        Prepared& object = prepared[o];
         all.triangles.insert(all.triangles.end(), object.triangles.begin(), object.triangles.end());
         all.boxes.insert(all.boxes.end(), object.boxes.begin(), object.boxes.end());
-        all.thinVoxels.push_back(object.thinVoxels);
-        all.uncertainVoxels.push_back(object.uncertainVoxels);
+        all.thinVoxels[o] = object.thinVoxels;
+        all.uncertainVoxels[o] = object.uncertainVoxels;
         object = {};
     }
-    // In the order of claims, so that the rows of a tile are filled nearly sorted.
-    std::stable_sort(all.triangles.begin(), all.triangles.end(), [](const ScanTriangle& p, const ScanTriangle& q) {
-        if (p.claim != q.claim) return p.claim < q.claim;
-        return p.sign != q.sign ? p.sign < q.sign : p.height.base < q.height.base;
-    });
     return all;
 }
 
