@@ -79,13 +79,15 @@ private:
         return data;
     }
 
-    // The samples inside of `bounds` (local space), cut at the grid.
+    // The samples inside of `bounds` (local space), cut at the grid; one that lies on them but for rounding is inside.
     std::array<int, 6> extentOf(const Box3d& bounds) const {
         const Vec3d spacing = grid_.spacing();
         const Vec3i n = grid_.dimension();
+        constexpr double kRounding = 1e-6;  // voxel
         const auto range = [](double least, double most, double origin, double step, int count) {
-            return std::array<int, 2>{std::max(0, static_cast<int>(std::ceil((least - origin) / step))),
-                                      std::min(count - 1, static_cast<int>(std::floor((most - origin) / step)))};
+            return std::array<int, 2>{
+                std::max(0, static_cast<int>(std::ceil((least - origin) / step - kRounding))),
+                std::min(count - 1, static_cast<int>(std::floor((most - origin) / step + kRounding)))};
         };
         const auto x = range(bounds.min.x, bounds.max.x, localOrigin_.x, spacing.x, n.x);
         const auto y = range(bounds.min.y, bounds.max.y, localOrigin_.y, spacing.y, n.y);
