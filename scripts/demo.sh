@@ -28,5 +28,5 @@ draw house_rooms "$out/house.svt" --hide 'name~"Roof|Rafter|Ridge"' --opacity cl
 draw house_plan "$out/house.svt" --hide class=BuildingRoom --section 'z>1.4' --camera top --ortho
 draw house_beam "$out/house.svt" --hide class=BuildingRoom --section 'y<4.3' --color 'name="Hidden beam":red' --camera front
 draw house_patterns "$out/house_patterns.svt" --hide class=BuildingRoom --section 'y<4.3' --camera front
-draw tower_flat "$out/tower.svt" --show class=BuildingUnit --opacity class=BuildingUnit:0.25
+draw tower_flat "$out/tower.svt" --opacity all:0.02 --opacity 'under tower_S04_F2:1' --color 'under tower_S04_F2:orange'
 echo "demo: done; the pictures are in $out, the volumes beside them ('$svt info $out/house.svt --tree' shows what is inside)"
