@@ -11,6 +11,7 @@
 #include <svt/volume/brick_volume.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -110,82 +111,233 @@ struct RaySpan {
     return span;
 }
 
+/// When a ray crosses an oblique plane, and which side it is on when.
+struct PlaneCrossing {
+    double time = std::numeric_limits<double>::infinity();
+    bool isRising = false;  ///< on the positive side from `time` on, else until then
+
+    PlaneCrossing(const volume::BrickPlane& plane, const IndexRay& ray) noexcept {
+        const double height = dot(plane.normal, ray.origin) + plane.offset, rise = dot(plane.normal, ray.direction);
+        isRising = rise > 0;
+        if (rise != 0)
+            time = -height / rise;
+        else
+            isRising = !(height > 0);
+    }
+    [[nodiscard]] bool isPositiveAt(double t) const noexcept { return (t >= time) == isRising; }
+};
+
+/// Where a run begins: in which voxel, and at which oblique plane if it is one that the ray crosses there.
+struct RunStart {
+    Vec3i cell;
+    std::uint32_t plane = volume::BrickVolume::kNoPlane;
+};
+
 /// Walks [from, to) of the ray, which must lie in spanInVolume(), and tells `visitor` of each run of one scalar:
-///     bool enter(Scalar, double from, Vec3i cell)      at its start; true ends the walk
+///     bool enter(Scalar, double from, RunStart)        at its start; true ends the walk
 ///     bool leave(Scalar, double from, double to)       at its end; true ends the walk
-/// Same-label boxes are crossed in one step, mixed bricks voxel by voxel.
+/// Same-label boxes are crossed in one step, coded bricks from side to side, other mixed bricks voxel by voxel.
 template <class Visitor>
-void walkRuns(const volume::BrickVolume& volume, const IndexRay& ray, double from, double to, Visitor& visitor) {
-    const Vec3i count = volume.dimension();
-    Vec3i cell = ray.cellAt(from, count);
-    double t = from, runStart = from;
-    volume::Scalar runScalar = 0;
-    bool isFirst = true;
-    const auto moveTo = [&](volume::Scalar scalar) {
-        if (!isFirst && scalar == runScalar) return false;
-        if (!isFirst && visitor.leave(runScalar, runStart, t)) return true;
-        isFirst = false;
-        runScalar = scalar;
-        runStart = t;
-        return visitor.enter(scalar, t, cell);
-    };
-    while (true) {
-        const volume::BrickVolume::Entry entry = volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3);
-        if (!entry.isMixed()) {
-            const volume::SameLabelBox& box = volume.box(entry);
-            if (moveTo(box.scalar)) return;
-            Vec3d leave;
-            Vec3i plane;
-            forEachAxis([&](auto axis) {
-                plane[axis] = ray.step[axis] < 0 ? box.min[axis] : box.max[axis];
-                leave[axis] = ray.planeTime(axis, plane[axis]);
-            });
-            t = std::min({leave.x, leave.y, leave.z});
-            if (!(t < to)) break;
-            forEachAxis([&](auto axis) {
-                cell[axis] =
-                    leave[axis] == t ? plane[axis] - (ray.step[axis] < 0 ? 1 : 0) : ray.cellAt(axis, t, count[axis]);
-            });
-            continue;
+class RunWalk {
+public:
+    RunWalk(const volume::BrickVolume& volume, const IndexRay& ray, double from, double to, Visitor& visitor)
+        : volume_(volume), ray_(ray), count_(volume.dimension()), visitor_(visitor), t_(from), to_(to), runStart_(from) {}
+
+    void walk() {
+        cell_ = ray_.cellAt(t_, count_);
+        while (true) {
+            const volume::BrickVolume::Entry entry = volume_.entry(cell_.x >> 3, cell_.y >> 3, cell_.z >> 3);
+            const bool isDone = !entry.isMixed()           ? crossBox(entry)
+                                : volume_.isCoded(entry) ? crossCoded(entry)
+                                                         : crossVoxels(entry);
+            if (isDone) return;
+            if (!(t_ < to_)) break;
         }
-        const volume::BrickVolume::MixedBrick mixed = volume.mixedBrick(entry);
-        const Vec3i brick{cell.x >> 3, cell.y >> 3, cell.z >> 3};
-        Vec3d leave{ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)};
+        visitor_.leave(runScalar_, runStart_, to_);
+    }
+
+private:
+    // The ray is in `scalar` from t_ on; true ends the walk.
+    bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane) {
+        if (!isFirst_ && scalar == runScalar_) return false;
+        if (!isFirst_ && visitor_.leave(runScalar_, runStart_, t_)) return true;
+        isFirst_ = false;
+        runScalar_ = scalar;
+        runStart_ = t_;
+        return visitor_.enter(scalar, t_, RunStart{cell_, plane});
+    }
+
+    // To where the ray leaves the voxels [min, max).
+    struct Exit {
+        Vec3d leave;
+        Vec3i plane;
+        double time;
+    };
+    template <class Min, class Max>
+    [[nodiscard]] Exit exitOf(const Min& min, const Max& max) const noexcept {
+        Exit exit;
+        forEachAxis([&](auto axis) {
+            exit.plane[axis] = ray_.step[axis] < 0 ? min(axis) : max(axis);
+            exit.leave[axis] = ray_.planeTime(axis, exit.plane[axis]);
+        });
+        exit.time = std::min({exit.leave.x, exit.leave.y, exit.leave.z});
+        return exit;
+    }
+    void leaveBy(const Exit& exit) noexcept {
+        t_ = exit.time;
+        if (!(t_ < to_)) return;
+        forEachAxis([&](auto axis) {
+            cell_[axis] = exit.leave[axis] == t_ ? exit.plane[axis] - (ray_.step[axis] < 0 ? 1 : 0)
+                                                 : ray_.cellAt(axis, t_, count_[axis]);
+        });
+    }
+
+    bool crossBox(volume::BrickVolume::Entry entry) {
+        const volume::SameLabelBox& box = volume_.box(entry);
+        if (moveTo(box.scalar)) return true;
+        leaveBy(exitOf([&](int axis) { return std::int32_t{box.min[static_cast<std::size_t>(axis)]}; },
+                       [&](int axis) { return std::int32_t{box.max[static_cast<std::size_t>(axis)]}; }));
+        return false;
+    }
+
+    bool crossCoded(volume::BrickVolume::Entry entry) {
+        const volume::BrickVolume::Coding coding = volume_.coding(entry);
+        const Vec3i low{cell_.x & ~7, cell_.y & ~7, cell_.z & ~7};
+        const Exit exit = exitOf([&](int axis) { return low[axis]; },
+                                 [&](int axis) { return std::min(low[axis] + 8, count_[axis]); });
+        // When the ray changes sides, in the order of the bits; whether it is beyond from then on, or until then.
+        struct Side {
+            double time;
+            bool isBeyondAfter;
+            int axis;
+            std::uint32_t plane;
+        };
+        std::array<Side, 5> sides;
+        std::size_t count = 0;
+        forEachAxis([&](auto axis) {
+            const std::int32_t cut = coding.cut[static_cast<std::size_t>(axis)];
+            if (cut == 0) return;
+            const std::int32_t place = low[axis] + cut;
+            Side side{ray_.planeTime(axis, place), ray_.step[axis] > 0, axis, volume::BrickVolume::kNoPlane};
+            // Not along this axis: on one side for good.
+            if (ray_.step[axis] == 0) side.isBeyondAfter = cell_[axis] < place;
+            sides[count++] = side;
+        });
+        for (const std::uint32_t plane : coding.plane) {
+            if (plane == volume::BrickVolume::kNoPlane) continue;
+            const PlaneCrossing crossing(volume_.oblique()[plane], ray_);
+            sides[count++] = {crossing.time, crossing.isRising, -1, plane};
+        }
+        std::uint32_t crossed = volume::BrickVolume::kNoPlane;
+        while (true) {
+            std::size_t cell = 0;
+            double next = exit.time;
+            const Side* nextSide = nullptr;
+            for (std::size_t s = 0; s < count; ++s) {
+                const bool isAfter = t_ >= sides[s].time;
+                cell |= std::size_t{isAfter == sides[s].isBeyondAfter} << s;
+                if (!isAfter && sides[s].time < next) {
+                    next = sides[s].time;
+                    nextSide = &sides[s];
+                }
+            }
+            if (moveTo(coding.cells[cell], crossed)) return true;
+            if (nextSide == nullptr) break;
+            t_ = next;
+            if (!(t_ < to_)) return false;
+            crossed = nextSide->plane;
+            forEachAxis([&](auto axis) { cell_[axis] = ray_.cellAt(axis, t_, count_[axis]); });
+        }
+        leaveBy(exit);
+        return false;
+    }
+
+    bool crossVoxels(volume::BrickVolume::Entry entry) {
+        const volume::BrickVolume::MixedBrick mixed = volume_.mixedBrick(entry);
+        const Vec3i brick{cell_.x >> 3, cell_.y >> 3, cell_.z >> 3};
+        Vec3d leave{ray_.leaveTime(0, cell_.x), ray_.leaveTime(1, cell_.y), ray_.leaveTime(2, cell_.z)};
         do {
-            if (moveTo(mixed.scalarAt(cell.x & 7, cell.y & 7, cell.z & 7))) return;
-            t = std::min({leave.x, leave.y, leave.z});
-            if (!(t < to)) break;
+            if (moveTo(mixed.scalarAt(cell_.x & 7, cell_.y & 7, cell_.z & 7))) return true;
+            t_ = std::min({leave.x, leave.y, leave.z});
+            if (!(t_ < to_)) return false;
             forEachAxis([&](auto axis) {
-                while (leave[axis] <= t) {
-                    cell[axis] += ray.step[axis];
-                    leave[axis] = ray.leaveTime(axis, cell[axis]);
+                while (leave[axis] <= t_) {
+                    cell_[axis] += ray_.step[axis];
+                    leave[axis] = ray_.leaveTime(axis, cell_[axis]);
                 }
             });
-        } while ((((cell.x >> 3) ^ brick.x) | ((cell.y >> 3) ^ brick.y) | ((cell.z >> 3) ^ brick.z)) == 0);
-        if (!(t < to)) break;
+        } while ((((cell_.x >> 3) ^ brick.x) | ((cell_.y >> 3) ^ brick.y) | ((cell_.z >> 3) ^ brick.z)) == 0);
+        return false;
     }
-    visitor.leave(runScalar, runStart, to);
+
+    const volume::BrickVolume& volume_;
+    const IndexRay& ray_;
+    Vec3i count_;
+    Visitor& visitor_;
+    Vec3i cell_{};
+    double t_, to_, runStart_;
+    volume::Scalar runScalar_ = 0;
+    bool isFirst_ = true;
+};
+
+template <class Visitor>
+void walkRuns(const volume::BrickVolume& volume, const IndexRay& ray, double from, double to, Visitor& visitor) {
+    RunWalk<Visitor>(volume, ray, from, to, visitor).walk();
 }
 
-/// The same, from voxel to voxel and by scalarAt() alone: what walkRuns() is held against.
+/// The same from voxel to voxel, within a voxel from oblique plane to oblique plane, and else by scalarAt() alone: what
+/// the fast ways are held against.
 template <class Visitor>
 void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, double from, double to,
                        Visitor& visitor) {
     Vec3i cell = ray.cellAt(from, volume.dimension());
     double t = from, runStart = from;
-    volume::Scalar runScalar = volume.scalarAt(cell.x, cell.y, cell.z);
-    if (visitor.enter(runScalar, from, cell)) return;
-    while (true) {
-        t = std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
-        if (!(t < to)) break;
-        for (int axis = 0; axis < 3; ++axis)
-            while (ray.leaveTime(axis, cell[axis]) <= t) cell[axis] += ray.step[axis];
-        const volume::Scalar scalar = volume.scalarAt(cell.x, cell.y, cell.z);
-        if (scalar == runScalar) continue;
-        if (visitor.leave(runScalar, runStart, t)) return;
+    volume::Scalar runScalar = 0;
+    bool isFirst = true;
+    const auto moveTo = [&](volume::Scalar scalar, std::uint32_t plane) {
+        if (!isFirst && scalar == runScalar) return false;
+        if (!isFirst && visitor.leave(runScalar, runStart, t)) return true;
+        isFirst = false;
         runScalar = scalar;
         runStart = t;
-        if (visitor.enter(scalar, t, cell)) return;
+        return visitor.enter(scalar, t, RunStart{cell, plane});
+    };
+    std::uint32_t crossed = volume::BrickVolume::kNoPlane;
+    while (true) {
+        const double leave =
+            std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
+        const volume::BrickVolume::Entry entry = volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3);
+        double next = leave;
+        if (entry.isMixed() && volume.isCoded(entry) &&
+            volume.coding(entry).plane[0] != volume::BrickVolume::kNoPlane) {
+            const volume::BrickVolume::Coding coding = volume.coding(entry);
+            std::size_t side = 0;
+            int bit = 0;
+            for (int axis = 0; axis < 3; ++axis)
+                if (const int cut = coding.cut[static_cast<std::size_t>(axis)]; cut != 0)
+                    side |= std::size_t{(cell[axis] & 7) >= cut} << bit++;
+            std::uint32_t nextPlane = volume::BrickVolume::kNoPlane;
+            for (const std::uint32_t plane : coding.plane) {
+                if (plane == volume::BrickVolume::kNoPlane) continue;
+                const PlaneCrossing crossing(volume.oblique()[plane], ray);
+                side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
+                if (crossing.time > t && crossing.time < next) {
+                    next = crossing.time;
+                    nextPlane = plane;
+                }
+            }
+            if (moveTo(coding.cells[side], crossed)) return;
+            crossed = nextPlane;
+        } else {
+            if (moveTo(volume.scalarAt(cell.x, cell.y, cell.z), volume::BrickVolume::kNoPlane)) return;
+            crossed = volume::BrickVolume::kNoPlane;
+        }
+        t = next;
+        if (!(t < to)) break;
+        if (t < leave) continue;
+        crossed = volume::BrickVolume::kNoPlane;
+        for (int axis = 0; axis < 3; ++axis)
+            while (ray.leaveTime(axis, cell[axis]) <= t) cell[axis] += ray.step[axis];
     }
     visitor.leave(runScalar, runStart, to);
 }

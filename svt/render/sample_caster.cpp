@@ -54,7 +54,7 @@ public:
         previousObject_ = kNoObject;
     }
 
-    bool enter(volume::Scalar scalar, double from, Vec3i cell) {
+    bool enter(volume::Scalar scalar, double from, const RunStart& start) {
         const LinearStyle& style = pass_.table[scalar];
         if (style.kind == Kind::Hidden) {
             previousObject_ = kNoObject;
@@ -62,7 +62,7 @@ public:
         }
         const bool isNewObject = style.object != previousObject_;
         previousObject_ = style.object;
-        if (withColor_ && isNewObject) surface_ = surfaceAt(style, from, cell);
+        if (withColor_ && isNewObject) surface_ = surfaceAt(style, from, start);
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);
         return true;
@@ -108,29 +108,45 @@ private:
         }
     }
 
-    Surface surfaceAt(const LinearStyle& style, double from, Vec3i cell) {
-        Surface surface;
+    // Glass has the normal of the plane or voxel face that it begins with. For a body, the voxels around tell how deep
+    // in a corner it lies, and, where there is no plane, its slope.
+    Surface surfaceAt(const LinearStyle& style, double from, const RunStart& start) {
         if (interval_->capPlane != nullptr && from == interval_->from) {
-            surface.isCap = true;
             const Vec3d normal = interval_->capPlane->normal;
-            surface.normal = unit(dot(normal, ray_.direction) > 0 ? -normal : normal);
-            surface.light = lightOn(surface.normal, from, SurfaceNormal::kPlaneCoverage, style.isBody);
-            return surface;
+            return litSurface(unit(dot(normal, ray_.direction) > 0 ? -normal : normal), from,
+                              SurfaceNormal::kPlaneCoverage, style.isBody, true);
         }
-        const int axis = ray_.index.entryAxis(from, cell);
-        if (axis < 0) {  // the eye is inside
-            surface.normal = unit(-ray_.direction);
-            surface.light = lightOn(surface.normal, from, SurfaceNormal::kPlaneCoverage, false);
-            return surface;
+        const bool isOblique = start.plane != volume::BrickVolume::kNoPlane;
+        const int axis = isOblique ? -1 : ray_.index.entryAxis(from, start.cell);
+        if (!isOblique && axis < 0)  // the eye is inside
+            return litSurface(unit(-ray_.direction), from, SurfaceNormal::kPlaneCoverage, false, false);
+        float coverage = SurfaceNormal::kPlaneCoverage;
+        Vec3d index{};
+        if (!isOblique) index[axis] = -ray_.index.step[axis];
+        if (isOblique) {
+            const Vec3d normal = scene_.volume.oblique()[start.plane].normal;
+            index = dot(normal, ray_.index.direction) > 0 ? -normal : normal;
         }
-        const SurfaceNormal& found = normalAt(style, cell, axis);
+        if (style.isBody) {
+            const SurfaceNormal& found = normalAt(style, start.cell, isOblique ? longestAxis(index) : axis);
+            coverage = found.coverage;
+            if (!isOblique) index = {found.indexNormal.x, found.indexNormal.y, found.indexNormal.z};
+        }
+        return litSurface(unit(worldNormal(index)), from, coverage, style.isBody, false);
+    }
+
+    [[nodiscard]] Vec3d worldNormal(Vec3d index) const noexcept {
         Vec3d normal{};
         for (int a = 0; a < 3; ++a)
-            normal = normal + scene_.grid.axes()[static_cast<std::size_t>(a)] *
-                                  (static_cast<double>(found.indexNormal[a]) / scene_.grid.spacing()[a]);
-        surface.normal = unit(normal);
-        surface.light = lightOn(surface.normal, from, found.coverage, style.isBody);
-        return surface;
+            normal = normal + scene_.grid.axes()[static_cast<std::size_t>(a)] * (index[a] / scene_.grid.spacing()[a]);
+        return normal;
+    }
+    [[nodiscard]] static int longestAxis(Vec3d v) noexcept {
+        const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+        return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    }
+    Surface litSurface(Vec3f normal, double from, float coverage, bool isBody, bool isCap) const {
+        return {normal, isCap, lightOn(normal, from, coverage, isBody)};
     }
 
     const SurfaceNormal& normalAt(const LinearStyle& style, Vec3i cell, int axis) {

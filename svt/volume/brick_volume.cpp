@@ -1,10 +1,12 @@
 #include <svt/core/parallel.hpp>
+#include <svt/volume/brick_coder.hpp>
 #include <svt/volume/brick_volume.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <unordered_map>
 
 namespace svt::volume {
@@ -49,21 +51,34 @@ private:
     std::vector<std::uint32_t> chain_;
 };
 
-// A palette brick on its own, as a tile finds it.
-struct LocalBrick {
-    std::vector<Scalar> palette;
-    std::vector<std::uint64_t> planes;
-    std::uint64_t planesHash = 0;
+// A pattern and how it is coded.
+struct TileBrick {
+    std::uint32_t pattern = 0;
+    std::optional<BrickCode> code;
     std::uint64_t hash = 0;
 };
 
 // One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of
-// `scalars`, or of `bricks` with the mixed bit.
+// `scalars`, or of `patterns` with the mixed bit.
 struct TileBricks {
     std::array<std::uint8_t, kBricksPerTile * kBricksPerTile> columnOf{};
     std::vector<std::uint32_t> entries;
     std::vector<Scalar> scalars;
-    std::vector<LocalBrick> bricks;
+    std::vector<BrickPattern> patterns;
+    std::vector<BrickPlane> planes;  // of the codes of `bricks`
+    std::vector<TileBrick> bricks;
+    std::vector<std::uint32_t> brickOf;  // by pattern, where it stands without planes; else kNone
+    struct Oblique {
+        std::uint32_t place = 0, brick = 0;
+    };
+    std::vector<Oblique> oblique;  // bricks with planes, by place
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    [[nodiscard]] std::uint32_t entryAt(std::int32_t x, std::int32_t y, std::int32_t z,
+                                        std::int32_t bricksZ) const noexcept {
+        const std::size_t column = columnOf[static_cast<std::size_t>(x + kBricksPerTile * y)];
+        return entries[column * static_cast<std::size_t>(bricksZ) + static_cast<std::size_t>(z)];
+    }
 };
 
 // One of the distinct columns over a brick's 8 x 8 footprint.
@@ -180,18 +195,17 @@ private:
         }
         const std::span<const std::uint64_t> planes(
             words_.data(), 8 * std::max<std::size_t>(1, static_cast<std::size_t>(std::bit_width(palette_.size() - 1))));
-        std::uint64_t planesHash = planes.size();
-        for (const std::uint64_t word : planes) planesHash = mix(planesHash, word);
-        std::uint64_t hash = planesHash;
+        std::uint64_t hash = planes.size();
+        for (const std::uint64_t word : planes) hash = mix(hash, word);
         for (const Scalar scalar : palette_) hash = mix(hash, scalar);
-        const auto next = static_cast<std::uint32_t>(result_.bricks.size());
+        const auto next = static_cast<std::uint32_t>(result_.patterns.size());
         std::uint32_t number = numbering_.find(hash, next, [&](std::uint32_t other) {
-            const LocalBrick& brick = result_.bricks[other];
-            return brick.palette == palette_ && std::equal(planes.begin(), planes.end(), brick.planes.begin());
+            const BrickPattern& pattern = result_.patterns[other];
+            return pattern.palette == palette_ && std::equal(planes.begin(), planes.end(), pattern.planes.begin());
         });
         if (number == Numbering::kNew) {
             number = next;
-            result_.bricks.push_back({palette_, {planes.begin(), planes.end()}, planesHash, hash});
+            result_.patterns.push_back({palette_, {planes.begin(), planes.end()}});
         }
         return number | kMixedBit;
     }
@@ -205,6 +219,88 @@ private:
     std::array<std::uint64_t, 8 * 9> words_{};
     Numbering numbering_;
     TileBricks result_;
+};
+
+std::uint64_t hashOf(const BrickPattern& pattern, const std::optional<BrickCode>& code) noexcept {
+    std::uint64_t hash = pattern.planes.size();
+    for (const std::uint64_t word : pattern.planes) hash = mix(hash, word);
+    for (const Scalar scalar : pattern.palette) hash = mix(hash, scalar);
+    if (!code) return hash;
+    for (const std::uint32_t plane : code->plane) hash = mix(hash, plane);
+    for (const Scalar scalar : code->cells) hash = mix(hash, scalar);
+    return hash;
+}
+
+// Codes the bricks of a tile: patterns by cuts alone, once each, then by planes, where they stand.
+class BrickCoding {
+public:
+    BrickCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {}
+
+    void run(BrickFaces faces) {
+        std::vector<std::uint8_t> isUsed(tile_.patterns.size(), 1);
+        std::vector<std::optional<BrickCode>> codes(tile_.patterns.size());
+        if (faces == BrickFaces::Planes) {
+            std::vector<std::uint8_t> isCoded;
+            for (std::size_t n = 0; n < codes.size(); ++n) {
+                codes[n] = codeBySides(tile_.patterns[n], {});
+                isCoded.push_back(codes[n].has_value() ? 1 : 0);
+            }
+            if (std::find(isCoded.begin(), isCoded.end(), 0) != isCoded.end()) addOblique(isCoded, isUsed);
+        }
+        tile_.brickOf.assign(isUsed.size(), TileBricks::kNone);
+        for (std::uint32_t n = 0; n < isUsed.size(); ++n)
+            if (isUsed[n] != 0) tile_.brickOf[n] = brickNumber(n, std::move(codes[n]));
+    }
+
+private:
+    void addOblique(const std::vector<std::uint8_t>& isCoded, std::vector<std::uint8_t>& isUsed) {
+        const Vec3i count = places_.count;
+        for (std::int32_t z = 0; z < count.z; ++z)
+            for (std::int32_t y = 0; y < count.y; ++y)
+                for (std::int32_t x = 0; x < count.x; ++x) {
+                    const std::uint32_t entry = tile_.entryAt(x, y, z, count.z);
+                    const bool isMixed = (entry & kMixedBit) != 0;
+                    places_.patternOf.push_back(isMixed ? entry & ~kMixedBit : TilePlaces::kUniform);
+                    places_.scalarOf.push_back(isMixed ? 0 : tile_.scalars[entry]);
+                }
+        TileCodes found = codeTile(places_, tile_.patterns, isCoded);
+        tile_.planes = std::move(found.planes);
+        std::vector<std::uint32_t> patternOf = std::move(places_.patternOf);  // without those that got planes
+        for (PlacedCode& placed : found.codes) {
+            std::uint32_t& pattern = patternOf[placed.place];
+            const std::uint32_t own =
+                pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[placed.place]);
+            tile_.oblique.push_back({placed.place, brickNumber(own, std::move(placed.code))});
+            pattern = TilePlaces::kUniform;
+        }
+        std::fill(isUsed.begin(), isUsed.end(), 0);
+        for (const std::uint32_t pattern : patternOf)
+            if (pattern != TilePlaces::kUniform) isUsed[pattern] = 1;
+    }
+
+    std::uint32_t uniformPattern(Scalar scalar) {
+        const auto [place, isNew] =
+            uniform_.try_emplace(scalar, static_cast<std::uint32_t>(tile_.patterns.size()));
+        if (isNew) tile_.patterns.push_back({{scalar}, std::vector<std::uint64_t>(8, 0)});
+        return place->second;
+    }
+
+    std::uint32_t brickNumber(std::uint32_t pattern, std::optional<BrickCode> code) {
+        const BrickPattern& own = tile_.patterns[pattern];
+        const std::uint64_t hash = hashOf(own, code);
+        const auto next = static_cast<std::uint32_t>(tile_.bricks.size());
+        const std::uint32_t known = numbering_.find(hash, next, [&](std::uint32_t other) {
+            return tile_.bricks[other].pattern == pattern && tile_.bricks[other].code == code;
+        });
+        if (known != Numbering::kNew) return known;
+        tile_.bricks.push_back({pattern, std::move(code), hash});
+        return next;
+    }
+
+    TileBricks& tile_;
+    TilePlaces places_;
+    std::unordered_map<Scalar, std::uint32_t> uniform_;
+    Numbering numbering_;
 };
 
 // A box of bricks that are all uniform with one scalar.
@@ -309,34 +405,56 @@ class BrickMerger {
 public:
     explicit BrickMerger(BrickVolume& volume) : volume_(volume) {}
 
-    // Rewrites the tile's entries from its own numbers to the volume's.
+    // Rewrites the tile's entries and bricks from its own numbers to the volume's.
     void addTile(TileBricks& tile) {
-        std::vector<std::uint32_t> scalars(tile.scalars.size()), bricks(tile.bricks.size());
-        for (std::size_t n = 0; n < scalars.size(); ++n) scalars[n] = scalarNumber(tile.scalars[n]);
-        for (std::size_t n = 0; n < bricks.size(); ++n) bricks[n] = brickNumber(tile.bricks[n]) | kMixedBit;
-        for (std::uint32_t& entry : tile.entries)
-            entry = (entry & kMixedBit) != 0 ? bricks[entry & ~kMixedBit] : scalars[entry];
+        const auto firstPlane = static_cast<std::uint32_t>(volume_.oblique_.size());
+        volume_.oblique_.insert(volume_.oblique_.end(), tile.planes.begin(), tile.planes.end());
+        std::vector<std::uint32_t> scalars, bricks;
+        for (const Scalar scalar : tile.scalars) scalars.push_back(scalarNumber(scalar));
+        for (TileBrick& brick : tile.bricks) {
+            if (brick.code)
+                for (std::uint32_t& plane : brick.code->plane)
+                    if (plane != BrickVolume::kNoPlane) plane += firstPlane;
+            bricks.push_back(brickNumber(brick, tile.patterns[brick.pattern]) | kMixedBit);
+        }
+        for (std::uint32_t& entry : tile.entries) {
+            if ((entry & kMixedBit) == 0) {
+                entry = scalars[entry];
+            } else {
+                const std::uint32_t brick = tile.brickOf[entry & ~kMixedBit];
+                entry = brick == TileBricks::kNone ? kMixedBit : bricks[brick];
+            }
+        }
+        for (TileBricks::Oblique& oblique : tile.oblique) oblique.brick = bricks[oblique.brick];
     }
 
     void fillIndex(const std::vector<TileBricks>& tiles, std::int32_t tilesX, int threads) {
         const Vec3i count = volume_.brickCount_;
-        volume_.index_.resize(static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y) *
-                              static_cast<std::size_t>(count.z));
+        const auto at = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
+            return static_cast<std::size_t>(x) +
+                   static_cast<std::size_t>(count.x) *
+                       (static_cast<std::size_t>(y) + static_cast<std::size_t>(count.y) * static_cast<std::size_t>(z));
+        };
+        volume_.index_.resize(at(0, 0, count.z));
         parallelFor(static_cast<std::size_t>(count.z), 8, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t bz = begin; bz < end; ++bz)
-                for (std::int32_t by = 0; by < count.y; ++by) {
-                    std::uint32_t* row = volume_.index_.data() +
-                                         static_cast<std::size_t>(count.x) *
-                                             (static_cast<std::size_t>(by) + static_cast<std::size_t>(count.y) * bz);
-                    for (std::int32_t bx = 0; bx < count.x; ++bx) {
-                        const TileBricks& tile =
-                            tiles[static_cast<std::size_t>(bx / kBricksPerTile + tilesX * (by / kBricksPerTile))];
-                        const std::size_t column = tile.columnOf[static_cast<std::size_t>(
-                            bx % kBricksPerTile + kBricksPerTile * (by % kBricksPerTile))];
-                        row[bx] = tile.entries[column * static_cast<std::size_t>(count.z) + bz];
-                    }
-                }
+            for (auto bz = static_cast<std::int32_t>(begin); bz < static_cast<std::int32_t>(end); ++bz)
+                for (std::int32_t by = 0; by < count.y; ++by)
+                    for (std::int32_t bx = 0; bx < count.x; ++bx)
+                        volume_.index_[at(bx, by, bz)] =
+                            tiles[static_cast<std::size_t>(bx / kBricksPerTile + tilesX * (by / kBricksPerTile))]
+                                .entryAt(bx % kBricksPerTile, by % kBricksPerTile, bz, count.z);
         });
+        for (std::size_t n = 0; n < tiles.size(); ++n) {
+            const std::int32_t x = static_cast<std::int32_t>(n) % tilesX * kBricksPerTile,
+                               y = static_cast<std::int32_t>(n) / tilesX * kBricksPerTile;
+            const std::int32_t width = std::min(kBricksPerTile, count.x - x),
+                               height = std::min(kBricksPerTile, count.y - y);
+            for (const TileBricks::Oblique& oblique : tiles[n].oblique) {
+                const auto place = static_cast<std::int32_t>(oblique.place);
+                volume_.index_[at(x + place % width, y + place / width % height, place / (width * height))] =
+                    oblique.brick;
+            }
+        }
     }
 
     void takeBoxes(const BoxFinder& finder) {
@@ -364,50 +482,67 @@ private:
         return place->second;
     }
 
-    std::uint32_t brickNumber(const LocalBrick& brick) {
+    std::uint32_t brickNumber(const TileBrick& brick, const BrickPattern& pattern) {
         const auto next = static_cast<std::uint32_t>(volume_.bricks_.size());
+        BrickVolume::PaletteBrick added;
+        added.bits = static_cast<std::uint32_t>(pattern.planes.size() / 8) |
+                     static_cast<std::uint32_t>(pattern.palette.size()) << BrickVolume::PaletteBrick::kSizeShift;
+        if (brick.code) {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                added.bits |= std::uint32_t{brick.code->cut[axis]}
+                              << (BrickVolume::PaletteBrick::kCutShift + 3 * static_cast<int>(axis));
+            added.bits |= BrickVolume::PaletteBrick::kCoded;
+            added.plane = brick.code->plane;
+        }
+        const auto equals = [](const auto& wanted, const auto& stored, std::uint32_t first) {
+            return std::equal(wanted.begin(), wanted.end(), stored.begin() + first);
+        };
         const std::uint32_t known = brickNumbers_.find(brick.hash, next, [&](std::uint32_t other) {
             const BrickVolume::PaletteBrick& candidate = volume_.bricks_[other];
-            return candidate.paletteSize == brick.palette.size() &&
-                   std::equal(brick.palette.begin(), brick.palette.end(),
-                              volume_.palettes_.begin() + candidate.palette) &&
-                   std::equal(brick.planes.begin(), brick.planes.end(), volume_.planes_.begin() + candidate.planes);
+            return candidate.bits == added.bits && candidate.plane == added.plane &&
+                   equals(pattern.palette, volume_.palettes_, candidate.palette) &&
+                   equals(pattern.planes, volume_.planes_, candidate.planes) &&
+                   (!brick.code || equals(brick.code->cells, volume_.cells_, candidate.cells));
         });
         if (known != Numbering::kNew) return known;
-        BrickVolume::PaletteBrick added;
-        added.palette = static_cast<std::uint32_t>(volume_.palettes_.size());
-        added.paletteSize = static_cast<std::uint32_t>(brick.palette.size());
-        added.planeCount = static_cast<std::uint32_t>(brick.planes.size() / 8);
-        added.planes = planesOffset(brick);
-        volume_.palettes_.insert(volume_.palettes_.end(), brick.palette.begin(), brick.palette.end());
-        for (const Scalar scalar : brick.palette)
+        added.palette = offsetOf(pattern.palette, volume_.palettes_, palettes_);
+        added.planes = offsetOf(pattern.planes, volume_.planes_, planeSets_);
+        if (brick.code) added.cells = offsetOf(brick.code->cells, volume_.cells_, cellSets_);
+        for (const Scalar scalar : pattern.palette)
             volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
         volume_.bricks_.push_back(added);
         return next;
     }
 
-    std::uint32_t planesOffset(const LocalBrick& brick) {
-        const auto next = static_cast<std::uint32_t>(planeSets_.size());
-        const auto offset = static_cast<std::uint32_t>(volume_.planes_.size());
-        const std::uint32_t known = planeNumbers_.find(brick.planesHash, next, [&](std::uint32_t other) {
-            const auto [start, size] = planeSets_[other];
-            return size == brick.planes.size() &&
-                   std::equal(brick.planes.begin(), brick.planes.end(), volume_.planes_.begin() + start);
+    // Sets of values that are stored once each, one behind the other.
+    struct SharedSets {
+        Numbering numbering;
+        std::vector<std::pair<std::uint32_t, std::size_t>> sets;  // first, size
+    };
+    template <class T>
+    static std::uint32_t offsetOf(const std::vector<T>& set, std::vector<T>& store, SharedSets& shared) {
+        std::uint64_t hash = set.size();
+        for (const T value : set) hash = mix(hash, value);
+        const auto next = static_cast<std::uint32_t>(shared.sets.size());
+        const std::uint32_t known = shared.numbering.find(hash, next, [&](std::uint32_t other) {
+            const auto [first, size] = shared.sets[other];
+            return size == set.size() && std::equal(set.begin(), set.end(), store.begin() + first);
         });
-        if (known != Numbering::kNew) return planeSets_[known].first;
-        planeSets_.emplace_back(offset, brick.planes.size());
-        volume_.planes_.insert(volume_.planes_.end(), brick.planes.begin(), brick.planes.end());
+        if (known != Numbering::kNew) return shared.sets[known].first;
+        const auto offset = static_cast<std::uint32_t>(store.size());
+        shared.sets.emplace_back(offset, set.size());
+        store.insert(store.end(), set.begin(), set.end());
         return offset;
     }
 
     BrickVolume& volume_;
     std::vector<Scalar> scalars_;
     std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
-    Numbering brickNumbers_, planeNumbers_;
-    std::vector<std::pair<std::uint32_t, std::size_t>> planeSets_;
+    Numbering brickNumbers_;
+    SharedSets palettes_, planeSets_, cellSets_;
 };
 
-Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int threads) {
+Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int threads, BrickFaces faces) {
     BrickVolume volume;
     const Vec3i dimension = columns.dimension();
     std::uint64_t bricks = 1;
@@ -429,14 +564,18 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
     std::vector<TileBricks> tileBricks(tiles.size());
     const auto tilesX = static_cast<std::size_t>(columns.tilesX());
     parallelFor(tiles.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n)
-            tileBricks[n] = TileBricker(tiles[n], columns.tileWidth(static_cast<std::int32_t>(n % tilesX)),
-                                        columns.tileHeight(static_cast<std::int32_t>(n / tilesX)), volume.brickCount_.z)
-                                .make();
+        for (std::size_t n = begin; n < end; ++n) {
+            const auto x = static_cast<std::int32_t>(n % tilesX), y = static_cast<std::int32_t>(n / tilesX);
+            const std::int32_t width = columns.tileWidth(x), height = columns.tileHeight(y);
+            tileBricks[n] = TileBricker(tiles[n], width, height, volume.brickCount_.z).make();
+            BrickCoding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
+                        {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z})
+                .run(faces);
+        }
     });
     std::uint64_t words = 0;
     for (const TileBricks& tile : tileBricks)
-        for (const LocalBrick& brick : tile.bricks) words += std::max(brick.palette.size(), brick.planes.size());
+        for (const BrickPattern& pattern : tile.patterns) words += std::max(pattern.palette.size(), pattern.planes.size());
     if (words > 0xFFFFFFFFu)
         return Error(Code::GridTooLarge, fmt::format("the mixed bricks hold {} words, over the limit of {}; choose a "
                                                      "coarser spacing or a coarser level of detail.",
@@ -451,7 +590,8 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
 std::size_t BrickVolume::sizeBytes() const noexcept {
     return index_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
            bricks_.size() * sizeof(PaletteBrick) + palettes_.size() * sizeof(Scalar) +
-           planes_.size() * sizeof(std::uint64_t);
+           planes_.size() * sizeof(std::uint64_t) + cells_.size() * sizeof(Scalar) +
+           oblique_.size() * sizeof(BrickPlane);
 }
 
 }  // namespace svt::volume

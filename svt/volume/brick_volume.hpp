@@ -11,6 +11,11 @@
 ///                   as bit planes. Plane p, word k, bit i + 8 j is bit p of the palette index of voxel (i, j, k), so a
 ///                   brick of two labels is 64 bytes and "which voxels hold palette entry e" is a few words' logic.
 ///
+/// Most mixed bricks are coded as well: by at most one cut across each axis, between two voxels, and at most two planes.
+/// The sides on which a point lies say its scalar, and they say it of all 512 samples as the bits do. So a ray crosses
+/// a brick in as many steps as it has labels, faces stay flat however near the eye, and normals are those of planes.
+/// What cuts and planes cannot say stays a matter of voxels.
+///
 /// Palette bricks are stored once each, and so are their bit planes (walls repeat along their length).
 
 #include <svt/core/result.hpp>
@@ -32,9 +37,25 @@ struct SameLabelBox {
     friend bool operator==(const SameLabelBox&, const SameLabelBox&) = default;
 };
 
+/// The points p of voxel space (index space + 1/2) with dot(normal, p) + offset = 0; positive is one side, the rest is
+/// the other. `normal` has length 1, in voxels.
+struct BrickPlane {
+    Vec3d normal{};
+    double offset = 0;
+    friend bool operator==(const BrickPlane&, const BrickPlane&) = default;
+};
+
+/// What stands in for the voxels of mixed bricks while rays go through them.
+enum class BrickFaces : std::uint8_t {
+    Planes,  ///< cuts and planes, where they say the same as the voxels
+    Voxels   ///< voxels alone
+};
+
 /// A label volume as bricks, immutable. Thread-safe to read.
 class BrickVolume {
 public:
+    static constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
+
     static constexpr std::int32_t kBrickSize = 8;
     static constexpr std::uint64_t kMaxBricks = std::uint64_t{1} << 29;
 
@@ -55,8 +76,9 @@ public:
     /// Bricks of `columns`.
     /// \param threads  0: all cores; the result does not depend on it
     /// \return the bricks, or GridTooLarge where there are more than kMaxBricks of them or a dimension is over 65535
-    /// Cost: O(distinct columns' runs + bricks).
-    [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns, int threads = 0);
+    /// Cost: O(distinct columns' runs + bricks), and for planes O(bricks on oblique surfaces), 1 to 5 us each.
+    [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns, int threads = 0,
+                                                         BrickFaces faces = BrickFaces::Planes);
 
     [[nodiscard]] Vec3i dimension() const noexcept { return dimension_; }
     [[nodiscard]] Vec3i brickCount() const noexcept { return brickCount_; }
@@ -102,9 +124,29 @@ public:
         MixedBrick view;
         view.words_ = planes_.data() + brick.planes;
         view.palette_ = palettes_.data() + brick.palette;
-        view.planeCount_ = brick.planeCount;
+        view.planeCount_ = brick.planeCount();
         return view;
     }
+
+    /// How cuts and planes stand for the voxels of a brick.
+    struct Coding {
+        std::array<std::uint8_t, 3> cut{};                          ///< voxels below the cut across an axis, 1..7; 0: none
+        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};     ///< indices of oblique()
+        const Scalar* cells = nullptr;  ///< scalars by side: one bit for each cut (x, y, z) and plane that there is, in
+                                        ///< this order from the lowest; 1 is beyond a cut, or a plane's positive side
+    };
+    [[nodiscard]] bool isCoded(Entry mixed) const noexcept { return bricks_[mixed.value_ & ~Entry::kMixed].isCoded(); }
+    /// Coding of a mixed brick that isCoded().
+    [[nodiscard]] Coding coding(Entry coded) const noexcept {
+        const PaletteBrick& brick = bricks_[coded.value_ & ~Entry::kMixed];
+        Coding view;
+        for (int axis = 0; axis < 3; ++axis) view.cut[static_cast<std::size_t>(axis)] = brick.cut(axis);
+        view.plane = brick.plane;
+        view.cells = cells_.data() + brick.cells;
+        return view;
+    }
+    /// The planes of all bricks.
+    [[nodiscard]] std::span<const BrickPlane> oblique() const noexcept { return oblique_; }
 
     /// Which voxels of a brick hold one of some scalars: bit i + 8 j of word(k).
     class VoxelMask {
@@ -128,7 +170,7 @@ public:
             return mask;
         }
         const PaletteBrick& mixed = bricks_[brick.value_ & ~Entry::kMixed];
-        if (mixed.paletteSize == 2) {  // most are
+        if (mixed.paletteSize() == 2) {  // most are
             const bool first = accepts(palettes_[mixed.palette]), second = accepts(palettes_[mixed.palette + 1]);
             if (first != second) mask.words_ = planes_.data() + mixed.planes;
             mask.flip_ = first ? ~std::uint64_t{0} : 0;
@@ -161,10 +203,20 @@ private:
     friend class BrickMerger;
 
     struct PaletteBrick {
-        std::uint32_t palette = 0;     ///< first of its scalars in palettes_
-        std::uint32_t planes = 0;      ///< first of its words in planes_, 8 a plane
-        std::uint32_t planeCount = 0;  ///< 1..9
-        std::uint32_t paletteSize = 0;
+        std::uint32_t palette = 0;  ///< first of its scalars in palettes_
+        std::uint32_t planes = 0;   ///< first of its words in planes_, 8 a bit plane
+        std::uint32_t bits = 0;     ///< 4 bits: number of bit planes, 1..9; 10: palette size; 3 for each cut; 1: is coded
+        std::uint32_t cells = 0;    ///< first of its scalars in cells_
+        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};  ///< in oblique_
+
+        static constexpr int kSizeShift = 4, kCutShift = 14;
+        static constexpr std::uint32_t kCoded = 1u << 23;
+        [[nodiscard]] std::uint32_t planeCount() const noexcept { return bits & 15u; }
+        [[nodiscard]] std::uint32_t paletteSize() const noexcept { return (bits >> kSizeShift) & 1023u; }
+        [[nodiscard]] std::uint8_t cut(int axis) const noexcept {
+            return static_cast<std::uint8_t>((bits >> (kCutShift + 3 * axis)) & 7u);
+        }
+        [[nodiscard]] bool isCoded() const noexcept { return (bits & kCoded) != 0; }
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
 
@@ -174,11 +226,11 @@ private:
     void putTogether(const PaletteBrick& brick, const Accepts& accepts, MaskWords& mask) const {
         const std::uint64_t* words = planes_.data() + brick.planes;
         mask.fill(0);
-        for (std::uint32_t e = 0; e < brick.paletteSize; ++e) {
+        for (std::uint32_t e = 0; e < brick.paletteSize(); ++e) {
             if (!accepts(palettes_[brick.palette + e])) continue;
             for (std::size_t k = 0; k < 8; ++k) {
                 std::uint64_t equal = ~std::uint64_t{0};
-                for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
+                for (std::uint32_t plane = 0; plane < brick.planeCount(); ++plane) {
                     const std::uint64_t word = words[8 * plane + k];
                     equal &= ((e >> plane) & 1u) != 0 ? word : ~word;
                 }
@@ -195,6 +247,8 @@ private:
     std::vector<PaletteBrick> bricks_;
     std::vector<Scalar> palettes_;
     std::vector<std::uint64_t> planes_;
+    std::vector<Scalar> cells_;
+    std::vector<BrickPlane> oblique_;
 };
 
 }  // namespace svt::volume

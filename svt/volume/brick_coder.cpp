@@ -1,0 +1,499 @@
+#include <svt/volume/brick_coder.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
+// Voxels that have a neighbor in the brick along x and along y.
+constexpr std::uint64_t kNotLastX = 0x7F7F7F7F7F7F7F7Full, kNotLastY = 0x00FFFFFFFFFFFFFFull;
+// A sample nearer to a plane than this, in voxels, lies on no side of it.
+constexpr double kMargin = 1e-6;
+
+// Where neighbors differ, folded to places along the axis: bit p is set where voxels p and p + 1 differ anywhere.
+struct Changes {
+    std::array<SideMask, 3> masks{};
+
+    void add(const std::uint64_t* words) noexcept {
+        for (std::size_t k = 0; k < 8; ++k) {
+            masks[0][k] |= (words[k] ^ (words[k] >> 1)) & kNotLastX;
+            masks[1][k] |= (words[k] ^ (words[k] >> 8)) & kNotLastY;
+            if (k < 7) masks[2][k] |= words[k] ^ words[k + 1];
+        }
+    }
+    [[nodiscard]] static std::uint32_t places(const SideMask& mask, int axis) noexcept {
+        std::uint32_t found = 0;
+        if (axis == 2) {
+            for (std::size_t k = 0; k < 8; ++k) found |= static_cast<std::uint32_t>(mask[k] != 0) << k;
+            return found;
+        }
+        std::uint64_t all = 0;
+        for (const std::uint64_t word : mask) all |= word;
+        for (int b = 0; b < 8; ++b) {
+            const auto byte = static_cast<std::uint32_t>(all >> (8 * b)) & 0xFFu;
+            found |= axis == 0 ? byte : static_cast<std::uint32_t>(byte != 0) << b;
+        }
+        return found;
+    }
+};
+
+SideMask cutMask(int axis, std::uint32_t cut) noexcept {
+    SideMask mask;
+    for (std::uint32_t k = 0; k < 8; ++k)
+        mask[k] = axis == 0   ? 0x0101010101010101ull * ((0xFFu << cut) & 0xFFu)
+                  : axis == 1 ? kAll << (8 * cut)
+                  : k >= cut  ? kAll
+                              : 0;
+    return mask;
+}
+
+// Palette index of all voxels in `cell`; nothing where they differ.
+std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask& cell) noexcept {
+    std::uint32_t index = 0;
+    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) {
+        std::uint64_t ones = 0, zeros = 0;
+        for (std::size_t k = 0; k < 8; ++k) {
+            ones |= pattern.planes[8 * p + k] & cell[k];
+            zeros |= ~pattern.planes[8 * p + k] & cell[k];
+        }
+        if (ones != 0 && zeros != 0) return std::nullopt;
+        if (ones != 0) index |= std::uint32_t{1} << p;
+    }
+    return index;
+}
+
+// Labels of the cells that the sides make, each checked; cells without a sample take the label of the nearest.
+bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::vector<Scalar>& cells) {
+    const std::size_t count = std::size_t{1} << sides.size();
+    cells.assign(count, 0);
+    std::uint32_t known = 0;
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        SideMask mask;
+        mask.fill(kAll);
+        for (std::size_t s = 0; s < sides.size(); ++s)
+            for (std::size_t k = 0; k < 8; ++k) mask[k] &= ((cell >> s) & 1u) != 0 ? sides[s][k] : ~sides[s][k];
+        if (std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; })) continue;
+        const auto index = indexIn(pattern, mask);
+        if (!index) return false;
+        cells[cell] = pattern.palette[*index];
+        known |= std::uint32_t{1} << cell;
+    }
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        if (((known >> cell) & 1u) != 0) continue;
+        std::size_t nearest = count;
+        for (std::size_t other = 0; other < count; ++other)
+            if (((known >> other) & 1u) != 0 &&
+                (nearest == count || std::popcount(other ^ cell) < std::popcount(nearest ^ cell)))
+                nearest = other;
+        cells[cell] = cells[nearest];
+    }
+    return true;
+}
+
+}  // namespace
+
+std::optional<BrickCode> codeBySides(const BrickPattern& pattern, std::span<const SideMask> sides) {
+    Changes changes, explained;
+    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) changes.add(pattern.planes.data() + 8 * p);
+    for (const SideMask& side : sides) explained.add(side.data());
+    BrickCode code;
+    std::vector<SideMask> all;
+    for (int axis = 0; axis < 3; ++axis) {
+        SideMask rest;
+        for (std::size_t k = 0; k < 8; ++k)
+            rest[k] = changes.masks[std::size_t(axis)][k] & ~explained.masks[std::size_t(axis)][k];
+        const std::uint32_t cuts = Changes::places(rest, axis);
+        if (std::popcount(cuts) > 1) return std::nullopt;
+        if (cuts == 0) continue;
+        code.cut[std::size_t(axis)] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
+        all.push_back(cutMask(axis, code.cut[std::size_t(axis)]));
+    }
+    all.insert(all.end(), sides.begin(), sides.end());
+    if (!fillCells(pattern, all, code.cells)) return std::nullopt;
+    return code;
+}
+
+namespace {
+
+// A pattern of two labels as heights over one of the axes: how many voxels from below belong to the lower label.
+struct Heights {
+    bool isSurface = false;  // each line along the axis has one change at most, and all the same label below
+    std::array<std::int8_t, 64> height{};  // by p + 8 q; (p, q) are the other axes, in order
+    Scalar low = 0, high = 0;
+};
+
+constexpr std::array<std::array<int, 2>, 3> kAcross{{{1, 2}, {0, 2}, {0, 1}}};
+
+Heights heightsAlong(const BrickPattern& pattern, int axis) {
+    Heights heights;
+    if (pattern.palette.size() != 2) return heights;
+    const auto bit = [&](int p, int q, int h) {
+        const int i = axis == 0 ? h : p, j = axis == 0 ? p : axis == 1 ? h : q, k = axis == 2 ? h : q;
+        return static_cast<int>(pattern.planes[std::size_t(k)] >> (i + 8 * j)) & 1;
+    };
+    int low = -1;
+    for (int q = 0; q < 8; ++q)
+        for (int p = 0; p < 8; ++p) {
+            int line = 0;
+            for (int h = 0; h < 8; ++h) line |= bit(p, q, h) << h;
+            if (line == 0 || line == 0xFF) continue;
+            const int first = line & 1;
+            if (low < 0) low = first;
+            // What is above must be one stretch up to the top.
+            const int above = first != 0 ? ~line & 0xFF : line;
+            if (low != first || above + (above & -above) != 0x100) return heights;
+        }
+    if (low < 0) return heights;
+    for (int q = 0; q < 8; ++q)
+        for (int p = 0; p < 8; ++p) {
+            int count = 0;
+            for (int h = 0; h < 8; ++h) count += bit(p, q, h) == low ? 1 : 0;
+            heights.height[std::size_t(p + 8 * q)] = static_cast<std::int8_t>(count);
+        }
+    heights.isSurface = true;
+    heights.low = pattern.palette[std::size_t(low)];
+    heights.high = pattern.palette[std::size_t(1 - low)];
+    return heights;
+}
+
+int steepestAxis(const BrickPattern& pattern) noexcept {
+    Changes changes;
+    changes.add(pattern.planes.data());
+    int best = 0, most = -1;
+    for (int axis = 0; axis < 3; ++axis) {
+        int count = 0;
+        for (const std::uint64_t word : changes.masks[std::size_t(axis)]) count += std::popcount(word);
+        if (count > most) best = axis, most = count;
+    }
+    return best;
+}
+
+// Height over (p, q): a p + b q + c, voxels, from the brick's corner.
+struct Slope {
+    double a = 0, b = 0, c = 0;
+    [[nodiscard]] double at(double p, double q) const noexcept { return a * p + b * q + c; }
+};
+
+// Least squares of heights over places.
+class SlopeFit {
+public:
+    void add(double p, double q, double h) noexcept {
+        n_ += 1;
+        p_ += p, q_ += q, h_ += h;
+        pp_ += p * p, pq_ += p * q, qq_ += q * q, ph_ += p * h, qh_ += q * h;
+    }
+    [[nodiscard]] std::optional<Slope> solve() const noexcept {
+        if (n_ < 6) return std::nullopt;
+        const double pp = pp_ - p_ * p_ / n_, pq = pq_ - p_ * q_ / n_, qq = qq_ - q_ * q_ / n_;
+        const double ph = ph_ - p_ * h_ / n_, qh = qh_ - q_ * h_ / n_;
+        const double determinant = pp * qq - pq * pq;
+        if (!(determinant > 0.02 * n_ * n_)) return std::nullopt;  // all in a line, or nearly
+        Slope slope;
+        slope.a = (ph * qq - qh * pq) / determinant;
+        slope.b = (qh * pp - ph * pq) / determinant;
+        slope.c = (h_ - slope.a * p_ - slope.b * q_) / n_;
+        return slope;
+    }
+
+private:
+    double n_ = 0, p_ = 0, q_ = 0, h_ = 0, pp_ = 0, pq_ = 0, qq_ = 0, ph_ = 0, qh_ = 0;
+};
+
+// Moves the surface up or down as little as the brick's own voxels ask for; false where that is not enough.
+bool moveInto(const Heights& heights, Slope& slope) noexcept {
+    double low = -1e9, high = 1e9;
+    for (int q = 0; q < 8; ++q)
+        for (int p = 0; p < 8; ++p) {
+            const int h = heights.height[std::size_t(p + 8 * q)];
+            const double rest = h - (slope.a * (p + 0.5) + slope.b * (q + 0.5));
+            if (h > 0) low = std::max(low, rest - 0.5);
+            if (h < 8) high = std::min(high, rest + 0.5);
+        }
+    const double room = high - low;
+    if (!(room > 1e-4)) return false;
+    const double inset = std::min(0.02, room / 4);
+    slope.c = std::clamp(slope.c, low + inset, high - inset);
+    return true;
+}
+
+double valueAt(const BrickPlane& plane, Vec3d point) noexcept { return dot(plane.normal, point) + plane.offset; }
+
+constexpr std::array<Vec3i, 26> makeNeighbors() {
+    std::array<Vec3i, 26> neighbors;
+    std::size_t count = 0;
+    for (int distance = 1; distance <= 3; ++distance)
+        for (std::int32_t z = -1; z <= 1; ++z)
+            for (std::int32_t y = -1; y <= 1; ++y)
+                for (std::int32_t x = -1; x <= 1; ++x)
+                    if (x * x + y * y + z * z == distance) neighbors[count++] = {x, y, z};
+    return neighbors;
+}
+constexpr std::array<Vec3i, 26> kNeighbors = makeNeighbors();
+
+class TileCoder {
+public:
+    TileCoder(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
+              const std::vector<std::uint8_t>& isCoded)
+        : places_(places),
+          patterns_(patterns),
+          isCoded_(isCoded),
+          heights_(patterns.size()),
+          codeOf_(places.patternOf.size(), kNone) {}
+
+    TileCodes code() {
+        forEachPlace([&](Vec3i at) {
+            if (needsCode(at) && patternAt(at).palette.size() == 2) codeSurface(at);
+        });
+        forEachPlace([&](Vec3i at) {
+            if (needsCode(at)) codeMeeting(at);
+        });
+        codeRims();
+        std::sort(result_.codes.begin(), result_.codes.end(),
+                  [](const PlacedCode& p, const PlacedCode& q) { return p.place < q.place; });
+        return std::move(result_);
+    }
+
+private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    template <class Body>
+    void forEachPlace(const Body& body) const {
+        for (std::int32_t z = 0; z < places_.count.z; ++z)
+            for (std::int32_t y = 0; y < places_.count.y; ++y)
+                for (std::int32_t x = 0; x < places_.count.x; ++x) body(Vec3i{x, y, z});
+    }
+    // Places beside `at`: faces first, then edges, then corners.
+    template <class Body>
+    void forEachNeighbor(Vec3i at, const Body& body) const {
+        for (const Vec3i away : kNeighbors) {
+            const Vec3i other = at + away;
+            if (other.x >= 0 && other.y >= 0 && other.z >= 0 && other.x < places_.count.x &&
+                other.y < places_.count.y && other.z < places_.count.z)
+                body(other);
+        }
+    }
+    [[nodiscard]] std::size_t place(Vec3i at) const noexcept { return places_.at(at.x, at.y, at.z); }
+    [[nodiscard]] bool isMixed(Vec3i at) const noexcept {
+        return places_.patternOf[place(at)] != TilePlaces::kUniform;
+    }
+    [[nodiscard]] const BrickPattern& patternAt(Vec3i at) const noexcept {
+        return patterns_[places_.patternOf[place(at)]];
+    }
+    [[nodiscard]] bool needsCode(Vec3i at) const noexcept {
+        return isMixed(at) && isCoded_[places_.patternOf[place(at)]] == 0 && codeOf_[place(at)] == kNone;
+    }
+    [[nodiscard]] const BrickCode* codeAt(Vec3i at) const noexcept {
+        const std::uint32_t number = codeOf_[place(at)];
+        return number == kNone ? nullptr : &result_.codes[number].code;
+    }
+    [[nodiscard]] Vec3d corner(Vec3i at) const noexcept {
+        return {places_.origin.x + 8.0 * at.x, places_.origin.y + 8.0 * at.y, places_.origin.z + 8.0 * at.z};
+    }
+
+    const Heights& heightsAt(Vec3i at, int axis) {
+        auto& known = heights_[places_.patternOf[place(at)]];
+        auto& heights = known[std::size_t(axis)];
+        if (!heights) heights = heightsAlong(patternAt(at), axis);
+        return *heights;
+    }
+
+    // The side of each sample; nothing where one lies too near.
+    std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
+        const Vec3d first = corner(at) + Vec3d{0.5, 0.5, 0.5};
+        const double base = valueAt(plane, first);
+        double least = 1;
+        SideMask mask{};
+        for (int k = 0; k < 8; ++k)
+            for (int j = 0; j < 8; ++j) {
+                const double row = base + plane.normal.y * j + plane.normal.z * k;
+                std::uint64_t bits = 0;
+                for (int i = 0; i < 8; ++i) {
+                    const double value = row + plane.normal.x * i;
+                    bits |= static_cast<std::uint64_t>(value > 0) << i;
+                    least = std::min(least, std::abs(value));
+                }
+                mask[std::size_t(k)] |= bits << (8 * j);
+            }
+        if (least < kMargin) return std::nullopt;
+        return mask;
+    }
+
+    void setCode(Vec3i at, BrickCode code) {
+        codeOf_[place(at)] = static_cast<std::uint32_t>(result_.codes.size());
+        result_.codes.push_back({static_cast<std::uint32_t>(place(at)), std::move(code)});
+    }
+
+    bool tryPlane(Vec3i at, std::uint32_t plane) {
+        const auto mask = sideMask(result_.planes[plane], at);
+        if (!mask) return false;
+        auto code = codeBySides(patternAt(at), std::span(&*mask, 1));
+        if (!code || code->cut != std::array<std::uint8_t, 3>{}) return false;
+        code->plane[0] = plane;
+        setCode(at, std::move(*code));
+        return true;
+    }
+
+    void codeSurface(Vec3i at) {
+        std::array<std::uint32_t, 4> tried{kNone, kNone, kNone, kNone};
+        std::size_t count = 0;
+        bool isDone = false;
+        forEachNeighbor(at, [&](Vec3i other) {
+            const BrickCode* code = codeAt(other);
+            if (isDone || code == nullptr || count == tried.size()) return;
+            if (std::find(tried.begin(), tried.end(), code->plane[0]) != tried.end()) return;
+            tried[count++] = code->plane[0];
+            isDone = tryPlane(at, code->plane[0]);
+        });
+        if (isDone) return;
+        const int axis = steepestAxis(patternAt(at));
+        const Heights& own = heightsAt(at, axis);
+        if (!own.isSurface) return;
+        auto local = fit(own);
+        if (!local) return;
+        auto wide = fitAround(at, axis, own, *local);
+        if (moveInto(own, wide)) {
+            if (addPlane(at, axis, wide)) return;
+        }
+        if (moveInto(own, *local)) addPlane(at, axis, *local);
+    }
+
+    static std::optional<Slope> fit(const Heights& heights) noexcept {
+        SlopeFit sums;
+        for (int q = 0; q < 8; ++q)
+            for (int p = 0; p < 8; ++p) {
+                const int h = heights.height[std::size_t(p + 8 * q)];
+                if (h > 0 && h < 8) sums.add(p + 0.5, q + 0.5, h);
+            }
+        return sums.solve();
+    }
+
+    // The same with the surfaces of the bricks around, as far as they go on from this one.
+    Slope fitAround(Vec3i at, int axis, const Heights& own, Slope slope) {
+        for (const double tolerance : {1.25, 0.8}) {
+            SlopeFit sums;
+            const auto add = [&](Vec3i other, const Heights& heights) {
+                const Vec3i away = (other - at) * 8;
+                const int p0 = away[kAcross[std::size_t(axis)][0]], q0 = away[kAcross[std::size_t(axis)][1]];
+                for (int q = 0; q < 8; ++q)
+                    for (int p = 0; p < 8; ++p) {
+                        const int h = heights.height[std::size_t(p + 8 * q)];
+                        if (h <= 0 || h >= 8) continue;
+                        const double x = p0 + p + 0.5, y = q0 + q + 0.5, z = away[axis] + h;
+                        if (std::abs(z - slope.at(x, y)) <= tolerance) sums.add(x, y, z);
+                    }
+            };
+            add(at, own);
+            forEachNeighbor(at, [&](Vec3i other) {
+                if (!isMixed(other) || patternAt(other).palette.size() != 2) return;
+                const Heights& heights = heightsAt(other, axis);
+                if (heights.isSurface && heights.low == own.low && heights.high == own.high) add(other, heights);
+            });
+            const auto better = sums.solve();
+            if (!better) break;
+            slope = *better;
+        }
+        return slope;
+    }
+
+    bool addPlane(Vec3i at, int axis, const Slope& slope) {
+        BrickPlane plane;
+        plane.normal[axis] = 1;
+        plane.normal[kAcross[std::size_t(axis)][0]] = -slope.a;
+        plane.normal[kAcross[std::size_t(axis)][1]] = -slope.b;
+        const double scale = 1 / length(plane.normal);
+        plane.normal = plane.normal * scale;
+        plane.offset = -slope.c * scale - dot(plane.normal, corner(at));
+        result_.planes.push_back(plane);
+        if (tryPlane(at, static_cast<std::uint32_t>(result_.planes.size() - 1))) return true;
+        result_.planes.pop_back();
+        return false;
+    }
+
+    // Where surfaces meet: planes of the bricks around, with cuts, and in pairs.
+    void codeMeeting(Vec3i at) {
+        constexpr std::size_t kMost = 6;
+        std::vector<std::uint32_t> planes;
+        std::vector<SideMask> masks;
+        forEachNeighbor(at, [&](Vec3i other) {
+            const BrickCode* code = codeAt(other);
+            if (code == nullptr) return;
+            for (const std::uint32_t plane : code->plane) {
+                if (plane == BrickVolume::kNoPlane || planes.size() == kMost) continue;
+                if (std::find(planes.begin(), planes.end(), plane) != planes.end()) continue;
+                const auto mask = sideMask(result_.planes[plane], at);
+                if (!mask || isTrivial(*mask) || std::find(masks.begin(), masks.end(), *mask) != masks.end()) continue;
+                planes.push_back(plane);
+                masks.push_back(*mask);
+            }
+        });
+        for (std::size_t a = 0; a < planes.size(); ++a)
+            if (auto code = codeBySides(patternAt(at), std::span(&masks[a], 1))) {
+                code->plane[0] = planes[a];
+                setCode(at, std::move(*code));
+                return;
+            }
+        for (std::size_t a = 0; a + 1 < planes.size(); ++a)
+            for (std::size_t b = a + 1; b < planes.size(); ++b) {
+                const std::array sides{masks[a], masks[b]};
+                if (auto code = codeBySides(patternAt(at), sides)) {
+                    code->plane = {planes[a], planes[b]};
+                    setCode(at, std::move(*code));
+                    return;
+                }
+            }
+    }
+
+    static bool isTrivial(const SideMask& mask) noexcept {
+        const auto isAll = [&](std::uint64_t value) {
+            return std::all_of(mask.begin(), mask.end(), [&](std::uint64_t word) { return word == value; });
+        };
+        return isAll(0) || isAll(kAll);
+    }
+
+    // Does the plane cut the box of the brick itself?
+    [[nodiscard]] bool cutsBox(const BrickPlane& plane, Vec3i at) const noexcept {
+        const double middle = valueAt(plane, corner(at) + Vec3d{4, 4, 4});
+        const double reach =
+            4 * (std::abs(plane.normal.x) + std::abs(plane.normal.y) + std::abs(plane.normal.z));
+        return std::abs(middle) < reach - 1e-3;
+    }
+
+    void codeRims() {
+        std::vector<PlacedCode> rims;
+        forEachPlace([&](Vec3i at) {
+            if (isMixed(at)) return;
+            const Scalar own = places_.scalarOf[place(at)];
+            bool isDone = false;
+            forEachNeighbor(at, [&](Vec3i other) {
+                const BrickCode* code = codeAt(other);
+                if (isDone || code == nullptr || code->cells.size() != 2) return;
+                const BrickPlane& plane = result_.planes[code->plane[0]];
+                if (!cutsBox(plane, at)) return;
+                const auto mask = sideMask(plane, at);
+                if (!mask || !isTrivial(*mask) || code->cells[(*mask)[0] != 0 ? 1 : 0] != own) return;
+                rims.push_back({static_cast<std::uint32_t>(place(at)), *code});
+                isDone = true;
+            });
+        });
+        result_.codes.insert(result_.codes.end(), rims.begin(), rims.end());
+    }
+
+    const TilePlaces& places_;
+    const std::vector<BrickPattern>& patterns_;
+    const std::vector<std::uint8_t>& isCoded_;
+    std::vector<std::array<std::optional<Heights>, 3>> heights_;
+    std::vector<std::uint32_t> codeOf_;
+    TileCodes result_;
+};
+
+}  // namespace
+
+TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
+                   const std::vector<std::uint8_t>& isCoded) {
+    return TileCoder(places, patterns, isCoded).code();
+}
+
+}  // namespace svt::volume

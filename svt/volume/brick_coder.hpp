@@ -1,0 +1,70 @@
+#pragma once
+/// \file
+/// Finds planes that say the same as the voxels of a brick. Internal to volume.
+
+#include <svt/volume/brick_volume.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace svt::volume {
+
+/// The distinct scalars of a brick, and the bit planes of its palette indices: bit i + 8 j of word 8 p + k.
+struct BrickPattern {
+    std::vector<Scalar> palette;
+    std::vector<std::uint64_t> planes;
+};
+
+/// How sides of cuts and planes stand for a brick's voxels; see BrickVolume::Coding.
+struct BrickCode {
+    std::array<std::uint8_t, 3> cut{};
+    std::array<std::uint32_t, 2> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane};
+    std::vector<Scalar> cells;
+    friend bool operator==(const BrickCode&, const BrickCode&) = default;
+};
+
+/// Which voxels of a brick lie on the positive side of something: bit i + 8 j of word k.
+using SideMask = std::array<std::uint64_t, 8>;
+
+/// Codes `pattern` by the sides of up to two planes and at most one cut across each axis, if that is possible.
+/// \param sides  one mask for each plane
+[[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, std::span<const SideMask> sides);
+
+/// One tile's bricks by place, each a number of `patterns` or kUniform.
+struct TilePlaces {
+    Vec3i origin;  ///< of the tile, voxels
+    Vec3i count;   ///< bricks
+    static constexpr std::uint32_t kUniform = 0xFFFFFFFFu;
+    std::vector<std::uint32_t> patternOf;  ///< x fastest, then y, then z
+    std::vector<Scalar> scalarOf;          ///< of the uniform ones
+
+    [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
+        return static_cast<std::size_t>(x + count.x * (y + count.y * z));
+    }
+};
+
+/// A brick that got general planes. They are numbers of TileCodes::planes.
+struct PlacedCode {
+    std::uint32_t place = 0;
+    BrickCode code;
+};
+
+struct TileCodes {
+    std::vector<BrickPlane> planes;
+    std::vector<PlacedCode> codes;  ///< by place, ascending
+};
+
+/// Codes what is not coded yet by planes fitted to the voxels around.
+///
+/// Where a brick of two labels is a surface over one of the axes, its plane is that of least squares through the
+/// surface in the brick and its neighbors, moved as little as its own voxels ask for; a neighbor's plane is taken
+/// first, so that a roof has one plane. Where two surfaces meet, the planes of the bricks around are tried, alone and
+/// in pairs. Uniform bricks beside a sloped surface get its plane where that cuts their rim, the half voxel outside of
+/// their samples. Every code is checked sample by sample; what has none stays a pattern.
+/// \param isCoded  by pattern: needs no planes
+[[nodiscard]] TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
+                                 const std::vector<std::uint8_t>& isCoded);
+
+}  // namespace svt::volume
