@@ -53,6 +53,16 @@ public:
     }
     [[nodiscard]] bool isPerspective() const noexcept { return isPerspective_; }
 
+    /// What at() is made of; the index vectors are in voxel space.
+    struct Basis {
+        Vec3d forward, right, up;
+        double halfWidth, halfHeight;
+        Vec3d eyeIndex, forwardIndex, rightIndex, upIndex;
+    };
+    [[nodiscard]] Basis basis() const noexcept {
+        return {forward_, right_, up_, halfWidth_, halfHeight_, eyeIndex_, forwardIndex_, rightIndex_, upIndex_};
+    }
+
     [[nodiscard]] Vec3d forward() const noexcept { return forward_; }
     [[nodiscard]] Vec3d right() const noexcept { return right_; }
     [[nodiscard]] Vec3d up() const noexcept { return up_; }

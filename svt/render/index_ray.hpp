@@ -321,7 +321,9 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
                 if (plane == volume::BrickVolume::kNoPlane) continue;
                 const PlaneCrossing crossing(volume.oblique()[plane], ray);
                 side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
-                if (crossing.time > t && crossing.time < next) {
+                // A plane between voxels is met where a voxel ends.
+                const bool isFirstPlane = nextPlane == volume::BrickVolume::kNoPlane;
+                if (crossing.time > t && (crossing.time < next || (isFirstPlane && crossing.time == next))) {
                     next = crossing.time;
                     nextPlane = plane;
                 }
@@ -335,9 +337,10 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
         t = next;
         if (!(t < to)) break;
         if (t < leave) continue;
-        crossed = volume::BrickVolume::kNoPlane;
+        const Vec3i brick{cell.x >> 3, cell.y >> 3, cell.z >> 3};
         for (int axis = 0; axis < 3; ++axis)
             while (ray.leaveTime(axis, cell[axis]) <= t) cell[axis] += ray.step[axis];
+        if (brick != Vec3i{cell.x >> 3, cell.y >> 3, cell.z >> 3}) crossed = volume::BrickVolume::kNoPlane;
     }
     visitor.leave(runScalar, runStart, to);
 }

@@ -35,6 +35,8 @@ public:
     [[nodiscard]] const LinearStyle& operator[](volume::Scalar scalar) const noexcept {
         return scalar < styles_.size() ? styles_[scalar] : kHidden;
     }
+    /// All of them, by scalar.
+    [[nodiscard]] std::span<const LinearStyle> styles() const noexcept { return styles_; }
     [[nodiscard]] bool hasOpaque() const noexcept { return hasOpaque_; }
 
 private:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <limits>
 
 namespace svt::render {
@@ -25,12 +26,11 @@ Result<void> checkCall(const volume::BrickVolume& volume, const volume::Grid& gr
     return {};
 }
 
-Vec3f towardsLight(const Light& light, const CameraRays& rays) {
+Vec3d towardsLight(const Light& light, const CameraRays& rays) {
     Vec3d direction = light.direction;
     if (light.space == Light::Space::Camera)
         direction = rays.right() * direction.x + rays.up() * direction.y - rays.forward() * direction.z;
-    direction = normalized(direction);
-    return {static_cast<float>(direction.x), static_cast<float>(direction.y), static_cast<float>(direction.z)};
+    return normalized(direction);
 }
 
 // Where the volume's box is seen, a pixel wider; the whole picture where the eye is in it or beside it.
@@ -56,7 +56,8 @@ using TableOf = std::function<PassTable(const Pass&)>;
 
 Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
                         const CastOptions& options, const TableOf& tableOf, bool isReference) {
-    Scene scene{volume, grid, spec, options, CameraRays(spec, grid), {}, {}, isReference, {}};
+    Scene scene{volume, grid, spec, options, CameraRays(spec, grid), DirectionTable(volume, grid), {}, {}, isReference,
+                {}};
     scene.drawn = drawnPixels(scene.rays, grid, spec);
     scene.towardsLight = towardsLight(spec.light, scene.rays);
     for (const Pass& pass : spec.passes) {
@@ -70,13 +71,15 @@ Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& g
         scene.passes.push_back(std::move(prepared));
     }
 
+    std::optional<PacketPasses> packets;
+    if (!isReference && !getenv("SVT_SCALAR")) packets.emplace(scene);
     Frame frame{Image<Rgba8>(spec.width, spec.height), Image<volume::Scalar>(spec.width, spec.height),
                 Image<float>(spec.width, spec.height, std::numeric_limits<float>::infinity())};
     const auto tilesX = static_cast<std::size_t>((spec.width + kTilePixels - 1) / kTilePixels);
     const auto tilesY = static_cast<std::size_t>((spec.height + kTilePixels - 1) / kTilePixels);
     std::atomic<bool> isCancelled{false};
     parallelFor(tilesX * tilesY, 4, options.threads, [&](std::size_t begin, std::size_t end) {
-        TileRenderer renderer(scene, frame);
+        TileRenderer renderer(scene, packets ? &*packets : nullptr, frame);
         for (std::size_t tile = begin; tile < end; ++tile) {
             if (Progress::isCancelled(options.progress)) {
                 isCancelled = true;

@@ -28,6 +28,21 @@ struct Sample {
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
 };
 
+[[nodiscard]] inline Vec3f toFloat(Vec3d v) noexcept {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Color and opacity of a ray at its end. What is left behind a ray that ended early is not seen.
+inline void finishSample(Vec3d color, double transmittance, const CastOptions& options, Sample& sample) noexcept {
+    const double alpha = 1 - transmittance;
+    const bool isOpaque = alpha >= double(options.opaqueAt) && alpha < 1;
+    sample.color = toFloat(isOpaque ? color * (1 / alpha) : color);
+    sample.alpha = isOpaque ? 1 : static_cast<float>(alpha);
+}
+
+/// `pass` joined with what the passes before it have seen.
+[[nodiscard]] Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexcept;
+
 /// A pass as all rays share it.
 struct PreparedPass {
     PassTable table;
@@ -45,6 +60,29 @@ struct PixelRect {
     }
 };
 
+/// Directions that the planes and voxel faces of a volume have in world space.
+class DirectionTable {
+public:
+    struct Directions {
+        Vec3d normal;  ///< world space, unit length
+        Vec3d away;    ///< the same direction in index space, longest component 1
+    };
+    DirectionTable(const volume::BrickVolume& volume, const volume::Grid& grid);
+
+    /// Of voxel faces across an axis, upwards.
+    [[nodiscard]] const Directions& axis(int axis) const noexcept { return axes_[static_cast<std::size_t>(axis)]; }
+    /// Of a plane of BrickVolume::oblique(), to its positive side.
+    [[nodiscard]] const Directions& plane(std::uint32_t number) const noexcept { return planes_[number]; }
+    [[nodiscard]] std::span<const Directions> planes() const noexcept { return planes_; }
+    /// Of what has `index` as its normal in index space.
+    [[nodiscard]] Directions directions(Vec3d index) const noexcept;
+
+private:
+    const volume::Grid& grid_;
+    std::array<Directions, 3> axes_;
+    std::vector<Directions> planes_;
+};
+
 /// The picture as all rays share it.
 struct Scene {
     const volume::BrickVolume& volume;
@@ -52,8 +90,9 @@ struct Scene {
     const FrameSpec& spec;
     const CastOptions& options;
     CameraRays rays;
+    DirectionTable directions;
     std::vector<PreparedPass> passes;
-    Vec3f towardsLight{};  ///< world space, unit length
+    Vec3d towardsLight{};  ///< world space, unit length
     bool isReference = false;
     PixelRect drawn;  ///< outside of it no ray meets the volume
 };
@@ -65,16 +104,26 @@ public:
         std::uint64_t key = ~std::uint64_t{0};
         SurfaceNormal normal;
     };
-    [[nodiscard]] Slot& slot(std::uint64_t key) noexcept {
-        return slots_[static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> (64 - kBits))];
-    }
+    [[nodiscard]] Slot& slot(std::uint64_t key) noexcept { return slots_[place(key)]; }
+
+    /// What SurfaceLight found of the surroundings of a brick.
+    struct Flatness {
+        std::uint64_t key = ~std::uint64_t{0};
+        std::uint32_t plane = 0;
+        bool isFlat = false;
+    };
+    [[nodiscard]] Flatness& flatness(std::uint64_t key) noexcept { return flatness_[place(key)]; }
 
 private:
     static constexpr int kBits = 10;
+    [[nodiscard]] static std::size_t place(std::uint64_t key) noexcept {
+        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> (64 - kBits));
+    }
     std::array<Slot, std::size_t{1} << kBits> slots_{};
+    std::array<Flatness, std::size_t{1} << kBits> flatness_{};
 };
 
-/// Casts rays of one tile; belongs to one thread.
+/// Casts rays one by one: the plain way, which packets are held against. Belongs to one thread.
 class SampleCaster {
 public:
     explicit SampleCaster(const Scene& scene) : scene_(scene) {}

@@ -14,7 +14,7 @@ Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-TileRenderer::TileRenderer(const Scene& scene, Frame& frame)
+TileRenderer::TileRenderer(const Scene& scene, const PacketPasses* packets, Frame& frame)
     : scene_(scene),
       frame_(frame),
       caster_(scene),
@@ -26,7 +26,9 @@ TileRenderer::TileRenderer(const Scene& scene, Frame& frame)
       backgroundBottom_(linearFromSrgb(scene.spec.background.bottom)),
       voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
       samples_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_)),
-      lines_(samples_.size()) {}
+      lines_(samples_.size()) {
+    if (packets != nullptr) packets_.emplace(scene, *packets);
+}
 
 double TileRenderer::horizontal(double sampleX) const noexcept {
     return 2 * (tileX_ + sampleX / side_) / scene_.spec.width - 1;
@@ -51,9 +53,61 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
 }
 
 void TileRenderer::castSamples() {
+    if (packets_) {
+        castPackets();
+        return;
+    }
     for (std::int32_t y = -margin_; y < tileHeight_ * side_ + margin_; ++y)
         for (std::int32_t x = -margin_; x < tileWidth_ * side_ + margin_; ++x)
             samples_[at(x, y)] = caster_.cast(horizontal(x + 0.5), vertical(y + 0.5), true);
+}
+
+// Packets of 4 x 4 samples, which mostly see the same.
+void TileRenderer::castPackets() {
+    constexpr std::int32_t kWidth = 4, kHeight = 4;
+    static_assert(kWidth * kHeight == kPacketRays);
+    const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
+    std::array<double, kPacketRays> u, v;
+    std::array<std::size_t, kPacketRays> places;
+    std::array<Sample, kPacketRays> seen;
+    for (std::int32_t y0 = -margin_; y0 < endY; y0 += kHeight)
+        for (std::int32_t x0 = -margin_; x0 < endX; x0 += kWidth) {
+            std::size_t count = 0;
+            for (std::int32_t y = y0; y < std::min(y0 + kHeight, endY); ++y)
+                for (std::int32_t x = x0; x < std::min(x0 + kWidth, endX); ++x) {
+                    u[count] = horizontal(x + 0.5);
+                    v[count] = vertical(y + 0.5);
+                    places[count++] = at(x, y);
+                }
+            packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
+            for (std::size_t n = 0; n < count; ++n) samples_[places[n]] = seen[n];
+        }
+}
+
+// What the rays through the middles of the pixels see, with an even number of samples along a pixel.
+void TileRenderer::castCenters() {
+    const double middle = side_ / 2.0;
+    centers_.resize(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_));
+    std::array<double, kPacketRays> u, v;
+    std::size_t next = 0;
+    for (std::int32_t y = 0; y < tileHeight_; ++y)
+        for (std::int32_t x = 0; x < tileWidth_;) {
+            if (!packets_) {
+                centers_[next++] =
+                    caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
+                ++x;
+                continue;
+            }
+            const auto count = static_cast<std::size_t>(
+                std::min(tileWidth_ - x, static_cast<std::int32_t>(kPacketRays)));
+            for (std::size_t n = 0; n < count; ++n, ++x) {
+                u[n] = horizontal(x * side_ + middle);
+                v[n] = vertical(y * side_ + middle);
+            }
+            packets_->cast(std::span(u).first(count), std::span(v).first(count), false,
+                           std::span(centers_).subspan(next, count));
+            next += count;
+        }
 }
 
 void TileRenderer::findLines() {
@@ -102,14 +156,14 @@ void TileRenderer::fillBackground() {
 }
 
 void TileRenderer::writePixels() {
-    const double middle = side_ / 2.0;
+    const bool isOdd = side_ % 2 == 1;
+    if (!isOdd) castCenters();
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
         const Rgba8 background = pixelOf({}, 0, y);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
             writePixel(x, y, background);
-            const Sample center =
-                side_ % 2 == 1 ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
-                               : caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
+            const Sample& center = isOdd ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
+                                         : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
             frame_.label.at(tileX_ + x, tileY_ + y) = center.hasHit() ? center.label : 0;
             frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
         }

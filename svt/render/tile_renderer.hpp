@@ -2,11 +2,13 @@
 /// \file
 /// Renders one tile of the picture: samples, border lines, pixels. Internal to render.
 
+#include <svt/render/packet_caster.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/sample_caster.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace svt::render {
@@ -16,13 +18,16 @@ inline constexpr std::int32_t kTilePixels = 32;
 /// Renders tiles; keeps its buffers between them. Belongs to one thread.
 class TileRenderer {
 public:
-    TileRenderer(const Scene& scene, Frame& frame);
+    /// \param packets  null: casts ray by ray
+    TileRenderer(const Scene& scene, const PacketPasses* packets, Frame& frame);
 
     /// The tile whose first pixel is (x, y); writes its pixels of the frame only.
     void render(std::int32_t x, std::int32_t y);
 
 private:
     void castSamples();
+    void castPackets();
+    void castCenters();
     void findLines();
     [[nodiscard]] float lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const;
     void writePixels();
@@ -41,6 +46,7 @@ private:
     const Scene& scene_;
     Frame& frame_;
     SampleCaster caster_;
+    std::optional<PacketCaster> packets_;
     std::int32_t side_;       // samples per pixel along one axis
     std::int32_t lineReach_;  // samples from a border that its line covers, on either side
     std::int32_t margin_;     // samples around the tile
@@ -49,6 +55,7 @@ private:
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
     std::vector<Sample> samples_;
+    std::vector<Sample> centers_;  // of the pixels, where no sample stands there
     std::vector<float> lines_;  // how dark, 0..1
 };
 

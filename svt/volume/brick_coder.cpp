@@ -241,6 +241,7 @@ public:
           patterns_(patterns),
           isCoded_(isCoded),
           heights_(patterns.size()),
+          faces_(patterns.size()),
           codeOf_(places.patternOf.size(), kNone) {}
 
     TileCodes code() {
@@ -398,7 +399,7 @@ private:
         return slope;
     }
 
-    bool addPlane(Vec3i at, int axis, const Slope& slope) {
+    [[nodiscard]] BrickPlane planeOf(Vec3i at, int axis, const Slope& slope) const noexcept {
         BrickPlane plane;
         plane.normal[axis] = 1;
         plane.normal[kAcross[std::size_t(axis)][0]] = -slope.a;
@@ -406,44 +407,176 @@ private:
         const double scale = 1 / length(plane.normal);
         plane.normal = plane.normal * scale;
         plane.offset = -slope.c * scale - dot(plane.normal, corner(at));
-        result_.planes.push_back(plane);
+        return plane;
+    }
+
+    bool addPlane(Vec3i at, int axis, const Slope& slope) {
+        result_.planes.push_back(planeOf(at, axis, slope));
         if (tryPlane(at, static_cast<std::uint32_t>(result_.planes.size() - 1))) return true;
         result_.planes.pop_back();
         return false;
     }
 
-    // Where surfaces meet: planes of the bricks around, with cuts, and in pairs.
+    // Where surfaces meet: planes of the bricks around, and second cuts across an axis, alone and in pairs.
     void codeMeeting(Vec3i at) {
-        constexpr std::size_t kMost = 6;
-        std::vector<std::uint32_t> planes;
-        std::vector<SideMask> masks;
+        constexpr std::size_t kMostAround = 6, kMostCuts = 4;
+        candidates_.clear();
+        masks_.clear();
         forEachNeighbor(at, [&](Vec3i other) {
             const BrickCode* code = codeAt(other);
             if (code == nullptr) return;
-            for (const std::uint32_t plane : code->plane) {
-                if (plane == BrickVolume::kNoPlane || planes.size() == kMost) continue;
-                if (std::find(planes.begin(), planes.end(), plane) != planes.end()) continue;
-                const auto mask = sideMask(result_.planes[plane], at);
-                if (!mask || isTrivial(*mask) || std::find(masks.begin(), masks.end(), *mask) != masks.end()) continue;
-                planes.push_back(plane);
-                masks.push_back(*mask);
+            for (const std::uint32_t number : code->plane) {
+                if (number == BrickVolume::kNoPlane || masks_.size() == kMostAround) continue;
+                const BrickPlane& plane = result_.planes[number];
+                if (std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end()) continue;
+                const auto mask = sideMask(plane, at);
+                if (!mask || isTrivial(*mask) || std::find(masks_.begin(), masks_.end(), *mask) != masks_.end())
+                    continue;
+                candidates_.push_back(plane);
+                masks_.push_back(*mask);
             }
         });
-        for (std::size_t a = 0; a < planes.size(); ++a)
-            if (auto code = codeBySides(patternAt(at), std::span(&masks[a], 1))) {
-                code->plane[0] = planes[a];
+        addCuts(at, kMostAround + kMostCuts);
+        if (tryCandidates(at, 0)) return;
+        const std::size_t known = masks_.size();
+        addFitted(at);
+        if (masks_.size() > known) tryCandidates(at, known);
+    }
+
+    // One candidate, or two of which one at least is number `from` or later.
+    bool tryCandidates(Vec3i at, std::size_t from) {
+        for (std::size_t a = from; a < masks_.size(); ++a)
+            if (auto code = codeBySides(patternAt(at), std::span(&masks_[a], 1))) {
+                code->plane[0] = numberOf(candidates_[a]);
                 setCode(at, std::move(*code));
-                return;
+                return true;
             }
-        for (std::size_t a = 0; a + 1 < planes.size(); ++a)
-            for (std::size_t b = a + 1; b < planes.size(); ++b) {
-                const std::array sides{masks[a], masks[b]};
+        for (std::size_t b = std::max<std::size_t>(from, 1); b < masks_.size(); ++b)
+            for (std::size_t a = 0; a < b; ++a) {
+                const std::array sides{masks_[a], masks_[b]};
                 if (auto code = codeBySides(patternAt(at), sides)) {
-                    code->plane = {planes[a], planes[b]};
+                    code->plane = {numberOf(candidates_[a]), numberOf(candidates_[b])};
                     setCode(at, std::move(*code));
-                    return;
+                    return true;
                 }
             }
+        return false;
+    }
+
+    // Planes of least squares through the faces between two labels, one above the other along an axis.
+    void addFitted(Vec3i at) {
+        constexpr std::size_t kMost = 4, kFewest = 8;
+        struct Pair {
+            int axis;
+            Scalar low, high;
+            std::size_t faces;
+        };
+        std::vector<Pair> pairs;
+        for (const Face& face : facesAt(at)) {
+            const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+                return pair.axis == face.axis && pair.low == face.low && pair.high == face.high;
+            });
+            if (known != pairs.end())
+                ++known->faces;
+            else
+                pairs.push_back({face.axis, face.low, face.high, 1});
+        }
+        std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.faces > q.faces; });
+        std::size_t added = 0;
+        for (const Pair& pair : pairs) {
+            if (pair.faces < kFewest || added == kMost) break;
+            const auto slope = fitFaces(at, pair.axis, pair.low, pair.high);
+            // A plane that is steeper over this axis is found over another.
+            if (!slope || std::max(std::abs(slope->a), std::abs(slope->b)) > 1.3) continue;
+            const BrickPlane plane = planeOf(at, pair.axis, *slope);
+            const auto mask = sideMask(plane, at);
+            if (!mask || isTrivial(*mask) || std::find(masks_.begin(), masks_.end(), *mask) != masks_.end()) continue;
+            candidates_.push_back(plane);
+            masks_.push_back(*mask);
+            ++added;
+        }
+    }
+
+    std::optional<Slope> fitFaces(Vec3i at, int axis, Scalar low, Scalar high) {
+        std::optional<Slope> slope;
+        for (const double tolerance : {1e9, 1.25, 0.8}) {
+            SlopeFit sums;
+            const auto add = [&](Vec3i other) {
+                const Vec3i away = (other - at) * 8;
+                const int p0 = away[kAcross[std::size_t(axis)][0]], q0 = away[kAcross[std::size_t(axis)][1]];
+                for (const Face& face : facesAt(other)) {
+                    if (face.axis != axis || face.low != low || face.high != high) continue;
+                    const double x = p0 + face.p + 0.5, y = q0 + face.q + 0.5, z = away[axis] + face.height;
+                    if (!slope || std::abs(z - slope->at(x, y)) <= tolerance) sums.add(x, y, z);
+                }
+            };
+            add(at);
+            if (slope)
+                forEachNeighbor(at, [&](Vec3i other) {
+                    if (isMixed(other)) add(other);
+                });
+            const auto better = sums.solve();
+            if (!better) return slope;
+            slope = better;
+        }
+        return slope;
+    }
+
+    // A face between two voxels: over (p, q), `height` voxels up, `low` below and `high` above.
+    struct Face {
+        std::uint8_t axis, p, q, height;
+        Scalar low, high;
+    };
+    const std::vector<Face>& facesAt(Vec3i at) {
+        auto& faces = faces_[places_.patternOf[place(at)]];
+        if (faces) return *faces;
+        faces.emplace();
+        const BrickPattern& pattern = patternAt(at);
+        std::array<std::uint16_t, 512> index{};
+        for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p)
+            for (std::size_t v = 0; v < 512; ++v)
+                index[v] = static_cast<std::uint16_t>(index[v] |
+                                                      ((pattern.planes[8 * p + v / 64] >> (v % 64)) & 1u) << p);
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::size_t step = axis == 0 ? 1 : axis == 1 ? 8 : 64;
+            const std::size_t stepP = axis == 0 ? 8 : 1, stepQ = axis == 2 ? 8 : 64;
+            for (std::size_t q = 0; q < 8; ++q)
+                for (std::size_t p = 0; p < 8; ++p)
+                    for (std::size_t h = 1; h < 8; ++h) {
+                        const std::size_t above = p * stepP + q * stepQ + h * step;
+                        if (index[above] != index[above - step])
+                            faces->push_back({static_cast<std::uint8_t>(axis), static_cast<std::uint8_t>(p),
+                                              static_cast<std::uint8_t>(q), static_cast<std::uint8_t>(h),
+                                              pattern.palette[index[above - step]], pattern.palette[index[above]]});
+                    }
+        }
+        return *faces;
+    }
+
+    // Planes between voxels across axes that need more than one cut.
+    void addCuts(Vec3i at, std::size_t most) {
+        const BrickPattern& pattern = patternAt(at);
+        Changes changes;
+        for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) changes.add(pattern.planes.data() + 8 * p);
+        for (int axis = 0; axis < 3; ++axis) {
+            std::uint32_t places = Changes::places(changes.masks[std::size_t(axis)], axis);
+            if (std::popcount(places) < 2 || std::popcount(places) > 3) continue;
+            for (; places != 0 && masks_.size() < most; places &= places - 1) {
+                const auto cut = static_cast<std::uint32_t>(std::countr_zero(places)) + 1;
+                BrickPlane plane;
+                plane.normal[axis] = 1;
+                plane.offset = -(corner(at)[axis] + cut);
+                candidates_.push_back(plane);
+                masks_.push_back(cutMask(axis, cut));
+            }
+        }
+    }
+
+    std::uint32_t numberOf(const BrickPlane& plane) {
+        const auto known = std::find(result_.planes.rbegin(), result_.planes.rend(), plane);
+        if (known != result_.planes.rend()) return static_cast<std::uint32_t>(result_.planes.rend() - known) - 1;
+        result_.planes.push_back(plane);
+        return static_cast<std::uint32_t>(result_.planes.size() - 1);
     }
 
     static bool isTrivial(const SideMask& mask) noexcept {
@@ -485,7 +618,10 @@ private:
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& isCoded_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
+    std::vector<std::optional<std::vector<Face>>> faces_;  // by pattern
     std::vector<std::uint32_t> codeOf_;
+    std::vector<BrickPlane> candidates_;
+    std::vector<SideMask> masks_;
     TileCodes result_;
 };
 

@@ -502,12 +502,12 @@ private:
             return candidate.bits == added.bits && candidate.plane == added.plane &&
                    equals(pattern.palette, volume_.palettes_, candidate.palette) &&
                    equals(pattern.planes, volume_.planes_, candidate.planes) &&
-                   (!brick.code || equals(brick.code->cells, volume_.cells_, candidate.cells));
+                   (!brick.code || equals(brick.code->cells, volume_.palettes_, candidate.cells));
         });
         if (known != Numbering::kNew) return known;
         added.palette = offsetOf(pattern.palette, volume_.palettes_, palettes_);
         added.planes = offsetOf(pattern.planes, volume_.planes_, planeSets_);
-        if (brick.code) added.cells = offsetOf(brick.code->cells, volume_.cells_, cellSets_);
+        if (brick.code) added.cells = offsetOf(brick.code->cells, volume_.palettes_, palettes_);
         for (const Scalar scalar : pattern.palette)
             volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
         volume_.bricks_.push_back(added);
@@ -539,7 +539,7 @@ private:
     std::vector<Scalar> scalars_;
     std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
     Numbering brickNumbers_;
-    SharedSets palettes_, planeSets_, cellSets_;
+    SharedSets palettes_, planeSets_;
 };
 
 Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int threads, BrickFaces faces) {
@@ -584,13 +584,15 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
     for (TileBricks& tile : tileBricks) merger.addTile(tile);
     merger.fillIndex(tileBricks, columns.tilesX(), threads);
     merger.takeBoxes(BoxFinder(volume.index_, volume.brickCount_));
+    volume.index_.push_back(0);
+    volume.palettes_.push_back(0);
     return volume;
 }
 
 std::size_t BrickVolume::sizeBytes() const noexcept {
     return index_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
            bricks_.size() * sizeof(PaletteBrick) + palettes_.size() * sizeof(Scalar) +
-           planes_.size() * sizeof(std::uint64_t) + cells_.size() * sizeof(Scalar) +
+           planes_.size() * sizeof(std::uint64_t) +
            oblique_.size() * sizeof(BrickPlane);
 }
 

@@ -142,7 +142,7 @@ public:
         Coding view;
         for (int axis = 0; axis < 3; ++axis) view.cut[static_cast<std::size_t>(axis)] = brick.cut(axis);
         view.plane = brick.plane;
-        view.cells = cells_.data() + brick.cells;
+        view.cells = palettes_.data() + brick.cells;
         return view;
     }
     /// The planes of all bricks.
@@ -191,23 +191,13 @@ public:
     }
     /// All same-label boxes; together with the mixed bricks they cover the volume. They may overlap.
     [[nodiscard]] std::span<const SameLabelBox> boxes() const noexcept { return boxes_; }
-    /// 1 + the largest scalar.
-    [[nodiscard]] std::uint64_t scalarCount() const noexcept { return scalarCount_; }
-    /// Bytes of all arrays.
-    [[nodiscard]] std::size_t sizeBytes() const noexcept;
-
-    /// Equal arrays. Equal volumes have equal bricks.
-    friend bool operator==(const BrickVolume&, const BrickVolume&) = default;
-
-private:
-    friend class BrickMerger;
-
+    /// A mixed brick as it is stored.
     struct PaletteBrick {
-        std::uint32_t palette = 0;  ///< first of its scalars in palettes_
-        std::uint32_t planes = 0;   ///< first of its words in planes_, 8 a bit plane
+        std::uint32_t palette = 0;  ///< first of its scalars in palettes
+        std::uint32_t planes = 0;   ///< first of its words in words, 8 a bit plane
         std::uint32_t bits = 0;     ///< 4 bits: number of bit planes, 1..9; 10: palette size; 3 for each cut; 1: is coded
-        std::uint32_t cells = 0;    ///< first of its scalars in cells_
-        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};  ///< in oblique_
+        std::uint32_t cells = 0;    ///< first of its coding's cells in palettes
+        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};  ///< in oblique
 
         static constexpr int kSizeShift = 4, kCutShift = 14;
         static constexpr std::uint32_t kCoded = 1u << 23;
@@ -219,6 +209,29 @@ private:
         [[nodiscard]] bool isCoded() const noexcept { return (bits & kCoded) != 0; }
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
+    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of
+    /// `index` is a box, or, with the highest bit, a brick. Behind the last element of `index` and of `palettes` stands
+    /// one more, so that two may be read at once anywhere.
+    struct Arrays {
+        std::span<const std::uint32_t> index;
+        std::span<const SameLabelBox> boxes;
+        std::span<const PaletteBrick> bricks;
+        std::span<const Scalar> palettes;
+        std::span<const std::uint64_t> words;
+        std::span<const BrickPlane> oblique;
+    };
+    [[nodiscard]] Arrays arrays() const noexcept { return {index_, boxes_, bricks_, palettes_, planes_, oblique_}; }
+
+    /// 1 + the largest scalar.
+    [[nodiscard]] std::uint64_t scalarCount() const noexcept { return scalarCount_; }
+    /// Bytes of all arrays.
+    [[nodiscard]] std::size_t sizeBytes() const noexcept;
+
+    /// Equal arrays. Equal volumes have equal bricks.
+    friend bool operator==(const BrickVolume&, const BrickVolume&) = default;
+
+private:
+    friend class BrickMerger;
 
     static constexpr std::array<std::uint64_t, 8> kNoVoxels{};
 
@@ -247,7 +260,6 @@ private:
     std::vector<PaletteBrick> bricks_;
     std::vector<Scalar> palettes_;
     std::vector<std::uint64_t> planes_;
-    std::vector<Scalar> cells_;
     std::vector<BrickPlane> oblique_;
 };
 

@@ -1,0 +1,151 @@
+#include <svt/render/packet_caster.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace svt::render {
+namespace {
+
+using Kind = LinearStyle::Kind;
+
+PacketStyle packetStyle(const LinearStyle& style) noexcept {
+    PacketStyle packet{};
+    for (int channel = 0; channel < 3; ++channel) packet.color[channel] = double(style.color[channel]);
+    packet.density = double(style.density);
+    packet.surface = double(style.surface);
+    if (style.kind != Kind::Hidden) packet.kind |= kVisible;
+    if (style.kind == Kind::Opaque) packet.kind |= kOpaque;
+    if (style.isBody) packet.kind |= kBody;
+    packet.object = style.object;
+    packet.label = style.label;
+    return packet;
+}
+
+}  // namespace
+
+PacketPasses::PacketPasses(const Scene& scene) {
+    PacketScene shared;
+    shared.volume = scene.volume.arrays();
+    shared.bricksX = scene.volume.brickCount().x;
+    shared.bricksY = scene.volume.brickCount().y;
+    for (int axis = 0; axis < 3; ++axis) {
+        shared.count[axis] = scene.volume.dimension()[axis];
+        shared.axisNormals[axis] = scene.directions.axis(axis).normal;
+    }
+    planeNormals_.reserve(4 * scene.directions.planes().size());
+    for (const DirectionTable::Directions& plane : scene.directions.planes())
+        planeNormals_.insert(planeNormals_.end(), {plane.normal.x, plane.normal.y, plane.normal.z, 0});
+    shared.planeNormals = planeNormals_.data();
+    shared.towardsLight = scene.towardsLight;
+    shared.ambient = double(scene.spec.light.ambient);
+    shared.key = double(scene.spec.light.key);
+    shared.opaqueAt = double(scene.options.opaqueAt);
+    shared.labelAt = double(scene.options.labelAt);
+    for (const PreparedPass& pass : scene.passes) {
+        auto& styles = styles_.emplace_back();
+        for (const LinearStyle& style : pass.table.styles()) styles.push_back(packetStyle(style));
+        PacketScene packetScene = shared;
+        packetScene.styleCount = static_cast<std::int64_t>(styles.size());
+        styles.push_back(packetStyle({}));
+        packetScene.styles = styles.data();
+        passes_.push_back(packetScene);
+    }
+}
+
+PacketScene PacketPasses::labelsOnly(std::size_t pass) const noexcept {
+    PacketScene scene = passes_[pass];
+    scene.withColor = false;
+    return scene;
+}
+
+void PacketCaster::cast(std::span<const double> u, std::span<const double> v, bool withColor,
+                        std::span<Sample> samples) {
+    const std::size_t count = u.size();
+    for (std::size_t n = 0; n < kPacketRays; ++n) {
+        rays_.u[n] = u[std::min(n, count - 1)];
+        rays_.v[n] = v[std::min(n, count - 1)];
+    }
+    setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
+    for (std::size_t n = count; n < kPacketRays; ++n) rays_.to[n] = 0;
+    std::array<Sample, kPacketRays> seen;
+    for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
+        const PacketScene packetScene = withColor ? passes_[pass] : passes_.labelsOnly(pass);
+        castPass(pass, packetScene, count, pass == 0 ? samples : std::span<Sample>(seen));
+        if (pass == 0) continue;
+        for (std::size_t n = 0; n < count; ++n)
+            samples[n] = joinPass(scene_.passes[pass].join, seen[n], samples[n]);
+    }
+}
+
+void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count,
+                            std::span<Sample> samples) {
+    pass_ = pass;
+    PacketScene scene = packetScene;
+    scene.light = &PacketCaster::lightOf;
+    for (auto& color : seen_.color) color.fill(0);
+    for (auto& normal : seen_.normal) normal.fill(0);
+    seen_.transmittance.fill(1);
+    seen_.depth.fill(std::numeric_limits<double>::infinity());
+    seen_.label.fill(0);
+    seen_.object.fill(0);
+    seen_.isCap.fill(0);
+    seen_.isDone.fill(0);
+    Lanes<std::int64_t> capped{};
+    const Clipper& clipper = scene_.passes[pass].clipper;
+    if (clipper.isEmpty()) {
+        capPlanes_.fill(nullptr);
+        from_ = rays_.from;
+        walkPacket(scene, rays_, rays_.from, rays_.to, capped, this, seen_);
+    } else {
+        std::array<DrawnIntervals, kPacketRays> drawn;
+        std::size_t most = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            const RaySpan span{rays_.from[n], rays_.to[n]};
+            if (!(span.from < span.to)) continue;
+            drawn[n] = clipper.cut(scene_.rays.at(rays_.u[n], rays_.v[n]).index, span);
+            most = std::max(most, static_cast<std::size_t>(drawn[n].end() - drawn[n].begin()));
+        }
+        for (std::size_t part = 0; part < most; ++part) {
+            Lanes<double> to{};
+            from_.fill(0);
+            for (std::size_t n = 0; n < count; ++n) {
+                if (part >= static_cast<std::size_t>(drawn[n].end() - drawn[n].begin())) continue;
+                const DrawnInterval& interval = drawn[n].begin()[part];
+                from_[n] = interval.from;
+                to[n] = interval.to;
+                capPlanes_[n] = interval.capPlane;
+                capped[n] = interval.capPlane != nullptr ? 1 : 0;
+            }
+            walkPacket(scene, rays_, from_, to, capped, this, seen_);
+        }
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+        Sample& sample = samples[n];
+        sample = Sample();
+        sample.depth = static_cast<float>(seen_.depth[n]);
+        if (sample.hasHit()) {
+            sample.label = static_cast<volume::Scalar>(seen_.label[n]);
+            sample.object = static_cast<std::uint32_t>(seen_.object[n]);
+            sample.normal = toFloat({seen_.normal[0][n], seen_.normal[1][n], seen_.normal[2][n]});
+            sample.isCap = seen_.isCap[n] != 0;
+        }
+        finishSample({seen_.color[0][n], seen_.color[1][n], seen_.color[2][n]}, seen_.transmittance[n],
+                     scene_.options, sample);
+    }
+}
+
+LitNormal PacketCaster::lightOf(void* context, const PacketSurface& surface) {
+    auto& caster = *static_cast<PacketCaster*>(context);
+    const std::size_t n = surface.lane;
+    const PacketRays& rays = caster.rays_;
+    const auto of = [n](const Lanes<double>(&lanes)[3]) { return Vec3d{lanes[0][n], lanes[1][n], lanes[2][n]}; };
+    const SurfaceLight light(caster.scene_, caster.pass_, caster.cache_);
+    const Surface found =
+        light.at(caster.scene_.passes[caster.pass_].table[static_cast<volume::Scalar>(surface.scalar)],
+                 {surface.from, of(rays.origin), of(rays.direction), of(rays.view), surface.cell, surface.axis,
+                  static_cast<std::uint32_t>(surface.plane),
+                  surface.from == caster.from_[n] ? caster.capPlanes_[n] : nullptr});
+    return {found.normal, found.light, found.isCap};
+}
+
+}  // namespace svt::render

@@ -1,0 +1,713 @@
+#include <svt/render/packet_kernel.hpp>
+
+#include <cmath>
+#include <limits>
+
+// This file is compiled once for each set of instructions.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "svt/render/packet_kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svt::render::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, kPacketRays / 2>;
+using DI = hn::RebindToSigned<D>;
+using DU = hn::RebindToUnsigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+using MI = hn::Mask<DI>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct V3 {
+    V x, y, z;
+};
+
+HWY_INLINE V dot(const V3& a, const V3& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE V3 loadV3(const Lanes<double> (&lanes)[3], std::size_t first) {
+    const D d;
+    return {hn::Load(d, lanes[0].data() + first), hn::Load(d, lanes[1].data() + first),
+            hn::Load(d, lanes[2].data() + first)};
+}
+HWY_INLINE void store(V v, Lanes<double>& lanes, std::size_t first) { hn::Store(v, D(), lanes.data() + first); }
+
+// 64 bits of `array` at a byte offset in each lane that is in `mask`; elsewhere 0.
+HWY_INLINE VI gatherBytes(const void* array, VI offset) {
+    return hn::GatherOffset(DI(), static_cast<const std::int64_t*>(array), offset);
+}
+HWY_INLINE VI lowHalf(VI v) { return hn::And(v, hn::Set(DI(), 0xFFFFFFFF)); }
+template <int kBits>
+HWY_INLINE VI shiftRight(VI v) {
+    return hn::BitCast(DI(), hn::ShiftRight<kBits>(hn::BitCast(DU(), v)));
+}
+HWY_INLINE VI shiftRightBy(VI v, VI bits) {
+    return hn::BitCast(DI(), hn::Shr(hn::BitCast(DU(), v), hn::BitCast(DU(), bits)));
+}
+template <int kFirst, int kCount>
+HWY_INLINE VI bitsOf(VI v) {
+    return hn::And(shiftRight<kFirst>(v), hn::Set(DI(), (std::int64_t{1} << kCount) - 1));
+}
+HWY_INLINE MI isSet(VI v, std::int64_t bit) {
+    return hn::Ne(hn::And(v, hn::Set(DI(), bit)), hn::Zero(DI()));
+}
+HWY_INLINE V toDouble(VI v) { return hn::ConvertTo(D(), v); }
+HWY_INLINE VI toInt(V v) { return hn::ConvertTo(DI(), v); }
+HWY_INLINE M toDoubles(MI m) { return hn::RebindMask(D(), m); }
+HWY_INLINE MI toInts(M m) { return hn::RebindMask(DI(), m); }
+HWY_INLINE bool any(M m) { return !hn::AllFalse(D(), m); }
+HWY_INLINE M andNot(M without, M m) { return hn::AndNot(without, m); }
+// a != b
+HWY_INLINE M differ(M a, M b) { return hn::Or(hn::AndNot(a, b), hn::AndNot(b, a)); }
+
+// See expOfMinus() of the plain caster.
+HWY_INLINE V expOfMinus(V x) {
+    const D d;
+    const DI di;
+    const V one = hn::Set(d, 1.0);
+    const auto isSmall = hn::Lt(x, hn::Set(d, 80.0));
+    const V safe = hn::IfThenElseZero(isSmall, x);
+    const V halvings = hn::Mul(safe, hn::Set(d, 1.4426950408889634));
+    const V n = hn::Floor(halvings);
+    const V r = hn::Mul(hn::Sub(halvings, n), hn::Set(d, 0.34657359027997264));
+    V sum = hn::Sub(one, hn::Mul(r, hn::Set(d, 1.0 / 7)));
+    for (const double factor : {1.0 / 6, 1.0 / 5, 1.0 / 4, 1.0 / 3, 1.0 / 2})
+        sum = hn::Sub(one, hn::Mul(hn::Mul(sum, r), hn::Set(d, factor)));
+    sum = hn::Sub(one, hn::Mul(sum, r));
+    const V power = hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(di, 1023), toInt(n))));
+    return hn::IfThenElseZero(isSmall, hn::Mul(hn::Mul(sum, sum), power));
+}
+
+
+HWY_INLINE V3 broadcast(Vec3d v) {
+    const D d;
+    return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+HWY_INLINE V3 sum(const V3& a, const V3& b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
+HWY_INLINE V3 times(const V3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
+
+void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
+    const D d;
+    const CameraRays::Basis basis = camera.basis();
+    const V one = hn::Set(d, 1.0), zero = hn::Zero(d), infinity = hn::Set(d, kInfinity);
+    for (std::size_t i = 0; i < kPacketRays; i += hn::Lanes(d)) {
+        const V x = hn::Mul(hn::Load(d, rays.u.data() + i), hn::Set(d, basis.halfWidth));
+        const V y = hn::Mul(hn::Load(d, rays.v.data() + i), hn::Set(d, basis.halfHeight));
+        const V3 aside = sum(times(broadcast(basis.rightIndex), x), times(broadcast(basis.upIndex), y));
+        V3 origin = broadcast(basis.eyeIndex), direction = broadcast(basis.forwardIndex);
+        V3 world = broadcast(basis.forward);
+        V metres = one;
+        if (camera.isPerspective()) {
+            direction = sum(direction, aside);
+            world = sum(sum(world, times(broadcast(basis.right), x)), times(broadcast(basis.up), y));
+            metres = hn::Sqrt(hn::Add(hn::Add(one, hn::Mul(x, x)), hn::Mul(y, y)));
+        } else {
+            origin = sum(origin, aside);
+        }
+        const V length = hn::Sqrt(dot(world, world));
+        const V3 view{hn::Div(hn::Neg(world.x), length), hn::Div(hn::Neg(world.y), length),
+                      hn::Div(hn::Neg(world.z), length)};
+        const V least = hn::Mul(
+            hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z)), hn::Set(d, 1e-12));
+        const V far = hn::Add(hn::Add(hn::Add(hn::Abs(origin.x), hn::Abs(origin.y)), hn::Abs(origin.z)),
+                              hn::Set(d, 65536.0));
+        store(hn::Mul(hn::Set(d, 1e-13), far), rays.slack, i);
+        store(metres, rays.metresPerT, i);
+        V from = zero, to = infinity;
+        const auto axis = [&](int a, V o, V along, V toViewer) {
+            const auto n = static_cast<std::size_t>(a);
+            const M moves = hn::Gt(hn::Abs(along), least);
+            const V inverse = hn::IfThenElse(moves, hn::Div(one, along), infinity);
+            const V planeOrigin = hn::IfThenElse(moves, o, hn::Set(d, -1.0));
+            const V voxels = hn::Set(d, static_cast<double>(count[a]));
+            const V low = hn::Mul(hn::Sub(zero, planeOrigin), inverse);
+            const V high = hn::Mul(hn::Sub(voxels, planeOrigin), inverse);
+            from = hn::IfThenElse(moves, hn::Max(from, hn::Min(low, high)), from);
+            to = hn::IfThenElse(moves, hn::Min(to, hn::Max(low, high)), to);
+            const M misses = andNot(hn::Or(moves, hn::And(hn::Ge(o, zero), hn::Lt(o, voxels))), hn::Eq(one, one));
+            to = hn::IfThenElse(misses, zero, to);
+            store(o, rays.origin[n], i);
+            store(hn::IfThenElseZero(moves, along), rays.direction[n], i);
+            store(inverse, rays.inverse[n], i);
+            store(planeOrigin, rays.planeOrigin[n], i);
+            store(toViewer, rays.view[n], i);
+        };
+        axis(0, origin.x, direction.x, view.x);
+        axis(1, origin.y, direction.y, view.y);
+        axis(2, origin.z, direction.z, view.z);
+        store(from, rays.from, i);
+        store(to, rays.to, i);
+    }
+}
+
+// One axis of the rays.
+struct Axis {
+    V origin, direction, inverse, planeOrigin, count;
+    M isNegative, isMoving;
+
+    HWY_INLINE V planeTime(V plane) const { return hn::Mul(hn::Sub(plane, planeOrigin), inverse); }
+};
+
+// The rays of a packet under way; as many at once as the instructions take.
+class Walk {
+public:
+    HWY_INLINE Walk(const PacketScene& scene, const PacketRays& rays, std::size_t first, void* context,
+                    PacketSamples& samples)
+        : scene_(scene),
+          rays_(rays),
+          first_(first),
+          context_(context),
+          samples_(samples),
+          x_(axisOf(0)),
+          y_(axisOf(1)),
+          z_(axisOf(2)),
+          metresPerT_(hn::Load(D(), rays.metresPerT.data() + first)),
+          slack_(hn::Load(D(), rays.slack.data() + first)),
+          runScalar_(hn::Set(DI(), -1)),
+          object_(hn::Set(DI(), -1)),
+          crossed_(hn::Set(DI(), -1)),
+          light_(hn::Set(D(), 1.0)) {
+        normal_ = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+        const D d;
+        color_ = loadV3(samples.color, first);
+        transmittance_ = hn::Load(d, samples.transmittance.data() + first);
+        runStart_ = hn::Zero(d);
+    }
+
+    // Starts on [from, to).
+    HWY_INLINE void begin(const Lanes<double>& from, const Lanes<double>& to, const Lanes<std::int64_t>& capped) {
+        const D d;
+        from_ = t_ = hn::Load(d, from.data() + first_);
+        end_ = hn::Load(d, to.data() + first_);
+        isCapped_ = toDoubles(hn::Ne(hn::Load(DI(), capped.data() + first_), hn::Zero(DI())));
+        isDone_ = toDoubles(hn::Ne(hn::Load(DI(), samples_.isDone.data() + first_), hn::Zero(DI())));
+        active_ = started_ = andNot(isDone_, hn::Lt(t_, end_));
+        isRunTranslucent_ = hn::Lt(t_, t_);
+        if (any(active_)) cellsAt(active_);
+    }
+
+    HWY_INLINE bool isActive() const { return any(active_); }
+
+    // To the end of the label that each ray is in.
+    HWY_INLINE void step() {
+        const Segment segment = segmentOf(active_);
+        const M changed = hn::And(active_, toDoubles(hn::Ne(segment.label, runScalar_)));
+        if (any(changed)) {
+            const M leaving = hn::And(changed, isRunTranslucent_);
+            if (any(leaving)) leave(leaving, t_);
+            const M entering = andNot(isDone_, changed);
+            if (any(entering)) enter(entering, segment.label);
+            active_ = andNot(isDone_, active_);
+        }
+        t_ = hn::IfThenElse(active_, segment.next, t_);
+        active_ = hn::And(active_, hn::Lt(t_, end_));
+        crossed_ = hn::IfThenElse(toInts(active_), segment.plane, crossed_);
+        moveCells(segment, active_);
+    }
+
+    HWY_INLINE void finish() {
+        const M leaving = hn::And(andNot(isDone_, started_), isRunTranslucent_);
+        if (any(leaving)) leave(leaving, end_);
+        const DI di;
+        store(color_.x, samples_.color[0], first_);
+        store(color_.y, samples_.color[1], first_);
+        store(color_.z, samples_.color[2], first_);
+        store(transmittance_, samples_.transmittance, first_);
+        hn::Store(hn::IfThenElseZero(toInts(isDone_), hn::Set(di, -1)), di, samples_.isDone.data() + first_);
+    }
+
+private:
+    // A stretch of one label, and how it ends.
+    struct Segment {
+        VI label, plane;     // plane: the oblique plane at its end, or -1
+        V next;              // when it ends
+        V3 far, leave;       // planes of voxel faces before the ray, and when it crosses them
+        M isVoxel;           // cells beside the exit stay
+    };
+
+    HWY_INLINE Axis axisOf(std::size_t a) const {
+        const D d;
+        Axis axis;
+        axis.origin = hn::Load(d, rays_.origin[a].data() + first_);
+        axis.direction = hn::Load(d, rays_.direction[a].data() + first_);
+        axis.inverse = hn::Load(d, rays_.inverse[a].data() + first_);
+        axis.planeOrigin = hn::Load(d, rays_.planeOrigin[a].data() + first_);
+        axis.count = hn::Set(d, scene_.count[a]);
+        axis.isNegative = hn::Lt(axis.direction, hn::Zero(d));
+        axis.isMoving = hn::Ne(axis.direction, hn::Zero(d));
+        return axis;
+    }
+
+    // ------------------------------------------------------------------------------------------------ where
+
+    // IndexRay::cellAt(); lanes where rounding may matter are added to `unsure`.
+    HWY_INLINE V cellAt(const Axis& axis, V t, M& unsure) const {
+        const D d;
+        const V position = hn::Add(axis.origin, hn::Mul(t, axis.direction));
+        const V guess = hn::Min(hn::Max(position, hn::Zero(d)), hn::Sub(axis.count, hn::Set(d, 1.0)));
+        const V cell = hn::Floor(guess);
+        const V inCell = hn::Sub(guess, cell);
+        const M isSure = hn::And(hn::Gt(inCell, slack_), hn::Lt(inCell, hn::Sub(hn::Set(d, 1.0), slack_)));
+        unsure = hn::Or(unsure, andNot(isSure, axis.isMoving));
+        return cell;
+    }
+    // The rest of IndexRay::cellAt(), one step at a time.
+    HWY_NOINLINE V settle(const Axis& axis, V cell, V t, M lanes) const {
+        const D d;
+        const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
+        const V last = hn::Sub(axis.count, one);
+        lanes = hn::And(lanes, axis.isMoving);
+        while (true) {
+            // Upwards the ray is in the cell from its lower plane on, downwards from its upper plane on.
+            const V below = axis.planeTime(cell), above = axis.planeTime(hn::Add(cell, one));
+            const auto either = [&](M downwards, M upwards) {
+                return hn::Or(hn::And(axis.isNegative, downwards), andNot(axis.isNegative, upwards));
+            };
+            const M up = hn::And(hn::And(lanes, hn::Lt(cell, last)), either(hn::Gt(above, t), hn::Le(above, t)));
+            const M down = hn::And(hn::And(lanes, hn::Gt(cell, zero)), either(hn::Le(below, t), hn::Gt(below, t)));
+            if (!any(hn::Or(up, down))) return cell;
+            cell = hn::IfThenElse(up, hn::Add(cell, one), hn::IfThenElse(down, hn::Sub(cell, one), cell));
+        }
+    }
+
+    HWY_INLINE void cellsAt(M lanes) {
+        M unsure = hn::Lt(t_, t_);
+        V x = cellAt(x_, t_, unsure), y = cellAt(y_, t_, unsure), z = cellAt(z_, t_, unsure);
+        unsure = hn::And(unsure, lanes);
+        if (any(unsure)) {
+            x = settle(x_, x, t_, unsure);
+            y = settle(y_, y, t_, unsure);
+            z = settle(z_, z, t_, unsure);
+        }
+        const V zero = hn::Zero(D());
+        cell_ = {hn::IfThenElse(lanes, x, zero), hn::IfThenElse(lanes, y, zero), hn::IfThenElse(lanes, z, zero)};
+    }
+
+    HWY_INLINE void moveCells(const Segment& segment, M active) {
+        const D d;
+        const V one = hn::Set(d, 1.0);
+        M unsureX = hn::Lt(t_, t_), unsureY = unsureX, unsureZ = unsureX;
+        const auto step = [&](const Axis& axis, V cell, V far, V leave, M& unsure) {
+            const M crosses = hn::Eq(leave, t_);
+            const V beyond = hn::IfThenElse(axis.isNegative, hn::Sub(far, one), far);
+            const V at = hn::IfThenElse(segment.isVoxel, cell, cellAt(axis, t_, unsure));
+            unsure = andNot(hn::Or(crosses, segment.isVoxel), unsure);
+            return hn::IfThenElse(crosses, beyond, at);
+        };
+        V x = step(x_, cell_.x, segment.far.x, segment.leave.x, unsureX);
+        V y = step(y_, cell_.y, segment.far.y, segment.leave.y, unsureY);
+        V z = step(z_, cell_.z, segment.far.z, segment.leave.z, unsureZ);
+        if (any(hn::And(active, hn::Or(hn::Or(unsureX, unsureY), unsureZ)))) {
+            x = settle(x_, x, t_, hn::And(active, unsureX));
+            y = settle(y_, y, t_, hn::And(active, unsureY));
+            z = settle(z_, z, t_, hn::And(active, unsureZ));
+        }
+        const V zero = hn::Zero(d);
+        cell_ = {hn::IfThenElse(active, x, zero), hn::IfThenElse(active, y, zero), hn::IfThenElse(active, z, zero)};
+    }
+
+    // ------------------------------------------------------------------------------------------------ what
+
+    HWY_INLINE Segment segmentOf(M active) const {
+        const D d;
+        const DI di;
+        const V eighth = hn::Set(d, 0.125);
+        const V3 brick{hn::Floor(hn::Mul(cell_.x, eighth)), hn::Floor(hn::Mul(cell_.y, eighth)),
+                       hn::Floor(hn::Mul(cell_.z, eighth))};
+        const V place =
+            hn::Add(brick.x, hn::Mul(hn::Set(d, scene_.bricksX),
+                                     hn::Add(brick.y, hn::Mul(hn::Set(d, scene_.bricksY), brick.z))));
+        const VI entry = lowHalf(gatherBytes(scene_.volume.index.data(), hn::ShiftLeft<2>(toInt(place))));
+        const M mixed = hn::And(active, toDoubles(isSet(entry, 0x80000000)));
+        const M uniform = andNot(mixed, active);
+        Segment segment;
+        segment.label = hn::Zero(di);
+        segment.plane = hn::Set(di, -1);
+        segment.far = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        segment.isVoxel = hn::Lt(t_, t_);
+        if (any(uniform)) {
+            const VI offset = hn::IfThenElseZero(toInts(uniform), hn::ShiftLeft<4>(entry));
+            const VI low = gatherBytes(scene_.volume.boxes.data(), offset);
+            const VI high = gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, offset);
+            segment.label = shiftRight<32>(high);
+            segment.far.x = farOf(x_, bitsOf<0, 16>(low), shiftRight<48>(low));
+            segment.far.y = farOf(y_, bitsOf<16, 16>(low), bitsOf<0, 16>(high));
+            segment.far.z = farOf(z_, bitsOf<32, 16>(low), bitsOf<16, 16>(high));
+        }
+        Side oblique[2];
+        bool hasOblique = false;
+        if (any(mixed)) hasOblique = readMixed(entry, mixed, brick, segment, oblique);
+        segment.leave = {x_.planeTime(segment.far.x), y_.planeTime(segment.far.y), z_.planeTime(segment.far.z)};
+        segment.next = hn::Min(hn::Min(segment.leave.x, segment.leave.y), segment.leave.z);
+        if (hasOblique)
+            for (const Side& side : oblique) {
+                const M isNext = hn::And(hn::And(side.isThere, hn::Gt(side.time, t_)), hn::Lt(side.time, segment.next));
+                segment.next = hn::IfThenElse(isNext, side.time, segment.next);
+                segment.plane = hn::IfThenElse(toInts(isNext), side.plane, segment.plane);
+            }
+        return segment;
+    }
+    HWY_INLINE V farOf(const Axis& axis, VI min, VI max) const {
+        return toDouble(hn::IfThenElse(toInts(axis.isNegative), min, max));
+    }
+
+    struct Side {
+        M isThere, isPositive;
+        V time;
+        VI plane;
+    };
+
+    // Mixed bricks: label, faces and planes ahead. Returns whether there are oblique planes.
+    HWY_INLINE bool readMixed(VI entry, M mixed, const V3& brick, Segment& segment, Side (&oblique)[2]) const {
+        const D d;
+        const DI di;
+        const VI number = hn::And(entry, hn::Set(di, 0x7FFFFFFF));
+        // 24 bytes each
+        const VI offset = hn::IfThenElseZero(
+            toInts(mixed), hn::Add(hn::ShiftLeft<4>(number), hn::ShiftLeft<3>(number)));
+        const auto* bricks = reinterpret_cast<const std::byte*>(scene_.volume.bricks.data());
+        const VI first = gatherBytes(bricks, offset), second = gatherBytes(bricks + 8, offset);
+        const M coded = hn::And(mixed, toDoubles(isSet(second, volume::BrickVolume::PaletteBrick::kCoded)));
+        const M voxels = andNot(coded, mixed);
+        bool hasOblique = false;
+        const V eight = hn::Set(d, 8.0);
+        const V3 low{hn::Mul(brick.x, eight), hn::Mul(brick.y, eight), hn::Mul(brick.z, eight)};
+        if (any(coded)) {
+            VI side = hn::Zero(di);
+            const VI planes = gatherBytes(bricks + 16, offset);
+            const M hasPlanes = hn::And(coded, toDoubles(hn::Ne(lowHalf(planes), hn::Set(di, 0xFFFFFFFF))));
+            hasOblique = any(hasPlanes);
+            if (hasOblique) {
+                const M hasTwo = hn::And(hasPlanes, toDoubles(hn::Ne(shiftRight<32>(planes), hn::Set(di, 0xFFFFFFFF))));
+                oblique[1] = sideOf(shiftRight<32>(planes), hasTwo);
+                oblique[0] = sideOf(lowHalf(planes), hasPlanes);
+                side = addSide(side, oblique[1].isThere, oblique[1].isPositive);
+                side = addSide(side, oblique[0].isThere, oblique[0].isPositive);
+            }
+            const V farZ = cutOf(z_, bitsOf<kCut + 6, 3>(second), low.z, cell_.z, side);
+            const V farY = cutOf(y_, bitsOf<kCut + 3, 3>(second), low.y, cell_.y, side);
+            const V farX = cutOf(x_, bitsOf<kCut, 3>(second), low.x, cell_.x, side);
+            segment.far = {hn::IfThenElse(coded, farX, segment.far.x), hn::IfThenElse(coded, farY, segment.far.y),
+                           hn::IfThenElse(coded, farZ, segment.far.z)};
+            const VI at = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<2>(hn::Add(shiftRight<32>(second), side)));
+            segment.label = hn::IfThenElse(
+                toInts(coded), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
+        }
+        if (any(voxels)) {
+            const V one = hn::Set(d, 1.0);
+            const auto farVoxel = [&](const Axis& axis, V cell, V known) {
+                return hn::IfThenElse(voxels, hn::IfThenElse(axis.isNegative, cell, hn::Add(cell, one)), known);
+            };
+            segment.isVoxel = voxels;
+            segment.far = {farVoxel(x_, cell_.x, segment.far.x), farVoxel(y_, cell_.y, segment.far.y),
+                           farVoxel(z_, cell_.z, segment.far.z)};
+            const VI bit = toInt(hn::Add(hn::Sub(cell_.x, low.x), hn::Mul(hn::Sub(cell_.y, low.y), eight)));
+            VI word = hn::Add(shiftRight<32>(first), toInt(hn::Sub(cell_.z, low.z)));
+            const VI planeCount = bitsOf<0, 4>(second);
+            VI index = hn::Zero(di);
+            std::int64_t plane = 0;
+            M more = voxels;
+            do {
+                const VI bits = gatherBytes(scene_.volume.words.data(),
+                                            hn::IfThenElseZero(toInts(more), hn::ShiftLeft<3>(word)));
+                const VI one64 = hn::And(shiftRightBy(bits, bit), hn::Set(di, 1));
+                index = hn::Or(index, hn::IfThenElseZero(toInts(more),
+                                                         hn::BitCast(di, hn::Shl(hn::BitCast(DU(), one64),
+                                                                                 hn::Set(DU(), std::uint64_t(plane))))));
+                word = hn::Add(word, hn::Set(di, 8));
+                ++plane;
+                more = hn::And(voxels, toDoubles(hn::Gt(planeCount, hn::Set(di, plane))));
+            } while (any(more));
+            const VI at = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<2>(hn::Add(lowHalf(first), index)));
+            segment.label = hn::IfThenElse(
+                toInts(voxels), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
+        }
+        return hasOblique;
+    }
+    static constexpr int kCut = volume::BrickVolume::PaletteBrick::kCutShift;
+
+    static HWY_INLINE VI addSide(VI side, M isThere, M isBeyond) {
+        const VI more = hn::Add(hn::Add(side, side), hn::IfThenElseZero(toInts(isBeyond), hn::Set(DI(), 1)));
+        return hn::IfThenElse(toInts(isThere), more, side);
+    }
+    // Face before the ray along an axis of a brick that may be cut there.
+    HWY_INLINE V cutOf(const Axis& axis, VI cut, V low, V cell, VI& side) const {
+        const D d;
+        const M isCut = toDoubles(hn::Ne(cut, hn::Zero(DI())));
+        const V place = hn::Add(low, toDouble(cut));
+        const M isAfter = hn::Ge(t_, axis.planeTime(place));
+        const M moved = differ(isAfter, axis.isNegative);
+        const M isBeyond = hn::Or(hn::And(axis.isMoving, moved), andNot(axis.isMoving, hn::Ge(cell, place)));
+        side = addSide(side, isCut, isBeyond);
+        const V high = hn::Min(hn::Add(low, hn::Set(d, 8.0)), axis.count);
+        return hn::IfThenElse(axis.isNegative, hn::IfThenElse(hn::And(isCut, isBeyond), place, low),
+                              hn::IfThenElse(andNot(isBeyond, isCut), place, high));
+    }
+    HWY_INLINE Side sideOf(VI plane, M isThere) const {
+        const D d;
+        const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
+        const auto number = [&](int n) {
+            return hn::BitCast(d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
+        };
+        const V3 normal{number(0), number(1), number(2)};
+        const V zero = hn::Zero(d);
+        const V height = hn::Add(dot(normal, {x_.origin, y_.origin, z_.origin}), number(3));
+        const V rise = dot(normal, {x_.direction, y_.direction, z_.direction});
+        const M crosses = hn::Ne(rise, zero);
+        Side side;
+        side.isThere = isThere;
+        side.plane = plane;
+        side.time = hn::IfThenElse(crosses, hn::Div(hn::Neg(height), rise), hn::Set(d, kInfinity));
+        const M isRising = hn::Or(hn::Gt(rise, zero), andNot(hn::Or(crosses, hn::Gt(height, zero)), hn::Eq(zero, zero)));
+        // (t >= time) == isRising
+        side.isPositive = andNot(differ(hn::Ge(t_, side.time), isRising), hn::Eq(zero, zero));
+        return side;
+    }
+
+    // ------------------------------------------------------------------------------------------------ how it looks
+
+    HWY_INLINE V styleNumber(VI offset, std::size_t member) const {
+        return hn::BitCast(D(), gatherBytes(reinterpret_cast<const std::byte*>(scene_.styles) + member, offset));
+    }
+    HWY_INLINE VI styleOffset(VI scalar, M lanes) const {
+        const DI di;
+        const VI known = hn::Min(scalar, hn::Set(di, scene_.styleCount));
+        return hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), known));
+    }
+
+    // RunShader::add(); `share` of the light is stopped.
+    HWY_INLINE void add(M lanes, V share, V from, VI offset) {
+        const D d;
+        const V one = hn::Set(d, 1.0);
+        const V surface = styleNumber(offset, offsetof(PacketStyle, surface));
+        const V light = hn::Add(one, hn::Mul(hn::Sub(light_, one), surface));
+        const V weight = hn::Mul(share, light);
+        const auto addColor = [&](V color, std::size_t channel) {
+            const V added = hn::Mul(
+                styleNumber(offset, offsetof(PacketStyle, color) + channel * sizeof(double)), weight);
+            return hn::IfThenElse(lanes, hn::Add(color, added), color);
+        };
+        color_ = {addColor(color_.x, 0), addColor(color_.y, 1), addColor(color_.z, 2)};
+        transmittance_ = hn::IfThenElse(lanes, hn::Sub(transmittance_, share), transmittance_);
+        const V opacity = hn::Sub(one, transmittance_);
+        const V depth = hn::Load(d, samples_.depth.data() + first_);
+        const M isHit = hn::And(hn::And(lanes, hn::Eq(depth, hn::Set(d, kInfinity))),
+                                hn::Gt(opacity, hn::Set(d, scene_.labelAt)));
+        if (any(isHit)) {
+            const auto keep = [&](V value, Lanes<double>& lanesOf) {
+                store(hn::IfThenElse(isHit, value, hn::Load(d, lanesOf.data() + first_)), lanesOf, first_);
+            };
+            keep(from, samples_.depth);
+            keep(normal_.x, samples_.normal[0]);
+            keep(normal_.y, samples_.normal[1]);
+            keep(normal_.z, samples_.normal[2]);
+            const auto keepInt = [&](VI value, Lanes<std::int64_t>& lanesOf) {
+                const DI di;
+                hn::Store(hn::IfThenElse(toInts(isHit), value, hn::Load(di, lanesOf.data() + first_)), di,
+                          lanesOf.data() + first_);
+            };
+            const auto* styles = reinterpret_cast<const std::byte*>(scene_.styles);
+            keepInt(gatherBytes(styles + offsetof(PacketStyle, label), offset), samples_.label);
+            keepInt(gatherBytes(styles + offsetof(PacketStyle, object), offset), samples_.object);
+            keepInt(hn::IfThenElseZero(toInts(isOnCap_), hn::Set(DI(), 1)), samples_.isCap);
+        }
+    }
+
+    HWY_INLINE void markDone(M lanes) { isDone_ = hn::Or(isDone_, lanes); }
+
+    // RunShader::leave() of translucent runs.
+    HWY_INLINE void leave(M lanes, V to) {
+        const D d;
+        const V one = hn::Set(d, 1.0);
+        const VI offset = styleOffset(runScalar_, lanes);
+        const V density = styleNumber(offset, offsetof(PacketStyle, density));
+        const V stopped = hn::Sub(
+            one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
+        add(lanes, hn::Mul(transmittance_, stopped), runStart_, offset);
+        if (scene_.withColor) {
+            markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, scene_.opaqueAt))));
+        } else {
+            const V depth = hn::Load(d, samples_.depth.data() + first_);
+            markDone(hn::And(lanes, hn::Lt(depth, hn::Set(d, kInfinity))));
+        }
+    }
+
+    // RunShader::enter().
+    HWY_INLINE void enter(M lanes, VI label) {
+        const DI di;
+        runScalar_ = hn::IfThenElse(toInts(lanes), label, runScalar_);
+        runStart_ = hn::IfThenElse(lanes, t_, runStart_);
+        const VI offset = styleOffset(label, lanes);
+        const auto* styles = reinterpret_cast<const std::byte*>(scene_.styles);
+        const VI kind = gatherBytes(styles + offsetof(PacketStyle, kind), offset);
+        const VI object = gatherBytes(styles + offsetof(PacketStyle, object), offset);
+        const M visible = hn::And(lanes, toDoubles(isSet(kind, PacketKind::kVisible)));
+        const M isNew = hn::And(visible, toDoubles(hn::Ne(object, object_)));
+        object_ = hn::IfThenElse(toInts(lanes), hn::IfThenElse(toInts(visible), object, hn::Set(di, -1)), object_);
+        if (scene_.withColor && any(isNew)) lightSurfaces(isNew, toDoubles(isSet(kind, PacketKind::kBody)), label);
+        const M opaque = hn::And(visible, toDoubles(isSet(kind, PacketKind::kOpaque)));
+        isRunTranslucent_ = hn::Or(andNot(lanes, isRunTranslucent_), andNot(opaque, visible));
+        if (any(opaque)) {
+            add(opaque, transmittance_, t_, offset);
+            markDone(opaque);
+        }
+    }
+
+    // SurfaceLight::at() for glass; all else goes through scene.light.
+    HWY_INLINE void lightSurfaces(M lanes, M isBody, VI label) {
+        const D d;
+        const DI di;
+        const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+        isOnCap_ = andNot(lanes, isOnCap_);
+        const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
+        const M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+        M isFace = andNot(isOblique, hn::Eq(zero, zero));
+        V3 normal{zero, zero, zero};
+        // The first axis whose plane the ray crosses at t.
+        V faceAxis = hn::Set(d, -1.0);
+        const auto face = [&](const Axis& axis, V cell, Vec3d axisNormal, double number) {
+            const V entered = axis.planeTime(hn::IfThenElse(axis.isNegative, hn::Add(cell, one), cell));
+            const M isHere = hn::And(hn::And(isFace, axis.isMoving), hn::Eq(entered, t_));
+            isFace = andNot(isHere, isFace);
+            faceAxis = hn::IfThenElse(isHere, hn::Set(d, number), faceAxis);
+            const auto part = [&](V known, double value) {
+                const V away = hn::Set(d, value);
+                return hn::IfThenElse(isHere, hn::IfThenElse(axis.isNegative, away, hn::Neg(away)), known);
+            };
+            normal = {part(normal.x, axisNormal.x), part(normal.y, axisNormal.y), part(normal.z, axisNormal.z)};
+        };
+        face(x_, cell_.x, scene_.axisNormals[0], 0);
+        face(y_, cell_.y, scene_.axisNormals[1], 1);
+        face(z_, cell_.z, scene_.axisNormals[2], 2);
+        const M glassPlane = hn::And(lanes, andNot(hn::Or(isBody, isCap), isOblique));
+        if (any(glassPlane)) {
+            const VI offset = hn::IfThenElseZero(toInts(glassPlane), hn::ShiftLeft<5>(crossed_));
+            const auto number = [&](int n) {
+                return hn::BitCast(d, gatherBytes(scene_.planeNormals + n, offset));
+            };
+            const V3 plane{number(0), number(1), number(2)};
+            const auto index = [&](int n) {
+                return hn::BitCast(
+                    d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
+            };
+            const M isAway = hn::Gt(dot({index(0), index(1), index(2)}, {x_.direction, y_.direction, z_.direction}), zero);
+            const auto facing = [&](V known, V value) {
+                return hn::IfThenElse(glassPlane, hn::IfThenElse(isAway, hn::Neg(value), value), known);
+            };
+            normal = {facing(normal.x, plane.x), facing(normal.y, plane.y), facing(normal.z, plane.z)};
+        }
+        const M special = hn::And(lanes, hn::Or(hn::Or(isBody, isCap), isFace));
+        const V3 view = loadV3(rays_.view, first_);
+        const V key = hn::Max(zero, dot(normal, broadcast(scene_.towardsLight)));
+        const V facing = hn::Max(zero, dot(normal, view));
+        const V sky = hn::Add(hn::Set(d, 0.80), hn::Mul(hn::Set(d, 0.20), normal.z));
+        const V ambient = hn::Mul(hn::Set(d, scene_.ambient),
+                                  hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
+        const V light = hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, scene_.key), key), hn::Set(d, 0.45 + 0.55)));
+        light_ = hn::IfThenElse(lanes, light, light_);
+        normal_ = {hn::IfThenElse(lanes, normal.x, normal_.x), hn::IfThenElse(lanes, normal.y, normal_.y),
+                   hn::IfThenElse(lanes, normal.z, normal_.z)};
+        if (any(special)) askForLight(special, label, faceAxis);
+    }
+
+    HWY_NOINLINE void askForLight(M lanes, VI label, V faceAxis) {
+        const D d;
+        const DI di;
+        constexpr std::size_t kMost = kPacketRays;
+        alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], normal[3][kMost];
+        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], cap[kMost] = {};
+        hn::Store(t_, d, t);
+        hn::Store(faceAxis, d, axis);
+        hn::Store(cell_.x, d, cell[0]);
+        hn::Store(cell_.y, d, cell[1]);
+        hn::Store(cell_.z, d, cell[2]);
+        hn::Store(light_, d, light);
+        hn::Store(normal_.x, d, normal[0]);
+        hn::Store(normal_.y, d, normal[1]);
+        hn::Store(normal_.z, d, normal[2]);
+        hn::Store(label, di, scalar);
+        hn::Store(crossed_, di, plane);
+        hn::Store(hn::IfThenElseZero(toInts(lanes), hn::Set(di, 1)), di, wanted);
+        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+            if (wanted[lane] == 0) continue;
+            const Vec3i at{static_cast<std::int32_t>(cell[0][lane]), static_cast<std::int32_t>(cell[1][lane]),
+                           static_cast<std::int32_t>(cell[2][lane])};
+            const PacketSurface surface{first_ + lane, scalar[lane], plane[lane], t[lane], at,
+                                        static_cast<int>(axis[lane])};
+            const LitNormal lit = scene_.light(context_, surface);
+            light[lane] = lit.light;
+            normal[0][lane] = lit.normal.x;
+            normal[1][lane] = lit.normal.y;
+            normal[2][lane] = lit.normal.z;
+            cap[lane] = lit.isCap ? 1 : 0;
+        }
+        light_ = hn::Load(d, light);
+        normal_ = {hn::Load(d, normal[0]), hn::Load(d, normal[1]), hn::Load(d, normal[2])};
+        isOnCap_ = hn::Or(isOnCap_, toDoubles(hn::Ne(hn::Load(di, cap), hn::Zero(di))));
+    }
+
+    const PacketScene& scene_;
+    const PacketRays& rays_;
+    std::size_t first_;
+    void* context_;
+    PacketSamples& samples_;
+    Axis x_, y_, z_;
+    V metresPerT_, slack_;
+    V t_, from_, end_, runStart_;
+    V3 cell_;
+    VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
+    V light_;
+    V3 normal_;
+    V3 color_;
+    V transmittance_;
+    M active_, started_, isDone_, isCapped_, isRunTranslucent_;
+    M isOnCap_ = hn::Lt(hn::Zero(D()), hn::Zero(D()));
+};
+
+void walk(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,
+          const Lanes<std::int64_t>& capped, void* context, PacketSamples& samples) {
+    // Two groups of lanes take turns, so that one computes while the other waits for memory.
+    const std::size_t lanes = hn::Lanes(D());
+    for (std::size_t i = 0; i < kPacketRays; i += 2 * lanes) {
+        Walk one(scene, rays, i, context, samples), other(scene, rays, i + lanes, context, samples);
+        one.begin(from, to, capped);
+        other.begin(from, to, capped);
+        while (one.isActive() && other.isActive()) {
+            one.step();
+            other.step();
+        }
+        while (one.isActive()) one.step();
+        while (other.isActive()) other.step();
+        one.finish();
+        other.finish();
+    }
+}
+
+}  // namespace
+}  // namespace svt::render::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svt::render {
+
+HWY_EXPORT(setUp);
+HWY_EXPORT(walk);
+
+void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays) {
+    HWY_DYNAMIC_DISPATCH(setUp)(camera, count, rays);
+}
+
+void walkPacket(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,
+                const Lanes<std::int64_t>& capped, void* context, PacketSamples& samples) {
+    HWY_DYNAMIC_DISPATCH(walk)(scene, rays, from, to, capped, context, samples);
+}
+
+}  // namespace svt::render
+#endif

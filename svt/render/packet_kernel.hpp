@@ -1,0 +1,89 @@
+#pragma once
+/// \file
+/// Sixteen rays at once: set up, and walked through a volume. Compiled for several instruction sets, of which the best
+/// that the machine has is taken when the program runs. Internal to render.
+///
+/// The same arithmetic in the same order as IndexRay, RunWalk and RunShader, in doubles and without fused operations,
+/// so every set of instructions gives the very runs, labels, depths and colors of the plain caster.
+
+#include <svt/render/camera_rays.hpp>
+#include <svt/volume/brick_volume.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace svt::render {
+
+inline constexpr std::size_t kPacketRays = 16;
+
+template <class T>
+struct alignas(64) Lanes : std::array<T, kPacketRays> {};
+
+/// Rays of a packet, as IndexRay and CameraRay have them.
+struct PacketRays {
+    Lanes<double> u, v;  ///< where in the picture, see CameraRays::at(): what setUpPacket() is given
+    Lanes<double> origin[3], direction[3], inverse[3], planeOrigin[3];
+    Lanes<double> slack;
+    Lanes<double> view[3];     ///< world space, unit length, towards the viewer
+    Lanes<double> metresPerT;
+    Lanes<double> from, to;    ///< where the ray is in the volume
+};
+
+/// Bits of PacketStyle::kind; none: hidden.
+enum PacketKind : std::int64_t { kVisible = 1, kOpaque = 2, kBody = 4 };
+
+/// Look of a scalar, as LinearStyle has it.
+struct PacketStyle {
+    double color[3], density, surface;
+    std::int64_t kind, object, label;
+};
+static_assert(sizeof(PacketStyle) == 64);
+
+/// What one packet has seen; the members of Sample.
+struct PacketSamples {
+    Lanes<double> color[3], transmittance, depth, normal[3];
+    Lanes<std::int64_t> label, object, isCap;
+    Lanes<std::int64_t> isDone;  ///< -1: the ray has ended
+};
+
+/// A surface whose light is not found here: a body's, a cut face, or around the eye.
+struct PacketSurface {
+    std::size_t lane;
+    std::int64_t scalar, plane;
+    double from;
+    Vec3i cell;
+    int axis;  ///< whose voxel face the ray crosses there, or -1
+};
+struct LitNormal {
+    Vec3d normal;
+    double light = 1;
+    bool isCap = false;
+};
+
+/// A pass over a volume, as all packets share it.
+struct PacketScene {
+    volume::BrickVolume::Arrays volume;
+    double bricksX = 0, bricksY = 0;
+    double count[3]{};                      ///< voxels
+    const PacketStyle* styles = nullptr;    ///< by scalar; one more, hidden, for all scalars from styleCount on
+    std::int64_t styleCount = 0;
+    const double* planeNormals = nullptr;   ///< of volume.oblique: world space, unit length; 4 numbers each
+    Vec3d axisNormals[3];                   ///< of voxel faces
+    Vec3d towardsLight;
+    double ambient = 0, key = 0;
+    double opaqueAt = 1, labelAt = 0;
+    bool withColor = true;                  ///< false: ends at the first label, without light
+    LitNormal (*light)(void* context, const PacketSurface& surface) = nullptr;
+};
+
+/// Rays through the places `rays.u`, `rays.v`, and where they are in a volume of `count` voxels.
+void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
+
+/// Walks the rays over [from, to) each, which must lie in rays.from and rays.to, and adds to `samples`.
+/// \param capped   not 0 where a clip plane made the start of the stretch
+/// \param context  handed to scene.light
+void walkPacket(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,
+                const Lanes<std::int64_t>& capped, void* context, PacketSamples& samples);
+
+}  // namespace svt::render
