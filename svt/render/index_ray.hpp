@@ -127,10 +127,12 @@ struct PlaneCrossing {
     [[nodiscard]] bool isPositiveAt(double t) const noexcept { return (t >= time) == isRising; }
 };
 
-/// Where a run begins: in which voxel, and at which oblique plane if it is one that the ray crosses there.
+/// Where a run begins: in which voxel, at which oblique plane if it is one that the ray crosses there, and whether
+/// voxels alone tell the label there.
 struct RunStart {
     Vec3i cell;
     std::uint32_t plane = volume::BrickVolume::kNoPlane;
+    bool isVoxel = false;
 };
 
 /// Walks [from, to) of the ray, which must lie in spanInVolume(), and tells `visitor` of each run of one scalar:
@@ -158,13 +160,13 @@ public:
 
 private:
     // The ray is in `scalar` from t_ on; true ends the walk.
-    bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane) {
+    bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane, bool isVoxel = false) {
         if (!isFirst_ && scalar == runScalar_) return false;
         if (!isFirst_ && visitor_.leave(runScalar_, runStart_, t_)) return true;
         isFirst_ = false;
         runScalar_ = scalar;
         runStart_ = t_;
-        return visitor_.enter(scalar, t_, RunStart{cell_, plane});
+        return visitor_.enter(scalar, t_, RunStart{cell_, plane, isVoxel});
     }
 
     // To where the ray leaves the voxels [min, max).
@@ -257,7 +259,8 @@ private:
         const Vec3i brick{cell_.x >> 3, cell_.y >> 3, cell_.z >> 3};
         Vec3d leave{ray_.leaveTime(0, cell_.x), ray_.leaveTime(1, cell_.y), ray_.leaveTime(2, cell_.z)};
         do {
-            if (moveTo(mixed.scalarAt(cell_.x & 7, cell_.y & 7, cell_.z & 7))) return true;
+            if (moveTo(mixed.scalarAt(cell_.x & 7, cell_.y & 7, cell_.z & 7), volume::BrickVolume::kNoPlane, true))
+                return true;
             t_ = std::min({leave.x, leave.y, leave.z});
             if (!(t_ < to_)) return false;
             forEachAxis([&](auto axis) {
@@ -294,13 +297,13 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
     double t = from, runStart = from;
     volume::Scalar runScalar = 0;
     bool isFirst = true;
-    const auto moveTo = [&](volume::Scalar scalar, std::uint32_t plane) {
+    const auto moveTo = [&](volume::Scalar scalar, std::uint32_t plane, bool isVoxel) {
         if (!isFirst && scalar == runScalar) return false;
         if (!isFirst && visitor.leave(runScalar, runStart, t)) return true;
         isFirst = false;
         runScalar = scalar;
         runStart = t;
-        return visitor.enter(scalar, t, RunStart{cell, plane});
+        return visitor.enter(scalar, t, RunStart{cell, plane, isVoxel});
     };
     std::uint32_t crossed = volume::BrickVolume::kNoPlane;
     while (true) {
@@ -328,10 +331,11 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
                     nextPlane = plane;
                 }
             }
-            if (moveTo(coding.cells[side], crossed)) return;
+            if (moveTo(coding.cells[side], crossed, false)) return;
             crossed = nextPlane;
         } else {
-            if (moveTo(volume.scalarAt(cell.x, cell.y, cell.z), volume::BrickVolume::kNoPlane)) return;
+            const bool isVoxel = entry.isMixed() && !volume.isCoded(entry);
+            if (moveTo(volume.scalarAt(cell.x, cell.y, cell.z), volume::BrickVolume::kNoPlane, isVoxel)) return;
             crossed = volume::BrickVolume::kNoPlane;
         }
         t = next;

@@ -10,14 +10,14 @@ namespace {
 
 // One tap per level, a cell's size away from the surface: near enough to see the corner, far enough that a plane does
 // not see itself through the filter. Nearer blocks count more.
-constexpr std::array<float, 4> kWeights{0.30f, 0.30f, 0.24f, 0.16f};
+constexpr std::array<double, OcclusionField::kLevels> kWeights{0.30, 0.30, 0.24, 0.16};
 // A wall beside the surface covers about half of what a tap sees.
-constexpr float kFull = 0.55f;
+constexpr double kFull = 0.55;
 
-std::size_t at(Vec3i count, std::int32_t x, std::int32_t y, std::int32_t z) noexcept {
-    return static_cast<std::size_t>(x) +
-           static_cast<std::size_t>(count.x) *
-               (static_cast<std::size_t>(y) + static_cast<std::size_t>(count.y) * static_cast<std::size_t>(z));
+OcclusionField::Level emptyLevel(Vec3i count, double cellSize, double weight) {
+    OcclusionField::Level level{count, cellSize, 1 / (kFull * cellSize * cellSize * cellSize), weight, {}};
+    level.voxels.resize(level.at(count.x, count.y, count.z) + 2);
+    return level;
 }
 
 }  // namespace
@@ -25,99 +25,73 @@ std::size_t at(Vec3i count, std::int32_t x, std::int32_t y, std::int32_t z) noex
 OcclusionField::OcclusionField(const volume::BrickVolume& volume, const std::function<bool(volume::Scalar)>& isOpaque,
                                const Clipper& clipper, int threads) {
     // Once per distinct brick, then once per brick.
-    std::vector<float> ofPaletteBrick(volume.paletteBrickCount());
+    std::vector<std::uint32_t> ofPaletteBrick(volume.paletteBrickCount());
     parallelFor(ofPaletteBrick.size(), 512, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             int voxels = 0;
             volume::BrickVolume::MaskWords scratch;
             const auto mask = volume.voxelMask(volume::BrickVolume::paletteBrickEntry(n), isOpaque, scratch);
             for (std::size_t k = 0; k < 8; ++k) voxels += std::popcount(mask.word(k));
-            ofPaletteBrick[n] = static_cast<float>(voxels) / 512;
+            ofPaletteBrick[n] = static_cast<std::uint32_t>(voxels);
         }
     });
-    std::vector<float> ofBox(volume.boxes().size());
-    for (std::size_t n = 0; n < ofBox.size(); ++n) ofBox[n] = isOpaque(volume.boxes()[n].scalar) ? 1.0f : 0.0f;
+    std::vector<std::uint32_t> ofBox(volume.boxes().size());
+    for (std::size_t n = 0; n < ofBox.size(); ++n) ofBox[n] = isOpaque(volume.boxes()[n].scalar) ? 512 : 0;
 
-    Level level;
-    level.count = volume.brickCount();
-    level.coverage.resize(static_cast<std::size_t>(level.count.x) * static_cast<std::size_t>(level.count.y) *
-                          static_cast<std::size_t>(level.count.z));
+    Level level = emptyLevel(volume.brickCount(), 8, kWeights[0]);
     parallelFor(static_cast<std::size_t>(level.count.z), 4, threads, [&](std::size_t begin, std::size_t end) {
         for (auto z = static_cast<std::int32_t>(begin); z < static_cast<std::int32_t>(end); ++z)
             for (std::int32_t y = 0; y < level.count.y; ++y)
                 for (std::int32_t x = 0; x < level.count.x; ++x) {
                     const auto entry = volume.entry(x, y, z);
-                    float coverage = entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
+                    std::uint32_t voxels = entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
                                                      : ofBox[volume.boxNumber(entry)];
-                    if (coverage > 0 && !clipper.isEmpty() && !clipper.keeps({8.0 * x + 4, 8.0 * y + 4, 8.0 * z + 4}))
-                        coverage = 0;
-                    level.coverage[at(level.count, x, y, z)] = coverage;
+                    if (voxels > 0 && !clipper.isEmpty() && !clipper.keeps({8.0 * x + 4, 8.0 * y + 4, 8.0 * z + 4}))
+                        voxels = 0;
+                    level.voxels[level.at(x, y, z)] = voxels;
                 }
     });
     levels_.push_back(std::move(level));
-    while (levels_.size() < kWeights.size()) levels_.push_back(halved(levels_.back()));
+    while (levels_.size() < kLevels) levels_.push_back(halved(levels_.back()));
+    for (std::size_t n = 0; n < kLevels; ++n) levels_[n].weight = kWeights[n];
 }
 
 OcclusionField::Level OcclusionField::halved(const Level& fine) {
-    Level level;
-    for (int axis = 0; axis < 3; ++axis) level.count[axis] = (fine.count[axis] + 1) / 2;
-    level.cellSize = 2 * fine.cellSize;
-    level.coverage.resize(static_cast<std::size_t>(level.count.x) * static_cast<std::size_t>(level.count.y) *
-                          static_cast<std::size_t>(level.count.z));
-    for (std::int32_t z = 0; z < level.count.z; ++z)
-        for (std::int32_t y = 0; y < level.count.y; ++y)
-            for (std::int32_t x = 0; x < level.count.x; ++x) {
-                float sum = 0;
-                for (std::int32_t c = 0; c < 8; ++c) {
-                    const Vec3i f{2 * x + (c & 1), 2 * y + ((c >> 1) & 1), 2 * z + (c >> 2)};
-                    if (f.x < fine.count.x && f.y < fine.count.y && f.z < fine.count.z)
-                        sum += fine.coverage[at(fine.count, f.x, f.y, f.z)];
-                }
-                level.coverage[at(level.count, x, y, z)] = sum / 8;
+    const Vec3i count{(fine.count.x + 1) / 2, (fine.count.y + 1) / 2, (fine.count.z + 1) / 2};
+    Level level = emptyLevel(count, 2 * fine.cellSize, 0);
+    for (std::int32_t z = 0; z < count.z; ++z)
+        for (std::int32_t y = 0; y < count.y; ++y)
+            for (std::int32_t x = 0; x < count.x; ++x) {
+                std::uint32_t sum = 0;
+                for (std::int32_t c = 0; c < 8; ++c)  // at an odd end the second block is the empty one
+                    sum += fine.voxels[fine.at(2 * x + (c & 1), 2 * y + ((c >> 1) & 1), 2 * z + (c >> 2))];
+                level.voxels[level.at(x, y, z)] = sum;
             }
     return level;
 }
 
-float OcclusionField::Level::sample(Vec3f point) const noexcept {
-    std::int32_t cell[3];
-    float f[3];
-    bool isInside = true;
-    const float perVoxel = 1 / cellSize;  // a power of two
+double OcclusionField::Level::sample(Vec3d point) const noexcept {
+    const double perVoxel = 1 / cellSize;  // a power of two
+    Vec3d f;
+    Vec3i low;
     for (int axis = 0; axis < 3; ++axis) {
-        const float p = point[axis] * perVoxel + 0.5f;  // 1 more than the place among the cells' middles
-        if (!(p > 0 && p < static_cast<float>(count[axis] + 1))) return 0;
-        const auto low = static_cast<std::int32_t>(p);
-        cell[axis] = low - 1;
-        f[axis] = p - static_cast<float>(low);
-        isInside = isInside && low > 0 && low < count[axis];
+        const double p = point[axis] * perVoxel + 0.5;  // 1 more than the place among the blocks' middles
+        if (!(p > 0 && p < count[axis] + 1)) return 0;
+        low[axis] = static_cast<std::int32_t>(p);
+        f[axis] = p - low[axis];
     }
-    const auto along = [](float a, float b, float s) { return a + (b - a) * s; };
-    const auto blend = [&](const auto& value) {
-        const float low =
-            along(along(value(0, 0, 0), value(1, 0, 0), f[0]), along(value(0, 1, 0), value(1, 1, 0), f[0]), f[1]);
-        const float high =
-            along(along(value(0, 0, 1), value(1, 0, 1), f[0]), along(value(0, 1, 1), value(1, 1, 1), f[0]), f[1]);
-        return along(low, high, f[2]);
-    };
-    if (isInside) {
-        const float* corner = coverage.data() + at(count, cell[0], cell[1], cell[2]);
-        const std::size_t nextY = at(count, 0, 1, 0), nextZ = at(count, 0, 0, 1);
-        return blend(
-            [&](std::size_t dx, std::size_t dy, std::size_t dz) { return corner[dx + dy * nextY + dz * nextZ]; });
-    }
-    return blend([&](std::int32_t dx, std::int32_t dy, std::int32_t dz) {
-        const std::int32_t x = cell[0] + dx, y = cell[1] + dy, z = cell[2] + dz;
-        if (x < 0 || y < 0 || z < 0 || x >= count.x || y >= count.y || z >= count.z) return 0.0f;
-        return coverage[at(count, x, y, z)];
-    });
+    const std::uint32_t* corner = voxels.data() + at(low.x - 1, low.y - 1, low.z - 1);
+    const std::size_t nextY = static_cast<std::size_t>(count.x) + 2,
+                      nextZ = nextY * (static_cast<std::size_t>(count.y) + 2);
+    const auto along = [](double a, double b, double s) { return a + (b - a) * s; };
+    const auto row = [&](std::size_t first) { return along(corner[first], corner[first + 1], f.x); };
+    return along(along(row(0), row(nextY), f.y), along(row(nextZ), row(nextZ + nextY), f.y), f.z);
 }
 
-float OcclusionField::occlusion(Vec3f point, Vec3f direction) const noexcept {
-    float sum = 0;
-    for (std::size_t n = 0; n < levels_.size(); ++n) {
-        const Level& level = levels_[n];
-        sum += kWeights[n] * std::min(1.0f, level.sample(point + direction * level.cellSize) / kFull);
-    }
+double OcclusionField::occlusion(Vec3d point, Vec3d direction) const noexcept {
+    double sum = 0;
+    for (const Level& level : levels_)
+        sum += level.weight * std::min(1.0, level.sample(point + direction * level.cellSize) * level.gain);
     return sum;
 }
 

@@ -6,37 +6,53 @@
 #include <svt/render/clip_intervals.hpp>
 #include <svt/volume/brick_volume.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace svt::render {
 
-/// Shares of opaque voxels per brick, and of ever larger blocks of bricks.
+/// Opaque voxels per brick, and per ever larger blocks of bricks.
 class OcclusionField {
 public:
     OcclusionField() = default;
 
     /// \param isOpaque  by scalar
     /// \param clipper   bricks whose middle is cut away count as empty
-    /// Cost: O(bricks), a millisecond or two per million; parallel.
+    /// Cost: O(bricks), a millisecond or two per million; parallel. Memory: 4.6 bytes a brick.
     OcclusionField(const volume::BrickVolume& volume, const std::function<bool(volume::Scalar)>& isOpaque,
                    const Clipper& clipper, int threads);
 
     /// Share of the surroundings before a surface that is taken, 0..1.
     /// \param point      on the surface, voxel space
     /// \param direction  away from the surface: the world normal in voxel space, scaled so that its longest component
-    /// is
-    ///                   at most 1
-    [[nodiscard]] float occlusion(Vec3f point, Vec3f direction) const noexcept;
+    ///                   is at most 1
+    [[nodiscard]] double occlusion(Vec3d point, Vec3d direction) const noexcept;
+
+    static constexpr std::size_t kLevels = 4;
+    /// One block size.
+    struct Level {
+        Vec3i count;          ///< blocks
+        double cellSize = 8;  ///< voxels, along each axis
+        double gain = 0;      ///< occlusion by one opaque voxel
+        double weight = 0;
+        /// Opaque voxels by block, x fastest, then y, then z, with an empty block all around; one more element behind,
+        /// so that two may be read at once anywhere.
+        std::vector<std::uint32_t> voxels;
+
+        [[nodiscard]] double sample(Vec3d point) const noexcept;
+        [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
+            return static_cast<std::size_t>(x + 1) +
+                   static_cast<std::size_t>(count.x + 2) *
+                       (static_cast<std::size_t>(y + 1) +
+                        static_cast<std::size_t>(count.y + 2) * static_cast<std::size_t>(z + 1));
+        }
+    };
+    /// Empty where there is nothing opaque.
+    [[nodiscard]] const std::vector<Level>& levels() const noexcept { return levels_; }
 
 private:
-    struct Level {
-        Vec3i count;
-        float cellSize = 8;  // voxels
-        std::vector<float> coverage;
-        [[nodiscard]] float sample(Vec3f point) const noexcept;
-    };
     static Level halved(const Level& fine);
 
     std::vector<Level> levels_;

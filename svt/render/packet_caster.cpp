@@ -21,6 +21,17 @@ PacketStyle packetStyle(const LinearStyle& style) noexcept {
     return packet;
 }
 
+PacketOcclusion packetOcclusion(const OcclusionField::Level& level) noexcept {
+    PacketOcclusion packet;
+    packet.voxels = level.voxels.data();
+    for (int axis = 0; axis < 3; ++axis) packet.count[axis] = level.count[axis];
+    packet.perVoxel = 1 / level.cellSize;
+    packet.cellSize = level.cellSize;
+    packet.gain = level.gain;
+    packet.weight = level.weight;
+    return packet;
+}
+
 }  // namespace
 
 PacketPasses::PacketPasses(const Scene& scene) {
@@ -31,11 +42,12 @@ PacketPasses::PacketPasses(const Scene& scene) {
     for (int axis = 0; axis < 3; ++axis) {
         shared.count[axis] = scene.volume.dimension()[axis];
         shared.axisNormals[axis] = scene.directions.axis(axis).normal;
+        shared.axisAways[axis] = scene.directions.axis(axis).away;
     }
-    planeNormals_.reserve(4 * scene.directions.planes().size());
-    for (const DirectionTable::Directions& plane : scene.directions.planes())
-        planeNormals_.insert(planeNormals_.end(), {plane.normal.x, plane.normal.y, plane.normal.z, 0});
-    shared.planeNormals = planeNormals_.data();
+    planeDirections_.reserve(8 * scene.directions.planes().size());
+    for (const auto& [normal, away] : scene.directions.planes())
+        planeDirections_.insert(planeDirections_.end(), {normal.x, normal.y, normal.z, away.x, away.y, away.z, 0, 0});
+    shared.planeDirections = planeDirections_.data();
     shared.towardsLight = scene.towardsLight;
     shared.ambient = double(scene.spec.light.ambient);
     shared.key = double(scene.spec.light.key);
@@ -48,6 +60,10 @@ PacketPasses::PacketPasses(const Scene& scene) {
         packetScene.styleCount = static_cast<std::int64_t>(styles.size());
         styles.push_back(packetStyle({}));
         packetScene.styles = styles.data();
+        const auto& levels = pass.occlusion.levels();
+        if (!levels.empty()) packetScene.ambientOcclusion = double(scene.spec.light.ambientOcclusion);
+        for (std::size_t n = 0; n < levels.size(); ++n)
+            packetScene.occlusion[n] = packetOcclusion(levels[n]);
         passes_.push_back(packetScene);
     }
 }
@@ -81,7 +97,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, st
                             std::span<Sample> samples) {
     pass_ = pass;
     PacketScene scene = packetScene;
-    scene.light = &PacketCaster::lightOf;
+    scene.surface = &PacketCaster::surfaceOf;
     for (auto& color : seen_.color) color.fill(0);
     for (auto& normal : seen_.normal) normal.fill(0);
     seen_.transmittance.fill(1);
@@ -134,18 +150,25 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, st
     }
 }
 
-LitNormal PacketCaster::lightOf(void* context, const PacketSurface& surface) {
+Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
     auto& caster = *static_cast<PacketCaster*>(context);
     const std::size_t n = surface.lane;
     const PacketRays& rays = caster.rays_;
     const auto of = [n](const Lanes<double>(&lanes)[3]) { return Vec3d{lanes[0][n], lanes[1][n], lanes[2][n]}; };
     const SurfaceLight light(caster.scene_, caster.pass_, caster.cache_);
-    const Surface found =
-        light.at(caster.scene_.passes[caster.pass_].table[static_cast<volume::Scalar>(surface.scalar)],
-                 {surface.from, of(rays.origin), of(rays.direction), of(rays.view), surface.cell, surface.axis,
-                  static_cast<std::uint32_t>(surface.plane),
-                  surface.from == caster.from_[n] ? caster.capPlanes_[n] : nullptr});
-    return {found.normal, found.light, found.isCap};
+    const LinearStyle& style =
+        caster.scene_.passes[caster.pass_].table[static_cast<volume::Scalar>(surface.scalar)];
+    const SurfaceHit hit{surface.from,
+                         of(rays.origin),
+                         of(rays.direction),
+                         of(rays.view),
+                         surface.cell,
+                         surface.axis,
+                         static_cast<std::uint32_t>(surface.plane),
+                         surface.isVoxel,
+                         surface.from == caster.from_[n] ? caster.capPlanes_[n] : nullptr};
+    // The kernel lights what is opaque.
+    return style.kind == Kind::Opaque ? light.facing(style, hit) : light.at(style, hit);
 }
 
 }  // namespace svt::render

@@ -4,7 +4,6 @@
 
 #include <svt/render/packet_kernel.hpp>
 #include <svt/render/sample_caster.hpp>
-#include <svt/render/surface_light.hpp>
 
 #include <span>
 #include <vector>
@@ -22,7 +21,7 @@ public:
 
 private:
     std::vector<std::vector<PacketStyle>> styles_;
-    std::vector<double> planeNormals_;
+    std::vector<double> planeDirections_;
     std::vector<PacketScene> passes_;
 };
 
@@ -36,7 +35,7 @@ public:
 
 private:
     void castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count, std::span<Sample> samples);
-    [[nodiscard]] static LitNormal lightOf(void* context, const PacketSurface& surface);
+    [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
 
     const Scene& scene_;
     const PacketPasses& passes_;

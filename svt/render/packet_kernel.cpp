@@ -174,7 +174,8 @@ public:
           object_(hn::Set(DI(), -1)),
           crossed_(hn::Set(DI(), -1)),
           light_(hn::Set(D(), 1.0)) {
-        normal_ = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+        normal_ = away_ = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+        isOnCap_ = isAroundEye_ = hn::Lt(light_, light_);
         const D d;
         color_ = loadV3(samples.color, first);
         transmittance_ = hn::Load(d, samples.transmittance.data() + first);
@@ -189,7 +190,7 @@ public:
         isCapped_ = toDoubles(hn::Ne(hn::Load(DI(), capped.data() + first_), hn::Zero(DI())));
         isDone_ = toDoubles(hn::Ne(hn::Load(DI(), samples_.isDone.data() + first_), hn::Zero(DI())));
         active_ = started_ = andNot(isDone_, hn::Lt(t_, end_));
-        isRunTranslucent_ = hn::Lt(t_, t_);
+        isRunTranslucent_ = isOpaque_ = isUnlit_ = hn::Lt(t_, t_);
         if (any(active_)) cellsAt(active_);
     }
 
@@ -203,7 +204,7 @@ public:
             const M leaving = hn::And(changed, isRunTranslucent_);
             if (any(leaving)) leave(leaving, t_);
             const M entering = andNot(isDone_, changed);
-            if (any(entering)) enter(entering, segment.label);
+            if (any(entering)) enter(entering, segment);
             active_ = andNot(isDone_, active_);
         }
         t_ = hn::IfThenElse(active_, segment.next, t_);
@@ -213,6 +214,7 @@ public:
     }
 
     HWY_INLINE void finish() {
+        if (any(isOpaque_)) addOpaque();
         const M leaving = hn::And(andNot(isDone_, started_), isRunTranslucent_);
         if (any(leaving)) leave(leaving, end_);
         const DI di;
@@ -540,8 +542,9 @@ private:
     }
 
     // RunShader::enter().
-    HWY_INLINE void enter(M lanes, VI label) {
+    HWY_INLINE void enter(M lanes, const Segment& segment) {
         const DI di;
+        const VI label = segment.label;
         runScalar_ = hn::IfThenElse(toInts(lanes), label, runScalar_);
         runStart_ = hn::IfThenElse(lanes, t_, runStart_);
         const VI offset = styleOffset(label, lanes);
@@ -551,106 +554,187 @@ private:
         const M visible = hn::And(lanes, toDoubles(isSet(kind, PacketKind::kVisible)));
         const M isNew = hn::And(visible, toDoubles(hn::Ne(object, object_)));
         object_ = hn::IfThenElse(toInts(lanes), hn::IfThenElse(toInts(visible), object, hn::Set(di, -1)), object_);
-        if (scene_.withColor && any(isNew)) lightSurfaces(isNew, toDoubles(isSet(kind, PacketKind::kBody)), label);
         const M opaque = hn::And(visible, toDoubles(isSet(kind, PacketKind::kOpaque)));
+        if (scene_.withColor && any(isNew))
+            findSurfaces(isNew, opaque, toDoubles(isSet(kind, PacketKind::kBody)), segment);
         isRunTranslucent_ = hn::Or(andNot(lanes, isRunTranslucent_), andNot(opaque, visible));
-        if (any(opaque)) {
-            add(opaque, transmittance_, t_, offset);
-            markDone(opaque);
-        }
+        isOpaque_ = hn::Or(isOpaque_, opaque);
+        markDone(opaque);
     }
 
-    // SurfaceLight::at() for glass; all else goes through scene.light.
-    HWY_INLINE void lightSurfaces(M lanes, M isBody, VI label) {
+    // Opaque runs end their rays; they are lit all at once.
+    HWY_NOINLINE void addOpaque() {
+        const M unlit = hn::And(isOpaque_, isUnlit_);
+        if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(openness()), light_);
+        add(isOpaque_, transmittance_, runStart_, styleOffset(runScalar_, isOpaque_));
+    }
+
+    // SurfaceLight::openness().
+    HWY_INLINE V openness() const {
+        const D d;
+        const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
+        if (scene_.ambientOcclusion == 0) return one;
+        const V3 point{hn::Add(x_.origin, hn::Mul(x_.direction, runStart_)), hn::Add(y_.origin, hn::Mul(y_.direction, runStart_)),
+                       hn::Add(z_.origin, hn::Mul(z_.direction, runStart_))};
+        V occlusion = zero;
+        for (const PacketOcclusion& level : scene_.occlusion)
+            occlusion = hn::Add(occlusion,
+                                hn::Mul(hn::Set(d, level.weight),
+                                        hn::Min(one, hn::Mul(sample(level, point), hn::Set(d, level.gain)))));
+        occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, 0.35), crease_)));
+        const V open = hn::Sub(one, hn::Mul(hn::Set(d, scene_.ambientOcclusion), occlusion));
+        return hn::IfThenElse(isAroundEye_, one, open);
+    }
+
+    // OcclusionField::Level::sample(), a cell's size away from `point`.
+    HWY_INLINE V sample(const PacketOcclusion& level, const V3& point) const {
+        const D d;
+        const V zero = hn::Zero(d), one = hn::Set(d, 1.0), size = hn::Set(d, level.cellSize);
+        M inside = isOpaque_;
+        const auto place = [&](V from, V away, double count, V& low) {
+            const V p = hn::Add(hn::Mul(hn::Add(from, hn::Mul(away, size)), hn::Set(d, level.perVoxel)), hn::Set(d, 0.5));
+            inside = hn::And(inside, hn::And(hn::Gt(p, zero), hn::Lt(p, hn::Set(d, count + 1))));
+            low = hn::Floor(p);
+            return hn::Sub(p, low);
+        };
+        V3 low;
+        const V fx = place(point.x, away_.x, level.count[0], low.x);
+        const V fy = place(point.y, away_.y, level.count[1], low.y);
+        const V fz = place(point.z, away_.z, level.count[2], low.z);
+        if (!any(inside)) return zero;
+        const double nextY = level.count[0] + 2, nextZ = nextY * (level.count[1] + 2);
+        const V first = hn::Add(hn::Add(low.x, hn::Mul(low.y, hn::Set(d, nextY))), hn::Mul(low.z, hn::Set(d, nextZ)));
+        const VI corner = hn::ShiftLeft<2>(toInt(hn::IfThenElse(inside, first, zero)));
+        const auto along = [](V a, V b, V s) { return hn::Add(a, hn::Mul(hn::Sub(b, a), s)); };
+        const auto row = [&](double offset) {
+            const VI pair = gatherBytes(level.voxels + static_cast<std::size_t>(offset), corner);
+            return along(toDouble(lowHalf(pair)), toDouble(shiftRight<32>(pair)), fx);
+        };
+        const V value = along(along(row(0), row(nextY), fy), along(row(nextZ), row(nextZ + nextY), fy), fz);
+        return hn::IfThenElse(inside, value, hn::Mul(zero, one));
+    }
+
+    // SurfaceLight::lightOn().
+    HWY_INLINE V lightOn(V open) const {
+        const D d;
+        const V zero = hn::Zero(d);
+        const V3 view = loadV3(rays_.view, first_);
+        const V key = hn::Max(zero, dot(normal_, broadcast(scene_.towardsLight)));
+        const V facing = hn::Max(zero, dot(normal_, view));
+        const V sky = hn::Add(hn::Set(d, 0.80), hn::Mul(hn::Set(d, 0.20), normal_.z));
+        const V ambient =
+            hn::Mul(hn::Mul(hn::Set(d, scene_.ambient), open),
+                    hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
+        return hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, scene_.key), key),
+                                        hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
+    }
+
+    // SurfaceLight::facing(), and the light on what is not opaque.
+    HWY_INLINE void findSurfaces(M lanes, M opaque, M isBody, const Segment& segment) {
         const D d;
         const DI di;
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
-        isOnCap_ = andNot(lanes, isOnCap_);
         const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
         const M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
-        M isFace = andNot(isOblique, hn::Eq(zero, zero));
-        V3 normal{zero, zero, zero};
-        // The first axis whose plane the ray crosses at t.
+        M isNowhere = andNot(isOblique, hn::Eq(zero, zero));
         V faceAxis = hn::Set(d, -1.0);
-        const auto face = [&](const Axis& axis, V cell, Vec3d axisNormal, double number) {
+        V3 normal{zero, zero, zero}, away = normal;
+        // The first axis whose plane the ray crosses at t.
+        const auto face = [&](const Axis& axis, V cell, std::size_t number) {
             const V entered = axis.planeTime(hn::IfThenElse(axis.isNegative, hn::Add(cell, one), cell));
-            const M isHere = hn::And(hn::And(isFace, axis.isMoving), hn::Eq(entered, t_));
-            isFace = andNot(isHere, isFace);
-            faceAxis = hn::IfThenElse(isHere, hn::Set(d, number), faceAxis);
+            const M isHere = hn::And(hn::And(isNowhere, axis.isMoving), hn::Eq(entered, t_));
+            isNowhere = andNot(isHere, isNowhere);
+            faceAxis = hn::IfThenElse(isHere, hn::Set(d, static_cast<double>(number)), faceAxis);
             const auto part = [&](V known, double value) {
-                const V away = hn::Set(d, value);
-                return hn::IfThenElse(isHere, hn::IfThenElse(axis.isNegative, away, hn::Neg(away)), known);
+                const V up = hn::Set(d, value);
+                return hn::IfThenElse(isHere, hn::IfThenElse(axis.isNegative, up, hn::Neg(up)), known);
             };
-            normal = {part(normal.x, axisNormal.x), part(normal.y, axisNormal.y), part(normal.z, axisNormal.z)};
+            const Vec3d n = scene_.axisNormals[number], a = scene_.axisAways[number];
+            normal = {part(normal.x, n.x), part(normal.y, n.y), part(normal.z, n.z)};
+            away = {part(away.x, a.x), part(away.y, a.y), part(away.z, a.z)};
         };
-        face(x_, cell_.x, scene_.axisNormals[0], 0);
-        face(y_, cell_.y, scene_.axisNormals[1], 1);
-        face(z_, cell_.z, scene_.axisNormals[2], 2);
-        const M glassPlane = hn::And(lanes, andNot(hn::Or(isBody, isCap), isOblique));
-        if (any(glassPlane)) {
-            const VI offset = hn::IfThenElseZero(toInts(glassPlane), hn::ShiftLeft<5>(crossed_));
-            const auto number = [&](int n) {
-                return hn::BitCast(d, gatherBytes(scene_.planeNormals + n, offset));
-            };
-            const V3 plane{number(0), number(1), number(2)};
+        face(x_, cell_.x, 0);
+        face(y_, cell_.y, 1);
+        face(z_, cell_.z, 2);
+        const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
+        if (any(onPlane)) {
+            const VI number = hn::IfThenElseZero(toInts(onPlane), crossed_);
             const auto index = [&](int n) {
-                return hn::BitCast(
-                    d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
+                return hn::BitCast(d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n,
+                                                  hn::ShiftLeft<5>(number)));
             };
-            const M isAway = hn::Gt(dot({index(0), index(1), index(2)}, {x_.direction, y_.direction, z_.direction}), zero);
-            const auto facing = [&](V known, V value) {
-                return hn::IfThenElse(glassPlane, hn::IfThenElse(isAway, hn::Neg(value), value), known);
+            const M isAway =
+                hn::Gt(dot({index(0), index(1), index(2)}, {x_.direction, y_.direction, z_.direction}), zero);
+            const auto part = [&](V known, int n) {
+                const V value = hn::BitCast(d, gatherBytes(scene_.planeDirections + n, hn::ShiftLeft<6>(number)));
+                return hn::IfThenElse(onPlane, hn::IfThenElse(isAway, hn::Neg(value), value), known);
             };
-            normal = {facing(normal.x, plane.x), facing(normal.y, plane.y), facing(normal.z, plane.z)};
+            normal = {part(normal.x, 0), part(normal.y, 1), part(normal.z, 2)};
+            if (any(hn::And(onPlane, opaque))) away = {part(away.x, 3), part(away.y, 4), part(away.z, 5)};
         }
-        const M special = hn::And(lanes, hn::Or(hn::Or(isBody, isCap), isFace));
-        const V3 view = loadV3(rays_.view, first_);
-        const V key = hn::Max(zero, dot(normal, broadcast(scene_.towardsLight)));
-        const V facing = hn::Max(zero, dot(normal, view));
-        const V sky = hn::Add(hn::Set(d, 0.80), hn::Mul(hn::Set(d, 0.20), normal.z));
-        const V ambient = hn::Mul(hn::Set(d, scene_.ambient),
-                                  hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
-        const V light = hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, scene_.key), key), hn::Set(d, 0.45 + 0.55)));
-        light_ = hn::IfThenElse(lanes, light, light_);
-        normal_ = {hn::IfThenElse(lanes, normal.x, normal_.x), hn::IfThenElse(lanes, normal.y, normal_.y),
-                   hn::IfThenElse(lanes, normal.z, normal_.z)};
-        if (any(special)) askForLight(special, label, faceAxis);
+        const auto keep = [&](V value, V known) { return hn::IfThenElse(lanes, value, known); };
+        normal_ = {keep(normal.x, normal_.x), keep(normal.y, normal_.y), keep(normal.z, normal_.z)};
+        away_ = {keep(away.x, away_.x), keep(away.y, away_.y), keep(away.z, away_.z)};
+        crease_ = keep(zero, crease_);
+        isOnCap_ = andNot(lanes, isOnCap_);
+        isAroundEye_ = andNot(lanes, isAroundEye_);
+        isUnlit_ = hn::Or(isUnlit_, hn::And(lanes, opaque));
+        const M special = hn::And(
+            lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, hn::Or(andNot(opaque, hn::Eq(zero, zero)), andNot(isOblique, segment.isVoxel)))));
+        const M glass = andNot(opaque, lanes);
+        if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(one), light_);
+        if (any(special)) askForSurfaces(special, segment, faceAxis);
     }
 
-    HWY_NOINLINE void askForLight(M lanes, VI label, V faceAxis) {
+    HWY_NOINLINE void askForSurfaces(M lanes, const Segment& segment, V faceAxis) {
         const D d;
         const DI di;
         constexpr std::size_t kMost = kPacketRays;
-        alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], normal[3][kMost];
-        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], cap[kMost] = {};
+        alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], crease[kMost], normal[3][kMost],
+            away[3][kMost];
+        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], voxel[kMost], cap[kMost] = {},
+                                 eye[kMost] = {};
         hn::Store(t_, d, t);
         hn::Store(faceAxis, d, axis);
-        hn::Store(cell_.x, d, cell[0]);
-        hn::Store(cell_.y, d, cell[1]);
-        hn::Store(cell_.z, d, cell[2]);
         hn::Store(light_, d, light);
-        hn::Store(normal_.x, d, normal[0]);
-        hn::Store(normal_.y, d, normal[1]);
-        hn::Store(normal_.z, d, normal[2]);
-        hn::Store(label, di, scalar);
+        hn::Store(crease_, d, crease);
+        const auto storeV3 = [&](const V3& v, double(&to)[3][kMost]) {
+            hn::Store(v.x, d, to[0]);
+            hn::Store(v.y, d, to[1]);
+            hn::Store(v.z, d, to[2]);
+        };
+        storeV3(cell_, cell);
+        storeV3(normal_, normal);
+        storeV3(away_, away);
+        hn::Store(segment.label, di, scalar);
         hn::Store(crossed_, di, plane);
+        hn::Store(hn::IfThenElseZero(toInts(segment.isVoxel), hn::Set(di, 1)), di, voxel);
         hn::Store(hn::IfThenElseZero(toInts(lanes), hn::Set(di, 1)), di, wanted);
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
             if (wanted[lane] == 0) continue;
             const Vec3i at{static_cast<std::int32_t>(cell[0][lane]), static_cast<std::int32_t>(cell[1][lane]),
                            static_cast<std::int32_t>(cell[2][lane])};
-            const PacketSurface surface{first_ + lane, scalar[lane], plane[lane], t[lane], at,
-                                        static_cast<int>(axis[lane])};
-            const LitNormal lit = scene_.light(context_, surface);
-            light[lane] = lit.light;
-            normal[0][lane] = lit.normal.x;
-            normal[1][lane] = lit.normal.y;
-            normal[2][lane] = lit.normal.z;
-            cap[lane] = lit.isCap ? 1 : 0;
+            const Surface found =
+                scene_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
+                                          static_cast<int>(axis[lane]), voxel[lane] != 0});
+            light[lane] = found.light;
+            crease[lane] = found.crease;
+            for (int a = 0; a < 3; ++a) {
+                normal[a][lane] = found.normal[a];
+                away[a][lane] = found.away[a];
+            }
+            cap[lane] = found.isCap ? 1 : 0;
+            eye[lane] = found.isAroundEye ? 1 : 0;
         }
+        const auto loadBack = [&](const double(&from)[3][kMost]) {
+            return V3{hn::Load(d, from[0]), hn::Load(d, from[1]), hn::Load(d, from[2])};
+        };
         light_ = hn::Load(d, light);
-        normal_ = {hn::Load(d, normal[0]), hn::Load(d, normal[1]), hn::Load(d, normal[2])};
+        crease_ = hn::Load(d, crease);
+        normal_ = loadBack(normal);
+        away_ = loadBack(away);
         isOnCap_ = hn::Or(isOnCap_, toDoubles(hn::Ne(hn::Load(di, cap), hn::Zero(di))));
+        isAroundEye_ = hn::Or(isAroundEye_, toDoubles(hn::Ne(hn::Load(di, eye), hn::Zero(di))));
     }
 
     const PacketScene& scene_;
@@ -663,12 +747,12 @@ private:
     V t_, from_, end_, runStart_;
     V3 cell_;
     VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
-    V light_;
-    V3 normal_;
+    V light_, crease_ = hn::Zero(D());
+    V3 normal_, away_;
     V3 color_;
     V transmittance_;
     M active_, started_, isDone_, isCapped_, isRunTranslucent_;
-    M isOnCap_ = hn::Lt(hn::Zero(D()), hn::Zero(D()));
+    M isOpaque_, isUnlit_, isOnCap_, isAroundEye_;
 };
 
 void walk(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,

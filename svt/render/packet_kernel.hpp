@@ -7,6 +7,8 @@
 /// so every set of instructions gives the very runs, labels, depths and colors of the plain caster.
 
 #include <svt/render/camera_rays.hpp>
+#include <svt/render/occlusion.hpp>
+#include <svt/render/surface_light.hpp>
 #include <svt/volume/brick_volume.hpp>
 
 #include <array>
@@ -47,18 +49,21 @@ struct PacketSamples {
     Lanes<std::int64_t> isDone;  ///< -1: the ray has ended
 };
 
-/// A surface whose light is not found here: a body's, a cut face, or around the eye.
+/// A surface whose normal is not found here: among voxels, on a cut face, or around the eye; and that of a body which is
+/// not opaque.
 struct PacketSurface {
     std::size_t lane;
     std::int64_t scalar, plane;
     double from;
     Vec3i cell;
     int axis;  ///< whose voxel face the ray crosses there, or -1
+    bool isVoxel;
 };
-struct LitNormal {
-    Vec3d normal;
-    double light = 1;
-    bool isCap = false;
+
+/// OcclusionField::Level, for reading.
+struct PacketOcclusion {
+    const std::uint32_t* voxels = nullptr;
+    double count[3]{}, perVoxel = 0, cellSize = 0, gain = 0, weight = 0;
 };
 
 /// A pass over a volume, as all packets share it.
@@ -68,13 +73,15 @@ struct PacketScene {
     double count[3]{};                      ///< voxels
     const PacketStyle* styles = nullptr;    ///< by scalar; one more, hidden, for all scalars from styleCount on
     std::int64_t styleCount = 0;
-    const double* planeNormals = nullptr;   ///< of volume.oblique: world space, unit length; 4 numbers each
-    Vec3d axisNormals[3];                   ///< of voxel faces
+    const double* planeDirections = nullptr;  ///< of volume.oblique: Surface::normal and Surface::away, 8 numbers each
+    Vec3d axisNormals[3], axisAways[3];       ///< the same of voxel faces
+    std::array<PacketOcclusion, OcclusionField::kLevels> occlusion;
+    double ambientOcclusion = 0;
     Vec3d towardsLight;
     double ambient = 0, key = 0;
     double opaqueAt = 1, labelAt = 0;
     bool withColor = true;                  ///< false: ends at the first label, without light
-    LitNormal (*light)(void* context, const PacketSurface& surface) = nullptr;
+    Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
 };
 
 /// Rays through the places `rays.u`, `rays.v`, and where they are in a volume of `count` voxels.
@@ -82,7 +89,7 @@ void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
 
 /// Walks the rays over [from, to) each, which must lie in rays.from and rays.to, and adds to `samples`.
 /// \param capped   not 0 where a clip plane made the start of the stretch
-/// \param context  handed to scene.light
+/// \param context  handed to scene.surface
 void walkPacket(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,
                 const Lanes<std::int64_t>& capped, void* context, PacketSamples& samples);
 

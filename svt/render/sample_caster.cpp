@@ -53,7 +53,7 @@ public:
         if (withColor_ && isNewObject)
             surface_ = surfaceLight_.at(
                 style, {from, ray_.index.origin, ray_.index.direction, normalized(-ray_.direction), start.cell,
-                        ray_.index.entryAxis(from, start.cell), start.plane,
+                        ray_.index.entryAxis(from, start.cell), start.plane, start.isVoxel,
                         from == interval_->from ? interval_->capPlane : nullptr});
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);

@@ -76,6 +76,8 @@ public:
     [[nodiscard]] std::span<const Directions> planes() const noexcept { return planes_; }
     /// Of what has `index` as its normal in index space.
     [[nodiscard]] Directions directions(Vec3d index) const noexcept;
+    /// Directions::away of a direction in world space.
+    [[nodiscard]] Vec3d away(Vec3d normal) const noexcept;
 
 private:
     const volume::Grid& grid_;
@@ -106,21 +108,12 @@ public:
     };
     [[nodiscard]] Slot& slot(std::uint64_t key) noexcept { return slots_[place(key)]; }
 
-    /// What SurfaceLight found of the surroundings of a brick.
-    struct Flatness {
-        std::uint64_t key = ~std::uint64_t{0};
-        std::uint32_t plane = 0;
-        bool isFlat = false;
-    };
-    [[nodiscard]] Flatness& flatness(std::uint64_t key) noexcept { return flatness_[place(key)]; }
-
 private:
     static constexpr int kBits = 10;
     [[nodiscard]] static std::size_t place(std::uint64_t key) noexcept {
         return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> (64 - kBits));
     }
     std::array<Slot, std::size_t{1} << kBits> slots_{};
-    std::array<Flatness, std::size_t{1} << kBits> flatness_{};
 };
 
 /// Casts rays one by one: the plain way, which packets are held against. Belongs to one thread.

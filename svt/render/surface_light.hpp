@@ -14,14 +14,18 @@ struct SurfaceHit {
     Vec3i cell;                   ///< voxel that the ray enters
     int axis;                     ///< whose voxel face it crosses there, or -1
     std::uint32_t plane;          ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
+    bool isVoxel;                 ///< the label is told by voxels alone
     const HalfSpace* capPlane;    ///< clip plane on which it lies, or null
 };
 
 /// Where a run begins, and how it is lit there.
 struct Surface {
     Vec3d normal{};  ///< world space, unit length
+    Vec3d away{};    ///< the same direction in index space, longest component 1
+    double crease = 0;  ///< how deep in a corner of voxels, 0..1
     double light = 1;
     bool isCap = false;
+    bool isAroundEye = false;  ///< the eye is inside; there is no surface
 };
 
 /// Lights the surfaces of one pass.
@@ -30,21 +34,16 @@ public:
     SurfaceLight(const Scene& scene, std::size_t pass, NormalCache& cache)
         : scene_(scene), pass_(scene.passes[pass]), passNumber_(pass), cache_(cache) {}
 
-    /// Glass has the normal of the plane or voxel face that it begins with. For a body, the voxels around tell how deep
-    /// in a corner it lies, and, where there is no plane, its slope.
+    /// A surface has the normal of the plane or voxel face that the ray crosses. Where voxels alone tell the label, a
+    /// body's is fitted to those around, which also say how deep in a corner it lies.
     [[nodiscard]] Surface at(const LinearStyle& style, const SurfaceHit& hit) const;
+    /// The same without light.
+    [[nodiscard]] Surface facing(const LinearStyle& style, const SurfaceHit& hit) const;
 
 private:
-    [[nodiscard]] Surface bodyAt(const SurfaceHit& hit) const;
     [[nodiscard]] const SurfaceNormal& normalAt(Vec3i cell, int axis, int sign) const;
-    [[nodiscard]] bool isFlatAround(Vec3i cell, int axis, int sign) const;
-    [[nodiscard]] bool isOpenBefore(Vec3i cell, std::uint32_t plane, bool isPositive) const;
-    [[nodiscard]] bool isBorderFar(Vec3i brick) const noexcept;
-    template <class IsFine>
-    [[nodiscard]] bool checkAround(Vec3i brick, const IsFine& isFine) const;
     [[nodiscard]] double lightOn(Vec3d normal, Vec3d view, double open) const noexcept;
-    /// 1 in the open, less in corners. `away`: from the surface, index space, longest component 1.
-    [[nodiscard]] double openness(const SurfaceHit& hit, Vec3d away, float coverage) const noexcept;
+    [[nodiscard]] double openness(const SurfaceHit& hit, const Surface& surface) const noexcept;
 
     const Scene& scene_;
     const PreparedPass& pass_;
