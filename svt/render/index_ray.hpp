@@ -127,8 +127,40 @@ struct PlaneCrossing {
     [[nodiscard]] bool isPositiveAt(double t) const noexcept { return (t >= time) == isRising; }
 };
 
-/// Where a run begins: in which voxel, at which oblique plane if it is one that the ray crosses there, and whether
-/// voxels alone tell the label there.
+/// The planes of a brick; none where it is not coded by any.
+using BrickPlanes = std::array<std::uint32_t, 2>;
+inline constexpr BrickPlanes kNoPlanes{volume::BrickVolume::kNoPlane, volume::BrickVolume::kNoPlane};
+[[nodiscard]] inline BrickPlanes planesOf(const volume::BrickVolume& volume,
+                                          volume::BrickVolume::Entry entry) noexcept {
+    return entry.isMixed() && volume.isCoded(entry) ? volume.coding(entry).plane : kNoPlanes;
+}
+
+/// Bricks beside each other may have planes for one surface that do not quite meet, so that a label begins on the side
+/// of a brick: the first of `planes` that the point at t is near, among those that look along the side's axis;
+/// BrickVolume::kNoPlane if there is none.
+[[nodiscard]] inline std::uint32_t nearPlane(const volume::BrickVolume& volume, const IndexRay& ray, double t, int axis,
+                                             const BrickPlanes& planes) noexcept {
+    const Vec3d point = ray.origin + ray.direction * t;
+    for (const std::uint32_t number : planes) {
+        if (number == volume::BrickVolume::kNoPlane) continue;
+        const volume::BrickPlane& plane = volume.oblique()[number];
+        const double distance = dot(plane.normal, point) + plane.offset;
+        if (std::abs(distance) < 0.75 && std::abs(plane.normal[axis]) > 0.2) return number;
+    }
+    return volume::BrickVolume::kNoPlane;
+}
+/// The same for where a ray goes from a brick with planes `left` into one with planes `entered`.
+[[nodiscard]] inline std::uint32_t seamPlane(const volume::BrickVolume& volume, const IndexRay& ray, double t,
+                                             Vec3i cell, const BrickPlanes& entered, const BrickPlanes& left) noexcept {
+    if (entered == kNoPlanes && left == kNoPlanes) return volume::BrickVolume::kNoPlane;
+    const int axis = ray.entryAxis(t, cell);
+    if (axis < 0) return volume::BrickVolume::kNoPlane;
+    const std::uint32_t plane = nearPlane(volume, ray, t, axis, entered);
+    return plane != volume::BrickVolume::kNoPlane ? plane : nearPlane(volume, ray, t, axis, left);
+}
+
+/// Where a run begins: in which voxel, at which oblique plane if it is one that the ray crosses there or a seam of one,
+/// and whether voxels alone tell the label there.
 struct RunStart {
     Vec3i cell;
     std::uint32_t plane = volume::BrickVolume::kNoPlane;
@@ -149,6 +181,9 @@ public:
         cell_ = ray_.cellAt(t_, count_);
         while (true) {
             const volume::BrickVolume::Entry entry = volume_.entry(cell_.x >> 3, cell_.y >> 3, cell_.z >> 3);
+            left_ = planes_;
+            planes_ = planesOf(volume_, entry);
+            isAtEntry_ = true;
             const bool isDone = !entry.isMixed()           ? crossBox(entry)
                                 : volume_.isCoded(entry) ? crossCoded(entry)
                                                          : crossVoxels(entry);
@@ -163,6 +198,7 @@ private:
     bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane, bool isVoxel = false) {
         if (!isFirst_ && scalar == runScalar_) return false;
         if (!isFirst_ && visitor_.leave(runScalar_, runStart_, t_)) return true;
+        if (!isFirst_ && isAtEntry_) plane = seamPlane(volume_, ray_, t_, cell_, planes_, left_);
         isFirst_ = false;
         runScalar_ = scalar;
         runStart_ = t_;
@@ -244,6 +280,7 @@ private:
                 }
             }
             if (moveTo(coding.cells[cell], crossed)) return true;
+            isAtEntry_ = false;
             if (nextSide == nullptr) break;
             t_ = next;
             if (!(t_ < to_)) return false;
@@ -261,6 +298,7 @@ private:
         do {
             if (moveTo(mixed.scalarAt(cell_.x & 7, cell_.y & 7, cell_.z & 7), volume::BrickVolume::kNoPlane, true))
                 return true;
+            isAtEntry_ = false;
             t_ = std::min({leave.x, leave.y, leave.z});
             if (!(t_ < to_)) return false;
             forEachAxis([&](auto axis) {
@@ -280,7 +318,9 @@ private:
     Vec3i cell_{};
     double t_, to_, runStart_;
     volume::Scalar runScalar_ = 0;
+    BrickPlanes planes_ = kNoPlanes, left_ = kNoPlanes;  // of the brick that the ray is in, and of the one before
     bool isFirst_ = true;
+    bool isAtEntry_ = true;  // the ray is where it came into the brick
 };
 
 template <class Visitor>
@@ -297,9 +337,12 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
     double t = from, runStart = from;
     volume::Scalar runScalar = 0;
     bool isFirst = true;
+    BrickPlanes planes = kNoPlanes, left = kNoPlanes;
+    bool isAtEntry = true;
     const auto moveTo = [&](volume::Scalar scalar, std::uint32_t plane, bool isVoxel) {
         if (!isFirst && scalar == runScalar) return false;
         if (!isFirst && visitor.leave(runScalar, runStart, t)) return true;
+        if (!isFirst && isAtEntry) plane = seamPlane(volume, ray, t, cell, planes, left);
         isFirst = false;
         runScalar = scalar;
         runStart = t;
@@ -310,6 +353,10 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
         const double leave =
             std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
         const volume::BrickVolume::Entry entry = volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3);
+        if (isAtEntry) {
+            left = planes;
+            planes = planesOf(volume, entry);
+        }
         double next = leave;
         if (entry.isMixed() && volume.isCoded(entry) &&
             volume.coding(entry).plane[0] != volume::BrickVolume::kNoPlane) {
@@ -338,13 +385,15 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
             if (moveTo(volume.scalarAt(cell.x, cell.y, cell.z), volume::BrickVolume::kNoPlane, isVoxel)) return;
             crossed = volume::BrickVolume::kNoPlane;
         }
+        isAtEntry = false;
         t = next;
         if (!(t < to)) break;
         if (t < leave) continue;
         const Vec3i brick{cell.x >> 3, cell.y >> 3, cell.z >> 3};
         for (int axis = 0; axis < 3; ++axis)
             while (ray.leaveTime(axis, cell[axis]) <= t) cell[axis] += ray.step[axis];
-        if (brick != Vec3i{cell.x >> 3, cell.y >> 3, cell.z >> 3}) crossed = volume::BrickVolume::kNoPlane;
+        isAtEntry = brick != Vec3i{cell.x >> 3, cell.y >> 3, cell.z >> 3};
+        if (isAtEntry) crossed = volume::BrickVolume::kNoPlane;
     }
     visitor.leave(runScalar, runStart, to);
 }

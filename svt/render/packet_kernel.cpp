@@ -207,6 +207,7 @@ public:
             if (any(entering)) enter(entering, segment);
             active_ = andNot(isDone_, active_);
         }
+        left_ = segment.planes;
         t_ = hn::IfThenElse(active_, segment.next, t_);
         active_ = hn::And(active_, hn::Lt(t_, end_));
         crossed_ = hn::IfThenElse(toInts(active_), segment.plane, crossed_);
@@ -232,6 +233,8 @@ private:
         V next;              // when it ends
         V3 far, leave;       // planes of voxel faces before the ray, and when it crosses them
         M isVoxel;           // cells beside the exit stay
+        M isAtEntry;         // the ray has come into another brick
+        VI planes;           // of the brick, two numbers; all ones where there is none
     };
 
     HWY_INLINE Axis axisOf(std::size_t a) const {
@@ -317,7 +320,7 @@ private:
 
     // ------------------------------------------------------------------------------------------------ what
 
-    HWY_INLINE Segment segmentOf(M active) const {
+    HWY_INLINE Segment segmentOf(M active) {
         const D d;
         const DI di;
         const V eighth = hn::Set(d, 0.125);
@@ -334,6 +337,9 @@ private:
         segment.plane = hn::Set(di, -1);
         segment.far = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
         segment.isVoxel = hn::Lt(t_, t_);
+        segment.planes = hn::Set(di, -1);
+        segment.isAtEntry = hn::Ne(place, place_);
+        place_ = place;
         if (any(uniform)) {
             const VI offset = hn::IfThenElseZero(toInts(uniform), hn::ShiftLeft<4>(entry));
             const VI low = gatherBytes(scene_.volume.boxes.data(), offset);
@@ -386,6 +392,7 @@ private:
             const VI planes = gatherBytes(bricks + 16, offset);
             const M hasPlanes = hn::And(coded, toDoubles(hn::Ne(lowHalf(planes), hn::Set(di, 0xFFFFFFFF))));
             hasOblique = any(hasPlanes);
+            segment.planes = hn::IfThenElse(toInts(coded), planes, segment.planes);
             if (hasOblique) {
                 const M hasTwo = hn::And(hasPlanes, toDoubles(hn::Ne(shiftRight<32>(planes), hn::Set(di, 0xFFFFFFFF))));
                 oblique[1] = sideOf(shiftRight<32>(planes), hasTwo);
@@ -635,7 +642,7 @@ private:
         const DI di;
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
         const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
-        const M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+        M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
         M isNowhere = andNot(isOblique, hn::Eq(zero, zero));
         V faceAxis = hn::Set(d, -1.0);
         V3 normal{zero, zero, zero}, away = normal;
@@ -656,6 +663,13 @@ private:
         face(x_, cell_.x, 0);
         face(y_, cell_.y, 1);
         face(z_, cell_.z, 2);
+        const M atSide = hn::And(hn::And(lanes, segment.isAtEntry), andNot(isCap, hn::Gt(t_, from_)));
+        const MI noPlanes = hn::And(hn::Eq(segment.planes, hn::Set(di, -1)), hn::Eq(left_, hn::Set(di, -1)));
+        const M atSeam = andNot(hn::Or(toDoubles(noPlanes), isNowhere), atSide);
+        if (any(atSeam)) {
+            crossed_ = seamPlanes(atSeam, segment.planes, faceAxis);
+            isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+        }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {
             const VI number = hn::IfThenElseZero(toInts(onPlane), crossed_);
@@ -684,6 +698,37 @@ private:
         const M glass = andNot(opaque, lanes);
         if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(one), light_);
         if (any(special)) askForSurfaces(special, segment, faceAxis);
+    }
+
+    // seamPlane(): the plane for each of the lanes, crossed_ for the others.
+    HWY_NOINLINE VI seamPlanes(M lanes, VI entered, V faceAxis) const {
+        const D d;
+        const DI di;
+        const V3 point{hn::Add(x_.origin, hn::Mul(x_.direction, t_)), hn::Add(y_.origin, hn::Mul(y_.direction, t_)),
+                       hn::Add(z_.origin, hn::Mul(z_.direction, t_))};
+        VI found = crossed_;
+        const auto look = [&](VI plane) {
+            const M isThere = hn::And(lanes, toDoubles(hn::Ne(plane, hn::Set(di, 0xFFFFFFFF))));
+            if (!any(isThere)) return;
+            const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
+            const auto number = [&](int n) {
+                return hn::BitCast(
+                    d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
+            };
+            const V3 normal{number(0), number(1), number(2)};
+            const V distance = hn::Add(dot(normal, point), number(3));
+            const V along = hn::IfThenElse(hn::Eq(faceAxis, hn::Zero(d)), normal.x,
+                                           hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, 1.0)), normal.y, normal.z));
+            const M isNear = hn::And(isThere, hn::And(hn::Lt(hn::Abs(distance), hn::Set(d, 0.75)),
+                                                      hn::Gt(hn::Abs(along), hn::Set(d, 0.2))));
+            found = hn::IfThenElse(toInts(isNear), plane, found);
+            lanes = andNot(isNear, lanes);
+        };
+        look(lowHalf(entered));
+        look(shiftRight<32>(entered));
+        look(lowHalf(left_));
+        look(shiftRight<32>(left_));
+        return found;
     }
 
     HWY_NOINLINE void askForSurfaces(M lanes, const Segment& segment, V faceAxis) {
@@ -747,6 +792,8 @@ private:
     V t_, from_, end_, runStart_;
     V3 cell_;
     VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
+    VI left_ = hn::Set(DI(), -1);      // Segment::planes of the brick before
+    V place_ = hn::Set(D(), -1.0);     // of the brick
     V light_, crease_ = hn::Zero(D());
     V3 normal_, away_;
     V3 color_;

@@ -246,7 +246,14 @@ public:
 
     TileCodes code() {
         forEachPlace([&](Vec3i at) {
-            if (needsCode(at) && patternAt(at).palette.size() == 2) codeSurface(at);
+            if (needsCode(at) && patternAt(at).palette.size() == 2) codeSurface(at, true);
+        });
+        forEachPlace([&](Vec3i at) {
+            if (!isStep(at)) return;
+            if (patternAt(at).palette.size() == 2)
+                codeSurface(at, false);
+            else
+                codeMeeting(at);
         });
         forEachPlace([&](Vec3i at) {
             if (needsCode(at)) codeMeeting(at);
@@ -284,7 +291,8 @@ private:
         return patterns_[places_.patternOf[place(at)]];
     }
     [[nodiscard]] bool needsCode(Vec3i at) const noexcept {
-        return isMixed(at) && isCoded_[places_.patternOf[place(at)]] == 0 && codeOf_[place(at)] == kNone;
+        return isMixed(at) &&
+               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Uncoded) && codeOf_[place(at)] == kNone;
     }
     [[nodiscard]] const BrickCode* codeAt(Vec3i at) const noexcept {
         const std::uint32_t number = codeOf_[place(at)];
@@ -337,7 +345,14 @@ private:
         return true;
     }
 
-    void codeSurface(Vec3i at) {
+    // Two cuts may be the corner of a surface that rises by a voxel.
+    [[nodiscard]] bool isStep(Vec3i at) const noexcept {
+        return isMixed(at) && codeOf_[place(at)] == kNone &&
+               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Step);
+    }
+
+    // \param mayStandAlone  whether a plane will do that the bricks around do not share
+    void codeSurface(Vec3i at, bool mayStandAlone) {
         std::array<std::uint32_t, 4> tried{kNone, kNone, kNone, kNone};
         std::size_t count = 0;
         bool isDone = false;
@@ -358,7 +373,7 @@ private:
         if (moveInto(own, wide)) {
             if (addPlane(at, axis, wide)) return;
         }
-        if (moveInto(own, *local)) addPlane(at, axis, *local);
+        if (mayStandAlone && moveInto(own, *local)) addPlane(at, axis, *local);
     }
 
     static std::optional<Slope> fit(const Heights& heights) noexcept {
@@ -436,8 +451,8 @@ private:
                 masks_.push_back(*mask);
             }
         });
-        addCuts(at, kMostAround + kMostCuts);
-        if (tryCandidates(at, 0)) return;
+        if (!isStep(at)) addCuts(at, kMostAround + kMostCuts);
+        if (tryCandidates(at, 0) || isStep(at)) return;
         const std::size_t known = masks_.size();
         addFitted(at);
         if (masks_.size() > known) tryCandidates(at, known);

@@ -51,6 +51,13 @@ struct PlacedCode {
     BrickCode code;
 };
 
+/// What cuts alone can say of a pattern.
+enum class PatternKind : std::uint8_t {
+    Uncoded,
+    Coded,
+    Step  ///< coded, but as well a surface that rises by a voxel: planes are tried first
+};
+
 struct TileCodes {
     std::vector<BrickPlane> planes;
     std::vector<PlacedCode> codes;  ///< by place, ascending
@@ -63,7 +70,7 @@ struct TileCodes {
 /// first, so that a roof has one plane. Where two surfaces meet, the planes of the bricks around are tried, alone and
 /// in pairs. Uniform bricks beside a sloped surface get its plane where that cuts their rim, the half voxel outside of
 /// their samples. Every code is checked sample by sample; what has none stays a pattern.
-/// \param isCoded  by pattern: needs no planes
+/// \param isCoded  by pattern: a PatternKind
 [[nodiscard]] TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
                                  const std::vector<std::uint8_t>& isCoded);
 

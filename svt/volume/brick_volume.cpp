@@ -243,9 +243,11 @@ public:
             std::vector<std::uint8_t> isCoded;
             for (std::size_t n = 0; n < codes.size(); ++n) {
                 codes[n] = codeBySides(tile_.patterns[n], {});
-                isCoded.push_back(codes[n].has_value() ? 1 : 0);
+                isCoded.push_back(static_cast<std::uint8_t>(kindOf(tile_.patterns[n], codes[n])));
             }
-            if (std::find(isCoded.begin(), isCoded.end(), 0) != isCoded.end()) addOblique(isCoded, isUsed);
+            constexpr auto kCoded = static_cast<std::uint8_t>(PatternKind::Coded);
+            if (std::any_of(isCoded.begin(), isCoded.end(), [](std::uint8_t kind) { return kind != kCoded; }))
+                addOblique(isCoded, isUsed);
         }
         tile_.brickOf.assign(isUsed.size(), TileBricks::kNone);
         for (std::uint32_t n = 0; n < isUsed.size(); ++n)
@@ -253,6 +255,11 @@ public:
     }
 
 private:
+    static PatternKind kindOf(const BrickPattern& pattern, const std::optional<BrickCode>& code) noexcept {
+        if (!code) return PatternKind::Uncoded;
+        return code->cells.size() > 2 ? PatternKind::Step : PatternKind::Coded;
+    }
+
     void addOblique(const std::vector<std::uint8_t>& isCoded, std::vector<std::uint8_t>& isUsed) {
         const Vec3i count = places_.count;
         for (std::int32_t z = 0; z < count.z; ++z)
