@@ -83,6 +83,12 @@ void PacketCaster::cast(std::span<const double> u, std::span<const double> v, bo
     }
     setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
     for (std::size_t n = count; n < kPacketRays; ++n) rays_.to[n] = 0;
+    bool isAnyInside = false;
+    for (std::size_t n = 0; n < count; ++n) isAnyInside = isAnyInside || rays_.from[n] < rays_.to[n];
+    if (!isAnyInside) {
+        std::fill(samples.begin(), samples.end(), Sample());
+        return;
+    }
     std::array<Sample, kPacketRays> seen;
     for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
         const PacketScene packetScene = withColor ? passes_[pass] : passes_.labelsOnly(pass);

@@ -381,7 +381,7 @@ private:
         const VI offset = hn::IfThenElseZero(
             toInts(mixed), hn::Add(hn::ShiftLeft<4>(number), hn::ShiftLeft<3>(number)));
         const auto* bricks = reinterpret_cast<const std::byte*>(scene_.volume.bricks.data());
-        const VI first = gatherBytes(bricks, offset), second = gatherBytes(bricks + 8, offset);
+        const VI second = gatherBytes(bricks + 8, offset);
         const M coded = hn::And(mixed, toDoubles(isSet(second, volume::BrickVolume::PaletteBrick::kCoded)));
         const M voxels = andNot(coded, mixed);
         bool hasOblique = false;
@@ -411,6 +411,7 @@ private:
         }
         if (any(voxels)) {
             const V one = hn::Set(d, 1.0);
+            const VI first = gatherBytes(bricks, offset);
             const auto farVoxel = [&](const Axis& axis, V cell, V known) {
                 return hn::IfThenElse(voxels, hn::IfThenElse(axis.isNegative, cell, hn::Add(cell, one)), known);
             };

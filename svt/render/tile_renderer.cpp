@@ -48,6 +48,13 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
         return;
     }
     castSamples();
+    // Nothing is drawn without a sample, but with an even number of them a pixel's middle may still see a label.
+    const bool isEmpty = std::all_of(samples_.begin(), samples_.end(),
+                                     [](const Sample& sample) { return sample.alpha <= 0 && !sample.hasHit(); });
+    if (isEmpty && side_ % 2 == 1) {
+        fillBackground();
+        return;
+    }
     if (margin_ > 0) findLines();
     writePixels();
 }
@@ -70,13 +77,17 @@ void TileRenderer::castPackets() {
     std::array<double, kPacketRays> u, v;
     std::array<std::size_t, kPacketRays> places;
     std::array<Sample, kPacketRays> seen;
+    columns_.clear();
+    rows_.clear();
+    for (std::int32_t x = -margin_; x < endX; ++x) columns_.push_back(horizontal(x + 0.5));
+    for (std::int32_t y = -margin_; y < endY; ++y) rows_.push_back(vertical(y + 0.5));
     for (std::int32_t y0 = -margin_; y0 < endY; y0 += kHeight)
         for (std::int32_t x0 = -margin_; x0 < endX; x0 += kWidth) {
             std::size_t count = 0;
             for (std::int32_t y = y0; y < std::min(y0 + kHeight, endY); ++y)
                 for (std::int32_t x = x0; x < std::min(x0 + kWidth, endX); ++x) {
-                    u[count] = horizontal(x + 0.5);
-                    v[count] = vertical(y + 0.5);
+                    u[count] = columns_[static_cast<std::size_t>(x + margin_)];
+                    v[count] = rows_[static_cast<std::size_t>(y + margin_)];
                     places[count++] = at(x, y);
                 }
             packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
