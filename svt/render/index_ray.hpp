@@ -132,7 +132,7 @@ using BrickPlanes = std::array<std::uint32_t, 2>;
 inline constexpr BrickPlanes kNoPlanes{volume::BrickVolume::kNoPlane, volume::BrickVolume::kNoPlane};
 [[nodiscard]] inline BrickPlanes planesOf(const volume::BrickVolume& volume,
                                           volume::BrickVolume::Entry entry) noexcept {
-    return entry.isMixed() && volume.isCoded(entry) ? volume.coding(entry).plane : kNoPlanes;
+    return entry.isCoded() ? volume.coding(entry).plane : kNoPlanes;
 }
 
 /// Bricks beside each other may have planes for one surface that do not quite meet, so that a label begins on the side
@@ -149,14 +149,19 @@ inline constexpr BrickPlanes kNoPlanes{volume::BrickVolume::kNoPlane, volume::Br
     }
     return volume::BrickVolume::kNoPlane;
 }
-/// The same for where a ray goes from a brick with planes `left` into one with planes `entered`.
+/// The same for where a ray comes into `cell` at t, if that is on the side of a brick.
 [[nodiscard]] inline std::uint32_t seamPlane(const volume::BrickVolume& volume, const IndexRay& ray, double t,
-                                             Vec3i cell, const BrickPlanes& entered, const BrickPlanes& left) noexcept {
-    if (entered == kNoPlanes && left == kNoPlanes) return volume::BrickVolume::kNoPlane;
+                                             Vec3i cell) noexcept {
     const int axis = ray.entryAxis(t, cell);
     if (axis < 0) return volume::BrickVolume::kNoPlane;
+    const std::int32_t face = ray.step[axis] < 0 ? cell[axis] + 1 : cell[axis];
+    if ((face & 7) != 0) return volume::BrickVolume::kNoPlane;
+    const BrickPlanes entered = planesOf(volume, volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3));
     const std::uint32_t plane = nearPlane(volume, ray, t, axis, entered);
-    return plane != volume::BrickVolume::kNoPlane ? plane : nearPlane(volume, ray, t, axis, left);
+    if (plane != volume::BrickVolume::kNoPlane) return plane;
+    Vec3i left = cell;
+    left[axis] -= ray.step[axis];
+    return nearPlane(volume, ray, t, axis, planesOf(volume, volume.entry(left.x >> 3, left.y >> 3, left.z >> 3)));
 }
 
 /// Where a run begins: in which voxel, at which oblique plane if it is one that the ray crosses there or a seam of one,
@@ -181,12 +186,9 @@ public:
         cell_ = ray_.cellAt(t_, count_);
         while (true) {
             const volume::BrickVolume::Entry entry = volume_.entry(cell_.x >> 3, cell_.y >> 3, cell_.z >> 3);
-            left_ = planes_;
-            planes_ = planesOf(volume_, entry);
-            isAtEntry_ = true;
-            const bool isDone = !entry.isMixed()           ? crossBox(entry)
-                                : volume_.isCoded(entry) ? crossCoded(entry)
-                                                         : crossVoxels(entry);
+            const bool isDone = !entry.isMixed()  ? crossBox(entry)
+                                : entry.isCoded() ? crossCoded(entry)
+                                                  : crossVoxels(entry);
             if (isDone) return;
             if (!(t_ < to_)) break;
         }
@@ -198,7 +200,7 @@ private:
     bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane, bool isVoxel = false) {
         if (!isFirst_ && scalar == runScalar_) return false;
         if (!isFirst_ && visitor_.leave(runScalar_, runStart_, t_)) return true;
-        if (!isFirst_ && isAtEntry_) plane = seamPlane(volume_, ray_, t_, cell_, planes_, left_);
+        if (!isFirst_ && plane == volume::BrickVolume::kNoPlane) plane = seamPlane(volume_, ray_, t_, cell_);
         isFirst_ = false;
         runScalar_ = scalar;
         runStart_ = t_;
@@ -239,10 +241,10 @@ private:
     }
 
     bool crossCoded(volume::BrickVolume::Entry entry) {
-        const volume::BrickVolume::Coding coding = volume_.coding(entry);
-        const Vec3i low{cell_.x & ~7, cell_.y & ~7, cell_.z & ~7};
-        const Exit exit = exitOf([&](int axis) { return low[axis]; },
-                                 [&](int axis) { return std::min(low[axis] + 8, count_[axis]); });
+        const volume::SameLabelBox& box = volume_.codedBox(entry);
+        const volume::BrickVolume::BoxCoding& coding = volume_.coding(entry);
+        const Exit exit = exitOf([&](int axis) { return std::int32_t{box.min[static_cast<std::size_t>(axis)]}; },
+                                 [&](int axis) { return std::int32_t{box.max[static_cast<std::size_t>(axis)]}; });
         // When the ray changes sides, in the order of the bits; whether it is beyond from then on, or until then.
         struct Side {
             double time;
@@ -253,9 +255,8 @@ private:
         std::array<Side, 5> sides;
         std::size_t count = 0;
         forEachAxis([&](auto axis) {
-            const std::int32_t cut = coding.cut[static_cast<std::size_t>(axis)];
-            if (cut == 0) return;
-            const std::int32_t place = low[axis] + cut;
+            if (!coding.hasCut(axis)) return;
+            const std::int32_t place = coding.cut[static_cast<std::size_t>(axis)];
             Side side{ray_.planeTime(axis, place), ray_.step[axis] > 0, axis, volume::BrickVolume::kNoPlane};
             // Not along this axis: on one side for good.
             if (ray_.step[axis] == 0) side.isBeyondAfter = cell_[axis] < place;
@@ -279,8 +280,7 @@ private:
                     nextSide = &sides[s];
                 }
             }
-            if (moveTo(coding.cells[cell], crossed)) return true;
-            isAtEntry_ = false;
+            if (moveTo(volume_.cellScalar(coding, cell), crossed)) return true;
             if (nextSide == nullptr) break;
             t_ = next;
             if (!(t_ < to_)) return false;
@@ -298,7 +298,6 @@ private:
         do {
             if (moveTo(mixed.scalarAt(cell_.x & 7, cell_.y & 7, cell_.z & 7), volume::BrickVolume::kNoPlane, true))
                 return true;
-            isAtEntry_ = false;
             t_ = std::min({leave.x, leave.y, leave.z});
             if (!(t_ < to_)) return false;
             forEachAxis([&](auto axis) {
@@ -318,9 +317,7 @@ private:
     Vec3i cell_{};
     double t_, to_, runStart_;
     volume::Scalar runScalar_ = 0;
-    BrickPlanes planes_ = kNoPlanes, left_ = kNoPlanes;  // of the brick that the ray is in, and of the one before
     bool isFirst_ = true;
-    bool isAtEntry_ = true;  // the ray is where it came into the brick
 };
 
 template <class Visitor>
@@ -337,12 +334,10 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
     double t = from, runStart = from;
     volume::Scalar runScalar = 0;
     bool isFirst = true;
-    BrickPlanes planes = kNoPlanes, left = kNoPlanes;
-    bool isAtEntry = true;
     const auto moveTo = [&](volume::Scalar scalar, std::uint32_t plane, bool isVoxel) {
         if (!isFirst && scalar == runScalar) return false;
         if (!isFirst && visitor.leave(runScalar, runStart, t)) return true;
-        if (!isFirst && isAtEntry) plane = seamPlane(volume, ray, t, cell, planes, left);
+        if (!isFirst && plane == volume::BrickVolume::kNoPlane) plane = seamPlane(volume, ray, t, cell);
         isFirst = false;
         runScalar = scalar;
         runStart = t;
@@ -353,19 +348,14 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
         const double leave =
             std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
         const volume::BrickVolume::Entry entry = volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3);
-        if (isAtEntry) {
-            left = planes;
-            planes = planesOf(volume, entry);
-        }
         double next = leave;
-        if (entry.isMixed() && volume.isCoded(entry) &&
-            volume.coding(entry).plane[0] != volume::BrickVolume::kNoPlane) {
-            const volume::BrickVolume::Coding coding = volume.coding(entry);
+        if (planesOf(volume, entry) != kNoPlanes) {
+            const volume::BrickVolume::BoxCoding& coding = volume.coding(entry);
             std::size_t side = 0;
             int bit = 0;
             for (int axis = 0; axis < 3; ++axis)
-                if (const int cut = coding.cut[static_cast<std::size_t>(axis)]; cut != 0)
-                    side |= std::size_t{(cell[axis] & 7) >= cut} << bit++;
+                if (coding.hasCut(axis))
+                    side |= std::size_t{cell[axis] >= coding.cut[static_cast<std::size_t>(axis)]} << bit++;
             std::uint32_t nextPlane = volume::BrickVolume::kNoPlane;
             for (const std::uint32_t plane : coding.plane) {
                 if (plane == volume::BrickVolume::kNoPlane) continue;
@@ -378,22 +368,20 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
                     nextPlane = plane;
                 }
             }
-            if (moveTo(coding.cells[side], crossed, false)) return;
+            if (moveTo(volume.cellScalar(coding, side), crossed, false)) return;
             crossed = nextPlane;
         } else {
-            const bool isVoxel = entry.isMixed() && !volume.isCoded(entry);
+            const bool isVoxel = entry.isMixed() && !entry.isCoded();
             if (moveTo(volume.scalarAt(cell.x, cell.y, cell.z), volume::BrickVolume::kNoPlane, isVoxel)) return;
             crossed = volume::BrickVolume::kNoPlane;
         }
-        isAtEntry = false;
         t = next;
         if (!(t < to)) break;
         if (t < leave) continue;
         const Vec3i brick{cell.x >> 3, cell.y >> 3, cell.z >> 3};
         for (int axis = 0; axis < 3; ++axis)
             while (ray.leaveTime(axis, cell[axis]) <= t) cell[axis] += ray.step[axis];
-        isAtEntry = brick != Vec3i{cell.x >> 3, cell.y >> 3, cell.z >> 3};
-        if (isAtEntry) crossed = volume::BrickVolume::kNoPlane;
+        if (brick != Vec3i{cell.x >> 3, cell.y >> 3, cell.z >> 3}) crossed = volume::BrickVolume::kNoPlane;
     }
     visitor.leave(runScalar, runStart, to);
 }

@@ -207,7 +207,6 @@ public:
             if (any(entering)) enter(entering, segment);
             active_ = andNot(isDone_, active_);
         }
-        left_ = segment.planes;
         t_ = hn::IfThenElse(active_, segment.next, t_);
         active_ = hn::And(active_, hn::Lt(t_, end_));
         crossed_ = hn::IfThenElse(toInts(active_), segment.plane, crossed_);
@@ -233,7 +232,6 @@ private:
         V next;              // when it ends
         V3 far, leave;       // planes of voxel faces before the ray, and when it crosses them
         M isVoxel;           // cells beside the exit stay
-        M isAtEntry;         // the ray has come into another brick
         VI planes;           // of the brick, two numbers; all ones where there is none
     };
 
@@ -320,38 +318,45 @@ private:
 
     // ------------------------------------------------------------------------------------------------ what
 
-    HWY_INLINE Segment segmentOf(M active) {
+    HWY_INLINE VI entryAt(const V3& brick, M lanes) const {
+        const D d;
+        const V place =
+            hn::Add(brick.x, hn::Mul(hn::Set(d, scene_.bricksX),
+                                     hn::Add(brick.y, hn::Mul(hn::Set(d, scene_.bricksY), brick.z))));
+        const VI offset = hn::ShiftLeft<2>(toInt(hn::IfThenElseZero(lanes, place)));
+        return lowHalf(gatherBytes(scene_.volume.index.data(), offset));
+    }
+
+    HWY_INLINE Segment segmentOf(M active) const {
         const D d;
         const DI di;
         const V eighth = hn::Set(d, 0.125);
         const V3 brick{hn::Floor(hn::Mul(cell_.x, eighth)), hn::Floor(hn::Mul(cell_.y, eighth)),
                        hn::Floor(hn::Mul(cell_.z, eighth))};
-        const V place =
-            hn::Add(brick.x, hn::Mul(hn::Set(d, scene_.bricksX),
-                                     hn::Add(brick.y, hn::Mul(hn::Set(d, scene_.bricksY), brick.z))));
-        const VI entry = lowHalf(gatherBytes(scene_.volume.index.data(), hn::ShiftLeft<2>(toInt(place))));
-        const M mixed = hn::And(active, toDoubles(isSet(entry, 0x80000000)));
-        const M uniform = andNot(mixed, active);
+        const VI entry = entryAt(brick, active);
+        const M voxels = hn::And(active, toDoubles(isSet(entry, volume::BrickVolume::kVoxels)));
+        const M boxes = andNot(voxels, active);
         Segment segment;
         segment.label = hn::Zero(di);
         segment.plane = hn::Set(di, -1);
         segment.far = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        segment.isVoxel = hn::Lt(t_, t_);
+        segment.isVoxel = voxels;
         segment.planes = hn::Set(di, -1);
-        segment.isAtEntry = hn::Ne(place, place_);
-        place_ = place;
-        if (any(uniform)) {
-            const VI offset = hn::IfThenElseZero(toInts(uniform), hn::ShiftLeft<4>(entry));
+        Side oblique[2];
+        bool hasOblique = false;
+        if (any(boxes)) {
+            const VI offset = hn::IfThenElseZero(
+                toInts(boxes), hn::ShiftLeft<4>(hn::And(entry, hn::Set(di, volume::BrickVolume::kCoded - 1))));
             const VI low = gatherBytes(scene_.volume.boxes.data(), offset);
             const VI high = gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, offset);
             segment.label = shiftRight<32>(high);
             segment.far.x = farOf(x_, bitsOf<0, 16>(low), shiftRight<48>(low));
             segment.far.y = farOf(y_, bitsOf<16, 16>(low), bitsOf<0, 16>(high));
             segment.far.z = farOf(z_, bitsOf<32, 16>(low), bitsOf<16, 16>(high));
+            const M coded = hn::And(boxes, toDoubles(isSet(entry, volume::BrickVolume::kCoded)));
+            if (any(coded)) hasOblique = readCoded(coded, segment, oblique);
         }
-        Side oblique[2];
-        bool hasOblique = false;
-        if (any(mixed)) hasOblique = readMixed(entry, mixed, brick, segment, oblique);
+        if (any(voxels)) readVoxels(entry, voxels, brick, segment);
         segment.leave = {x_.planeTime(segment.far.x), y_.planeTime(segment.far.y), z_.planeTime(segment.far.z)};
         segment.next = hn::Min(hn::Min(segment.leave.x, segment.leave.y), segment.leave.z);
         if (hasOblique)
@@ -372,93 +377,88 @@ private:
         VI plane;
     };
 
-    // Mixed bricks: label, faces and planes ahead. Returns whether there are oblique planes.
-    HWY_INLINE bool readMixed(VI entry, M mixed, const V3& brick, Segment& segment, Side (&oblique)[2]) const {
-        const D d;
+    // Coded boxes, whose code stands in segment.label: label, faces and planes ahead. Returns whether there are planes.
+    HWY_INLINE bool readCoded(M coded, Segment& segment, Side (&oblique)[2]) const {
         const DI di;
-        const VI number = hn::And(entry, hn::Set(di, 0x7FFFFFFF));
         // 24 bytes each
         const VI offset = hn::IfThenElseZero(
-            toInts(mixed), hn::Add(hn::ShiftLeft<4>(number), hn::ShiftLeft<3>(number)));
-        const auto* bricks = reinterpret_cast<const std::byte*>(scene_.volume.bricks.data());
-        const VI second = gatherBytes(bricks + 8, offset);
-        const M coded = hn::And(mixed, toDoubles(isSet(second, volume::BrickVolume::PaletteBrick::kCoded)));
-        const M voxels = andNot(coded, mixed);
-        bool hasOblique = false;
-        const V eight = hn::Set(d, 8.0);
-        const V3 low{hn::Mul(brick.x, eight), hn::Mul(brick.y, eight), hn::Mul(brick.z, eight)};
-        if (any(coded)) {
-            VI side = hn::Zero(di);
-            const VI planes = gatherBytes(bricks + 16, offset);
-            const M hasPlanes = hn::And(coded, toDoubles(hn::Ne(lowHalf(planes), hn::Set(di, 0xFFFFFFFF))));
-            hasOblique = any(hasPlanes);
+            toInts(coded), hn::Add(hn::ShiftLeft<4>(segment.label), hn::ShiftLeft<3>(segment.label)));
+        const auto* codes = reinterpret_cast<const std::byte*>(scene_.volume.codes.data());
+        const VI cuts = gatherBytes(codes, offset), planes = gatherBytes(codes + 8, offset),
+                 cells = gatherBytes(codes + 16, offset);
+        VI side = hn::Zero(di);
+        const M hasPlanes = hn::And(coded, toDoubles(hn::Ne(lowHalf(planes), hn::Set(di, 0xFFFFFFFF))));
+        const bool hasOblique = any(hasPlanes);
+        if (hasOblique) {
             segment.planes = hn::IfThenElse(toInts(coded), planes, segment.planes);
-            if (hasOblique) {
-                const M hasTwo = hn::And(hasPlanes, toDoubles(hn::Ne(shiftRight<32>(planes), hn::Set(di, 0xFFFFFFFF))));
-                oblique[1] = sideOf(shiftRight<32>(planes), hasTwo);
-                oblique[0] = sideOf(lowHalf(planes), hasPlanes);
-                side = addSide(side, oblique[1].isThere, oblique[1].isPositive);
-                side = addSide(side, oblique[0].isThere, oblique[0].isPositive);
-            }
-            const V farZ = cutOf(z_, bitsOf<kCut + 6, 3>(second), low.z, cell_.z, side);
-            const V farY = cutOf(y_, bitsOf<kCut + 3, 3>(second), low.y, cell_.y, side);
-            const V farX = cutOf(x_, bitsOf<kCut, 3>(second), low.x, cell_.x, side);
-            segment.far = {hn::IfThenElse(coded, farX, segment.far.x), hn::IfThenElse(coded, farY, segment.far.y),
-                           hn::IfThenElse(coded, farZ, segment.far.z)};
-            const VI at = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<2>(hn::Add(shiftRight<32>(second), side)));
-            segment.label = hn::IfThenElse(
-                toInts(coded), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
+            const M hasTwo = hn::And(hasPlanes, toDoubles(hn::Ne(shiftRight<32>(planes), hn::Set(di, 0xFFFFFFFF))));
+            oblique[1] = sideOf(shiftRight<32>(planes), hasTwo);
+            oblique[0] = sideOf(lowHalf(planes), hasPlanes);
+            side = addSide(side, oblique[1].isThere, oblique[1].isPositive);
+            side = addSide(side, oblique[0].isThere, oblique[0].isPositive);
         }
-        if (any(voxels)) {
-            const V one = hn::Set(d, 1.0);
-            const VI first = gatherBytes(bricks, offset);
-            const auto farVoxel = [&](const Axis& axis, V cell, V known) {
-                return hn::IfThenElse(voxels, hn::IfThenElse(axis.isNegative, cell, hn::Add(cell, one)), known);
-            };
-            segment.isVoxel = voxels;
-            segment.far = {farVoxel(x_, cell_.x, segment.far.x), farVoxel(y_, cell_.y, segment.far.y),
-                           farVoxel(z_, cell_.z, segment.far.z)};
-            const VI bit = toInt(hn::Add(hn::Sub(cell_.x, low.x), hn::Mul(hn::Sub(cell_.y, low.y), eight)));
-            VI word = hn::Add(shiftRight<32>(first), toInt(hn::Sub(cell_.z, low.z)));
-            const VI planeCount = bitsOf<0, 4>(second);
-            VI index = hn::Zero(di);
-            std::int64_t plane = 0;
-            M more = voxels;
-            do {
-                const VI bits = gatherBytes(scene_.volume.words.data(),
-                                            hn::IfThenElseZero(toInts(more), hn::ShiftLeft<3>(word)));
-                const VI one64 = hn::And(shiftRightBy(bits, bit), hn::Set(di, 1));
-                index = hn::Or(index, hn::IfThenElseZero(toInts(more),
-                                                         hn::BitCast(di, hn::Shl(hn::BitCast(DU(), one64),
-                                                                                 hn::Set(DU(), std::uint64_t(plane))))));
-                word = hn::Add(word, hn::Set(di, 8));
-                ++plane;
-                more = hn::And(voxels, toDoubles(hn::Gt(planeCount, hn::Set(di, plane))));
-            } while (any(more));
-            const VI at = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<2>(hn::Add(lowHalf(first), index)));
-            segment.label = hn::IfThenElse(
-                toInts(voxels), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
-        }
+        const auto cut = [&](const Axis& axis, M isCut, VI place, V cell, V far) {
+            return cutOf(axis, hn::And(coded, isCut), toDouble(place), cell, far, side);
+        };
+        segment.far.z = cut(z_, toDoubles(isSet(cuts, std::int64_t{4} << 48)), bitsOf<32, 16>(cuts), cell_.z, segment.far.z);
+        segment.far.y = cut(y_, toDoubles(isSet(cuts, std::int64_t{2} << 48)), bitsOf<16, 16>(cuts), cell_.y, segment.far.y);
+        segment.far.x = cut(x_, toDoubles(isSet(cuts, std::int64_t{1} << 48)), bitsOf<0, 16>(cuts), cell_.x, segment.far.x);
+        const VI at = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<2>(hn::Add(lowHalf(cells), side)));
+        segment.label =
+            hn::IfThenElse(toInts(coded), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
         return hasOblique;
     }
-    static constexpr int kCut = volume::BrickVolume::PaletteBrick::kCutShift;
+
+    // Bricks of voxels: label and faces of the voxel.
+    HWY_INLINE void readVoxels(VI entry, M voxels, const V3& brick, Segment& segment) const {
+        const D d;
+        const DI di;
+        const V one = hn::Set(d, 1.0), eight = hn::Set(d, 8.0);
+        const auto farVoxel = [&](const Axis& axis, V cell, V known) {
+            return hn::IfThenElse(voxels, hn::IfThenElse(axis.isNegative, cell, hn::Add(cell, one)), known);
+        };
+        segment.far = {farVoxel(x_, cell_.x, segment.far.x), farVoxel(y_, cell_.y, segment.far.y),
+                       farVoxel(z_, cell_.z, segment.far.z)};
+        const VI number = hn::And(entry, hn::Set(di, volume::BrickVolume::kVoxels - 1));
+        const VI offset = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<4>(number));
+        const auto* bricks = reinterpret_cast<const std::byte*>(scene_.volume.bricks.data());
+        const VI first = gatherBytes(bricks, offset);
+        const VI planeCount = lowHalf(gatherBytes(bricks + 8, offset));
+        const V3 local{hn::Sub(cell_.x, hn::Mul(brick.x, eight)), hn::Sub(cell_.y, hn::Mul(brick.y, eight)),
+                       hn::Sub(cell_.z, hn::Mul(brick.z, eight))};
+        const VI bit = toInt(hn::IfThenElseZero(voxels, hn::Add(local.x, hn::Mul(local.y, eight))));
+        VI word = hn::Add(shiftRight<32>(first), toInt(local.z));
+        VI index = hn::Zero(di);
+        std::int64_t plane = 0;
+        M more = voxels;
+        do {
+            const VI bits =
+                gatherBytes(scene_.volume.words.data(), hn::IfThenElseZero(toInts(more), hn::ShiftLeft<3>(word)));
+            const VI ofPlane = hn::And(shiftRightBy(bits, bit), hn::Set(di, 1));
+            const VI shifted =
+                hn::BitCast(di, hn::Shl(hn::BitCast(DU(), ofPlane), hn::Set(DU(), static_cast<std::uint64_t>(plane))));
+            index = hn::Or(index, hn::IfThenElseZero(toInts(more), shifted));
+            word = hn::Add(word, hn::Set(di, 8));
+            ++plane;
+            more = hn::And(voxels, toDoubles(hn::Gt(planeCount, hn::Set(di, plane))));
+        } while (any(more));
+        const VI at = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<2>(hn::Add(lowHalf(first), index)));
+        segment.label =
+            hn::IfThenElse(toInts(voxels), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
+    }
 
     static HWY_INLINE VI addSide(VI side, M isThere, M isBeyond) {
         const VI more = hn::Add(hn::Add(side, side), hn::IfThenElseZero(toInts(isBeyond), hn::Set(DI(), 1)));
         return hn::IfThenElse(toInts(isThere), more, side);
     }
-    // Face before the ray along an axis of a brick that may be cut there.
-    HWY_INLINE V cutOf(const Axis& axis, VI cut, V low, V cell, VI& side) const {
-        const D d;
-        const M isCut = toDoubles(hn::Ne(cut, hn::Zero(DI())));
-        const V place = hn::Add(low, toDouble(cut));
+    // The face before the ray along an axis of a box that may be cut there: `far`, or the cut.
+    HWY_INLINE V cutOf(const Axis& axis, M isCut, V place, V cell, V far, VI& side) const {
         const M isAfter = hn::Ge(t_, axis.planeTime(place));
-        const M moved = differ(isAfter, axis.isNegative);
-        const M isBeyond = hn::Or(hn::And(axis.isMoving, moved), andNot(axis.isMoving, hn::Ge(cell, place)));
+        const M isBeyond = hn::Or(hn::And(axis.isMoving, differ(isAfter, axis.isNegative)),
+                                  andNot(axis.isMoving, hn::Ge(cell, place)));
         side = addSide(side, isCut, isBeyond);
-        const V high = hn::Min(hn::Add(low, hn::Set(d, 8.0)), axis.count);
-        return hn::IfThenElse(axis.isNegative, hn::IfThenElse(hn::And(isCut, isBeyond), place, low),
-                              hn::IfThenElse(andNot(isBeyond, isCut), place, high));
+        const M isBefore = differ(isBeyond, andNot(axis.isNegative, isCut));
+        return hn::IfThenElse(hn::And(isCut, isBefore), place, far);
     }
     HWY_INLINE Side sideOf(VI plane, M isThere) const {
         const D d;
@@ -645,14 +645,16 @@ private:
         const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
         M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
         M isNowhere = andNot(isOblique, hn::Eq(zero, zero));
-        V faceAxis = hn::Set(d, -1.0);
+        V faceAxis = hn::Set(d, -1.0), faceAt = zero;
         V3 normal{zero, zero, zero}, away = normal;
         // The first axis whose plane the ray crosses at t.
         const auto face = [&](const Axis& axis, V cell, std::size_t number) {
-            const V entered = axis.planeTime(hn::IfThenElse(axis.isNegative, hn::Add(cell, one), cell));
+            const V plane = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), cell);
+            const V entered = axis.planeTime(plane);
             const M isHere = hn::And(hn::And(isNowhere, axis.isMoving), hn::Eq(entered, t_));
             isNowhere = andNot(isHere, isNowhere);
             faceAxis = hn::IfThenElse(isHere, hn::Set(d, static_cast<double>(number)), faceAxis);
+            faceAt = hn::IfThenElse(isHere, plane, faceAt);
             const auto part = [&](V known, double value) {
                 const V up = hn::Set(d, value);
                 return hn::IfThenElse(isHere, hn::IfThenElse(axis.isNegative, up, hn::Neg(up)), known);
@@ -664,9 +666,10 @@ private:
         face(x_, cell_.x, 0);
         face(y_, cell_.y, 1);
         face(z_, cell_.z, 2);
-        const M atSide = hn::And(hn::And(lanes, segment.isAtEntry), andNot(isCap, hn::Gt(t_, from_)));
-        const MI noPlanes = hn::And(hn::Eq(segment.planes, hn::Set(di, -1)), hn::Eq(left_, hn::Set(di, -1)));
-        const M atSeam = andNot(hn::Or(toDoubles(noPlanes), isNowhere), atSide);
+        // On the side of a brick?
+        const V fraction = hn::Mul(faceAt, hn::Set(d, 0.125));
+        const M atSide = hn::And(lanes, hn::Eq(hn::Floor(fraction), fraction));
+        const M atSeam = hn::And(andNot(hn::Or(isNowhere, isOblique), atSide), hn::Gt(t_, from_));
         if (any(atSeam)) {
             crossed_ = seamPlanes(atSeam, segment.planes, faceAxis);
             isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
@@ -701,6 +704,29 @@ private:
         if (any(special)) askForSurfaces(special, segment, faceAxis);
     }
 
+    // Segment::planes of the brick that the ray has left through a face across `faceAxis`.
+    HWY_INLINE VI planesBefore(M lanes, V faceAxis) const {
+        const D d;
+        const DI di;
+        const V eighth = hn::Set(d, 0.125), one = hn::Set(d, 1.0);
+        const auto brickBefore = [&](const Axis& axis, V cell, double number) {
+            const V before = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), hn::Sub(cell, one));
+            return hn::Floor(hn::Mul(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, cell), eighth));
+        };
+        const VI entry = entryAt({brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)},
+                                 lanes);
+        const M coded = hn::And(lanes, toDoubles(isSet(entry, volume::BrickVolume::kCoded)));
+        if (!any(coded)) return hn::Set(di, -1);
+        const VI box = hn::IfThenElseZero(
+            toInts(coded), hn::ShiftLeft<4>(hn::And(entry, hn::Set(di, volume::BrickVolume::kCoded - 1))));
+        const VI code = hn::IfThenElseZero(
+            toInts(coded),
+            shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, box)));
+        const VI planes = gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.codes.data()) + 8,
+                                      hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code)));
+        return hn::IfThenElse(toInts(coded), planes, hn::Set(di, -1));
+    }
+
     // seamPlane(): the plane for each of the lanes, crossed_ for the others.
     HWY_NOINLINE VI seamPlanes(M lanes, VI entered, V faceAxis) const {
         const D d;
@@ -727,8 +753,10 @@ private:
         };
         look(lowHalf(entered));
         look(shiftRight<32>(entered));
-        look(lowHalf(left_));
-        look(shiftRight<32>(left_));
+        if (!any(lanes)) return found;
+        const VI left = planesBefore(lanes, faceAxis);
+        look(lowHalf(left));
+        look(shiftRight<32>(left));
         return found;
     }
 
@@ -793,8 +821,6 @@ private:
     V t_, from_, end_, runStart_;
     V3 cell_;
     VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
-    VI left_ = hn::Set(DI(), -1);      // Segment::planes of the brick before
-    V place_ = hn::Set(D(), -1.0);     // of the brick
     V light_, crease_ = hn::Zero(D());
     V3 normal_, away_;
     V3 color_;

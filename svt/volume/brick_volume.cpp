@@ -1,6 +1,6 @@
 #include <svt/core/parallel.hpp>
-#include <svt/volume/brick_coder.hpp>
 #include <svt/volume/brick_volume.hpp>
+#include <svt/volume/code_boxes.hpp>
 
 #include <fmt/format.h>
 
@@ -13,6 +13,7 @@ namespace svt::volume {
 namespace {
 
 constexpr std::uint32_t kMixedBit = 0x80000000u;
+constexpr std::uint32_t kAnyMixed = BrickVolume::kCoded | BrickVolume::kVoxels;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) noexcept {
@@ -51,13 +52,6 @@ private:
     std::vector<std::uint32_t> chain_;
 };
 
-// A pattern and how it is coded.
-struct TileBrick {
-    std::uint32_t pattern = 0;
-    std::optional<BrickCode> code;
-    std::uint64_t hash = 0;
-};
-
 // One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of
 // `scalars`, or of `patterns` with the mixed bit.
 struct TileBricks {
@@ -65,14 +59,10 @@ struct TileBricks {
     std::vector<std::uint32_t> entries;
     std::vector<Scalar> scalars;
     std::vector<BrickPattern> patterns;
-    std::vector<BrickPlane> planes;  // of the codes of `bricks`
-    std::vector<TileBrick> bricks;
-    std::vector<std::uint32_t> brickOf;  // by pattern, where it stands without planes; else kNone
-    struct Oblique {
-        std::uint32_t place = 0, brick = 0;
-    };
-    std::vector<Oblique> oblique;  // bricks with planes, by place
-    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    // What codeBricks() makes of them.
+    std::vector<BrickPlane> planes;
+    TileBoxes boxes;
+    std::vector<std::uint32_t> codedPatterns;  // of the coded bricks, in order of places
 
     [[nodiscard]] std::uint32_t entryAt(std::int32_t x, std::int32_t y, std::int32_t z,
                                         std::int32_t bricksZ) const noexcept {
@@ -221,47 +211,10 @@ private:
     TileBricks result_;
 };
 
-std::uint64_t hashOf(const BrickPattern& pattern, const std::optional<BrickCode>& code) noexcept {
-    std::uint64_t hash = pattern.planes.size();
-    for (const std::uint64_t word : pattern.planes) hash = mix(hash, word);
-    for (const Scalar scalar : pattern.palette) hash = mix(hash, scalar);
-    if (!code) return hash;
-    for (const std::uint32_t plane : code->plane) hash = mix(hash, plane);
-    for (const Scalar scalar : code->cells) hash = mix(hash, scalar);
-    return hash;
-}
-
 // Codes the bricks of a tile: patterns by cuts alone, once each, then by planes, where they stand.
-class BrickCoding {
+class TileCoding {
 public:
-    BrickCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {}
-
-    void run(BrickFaces faces) {
-        std::vector<std::uint8_t> isUsed(tile_.patterns.size(), 1);
-        std::vector<std::optional<BrickCode>> codes(tile_.patterns.size());
-        if (faces == BrickFaces::Planes) {
-            std::vector<std::uint8_t> isCoded;
-            for (std::size_t n = 0; n < codes.size(); ++n) {
-                codes[n] = codeBySides(tile_.patterns[n], {});
-                isCoded.push_back(static_cast<std::uint8_t>(kindOf(tile_.patterns[n], codes[n])));
-            }
-            constexpr auto kCoded = static_cast<std::uint8_t>(PatternKind::Coded);
-            if (std::any_of(isCoded.begin(), isCoded.end(), [](std::uint8_t kind) { return kind != kCoded; }))
-                addOblique(isCoded, isUsed);
-        }
-        tile_.brickOf.assign(isUsed.size(), TileBricks::kNone);
-        for (std::uint32_t n = 0; n < isUsed.size(); ++n)
-            if (isUsed[n] != 0) tile_.brickOf[n] = brickNumber(n, std::move(codes[n]));
-    }
-
-private:
-    static PatternKind kindOf(const BrickPattern& pattern, const std::optional<BrickCode>& code) noexcept {
-        if (!code) return PatternKind::Uncoded;
-        return code->cells.size() > 2 ? PatternKind::Step : PatternKind::Coded;
-    }
-
-    void addOblique(const std::vector<std::uint8_t>& isCoded, std::vector<std::uint8_t>& isUsed) {
-        const Vec3i count = places_.count;
+    TileCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {
         for (std::int32_t z = 0; z < count.z; ++z)
             for (std::int32_t y = 0; y < count.y; ++y)
                 for (std::int32_t x = 0; x < count.x; ++x) {
@@ -270,44 +223,73 @@ private:
                     places_.patternOf.push_back(isMixed ? entry & ~kMixedBit : TilePlaces::kUniform);
                     places_.scalarOf.push_back(isMixed ? 0 : tile_.scalars[entry]);
                 }
-        TileCodes found = codeTile(places_, tile_.patterns, isCoded);
-        tile_.planes = std::move(found.planes);
-        std::vector<std::uint32_t> patternOf = std::move(places_.patternOf);  // without those that got planes
-        for (PlacedCode& placed : found.codes) {
-            std::uint32_t& pattern = patternOf[placed.place];
-            const std::uint32_t own =
-                pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[placed.place]);
-            tile_.oblique.push_back({placed.place, brickNumber(own, std::move(placed.code))});
-            pattern = TilePlaces::kUniform;
+    }
+
+    // Fills boxes, planes and codedPatterns of the tile. Returns by place: the scalar's number, kCoded and the box, or
+    // kVoxels and the pattern.
+    std::vector<std::uint32_t> run(BrickFaces faces) {
+        codeOf_.assign(places_.patternOf.size(), TileBoxes::kNone);
+        if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks();
+        std::vector<std::uint32_t> index;
+        index.reserve(codeOf_.size());
+        std::size_t place = 0;
+        for (std::int32_t z = 0; z < places_.count.z; ++z)
+            for (std::int32_t y = 0; y < places_.count.y; ++y)
+                for (std::int32_t x = 0; x < places_.count.x; ++x, ++place) {
+                    const std::uint32_t pattern = places_.patternOf[place];
+                    if (codeOf_[place] != TileBoxes::kNone) {
+                        index.push_back(tile_.boxes.boxOf[place] | BrickVolume::kCoded);
+                        tile_.codedPatterns.push_back(
+                            pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[place]));
+                    } else {
+                        index.push_back(pattern != TilePlaces::kUniform
+                                            ? pattern | BrickVolume::kVoxels
+                                            : tile_.entryAt(x, y, z, places_.count.z));
+                    }
+                }
+        tile_.entries = {};
+        return index;
+    }
+
+private:
+    void codeBricks() {
+        std::vector<std::uint8_t> kinds;
+        std::vector<BrickCode> codes;
+        std::vector<std::uint32_t> byCuts;  // by pattern
+        bool isAllCoded = true;
+        for (const BrickPattern& pattern : tile_.patterns) {
+            auto code = codeBySides(pattern, {});
+            const PatternKind kind = !code                   ? PatternKind::Uncoded
+                                     : code->cells.size() > 2 ? PatternKind::Step
+                                                              : PatternKind::Coded;
+            kinds.push_back(static_cast<std::uint8_t>(kind));
+            isAllCoded = isAllCoded && kind == PatternKind::Coded;
+            byCuts.push_back(code ? static_cast<std::uint32_t>(codes.size()) : TileBoxes::kNone);
+            if (code) codes.push_back(std::move(*code));
         }
-        std::fill(isUsed.begin(), isUsed.end(), 0);
-        for (const std::uint32_t pattern : patternOf)
-            if (pattern != TilePlaces::kUniform) isUsed[pattern] = 1;
+        for (std::size_t place = 0; place < codeOf_.size(); ++place)
+            if (places_.patternOf[place] != TilePlaces::kUniform) codeOf_[place] = byCuts[places_.patternOf[place]];
+        if (!isAllCoded) {
+            TileCodes found = codeTile(places_, tile_.patterns, kinds);
+            tile_.planes = std::move(found.planes);
+            for (PlacedCode& placed : found.codes) {
+                codeOf_[placed.place] = static_cast<std::uint32_t>(codes.size());
+                codes.push_back(std::move(placed.code));
+            }
+        }
+        tile_.boxes = findCodeBoxes(places_, codeOf_, codes, tile_.planes);
     }
 
     std::uint32_t uniformPattern(Scalar scalar) {
-        const auto [place, isNew] =
-            uniform_.try_emplace(scalar, static_cast<std::uint32_t>(tile_.patterns.size()));
+        const auto [place, isNew] = uniform_.try_emplace(scalar, static_cast<std::uint32_t>(tile_.patterns.size()));
         if (isNew) tile_.patterns.push_back({{scalar}, std::vector<std::uint64_t>(8, 0)});
         return place->second;
     }
 
-    std::uint32_t brickNumber(std::uint32_t pattern, std::optional<BrickCode> code) {
-        const BrickPattern& own = tile_.patterns[pattern];
-        const std::uint64_t hash = hashOf(own, code);
-        const auto next = static_cast<std::uint32_t>(tile_.bricks.size());
-        const std::uint32_t known = numbering_.find(hash, next, [&](std::uint32_t other) {
-            return tile_.bricks[other].pattern == pattern && tile_.bricks[other].code == code;
-        });
-        if (known != Numbering::kNew) return known;
-        tile_.bricks.push_back({pattern, std::move(code), hash});
-        return next;
-    }
-
     TileBricks& tile_;
     TilePlaces places_;
+    std::vector<std::uint32_t> codeOf_;  // by place: a number of the codes, or kNone
     std::unordered_map<Scalar, std::uint32_t> uniform_;
-    Numbering numbering_;
 };
 
 // A box of bricks that are all uniform with one scalar.
@@ -329,7 +311,7 @@ public:
         for (std::int32_t z = 0; z < count_.z; ++z)
             for (std::int32_t y = 0; y < count_.y; ++y)
                 for (std::int32_t x = 0; x < count_.x; ++x, ++brick)
-                    if ((index_[brick] & kMixedBit) == 0 && boxOf_[brick] == kNone) addBoxAt({x, y, z});
+                    if ((index_[brick] & kAnyMixed) == 0 && boxOf_[brick] == kNone) addBoxAt({x, y, z});
     }
 
     [[nodiscard]] const std::vector<BrickBox>& boxes() const noexcept { return boxes_; }
@@ -410,76 +392,139 @@ private:
 // Joins the tiles' bricks, in tile order, into one volume.
 class BrickMerger {
 public:
-    explicit BrickMerger(BrickVolume& volume) : volume_(volume) {}
+    BrickMerger(BrickVolume& volume, std::int32_t tilesX) : volume_(volume), tilesX_(tilesX) {}
 
-    // Rewrites the tile's entries and bricks from its own numbers to the volume's.
-    void addTile(TileBricks& tile) {
-        const auto firstPlane = static_cast<std::uint32_t>(volume_.oblique_.size());
-        volume_.oblique_.insert(volume_.oblique_.end(), tile.planes.begin(), tile.planes.end());
-        std::vector<std::uint32_t> scalars, bricks;
-        for (const Scalar scalar : tile.scalars) scalars.push_back(scalarNumber(scalar));
-        for (TileBrick& brick : tile.bricks) {
-            if (brick.code)
-                for (std::uint32_t& plane : brick.code->plane)
-                    if (plane != BrickVolume::kNoPlane) plane += firstPlane;
-            bricks.push_back(brickNumber(brick, tile.patterns[brick.pattern]) | kMixedBit);
-        }
-        for (std::uint32_t& entry : tile.entries) {
-            if ((entry & kMixedBit) == 0) {
-                entry = scalars[entry];
-            } else {
-                const std::uint32_t brick = tile.brickOf[entry & ~kMixedBit];
-                entry = brick == TileBricks::kNone ? kMixedBit : bricks[brick];
-            }
-        }
-        for (TileBricks::Oblique& oblique : tile.oblique) oblique.brick = bricks[oblique.brick];
+    // Allocates the index; placeTile() and numberTile() fill it.
+    void begin(std::size_t tiles) {
+        const Vec3i count = volume_.brickCount_;
+        volume_.index_.resize(volume_.placeOf(0, 0, count.z));
+        numbers_.resize(tiles);
+    }
+    // The tile's own numbers, one a place. Tiles may be placed side by side.
+    void placeTile(std::size_t tile, const std::vector<std::uint32_t>& index) {
+        std::size_t place = 0;
+        forEachPlace(tile, [&](std::size_t brick) { volume_.index_[brick] = index[place++]; });
     }
 
-    void fillIndex(const std::vector<TileBricks>& tiles, std::int32_t tilesX, int threads) {
-        const Vec3i count = volume_.brickCount_;
-        const auto at = [&](std::int32_t x, std::int32_t y, std::int32_t z) {
-            return static_cast<std::size_t>(x) +
-                   static_cast<std::size_t>(count.x) *
-                       (static_cast<std::size_t>(y) + static_cast<std::size_t>(count.y) * static_cast<std::size_t>(z));
-        };
-        volume_.index_.resize(at(0, 0, count.z));
-        parallelFor(static_cast<std::size_t>(count.z), 8, threads, [&](std::size_t begin, std::size_t end) {
-            for (auto bz = static_cast<std::int32_t>(begin); bz < static_cast<std::int32_t>(end); ++bz)
-                for (std::int32_t by = 0; by < count.y; ++by)
-                    for (std::int32_t bx = 0; bx < count.x; ++bx)
-                        volume_.index_[at(bx, by, bz)] =
-                            tiles[static_cast<std::size_t>(bx / kBricksPerTile + tilesX * (by / kBricksPerTile))]
-                                .entryAt(bx % kBricksPerTile, by % kBricksPerTile, bz, count.z);
+    // Takes what the tile has found, and notes its numbers.
+    void addTile(std::size_t number, TileBricks& tile) {
+        Numbers& numbers = numbers_[number];
+        for (const Scalar scalar : tile.scalars) numbers.scalars.push_back(scalarNumber(scalar));
+        for (const BrickPattern& pattern : tile.patterns) numbers.patterns.push_back(brickNumber(pattern));
+        numbers.firstBox = static_cast<std::uint32_t>(codeBoxes_.size());
+        const auto firstPlane = static_cast<std::uint32_t>(volume_.oblique_.size());
+        const auto firstCode = static_cast<std::uint32_t>(volume_.codes_.size());
+        volume_.oblique_.insert(volume_.oblique_.end(), tile.planes.begin(), tile.planes.end());
+        for (const BoxCode& code : tile.boxes.codes) addCode(code, firstPlane);
+        const Vec3i first = firstBrick(number);
+        for (const CodeBox& found : tile.boxes.boxes)
+            codeBoxes_.push_back(boxOf(first + found.min, first + found.max, firstCode + found.code));
+        numbers.codedPatterns = std::move(tile.codedPatterns);
+        tile = {};
+    }
+
+    // The volume's numbers for the tile's.
+    void numberTile(std::size_t tile) {
+        const Numbers& numbers = numbers_[tile];
+        forEachPlace(tile, [&](std::size_t brick) {
+            std::uint32_t& entry = volume_.index_[brick];
+            if ((entry & BrickVolume::kCoded) != 0)
+                entry += numbers.firstBox;
+            else if ((entry & BrickVolume::kVoxels) != 0)
+                entry = numbers.patterns[entry & ~BrickVolume::kVoxels] | BrickVolume::kVoxels;
+            else
+                entry = numbers.scalars[entry];
         });
-        for (std::size_t n = 0; n < tiles.size(); ++n) {
-            const std::int32_t x = static_cast<std::int32_t>(n) % tilesX * kBricksPerTile,
-                               y = static_cast<std::int32_t>(n) / tilesX * kBricksPerTile;
-            const std::int32_t width = std::min(kBricksPerTile, count.x - x),
-                               height = std::min(kBricksPerTile, count.y - y);
-            for (const TileBricks::Oblique& oblique : tiles[n].oblique) {
-                const auto place = static_cast<std::int32_t>(oblique.place);
-                volume_.index_[at(x + place % width, y + place / width % height, place / (width * height))] =
-                    oblique.brick;
-            }
-        }
     }
 
     void takeBoxes(const BoxFinder& finder) {
-        for (const BrickBox& found : finder.boxes()) {
-            SameLabelBox box;
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto a = static_cast<std::size_t>(axis);
-                box.min[a] = static_cast<std::uint16_t>(found.min[axis] * 8);
-                box.max[a] = static_cast<std::uint16_t>(std::min(found.max[axis] * 8, volume_.dimension_[axis]));
-            }
-            box.scalar = scalars_[found.entry];
-            volume_.boxes_.push_back(box);
+        for (const BrickBox& found : finder.boxes())
+            volume_.boxes_.push_back(boxOf(found.min, found.max, scalars_[found.entry]));
+        volume_.uniformBoxes_ = volume_.boxes_.size();
+        volume_.boxes_.insert(volume_.boxes_.end(), codeBoxes_.begin(), codeBoxes_.end());
+        for (std::size_t brick = 0; brick < volume_.index_.size(); ++brick) {
+            std::uint32_t& entry = volume_.index_[brick];
+            if ((entry & BrickVolume::kCoded) != 0)
+                entry += static_cast<std::uint32_t>(volume_.uniformBoxes_);
+            else if (finder.boxOf()[brick] != BoxFinder::kNone)
+                entry = finder.boxOf()[brick];
         }
+    }
+
+    // Palette bricks of the coded bricks, by rank.
+    void rankCoded() {
+        const std::size_t words = volume_.index_.size() / 64 + 1;
+        volume_.codedBricks_.resize(words);
+        volume_.codedBefore_.resize(words);
         for (std::size_t brick = 0; brick < volume_.index_.size(); ++brick)
-            if (finder.boxOf()[brick] != BoxFinder::kNone) volume_.index_[brick] = finder.boxOf()[brick];
+            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.index_[brick] & BrickVolume::kCoded) != 0}
+                                                << (brick % 64);
+        std::uint32_t before = 0;
+        for (std::size_t word = 0; word < words; ++word) {
+            volume_.codedBefore_[word] = before;
+            before += static_cast<std::uint32_t>(std::popcount(volume_.codedBricks_[word]));
+        }
+        volume_.codedPatterns_.resize(before);
+        for (std::size_t tile = 0; tile < numbers_.size(); ++tile) {
+            const Numbers& numbers = numbers_[tile];
+            std::size_t next = 0;
+            forEachPlace(tile, [&](std::size_t brick) {
+                if ((volume_.index_[brick] & BrickVolume::kCoded) == 0) return;
+                const std::uint64_t below =
+                    volume_.codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
+                volume_.codedPatterns_[volume_.codedBefore_[brick / 64] +
+                                       static_cast<std::uint32_t>(std::popcount(below))] =
+                    numbers.patterns[numbers.codedPatterns[next++]];
+            });
+        }
     }
 
 private:
+    // The volume's numbers by the tile's.
+    struct Numbers {
+        std::vector<std::uint32_t> scalars, patterns, codedPatterns;
+        std::uint32_t firstBox = 0;
+    };
+
+    [[nodiscard]] Vec3i firstBrick(std::size_t tile) const noexcept {
+        return {static_cast<std::int32_t>(tile) % tilesX_ * kBricksPerTile,
+                static_cast<std::int32_t>(tile) / tilesX_ * kBricksPerTile, 0};
+    }
+    template <class Body>
+    void forEachPlace(std::size_t tile, const Body& body) const {
+        const Vec3i first = firstBrick(tile), count = volume_.brickCount_;
+        const std::int32_t endX = std::min(first.x + kBricksPerTile, count.x),
+                           endY = std::min(first.y + kBricksPerTile, count.y);
+        for (std::int32_t z = 0; z < count.z; ++z)
+            for (std::int32_t y = first.y; y < endY; ++y) {
+                std::size_t brick = volume_.placeOf(first.x, y, z);
+                for (std::int32_t x = first.x; x < endX; ++x) body(brick++);
+            }
+    }
+    [[nodiscard]] SameLabelBox boxOf(Vec3i min, Vec3i max, std::uint32_t value) const noexcept {
+        SameLabelBox box;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            box.min[a] = static_cast<std::uint16_t>(min[axis] * 8);
+            box.max[a] = static_cast<std::uint16_t>(std::min(max[axis] * 8, volume_.dimension_[axis]));
+        }
+        box.scalar = value;
+        return box;
+    }
+
+    void addCode(const BoxCode& code, std::uint32_t firstPlane) {
+        BrickVolume::BoxCoding coding;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (code.cut[axis] == BoxCode::kNoCut) continue;
+            coding.cut[axis] = static_cast<std::uint16_t>(code.cut[axis]);
+            coding.cutAxes = static_cast<std::uint16_t>(coding.cutAxes | (1u << axis));
+        }
+        for (std::size_t p = 0; p < 2; ++p)
+            if (code.plane[p] != BrickVolume::kNoPlane) coding.plane[p] = code.plane[p] + firstPlane;
+        coding.cells = offsetOf(code.cells, volume_.palettes_, palettes_);
+        volume_.codes_.push_back(coding);
+    }
+
     std::uint32_t scalarNumber(Scalar scalar) {
         const auto [place, isNew] = scalarNumbers_.try_emplace(scalar, static_cast<std::uint32_t>(scalars_.size()));
         if (isNew) {
@@ -489,32 +534,26 @@ private:
         return place->second;
     }
 
-    std::uint32_t brickNumber(const TileBrick& brick, const BrickPattern& pattern) {
+    std::uint32_t brickNumber(const BrickPattern& pattern) {
+        std::uint64_t hash = pattern.planes.size();
+        for (const std::uint64_t word : pattern.planes) hash = mix(hash, word);
+        for (const Scalar scalar : pattern.palette) hash = mix(hash, scalar);
         const auto next = static_cast<std::uint32_t>(volume_.bricks_.size());
-        BrickVolume::PaletteBrick added;
-        added.bits = static_cast<std::uint32_t>(pattern.planes.size() / 8) |
-                     static_cast<std::uint32_t>(pattern.palette.size()) << BrickVolume::PaletteBrick::kSizeShift;
-        if (brick.code) {
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                added.bits |= std::uint32_t{brick.code->cut[axis]}
-                              << (BrickVolume::PaletteBrick::kCutShift + 3 * static_cast<int>(axis));
-            added.bits |= BrickVolume::PaletteBrick::kCoded;
-            added.plane = brick.code->plane;
-        }
         const auto equals = [](const auto& wanted, const auto& stored, std::uint32_t first) {
             return std::equal(wanted.begin(), wanted.end(), stored.begin() + first);
         };
-        const std::uint32_t known = brickNumbers_.find(brick.hash, next, [&](std::uint32_t other) {
+        const std::uint32_t known = brickNumbers_.find(hash, next, [&](std::uint32_t other) {
             const BrickVolume::PaletteBrick& candidate = volume_.bricks_[other];
-            return candidate.bits == added.bits && candidate.plane == added.plane &&
+            return candidate.paletteSize == pattern.palette.size() &&
                    equals(pattern.palette, volume_.palettes_, candidate.palette) &&
-                   equals(pattern.planes, volume_.planes_, candidate.planes) &&
-                   (!brick.code || equals(brick.code->cells, volume_.palettes_, candidate.cells));
+                   equals(pattern.planes, volume_.planes_, candidate.planes);
         });
         if (known != Numbering::kNew) return known;
+        BrickVolume::PaletteBrick added;
         added.palette = offsetOf(pattern.palette, volume_.palettes_, palettes_);
         added.planes = offsetOf(pattern.planes, volume_.planes_, planeSets_);
-        if (brick.code) added.cells = offsetOf(brick.code->cells, volume_.palettes_, palettes_);
+        added.planeCount = static_cast<std::uint32_t>(pattern.planes.size() / 8);
+        added.paletteSize = static_cast<std::uint32_t>(pattern.palette.size());
         for (const Scalar scalar : pattern.palette)
             volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
         volume_.bricks_.push_back(added);
@@ -543,6 +582,9 @@ private:
     }
 
     BrickVolume& volume_;
+    std::int32_t tilesX_;
+    std::vector<Numbers> numbers_;  // by tile
+    std::vector<SameLabelBox> codeBoxes_;
     std::vector<Scalar> scalars_;
     std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
     Numbering brickNumbers_;
@@ -570,27 +612,34 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
     const std::span<const ColumnTile> tiles = columns.tiles();
     std::vector<TileBricks> tileBricks(tiles.size());
     const auto tilesX = static_cast<std::size_t>(columns.tilesX());
+    BrickMerger merger(volume, columns.tilesX());
+    merger.begin(tiles.size());
     parallelFor(tiles.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const auto x = static_cast<std::int32_t>(n % tilesX), y = static_cast<std::int32_t>(n / tilesX);
             const std::int32_t width = columns.tileWidth(x), height = columns.tileHeight(y);
             tileBricks[n] = TileBricker(tiles[n], width, height, volume.brickCount_.z).make();
-            BrickCoding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
-                        {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z})
-                .run(faces);
+            TileCoding coding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
+                              {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z});
+            merger.placeTile(n, coding.run(faces));
         }
     });
     std::uint64_t words = 0;
-    for (const TileBricks& tile : tileBricks)
-        for (const BrickPattern& pattern : tile.patterns) words += std::max(pattern.palette.size(), pattern.planes.size());
+    for (const TileBricks& tile : tileBricks) {
+        for (const BrickPattern& pattern : tile.patterns)
+            words += std::max(pattern.palette.size(), pattern.planes.size());
+        for (const BoxCode& code : tile.boxes.codes) words += code.cells.size();
+    }
     if (words > 0xFFFFFFFFu)
         return Error(Code::GridTooLarge, fmt::format("the mixed bricks hold {} words, over the limit of {}; choose a "
                                                      "coarser spacing or a coarser level of detail.",
                                                      words, 0xFFFFFFFFu));
-    BrickMerger merger(volume);
-    for (TileBricks& tile : tileBricks) merger.addTile(tile);
-    merger.fillIndex(tileBricks, columns.tilesX(), threads);
+    for (std::size_t n = 0; n < tileBricks.size(); ++n) merger.addTile(n, tileBricks[n]);
+    parallelFor(tiles.size(), 4, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) merger.numberTile(n);
+    });
     merger.takeBoxes(BoxFinder(volume.index_, volume.brickCount_));
+    merger.rankCoded();
     volume.index_.push_back(0);
     volume.palettes_.push_back(0);
     return volume;
@@ -598,9 +647,10 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
 
 std::size_t BrickVolume::sizeBytes() const noexcept {
     return index_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
+           codes_.size() * sizeof(BoxCoding) + oblique_.size() * sizeof(BrickPlane) +
            bricks_.size() * sizeof(PaletteBrick) + palettes_.size() * sizeof(Scalar) +
-           planes_.size() * sizeof(std::uint64_t) +
-           oblique_.size() * sizeof(BrickPlane);
+           planes_.size() * sizeof(std::uint64_t) + codedBricks_.size() * sizeof(std::uint64_t) +
+           codedBefore_.size() * sizeof(std::uint32_t) + codedPatterns_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace svt::volume

@@ -7,14 +7,16 @@
 ///       uniform  -> number of a same-label box: bounds in voxels and the scalar. All bricks of a box hold this one
 ///                   scalar, so a ray leaves the whole box in one step. Boxes may overlap. They are skipped by EQUAL
 ///                   LABEL, not by emptiness: a change of styles never rebuilds anything.
-///       mixed    -> number of a palette brick: its distinct scalars in order of first use, and the index of each voxel
+///       coded    -> number of a box with a code, see below
+///       voxels   -> number of a palette brick: its distinct scalars in order of first use, and the index of each voxel
 ///                   as bit planes. Plane p, word k, bit i + 8 j is bit p of the palette index of voxel (i, j, k), so a
 ///                   brick of two labels is 64 bytes and "which voxels hold palette entry e" is a few words' logic.
 ///
-/// Most mixed bricks are coded as well: by at most one cut across each axis, between two voxels, and at most two planes.
-/// The sides on which a point lies say its scalar, and they say it of all 512 samples as the bits do. So a ray crosses
-/// a brick in as many steps as it has labels, faces stay flat however near the eye, and normals are those of planes.
-/// What cuts and planes cannot say stays a matter of voxels.
+/// Most mixed bricks are coded: by at most one cut across each axis, between two voxels, and at most two planes. The
+/// sides on which a point lies say its scalar, and they say it of all 512 samples of a brick as its voxels do. Bricks
+/// that one code describes, with the uniform ones beside them, share a box, so a ray crosses a wall in as many steps as
+/// it meets labels, faces stay flat however near the eye, and normals are those of planes. What cuts and planes cannot
+/// say stays a matter of voxels. Coded bricks have palette bricks as well, for what asks for voxels.
 ///
 /// Palette bricks are stored once each, and so are their bit planes (walls repeat along their length).
 
@@ -23,6 +25,7 @@
 #include <svt/volume/column_volume.hpp>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -62,14 +65,16 @@ public:
     /// What the index says of one brick.
     class Entry {
     public:
-        [[nodiscard]] bool isMixed() const noexcept { return (value_ & kMixed) != 0; }
+        [[nodiscard]] bool isMixed() const noexcept { return (value_ & (kCoded | kVoxels)) != 0; }
+        [[nodiscard]] bool isCoded() const noexcept { return (value_ & kCoded) != 0; }
 
     private:
         friend class BrickVolume;
-        static constexpr std::uint32_t kMixed = 0x80000000u;
-        explicit Entry(std::uint32_t value) noexcept : value_(value) {}
-        std::uint32_t value_;
+        Entry(std::uint32_t value, std::uint32_t pattern) noexcept : value_(value), pattern_(pattern) {}
+        std::uint32_t value_, pattern_;
     };
+    /// Bits of the index: the rest of an entry with kVoxels is a palette brick, without it a box.
+    static constexpr std::uint32_t kCoded = 0x40000000u, kVoxels = 0x80000000u;
 
     BrickVolume() = default;
 
@@ -91,10 +96,9 @@ public:
 
     /// Entry of brick (bx, by, bz), which must lie inside.
     [[nodiscard]] Entry entry(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
-        return Entry(index_[static_cast<std::size_t>(bx) +
-                            static_cast<std::size_t>(brickCount_.x) *
-                                (static_cast<std::size_t>(by) +
-                                 static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz))]);
+        const std::size_t brick = placeOf(bx, by, bz);
+        const std::uint32_t value = index_[brick];
+        return {value, (value & kCoded) != 0 ? patternOf(brick) : value & ~kVoxels};
     }
     /// Same-label box of a brick that is not mixed.
     [[nodiscard]] const SameLabelBox& box(Entry uniform) const noexcept { return boxes_[uniform.value_]; }
@@ -120,30 +124,32 @@ public:
         std::uint32_t planeCount_ = 0;
     };
     [[nodiscard]] MixedBrick mixedBrick(Entry mixed) const noexcept {
-        const PaletteBrick& brick = bricks_[mixed.value_ & ~Entry::kMixed];
+        const PaletteBrick& brick = bricks_[mixed.pattern_];
         MixedBrick view;
         view.words_ = planes_.data() + brick.planes;
         view.palette_ = palettes_.data() + brick.palette;
-        view.planeCount_ = brick.planeCount();
+        view.planeCount_ = brick.planeCount;
         return view;
     }
 
-    /// How cuts and planes stand for the voxels of a brick.
-    struct Coding {
-        std::array<std::uint8_t, 3> cut{};                          ///< voxels below the cut across an axis, 1..7; 0: none
-        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};     ///< indices of oblique()
-        const Scalar* cells = nullptr;  ///< scalars by side: one bit for each cut (x, y, z) and plane that there is, in
-                                        ///< this order from the lowest; 1 is beyond a cut, or a plane's positive side
+    /// How cuts and planes stand for the voxels of a box. 24 bytes.
+    struct BoxCoding {
+        std::array<std::uint16_t, 3> cut{};  ///< voxels of the volume below the cut across each axis that has one
+        std::uint16_t cutAxes = 0;           ///< bit a: there is a cut across axis a
+        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};  ///< indices of oblique()
+        /// First of the scalars by side, in palettes: one bit for each cut (x, y, z) and plane that there is, in this
+        /// order from the lowest; 1 is beyond a cut, or a plane's positive side.
+        std::uint32_t cells = 0;
+        std::uint32_t unused = 0;
+        [[nodiscard]] bool hasCut(int axis) const noexcept { return ((cutAxes >> axis) & 1u) != 0; }
+        friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
     };
-    [[nodiscard]] bool isCoded(Entry mixed) const noexcept { return bricks_[mixed.value_ & ~Entry::kMixed].isCoded(); }
-    /// Coding of a mixed brick that isCoded().
-    [[nodiscard]] Coding coding(Entry coded) const noexcept {
-        const PaletteBrick& brick = bricks_[coded.value_ & ~Entry::kMixed];
-        Coding view;
-        for (int axis = 0; axis < 3; ++axis) view.cut[static_cast<std::size_t>(axis)] = brick.cut(axis);
-        view.plane = brick.plane;
-        view.cells = palettes_.data() + brick.cells;
-        return view;
+    /// Box of a coded brick.
+    [[nodiscard]] const SameLabelBox& codedBox(Entry coded) const noexcept { return boxes_[coded.value_ & ~kCoded]; }
+    [[nodiscard]] const BoxCoding& coding(Entry coded) const noexcept { return codes_[codedBox(coded).scalar]; }
+    /// Scalar on the sides that `cell` says, see BoxCoding::cells.
+    [[nodiscard]] Scalar cellScalar(const BoxCoding& coding, std::size_t cell) const noexcept {
+        return palettes_[coding.cells + cell];
     }
     /// The planes of all bricks.
     [[nodiscard]] std::span<const BrickPlane> oblique() const noexcept { return oblique_; }
@@ -169,8 +175,8 @@ public:
             mask.flip_ = accepts(box(brick).scalar) ? ~std::uint64_t{0} : 0;
             return mask;
         }
-        const PaletteBrick& mixed = bricks_[brick.value_ & ~Entry::kMixed];
-        if (mixed.paletteSize() == 2) {  // most are
+        const PaletteBrick& mixed = bricks_[brick.pattern_];
+        if (mixed.paletteSize == 2) {  // most are
             const bool first = accepts(palettes_[mixed.palette]), second = accepts(palettes_[mixed.palette + 1]);
             if (first != second) mask.words_ = planes_.data() + mixed.planes;
             mask.flip_ = first ? ~std::uint64_t{0} : 0;
@@ -184,43 +190,38 @@ public:
     /// Distinct palette bricks, in the order of their numbers.
     [[nodiscard]] std::size_t paletteBrickCount() const noexcept { return bricks_.size(); }
     /// Number of a mixed brick's palette brick.
-    [[nodiscard]] std::size_t paletteBrickNumber(Entry mixed) const noexcept { return mixed.value_ & ~Entry::kMixed; }
+    [[nodiscard]] std::size_t paletteBrickNumber(Entry mixed) const noexcept { return mixed.pattern_; }
     /// The entry of any brick that shows palette brick `number`.
     [[nodiscard]] static Entry paletteBrickEntry(std::size_t number) noexcept {
-        return Entry(static_cast<std::uint32_t>(number) | Entry::kMixed);
+        return {static_cast<std::uint32_t>(number) | kVoxels, static_cast<std::uint32_t>(number)};
     }
     /// All same-label boxes; together with the mixed bricks they cover the volume. They may overlap.
-    [[nodiscard]] std::span<const SameLabelBox> boxes() const noexcept { return boxes_; }
-    /// A mixed brick as it is stored.
+    [[nodiscard]] std::span<const SameLabelBox> boxes() const noexcept {
+        return std::span(boxes_).first(uniformBoxes_);
+    }
+    /// A palette brick as it is stored.
     struct PaletteBrick {
-        std::uint32_t palette = 0;  ///< first of its scalars in palettes
-        std::uint32_t planes = 0;   ///< first of its words in words, 8 a bit plane
-        std::uint32_t bits = 0;     ///< 4 bits: number of bit planes, 1..9; 10: palette size; 3 for each cut; 1: is coded
-        std::uint32_t cells = 0;    ///< first of its coding's cells in palettes
-        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};  ///< in oblique
-
-        static constexpr int kSizeShift = 4, kCutShift = 14;
-        static constexpr std::uint32_t kCoded = 1u << 23;
-        [[nodiscard]] std::uint32_t planeCount() const noexcept { return bits & 15u; }
-        [[nodiscard]] std::uint32_t paletteSize() const noexcept { return (bits >> kSizeShift) & 1023u; }
-        [[nodiscard]] std::uint8_t cut(int axis) const noexcept {
-            return static_cast<std::uint8_t>((bits >> (kCutShift + 3 * axis)) & 7u);
-        }
-        [[nodiscard]] bool isCoded() const noexcept { return (bits & kCoded) != 0; }
+        std::uint32_t palette = 0;     ///< first of its scalars in palettes
+        std::uint32_t planes = 0;      ///< first of its words in words, 8 a bit plane
+        std::uint32_t planeCount = 0;  ///< 1..9
+        std::uint32_t paletteSize = 0;
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
-    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of
-    /// `index` is a box, or, with the highest bit, a brick. Behind the last element of `index` and of `palettes` stands
-    /// one more, so that two may be read at once anywhere.
+    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. Boxes of coded
+    /// bricks stand behind the same-label boxes, with the number of a code for the scalar. Behind the last element of
+    /// `index` and of `palettes` stands one more, so that two may be read at once anywhere.
     struct Arrays {
         std::span<const std::uint32_t> index;
         std::span<const SameLabelBox> boxes;
+        std::span<const BoxCoding> codes;
         std::span<const PaletteBrick> bricks;
         std::span<const Scalar> palettes;
         std::span<const std::uint64_t> words;
         std::span<const BrickPlane> oblique;
     };
-    [[nodiscard]] Arrays arrays() const noexcept { return {index_, boxes_, bricks_, palettes_, planes_, oblique_}; }
+    [[nodiscard]] Arrays arrays() const noexcept {
+        return {index_, boxes_, codes_, bricks_, palettes_, planes_, oblique_};
+    }
 
     /// 1 + the largest scalar.
     [[nodiscard]] std::uint64_t scalarCount() const noexcept { return scalarCount_; }
@@ -239,11 +240,11 @@ private:
     void putTogether(const PaletteBrick& brick, const Accepts& accepts, MaskWords& mask) const {
         const std::uint64_t* words = planes_.data() + brick.planes;
         mask.fill(0);
-        for (std::uint32_t e = 0; e < brick.paletteSize(); ++e) {
+        for (std::uint32_t e = 0; e < brick.paletteSize; ++e) {
             if (!accepts(palettes_[brick.palette + e])) continue;
             for (std::size_t k = 0; k < 8; ++k) {
                 std::uint64_t equal = ~std::uint64_t{0};
-                for (std::uint32_t plane = 0; plane < brick.planeCount(); ++plane) {
+                for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
                     const std::uint64_t word = words[8 * plane + k];
                     equal &= ((e >> plane) & 1u) != 0 ? word : ~word;
                 }
@@ -252,15 +253,31 @@ private:
         }
     }
 
+    [[nodiscard]] std::size_t placeOf(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
+        return static_cast<std::size_t>(bx) +
+               static_cast<std::size_t>(brickCount_.x) *
+                   (static_cast<std::size_t>(by) + static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz));
+    }
+    // Palette brick of a coded brick: found by its rank among them.
+    [[nodiscard]] std::uint32_t patternOf(std::size_t brick) const noexcept {
+        const std::uint64_t before = codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
+        return codedPatterns_[codedBefore_[brick / 64] + static_cast<std::uint32_t>(std::popcount(before))];
+    }
+
     Vec3i dimension_{};
     Vec3i brickCount_{};
     std::uint64_t scalarCount_ = 0;
     std::vector<std::uint32_t> index_;
+    std::size_t uniformBoxes_ = 0;
     std::vector<SameLabelBox> boxes_;
+    std::vector<BoxCoding> codes_;
+    std::vector<BrickPlane> oblique_;
     std::vector<PaletteBrick> bricks_;
     std::vector<Scalar> palettes_;
     std::vector<std::uint64_t> planes_;
-    std::vector<BrickPlane> oblique_;
+    std::vector<std::uint64_t> codedBricks_;    // a bit a brick
+    std::vector<std::uint32_t> codedBefore_;    // coded bricks before each word of codedBricks_
+    std::vector<std::uint32_t> codedPatterns_;  // palette bricks of the coded bricks, in order
 };
 
 }  // namespace svt::volume
