@@ -318,13 +318,18 @@ private:
 
     // ------------------------------------------------------------------------------------------------ what
 
+    static HWY_INLINE M isBelow(VI entry, std::size_t end) {
+        return toDoubles(hn::Lt(entry, hn::Set(DI(), static_cast<std::int64_t>(end))));
+    }
     HWY_INLINE VI entryAt(const V3& brick, M lanes) const {
         const D d;
         const V place =
             hn::Add(brick.x, hn::Mul(hn::Set(d, scene_.bricksX),
                                      hn::Add(brick.y, hn::Mul(hn::Set(d, scene_.bricksY), brick.z))));
-        const VI offset = hn::ShiftLeft<2>(toInt(hn::IfThenElseZero(lanes, place)));
-        return lowHalf(gatherBytes(scene_.volume.index.data(), offset));
+        const VI brick64 = toInt(hn::IfThenElseZero(lanes, place));
+        if (scene_.volume.narrow.empty())
+            return lowHalf(gatherBytes(scene_.volume.wide.data(), hn::ShiftLeft<2>(brick64)));
+        return bitsOf<0, 16>(gatherBytes(scene_.volume.narrow.data(), hn::ShiftLeft<1>(brick64)));
     }
 
     HWY_INLINE Segment segmentOf(M active) const {
@@ -334,7 +339,7 @@ private:
         const V3 brick{hn::Floor(hn::Mul(cell_.x, eighth)), hn::Floor(hn::Mul(cell_.y, eighth)),
                        hn::Floor(hn::Mul(cell_.z, eighth))};
         const VI entry = entryAt(brick, active);
-        const M voxels = hn::And(active, toDoubles(isSet(entry, volume::BrickVolume::kVoxels)));
+        const M voxels = andNot(isBelow(entry, scene_.volume.boxes.size()), active);
         const M boxes = andNot(voxels, active);
         Segment segment;
         segment.label = hn::Zero(di);
@@ -345,15 +350,14 @@ private:
         Side oblique[2];
         bool hasOblique = false;
         if (any(boxes)) {
-            const VI offset = hn::IfThenElseZero(
-                toInts(boxes), hn::ShiftLeft<4>(hn::And(entry, hn::Set(di, volume::BrickVolume::kCoded - 1))));
+            const VI offset = hn::IfThenElseZero(toInts(boxes), hn::ShiftLeft<4>(entry));
             const VI low = gatherBytes(scene_.volume.boxes.data(), offset);
             const VI high = gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, offset);
             segment.label = shiftRight<32>(high);
             segment.far.x = farOf(x_, bitsOf<0, 16>(low), shiftRight<48>(low));
             segment.far.y = farOf(y_, bitsOf<16, 16>(low), bitsOf<0, 16>(high));
             segment.far.z = farOf(z_, bitsOf<32, 16>(low), bitsOf<16, 16>(high));
-            const M coded = hn::And(boxes, toDoubles(isSet(entry, volume::BrickVolume::kCoded)));
+            const M coded = andNot(isBelow(entry, scene_.volume.uniformBoxes), boxes);
             if (any(coded)) hasOblique = readCoded(coded, segment, oblique);
         }
         if (any(voxels)) readVoxels(entry, voxels, brick, segment);
@@ -419,7 +423,7 @@ private:
         };
         segment.far = {farVoxel(x_, cell_.x, segment.far.x), farVoxel(y_, cell_.y, segment.far.y),
                        farVoxel(z_, cell_.z, segment.far.z)};
-        const VI number = hn::And(entry, hn::Set(di, volume::BrickVolume::kVoxels - 1));
+        const VI number = hn::Sub(entry, hn::Set(di, static_cast<std::int64_t>(scene_.volume.boxes.size())));
         const VI offset = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<4>(number));
         const auto* bricks = reinterpret_cast<const std::byte*>(scene_.volume.bricks.data());
         const VI first = gatherBytes(bricks, offset);
@@ -715,10 +719,10 @@ private:
         };
         const VI entry = entryAt({brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)},
                                  lanes);
-        const M coded = hn::And(lanes, toDoubles(isSet(entry, volume::BrickVolume::kCoded)));
+        const M isBox = hn::And(lanes, isBelow(entry, scene_.volume.boxes.size()));
+        const M coded = andNot(isBelow(entry, scene_.volume.uniformBoxes), isBox);
         if (!any(coded)) return hn::Set(di, -1);
-        const VI box = hn::IfThenElseZero(
-            toInts(coded), hn::ShiftLeft<4>(hn::And(entry, hn::Set(di, volume::BrickVolume::kCoded - 1))));
+        const VI box = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<4>(entry));
         const VI code = hn::IfThenElseZero(
             toInts(coded),
             shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, box)));

@@ -276,12 +276,12 @@ private:
     // Places beside `at`: faces first, then edges, then corners.
     template <class Body>
     void forEachNeighbor(Vec3i at, const Body& body) const {
-        for (const Vec3i away : kNeighbors) {
-            const Vec3i other = at + away;
-            if (other.x >= 0 && other.y >= 0 && other.z >= 0 && other.x < places_.count.x &&
-                other.y < places_.count.y && other.z < places_.count.z)
-                body(other);
-        }
+        for (const Vec3i away : kNeighbors)
+            if (isInside(at + away)) body(at + away);
+    }
+    [[nodiscard]] bool isInside(Vec3i at) const noexcept {
+        return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < places_.count.x && at.y < places_.count.y &&
+               at.z < places_.count.z;
     }
     [[nodiscard]] std::size_t place(Vec3i at) const noexcept { return places_.at(at.x, at.y, at.z); }
     [[nodiscard]] bool isMixed(Vec3i at) const noexcept {
@@ -311,22 +311,23 @@ private:
 
     // The side of each sample; nothing where one lies too near.
     std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
-        const Vec3d first = corner(at) + Vec3d{0.5, 0.5, 0.5};
-        const double base = valueAt(plane, first);
-        double least = 1;
+        const Vec3d n = plane.normal;
+        const double base = valueAt(plane, corner(at) + Vec3d{0.5, 0.5, 0.5});
+        // In a row along x the sides change once; only there can a sample be near.
+        const double inverse = n.x != 0 ? -1 / n.x : 0;
         SideMask mask{};
         for (int k = 0; k < 8; ++k)
             for (int j = 0; j < 8; ++j) {
-                const double row = base + plane.normal.y * j + plane.normal.z * k;
-                std::uint64_t bits = 0;
-                for (int i = 0; i < 8; ++i) {
-                    const double value = row + plane.normal.x * i;
-                    bits |= static_cast<std::uint64_t>(value > 0) << i;
-                    least = std::min(least, std::abs(value));
-                }
-                mask[std::size_t(k)] |= bits << (8 * j);
+                const double row = base + n.y * j + n.z * k;
+                const int change = static_cast<int>(std::clamp(row * inverse, -1.0, 7.0) + 1);  // 0..8
+                const int before = std::max(change - 1, 0), after = std::min(change, 7);
+                const double low = row + n.x * before, high = row + n.x * after;
+                if (std::min(std::abs(low), std::abs(high)) < kMargin) return std::nullopt;
+                // The side of the samples before the change, and of those from it on.
+                const std::uint64_t first = low > 0 ? 0xFF : 0, rest = high > 0 ? 0xFF : 0;
+                const std::uint64_t from = (0xFFull << change) & 0xFF;
+                mask[std::size_t(k)] |= ((first & ~from) | (rest & from)) << (8 * j);
             }
-        if (least < kMargin) return std::nullopt;
         return mask;
     }
 
@@ -443,7 +444,8 @@ private:
             for (const std::uint32_t number : code->plane) {
                 if (number == BrickVolume::kNoPlane || masks_.size() == kMostAround) continue;
                 const BrickPlane& plane = result_.planes[number];
-                if (std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end()) continue;
+                if (!cutsBox(plane, at) || std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end())
+                    continue;
                 const auto mask = sideMask(plane, at);
                 if (!mask || isTrivial(*mask) || std::find(masks_.begin(), masks_.end(), *mask) != masks_.end())
                     continue;
@@ -487,15 +489,16 @@ private:
             std::size_t faces;
         };
         std::vector<Pair> pairs;
-        for (const Face& face : facesAt(at)) {
-            const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
-                return pair.axis == face.axis && pair.low == face.low && pair.high == face.high;
-            });
-            if (known != pairs.end())
-                ++known->faces;
-            else
-                pairs.push_back({face.axis, face.low, face.high, 1});
-        }
+        for (int axis = 0; axis < 3; ++axis)
+            for (const Face& face : facesAt(at)[std::size_t(axis)]) {
+                const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+                    return pair.axis == axis && pair.low == face.low && pair.high == face.high;
+                });
+                if (known != pairs.end())
+                    ++known->faces;
+                else
+                    pairs.push_back({axis, face.low, face.high, 1});
+            }
         std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.faces > q.faces; });
         std::size_t added = 0;
         for (const Pair& pair : pairs) {
@@ -514,22 +517,23 @@ private:
 
     std::optional<Slope> fitFaces(Vec3i at, int axis, Scalar low, Scalar high) {
         std::optional<Slope> slope;
-        for (const double tolerance : {1e9, 1.25, 0.8}) {
+        for (const double tolerance : {1e9, 1.0}) {
             SlopeFit sums;
             const auto add = [&](Vec3i other) {
                 const Vec3i away = (other - at) * 8;
                 const int p0 = away[kAcross[std::size_t(axis)][0]], q0 = away[kAcross[std::size_t(axis)][1]];
-                for (const Face& face : facesAt(other)) {
-                    if (face.axis != axis || face.low != low || face.high != high) continue;
+                for (const Face& face : facesAt(other)[std::size_t(axis)]) {
+                    if (face.low != low || face.high != high) continue;
                     const double x = p0 + face.p + 0.5, y = q0 + face.q + 0.5, z = away[axis] + face.height;
                     if (!slope || std::abs(z - slope->at(x, y)) <= tolerance) sums.add(x, y, z);
                 }
             };
             add(at);
             if (slope)
-                forEachNeighbor(at, [&](Vec3i other) {
-                    if (isMixed(other)) add(other);
-                });
+                for (std::size_t n = 0; n < 6; ++n) {  // over the faces
+                    const Vec3i other = at + kNeighbors[n];
+                    if (isInside(other) && isMixed(other)) add(other);
+                }
             const auto better = sums.solve();
             if (!better) return slope;
             slope = better;
@@ -539,10 +543,11 @@ private:
 
     // A face between two voxels: over (p, q), `height` voxels up, `low` below and `high` above.
     struct Face {
-        std::uint8_t axis, p, q, height;
+        std::uint8_t p, q, height;
         Scalar low, high;
     };
-    const std::vector<Face>& facesAt(Vec3i at) {
+    using Faces = std::array<std::vector<Face>, 3>;  // by axis
+    const Faces& facesAt(Vec3i at) {
         auto& faces = faces_[places_.patternOf[place(at)]];
         if (faces) return *faces;
         faces.emplace();
@@ -560,9 +565,9 @@ private:
                     for (std::size_t h = 1; h < 8; ++h) {
                         const std::size_t above = p * stepP + q * stepQ + h * step;
                         if (index[above] != index[above - step])
-                            faces->push_back({static_cast<std::uint8_t>(axis), static_cast<std::uint8_t>(p),
-                                              static_cast<std::uint8_t>(q), static_cast<std::uint8_t>(h),
-                                              pattern.palette[index[above - step]], pattern.palette[index[above]]});
+                            (*faces)[std::size_t(axis)].push_back(
+                                {static_cast<std::uint8_t>(p), static_cast<std::uint8_t>(q), static_cast<std::uint8_t>(h),
+                                 pattern.palette[index[above - step]], pattern.palette[index[above]]});
                     }
         }
         return *faces;
@@ -610,30 +615,28 @@ private:
     }
 
     void codeRims() {
-        std::vector<PlacedCode> rims;
-        forEachPlace([&](Vec3i at) {
-            if (isMixed(at)) return;
-            const Scalar own = places_.scalarOf[place(at)];
-            bool isDone = false;
-            forEachNeighbor(at, [&](Vec3i other) {
-                const BrickCode* code = codeAt(other);
-                if (isDone || code == nullptr || code->cells.size() != 2) return;
-                const BrickPlane& plane = result_.planes[code->plane[0]];
-                if (!cutsBox(plane, at)) return;
+        const std::size_t count = result_.codes.size();
+        for (std::size_t n = 0; n < count; ++n) {
+            if (result_.codes[n].code.cells.size() != 2) continue;
+            const BrickCode code = result_.codes[n].code;
+            const BrickPlane& plane = result_.planes[code.plane[0]];
+            const auto place = static_cast<std::int32_t>(result_.codes[n].place);
+            const Vec3i from{place % places_.count.x, place / places_.count.x % places_.count.y,
+                             place / (places_.count.x * places_.count.y)};
+            forEachNeighbor(from, [&](Vec3i at) {
+                if (isMixed(at) || codeAt(at) != nullptr || !cutsBox(plane, at)) return;
                 const auto mask = sideMask(plane, at);
-                if (!mask || !isTrivial(*mask) || code->cells[(*mask)[0] != 0 ? 1 : 0] != own) return;
-                rims.push_back({static_cast<std::uint32_t>(place(at)), *code});
-                isDone = true;
+                if (mask && isTrivial(*mask) && code.cells[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
+                    setCode(at, code);
             });
-        });
-        result_.codes.insert(result_.codes.end(), rims.begin(), rims.end());
+        }
     }
 
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& isCoded_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
-    std::vector<std::optional<std::vector<Face>>> faces_;  // by pattern
+    std::vector<std::optional<Faces>> faces_;  // by pattern
     std::vector<std::uint32_t> codeOf_;
     std::vector<BrickPlane> candidates_;
     std::vector<SideMask> masks_;

@@ -13,7 +13,9 @@ namespace svt::volume {
 namespace {
 
 constexpr std::uint32_t kMixedBit = 0x80000000u;
-constexpr std::uint32_t kAnyMixed = BrickVolume::kCoded | BrickVolume::kVoxels;
+// Kinds of entries while bricks are made: the rest is a box of coded bricks, or a palette brick.
+constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
+constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
 
 std::uint64_t mix(std::uint64_t hash, std::uint64_t value) noexcept {
@@ -238,12 +240,12 @@ public:
                 for (std::int32_t x = 0; x < places_.count.x; ++x, ++place) {
                     const std::uint32_t pattern = places_.patternOf[place];
                     if (codeOf_[place] != TileBoxes::kNone) {
-                        index.push_back(tile_.boxes.boxOf[place] | BrickVolume::kCoded);
+                        index.push_back(tile_.boxes.boxOf[place] | kCodedBit);
                         tile_.codedPatterns.push_back(
                             pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[place]));
                     } else {
                         index.push_back(pattern != TilePlaces::kUniform
-                                            ? pattern | BrickVolume::kVoxels
+                                            ? pattern | kVoxelsBit
                                             : tile_.entryAt(x, y, z, places_.count.z));
                     }
                 }
@@ -397,13 +399,13 @@ public:
     // Allocates the index; placeTile() and numberTile() fill it.
     void begin(std::size_t tiles) {
         const Vec3i count = volume_.brickCount_;
-        volume_.index_.resize(volume_.placeOf(0, 0, count.z));
+        volume_.wide_.resize(volume_.placeOf(0, 0, count.z));
         numbers_.resize(tiles);
     }
     // The tile's own numbers, one a place. Tiles may be placed side by side.
     void placeTile(std::size_t tile, const std::vector<std::uint32_t>& index) {
         std::size_t place = 0;
-        forEachPlace(tile, [&](std::size_t brick) { volume_.index_[brick] = index[place++]; });
+        forEachPlace(tile, [&](std::size_t brick) { volume_.wide_[brick] = index[place++]; });
     }
 
     // Takes what the tile has found, and notes its numbers.
@@ -427,11 +429,11 @@ public:
     void numberTile(std::size_t tile) {
         const Numbers& numbers = numbers_[tile];
         forEachPlace(tile, [&](std::size_t brick) {
-            std::uint32_t& entry = volume_.index_[brick];
-            if ((entry & BrickVolume::kCoded) != 0)
+            std::uint32_t& entry = volume_.wide_[brick];
+            if ((entry & kCodedBit) != 0)
                 entry += numbers.firstBox;
-            else if ((entry & BrickVolume::kVoxels) != 0)
-                entry = numbers.patterns[entry & ~BrickVolume::kVoxels] | BrickVolume::kVoxels;
+            else if ((entry & kVoxelsBit) != 0)
+                entry = numbers.patterns[entry & ~kVoxelsBit] | kVoxelsBit;
             else
                 entry = numbers.scalars[entry];
         });
@@ -442,22 +444,41 @@ public:
             volume_.boxes_.push_back(boxOf(found.min, found.max, scalars_[found.entry]));
         volume_.uniformBoxes_ = volume_.boxes_.size();
         volume_.boxes_.insert(volume_.boxes_.end(), codeBoxes_.begin(), codeBoxes_.end());
-        for (std::size_t brick = 0; brick < volume_.index_.size(); ++brick) {
-            std::uint32_t& entry = volume_.index_[brick];
-            if ((entry & BrickVolume::kCoded) != 0)
-                entry += static_cast<std::uint32_t>(volume_.uniformBoxes_);
-            else if (finder.boxOf()[brick] != BoxFinder::kNone)
-                entry = finder.boxOf()[brick];
+        for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick) {
+            std::uint32_t& entry = volume_.wide_[brick];
+            if ((entry & kAnyMixed) == 0) entry = finder.boxOf()[brick];
         }
+    }
+
+    // The index as it is read.
+    void finishIndex() {
+        const auto uniform = static_cast<std::uint32_t>(volume_.uniformBoxes_);
+        const auto boxes = static_cast<std::uint32_t>(volume_.boxes_.size());
+        const auto finished = [&](std::uint32_t entry) {
+            if ((entry & kCodedBit) != 0) return (entry & ~kCodedBit) + uniform;
+            if ((entry & kVoxelsBit) != 0) return (entry & ~kVoxelsBit) + boxes;
+            return entry;
+        };
+        if (boxes + volume_.bricks_.size() <= 65536) {
+            volume_.narrow_.reserve(volume_.wide_.size() + 4);
+            for (const std::uint32_t entry : volume_.wide_)
+                volume_.narrow_.push_back(static_cast<std::uint16_t>(finished(entry)));
+            volume_.narrow_.insert(volume_.narrow_.end(), 4, 0);
+            volume_.wide_ = {};
+        } else {
+            for (std::uint32_t& entry : volume_.wide_) entry = finished(entry);
+            volume_.wide_.insert(volume_.wide_.end(), 2, 0);
+        }
+        volume_.palettes_.insert(volume_.palettes_.end(), 2, 0);
     }
 
     // Palette bricks of the coded bricks, by rank.
     void rankCoded() {
-        const std::size_t words = volume_.index_.size() / 64 + 1;
+        const std::size_t words = volume_.wide_.size() / 64 + 1;
         volume_.codedBricks_.resize(words);
         volume_.codedBefore_.resize(words);
-        for (std::size_t brick = 0; brick < volume_.index_.size(); ++brick)
-            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.index_[brick] & BrickVolume::kCoded) != 0}
+        for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick)
+            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0}
                                                 << (brick % 64);
         std::uint32_t before = 0;
         for (std::size_t word = 0; word < words; ++word) {
@@ -469,7 +490,7 @@ public:
             const Numbers& numbers = numbers_[tile];
             std::size_t next = 0;
             forEachPlace(tile, [&](std::size_t brick) {
-                if ((volume_.index_[brick] & BrickVolume::kCoded) == 0) return;
+                if ((volume_.wide_[brick] & kCodedBit) == 0) return;
                 const std::uint64_t below =
                     volume_.codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
                 volume_.codedPatterns_[volume_.codedBefore_[brick / 64] +
@@ -638,15 +659,14 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
     parallelFor(tiles.size(), 4, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) merger.numberTile(n);
     });
-    merger.takeBoxes(BoxFinder(volume.index_, volume.brickCount_));
+    merger.takeBoxes(BoxFinder(volume.wide_, volume.brickCount_));
     merger.rankCoded();
-    volume.index_.push_back(0);
-    volume.palettes_.push_back(0);
+    merger.finishIndex();
     return volume;
 }
 
 std::size_t BrickVolume::sizeBytes() const noexcept {
-    return index_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
+    return narrow_.size() * sizeof(std::uint16_t) + wide_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
            codes_.size() * sizeof(BoxCoding) + oblique_.size() * sizeof(BrickPlane) +
            bricks_.size() * sizeof(PaletteBrick) + palettes_.size() * sizeof(Scalar) +
            planes_.size() * sizeof(std::uint64_t) + codedBricks_.size() * sizeof(std::uint64_t) +

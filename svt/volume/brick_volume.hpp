@@ -3,7 +3,7 @@
 /// The form a label volume has while rays go through it: a flat index of 8 x 8 x 8 bricks. Built from
 /// the columns in milliseconds, never through a dense array.
 ///
-///     index[bx + nbx * (by + nby * bz)]   one entry a brick:
+///     index[bx + nbx * (by + nby * bz)]   one entry a brick, of 16 bits where they are enough, else 32:
 ///       uniform  -> number of a same-label box: bounds in voxels and the scalar. All bricks of a box hold this one
 ///                   scalar, so a ray leaves the whole box in one step. Boxes may overlap. They are skipped by EQUAL
 ///                   LABEL, not by emptiness: a change of styles never rebuilds anything.
@@ -70,11 +70,10 @@ public:
 
     private:
         friend class BrickVolume;
+        static constexpr std::uint32_t kCoded = 0x40000000u, kVoxels = 0x80000000u;
         Entry(std::uint32_t value, std::uint32_t pattern) noexcept : value_(value), pattern_(pattern) {}
         std::uint32_t value_, pattern_;
     };
-    /// Bits of the index: the rest of an entry with kVoxels is a palette brick, without it a box.
-    static constexpr std::uint32_t kCoded = 0x40000000u, kVoxels = 0x80000000u;
 
     BrickVolume() = default;
 
@@ -97,8 +96,11 @@ public:
     /// Entry of brick (bx, by, bz), which must lie inside.
     [[nodiscard]] Entry entry(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
         const std::size_t brick = placeOf(bx, by, bz);
-        const std::uint32_t value = index_[brick];
-        return {value, (value & kCoded) != 0 ? patternOf(brick) : value & ~kVoxels};
+        const std::uint32_t value = narrow_.empty() ? wide_[brick] : narrow_[brick];
+        if (value < uniformBoxes_) return {value, 0};
+        if (value < boxes_.size()) return {value | Entry::kCoded, patternOf(brick)};
+        const std::uint32_t pattern = value - static_cast<std::uint32_t>(boxes_.size());
+        return {pattern | Entry::kVoxels, pattern};
     }
     /// Same-label box of a brick that is not mixed.
     [[nodiscard]] const SameLabelBox& box(Entry uniform) const noexcept { return boxes_[uniform.value_]; }
@@ -145,7 +147,7 @@ public:
         friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
     };
     /// Box of a coded brick.
-    [[nodiscard]] const SameLabelBox& codedBox(Entry coded) const noexcept { return boxes_[coded.value_ & ~kCoded]; }
+    [[nodiscard]] const SameLabelBox& codedBox(Entry coded) const noexcept { return boxes_[coded.value_ & ~Entry::kCoded]; }
     [[nodiscard]] const BoxCoding& coding(Entry coded) const noexcept { return codes_[codedBox(coded).scalar]; }
     /// Scalar on the sides that `cell` says, see BoxCoding::cells.
     [[nodiscard]] Scalar cellScalar(const BoxCoding& coding, std::size_t cell) const noexcept {
@@ -193,7 +195,7 @@ public:
     [[nodiscard]] std::size_t paletteBrickNumber(Entry mixed) const noexcept { return mixed.pattern_; }
     /// The entry of any brick that shows palette brick `number`.
     [[nodiscard]] static Entry paletteBrickEntry(std::size_t number) noexcept {
-        return {static_cast<std::uint32_t>(number) | kVoxels, static_cast<std::uint32_t>(number)};
+        return {static_cast<std::uint32_t>(number) | Entry::kVoxels, static_cast<std::uint32_t>(number)};
     }
     /// All same-label boxes; together with the mixed bricks they cover the volume. They may overlap.
     [[nodiscard]] std::span<const SameLabelBox> boxes() const noexcept {
@@ -207,11 +209,14 @@ public:
         std::uint32_t paletteSize = 0;
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
-    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. Boxes of coded
-    /// bricks stand behind the same-label boxes, with the number of a code for the scalar. Behind the last element of
-    /// `index` and of `palettes` stands one more, so that two may be read at once anywhere.
+    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of the
+    /// index is, in this order, a same-label box, a box of coded bricks, which has the number of a code for the scalar,
+    /// or a palette brick. Where 16 bits are enough for all of them the index is `narrow`, else `wide`; the other is
+    /// empty. Behind the index and `palettes` stand 8 bytes more, so that 64 bits may be read at once anywhere.
     struct Arrays {
-        std::span<const std::uint32_t> index;
+        std::span<const std::uint16_t> narrow;
+        std::span<const std::uint32_t> wide;
+        std::size_t uniformBoxes = 0;
         std::span<const SameLabelBox> boxes;
         std::span<const BoxCoding> codes;
         std::span<const PaletteBrick> bricks;
@@ -220,7 +225,7 @@ public:
         std::span<const BrickPlane> oblique;
     };
     [[nodiscard]] Arrays arrays() const noexcept {
-        return {index_, boxes_, codes_, bricks_, palettes_, planes_, oblique_};
+        return {narrow_, wide_, uniformBoxes_, boxes_, codes_, bricks_, palettes_, planes_, oblique_};
     }
 
     /// 1 + the largest scalar.
@@ -267,7 +272,8 @@ private:
     Vec3i dimension_{};
     Vec3i brickCount_{};
     std::uint64_t scalarCount_ = 0;
-    std::vector<std::uint32_t> index_;
+    std::vector<std::uint16_t> narrow_;
+    std::vector<std::uint32_t> wide_;
     std::size_t uniformBoxes_ = 0;
     std::vector<SameLabelBox> boxes_;
     std::vector<BoxCoding> codes_;
