@@ -13,32 +13,29 @@ constexpr std::uint64_t kNotLastX = 0x7F7F7F7F7F7F7F7Full, kNotLastY = 0x00FFFFF
 // A sample nearer to a plane than this, in voxels, lies on no side of it.
 constexpr double kMargin = 1e-6;
 
-// Where neighbors differ, folded to places along the axis: bit p is set where voxels p and p + 1 differ anywhere.
-struct Changes {
-    std::array<SideMask, 3> masks{};
-
-    void add(const std::uint64_t* words) noexcept {
-        for (std::size_t k = 0; k < 8; ++k) {
-            masks[0][k] |= (words[k] ^ (words[k] >> 1)) & kNotLastX;
-            masks[1][k] |= (words[k] ^ (words[k] >> 8)) & kNotLastY;
-            if (k < 7) masks[2][k] |= words[k] ^ words[k + 1];
-        }
+void addChanges(const std::uint64_t* words, Changes& changes) noexcept {
+    for (std::size_t k = 0; k < 8; ++k) {
+        changes[0][k] |= (words[k] ^ (words[k] >> 1)) & kNotLastX;
+        changes[1][k] |= (words[k] ^ (words[k] >> 8)) & kNotLastY;
+        if (k < 7) changes[2][k] |= words[k] ^ words[k + 1];
     }
-    [[nodiscard]] static std::uint32_t places(const SideMask& mask, int axis) noexcept {
-        std::uint32_t found = 0;
-        if (axis == 2) {
-            for (std::size_t k = 0; k < 8; ++k) found |= static_cast<std::uint32_t>(mask[k] != 0) << k;
-            return found;
-        }
-        std::uint64_t all = 0;
-        for (const std::uint64_t word : mask) all |= word;
-        for (int b = 0; b < 8; ++b) {
-            const auto byte = static_cast<std::uint32_t>(all >> (8 * b)) & 0xFFu;
-            found |= axis == 0 ? byte : static_cast<std::uint32_t>(byte != 0) << b;
-        }
+}
+
+// Folded to places along the axis: bit p is set where voxels p and p + 1 differ anywhere.
+std::uint32_t placesOf(const SideMask& changes, int axis) noexcept {
+    std::uint32_t found = 0;
+    if (axis == 2) {
+        for (std::size_t k = 0; k < 8; ++k) found |= static_cast<std::uint32_t>(changes[k] != 0) << k;
         return found;
     }
-};
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : changes) all |= word;
+    for (int b = 0; b < 8; ++b) {
+        const auto byte = static_cast<std::uint32_t>(all >> (8 * b)) & 0xFFu;
+        found |= axis == 0 ? byte : static_cast<std::uint32_t>(byte != 0) << b;
+    }
+    return found;
+}
 
 SideMask cutMask(int axis, std::uint32_t cut) noexcept {
     SideMask mask;
@@ -95,24 +92,37 @@ bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std
 
 }  // namespace
 
-std::optional<BrickCode> codeBySides(const BrickPattern& pattern, std::span<const SideMask> sides) {
-    Changes changes, explained;
-    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) changes.add(pattern.planes.data() + 8 * p);
-    for (const SideMask& side : sides) explained.add(side.data());
+BrickSide::BrickSide(const SideMask& sideMask) noexcept : mask(sideMask) { addChanges(mask.data(), changes); }
+
+Changes changesOf(const BrickPattern& pattern) noexcept {
+    Changes changes{};
+    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) addChanges(pattern.planes.data() + 8 * p, changes);
+    return changes;
+}
+
+std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes, const BrickSide* first,
+                                     const BrickSide* second) {
     BrickCode code;
-    std::vector<SideMask> all;
+    std::array<SideMask, 5> sides;
+    std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
-        SideMask rest;
-        for (std::size_t k = 0; k < 8; ++k)
-            rest[k] = changes.masks[std::size_t(axis)][k] & ~explained.masks[std::size_t(axis)][k];
-        const std::uint32_t cuts = Changes::places(rest, axis);
-        if (std::popcount(cuts) > 1) return std::nullopt;
-        if (cuts == 0) continue;
-        code.cut[std::size_t(axis)] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
-        all.push_back(cutMask(axis, code.cut[std::size_t(axis)]));
+        const auto a = static_cast<std::size_t>(axis);
+        SideMask rest = changes[a];  // what no side explains
+        std::uint64_t any = 0;
+        for (std::size_t k = 0; k < 8; ++k) {
+            if (first != nullptr) rest[k] &= ~first->changes[a][k];
+            if (second != nullptr) rest[k] &= ~second->changes[a][k];
+            any |= rest[k];
+        }
+        if (any == 0) continue;
+        const std::uint32_t cuts = placesOf(rest, axis);
+        if ((cuts & (cuts - 1)) != 0) return std::nullopt;
+        code.cut[a] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
+        sides[count++] = cutMask(axis, code.cut[a]);
     }
-    all.insert(all.end(), sides.begin(), sides.end());
-    if (!fillCells(pattern, all, code.cells)) return std::nullopt;
+    if (first != nullptr) sides[count++] = first->mask;
+    if (second != nullptr) sides[count++] = second->mask;
+    if (!fillCells(pattern, std::span(sides).first(count), code.cells)) return std::nullopt;
     return code;
 }
 
@@ -160,12 +170,11 @@ Heights heightsAlong(const BrickPattern& pattern, int axis) {
 }
 
 int steepestAxis(const BrickPattern& pattern) noexcept {
-    Changes changes;
-    changes.add(pattern.planes.data());
+    const Changes changes = changesOf(pattern);
     int best = 0, most = -1;
     for (int axis = 0; axis < 3; ++axis) {
         int count = 0;
-        for (const std::uint64_t word : changes.masks[std::size_t(axis)]) count += std::popcount(word);
+        for (const std::uint64_t word : changes[std::size_t(axis)]) count += std::popcount(word);
         if (count > most) best = axis, most = count;
     }
     return best;
@@ -339,7 +348,8 @@ private:
     bool tryPlane(Vec3i at, std::uint32_t plane) {
         const auto mask = sideMask(result_.planes[plane], at);
         if (!mask) return false;
-        auto code = codeBySides(patternAt(at), std::span(&*mask, 1));
+        const BrickSide side(*mask);
+        auto code = codeBySides(patternAt(at), changesOf(patternAt(at)), &side);
         if (!code || code->cut != std::array<std::uint8_t, 3>{}) return false;
         code->plane[0] = plane;
         setCode(at, std::move(*code));
@@ -437,47 +447,52 @@ private:
     void codeMeeting(Vec3i at) {
         constexpr std::size_t kMostAround = 6, kMostCuts = 4;
         candidates_.clear();
-        masks_.clear();
+        sides_.clear();
+        changes_ = changesOf(patternAt(at));
         forEachNeighbor(at, [&](Vec3i other) {
             const BrickCode* code = codeAt(other);
             if (code == nullptr) return;
             for (const std::uint32_t number : code->plane) {
-                if (number == BrickVolume::kNoPlane || masks_.size() == kMostAround) continue;
+                if (number == BrickVolume::kNoPlane || sides_.size() == kMostAround) continue;
                 const BrickPlane& plane = result_.planes[number];
                 if (!cutsBox(plane, at) || std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end())
                     continue;
-                const auto mask = sideMask(plane, at);
-                if (!mask || isTrivial(*mask) || std::find(masks_.begin(), masks_.end(), *mask) != masks_.end())
-                    continue;
-                candidates_.push_back(plane);
-                masks_.push_back(*mask);
+                addCandidate(plane, sideMask(plane, at));
             }
         });
         if (!isStep(at)) addCuts(at, kMostAround + kMostCuts);
         if (tryCandidates(at, 0) || isStep(at)) return;
-        const std::size_t known = masks_.size();
+        const std::size_t known = sides_.size();
         addFitted(at);
-        if (masks_.size() > known) tryCandidates(at, known);
+        if (sides_.size() > known) tryCandidates(at, known);
     }
 
     // One candidate, or two of which one at least is number `from` or later.
     bool tryCandidates(Vec3i at, std::size_t from) {
-        for (std::size_t a = from; a < masks_.size(); ++a)
-            if (auto code = codeBySides(patternAt(at), std::span(&masks_[a], 1))) {
+        for (std::size_t a = from; a < sides_.size(); ++a)
+            if (auto code = codeBySides(patternAt(at), changes_, &sides_[a])) {
                 code->plane[0] = numberOf(candidates_[a]);
                 setCode(at, std::move(*code));
                 return true;
             }
-        for (std::size_t b = std::max<std::size_t>(from, 1); b < masks_.size(); ++b)
-            for (std::size_t a = 0; a < b; ++a) {
-                const std::array sides{masks_[a], masks_[b]};
-                if (auto code = codeBySides(patternAt(at), sides)) {
+        for (std::size_t b = std::max<std::size_t>(from, 1); b < sides_.size(); ++b)
+            for (std::size_t a = 0; a < b; ++a)
+                if (auto code = codeBySides(patternAt(at), changes_, &sides_[a], &sides_[b])) {
                     code->plane = {numberOf(candidates_[a]), numberOf(candidates_[b])};
                     setCode(at, std::move(*code));
                     return true;
                 }
-            }
         return false;
+    }
+
+    // False where the plane tells no voxels apart, or those that another does.
+    bool addCandidate(const BrickPlane& plane, const std::optional<SideMask>& mask) {
+        if (!mask || isTrivial(*mask)) return false;
+        if (std::any_of(sides_.begin(), sides_.end(), [&](const BrickSide& side) { return side.mask == *mask; }))
+            return false;
+        candidates_.push_back(plane);
+        sides_.emplace_back(*mask);
+        return true;
     }
 
     // Planes of least squares through the faces between two labels, one above the other along an axis.
@@ -507,11 +522,7 @@ private:
             // A plane that is steeper over this axis is found over another.
             if (!slope || std::max(std::abs(slope->a), std::abs(slope->b)) > 1.3) continue;
             const BrickPlane plane = planeOf(at, pair.axis, *slope);
-            const auto mask = sideMask(plane, at);
-            if (!mask || isTrivial(*mask) || std::find(masks_.begin(), masks_.end(), *mask) != masks_.end()) continue;
-            candidates_.push_back(plane);
-            masks_.push_back(*mask);
-            ++added;
+            if (addCandidate(plane, sideMask(plane, at))) ++added;
         }
     }
 
@@ -575,19 +586,15 @@ private:
 
     // Planes between voxels across axes that need more than one cut.
     void addCuts(Vec3i at, std::size_t most) {
-        const BrickPattern& pattern = patternAt(at);
-        Changes changes;
-        for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) changes.add(pattern.planes.data() + 8 * p);
         for (int axis = 0; axis < 3; ++axis) {
-            std::uint32_t places = Changes::places(changes.masks[std::size_t(axis)], axis);
+            std::uint32_t places = placesOf(changes_[std::size_t(axis)], axis);
             if (std::popcount(places) < 2 || std::popcount(places) > 3) continue;
-            for (; places != 0 && masks_.size() < most; places &= places - 1) {
+            for (; places != 0 && sides_.size() < most; places &= places - 1) {
                 const auto cut = static_cast<std::uint32_t>(std::countr_zero(places)) + 1;
                 BrickPlane plane;
                 plane.normal[axis] = 1;
                 plane.offset = -(corner(at)[axis] + cut);
-                candidates_.push_back(plane);
-                masks_.push_back(cutMask(axis, cut));
+                addCandidate(plane, cutMask(axis, cut));
             }
         }
     }
@@ -639,7 +646,8 @@ private:
     std::vector<std::optional<Faces>> faces_;  // by pattern
     std::vector<std::uint32_t> codeOf_;
     std::vector<BrickPlane> candidates_;
-    std::vector<SideMask> masks_;
+    std::vector<BrickSide> sides_;  // of the candidates
+    Changes changes_{};             // of the brick
     TileCodes result_;
 };
 

@@ -28,9 +28,24 @@ struct BrickCode {
 /// Which voxels of a brick lie on the positive side of something: bit i + 8 j of word k.
 using SideMask = std::array<std::uint64_t, 8>;
 
+/// By axis: voxels that differ from the next one along it.
+using Changes = std::array<SideMask, 3>;
+
+/// A side, and where it changes.
+struct BrickSide {
+    explicit BrickSide(const SideMask& sideMask) noexcept;
+    SideMask mask;
+    Changes changes{};
+};
+
+/// Where the labels of `pattern` change.
+[[nodiscard]] Changes changesOf(const BrickPattern& pattern) noexcept;
+
 /// Codes `pattern` by the sides of up to two planes and at most one cut across each axis, if that is possible.
-/// \param sides  one mask for each plane
-[[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, std::span<const SideMask> sides);
+/// \param changes  changesOf(pattern)
+/// \param first, second  may be null
+[[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
+                                                  const BrickSide* first = nullptr, const BrickSide* second = nullptr);
 
 /// One tile's bricks by place, each a number of `patterns` or kUniform.
 struct TilePlaces {

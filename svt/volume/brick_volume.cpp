@@ -260,7 +260,7 @@ private:
         std::vector<std::uint32_t> byCuts;  // by pattern
         bool isAllCoded = true;
         for (const BrickPattern& pattern : tile_.patterns) {
-            auto code = codeBySides(pattern, {});
+            auto code = codeBySides(pattern, changesOf(pattern));
             const PatternKind kind = !code                   ? PatternKind::Uncoded
                                      : code->cells.size() > 2 ? PatternKind::Step
                                                               : PatternKind::Coded;
