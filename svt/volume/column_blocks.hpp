@@ -36,9 +36,8 @@ struct CompressedColumns {
 };
 
 /// Compresses all blocks on all cores. The bytes depend on the samples alone, not on the number of threads; another
-/// release of libzstd may give others. Cost: about 0.3 s per GB of arrays and core where they repeat, up to 5 s where
-/// they are noise; memory: the result and one block per thread. \param threads  as in parallelFor \return index and
-/// frames, or BadArgument where they break a limit
+/// release of libzstd may give others. Cost: 2 to 6 s per GB of arrays and core. Memory: the result, one block per
+/// thread. \param threads  as in parallelFor \return index and frames, or BadArgument where they break a limit
 [[nodiscard]] Result<CompressedColumns> compressColumns(const ColumnVolume& columns, int threads = 0);
 
 /// Finds and decodes blocks. Cheap to copy but for the index. Thread-safe.
@@ -57,14 +56,17 @@ public:
     /// Number of the block that holds tile (tileX, tileY).
     [[nodiscard]] std::size_t blockOfTile(std::int32_t tileX, std::int32_t tileY) const noexcept;
 
-    /// The tiles of a block, x fastest. \param frame  its bytes. \return BadChecksum or BadVolume where they are
-    /// damaged
+    /// The tiles of a block, x fastest.
+    /// \param frame  its bytes
+    /// \return the tiles, or BadChecksum or BadVolume where the bytes are damaged
     [[nodiscard]] Result<std::vector<ColumnTileData>> decodeBlock(std::size_t number,
                                                                   std::span<const std::byte> frame) const;
     /// One tile. Cost: that of its block.
     [[nodiscard]] Result<ColumnTileData> decodeTile(std::int32_t tileX, std::int32_t tileY,
                                                     std::span<const std::byte> frame) const;
-    /// All tiles, on all cores. \param frames  all frames. \param threads  as in parallelFor
+    /// All tiles, on all cores.
+    /// \param frames   all frames
+    /// \param threads  as in parallelFor
     [[nodiscard]] Result<ColumnVolume> decodeAll(std::span<const std::byte> frames, int threads = 0) const;
 
 private:

@@ -92,14 +92,13 @@ struct ReferenceColumn {
 inline constexpr Scalar kNoScalar = 0xFFFFFFFFu;  ///< `last` at the bottom of a column
 
 /// The streams of a block. Tiles need not be canonical: equal neighbouring runs are joined, and decoding gives the
-/// canonical form of the same samples. Cost: O(bytes of the tiles), under 1 s per GB and core.
+/// canonical form of the same samples. Cost: O(bytes of the tiles), about 1 s per GB and core.
 /// \param tiles  shape.tilesX() * shape.tilesY() tiles, x fastest
 [[nodiscard]] BlockStreams encodeBlock(std::span<const ColumnTile> tiles, const BlockShape& shape);
 
 /// The tiles of a block in canonical form. Any bytes are safe: everything is checked before it is used or allocated.
 /// \param arrayBytes  most bytes that the arrays of all tiles may take (see arrayBytesOf); memory stays below a few
-/// times
-///                    that and the size of the streams
+///                    times that and the size of the streams
 /// \return the tiles, x fastest, or BadVolume that says what is wrong
 [[nodiscard]] Result<std::vector<ColumnTileData>> decodeBlock(const PerStream<std::span<const std::uint8_t>>& streams,
                                                               const BlockShape& shape, Scalar scalarCount,

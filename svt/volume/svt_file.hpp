@@ -28,13 +28,14 @@ namespace svt::volume {
 [[nodiscard]] Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path);
 
 /// Opens the file `path` and decodes all columns, on all cores.
-/// All bytes are checked: container, CRC32 of each entry, every count, index and range. Cost: under 1 s per GB of
-/// arrays and core; memory: the arrays, bounded by maxArrayBytes, and the label table.
+/// All bytes are checked: container, CRC32 of each entry, every count, index and range. Cost: 1 to 3 s per GB of arrays
+/// and core. Memory: the arrays, bounded by maxArrayBytes, and the label table.
 /// \return the volume, or CannotOpen; BadVolume where it is damaged or no `.svt`; BadChecksum; VolumeVersion where a
 ///         newer program wrote it; InputTooBig
 [[nodiscard]] Result<SemanticVolume> readSvt(const std::filesystem::path& path);
 
-/// The same from bytes in memory. \param name  stands for the file name in messages
+/// The same from bytes in memory.
+/// \param name  stands for the file name in messages
 [[nodiscard]] Result<SemanticVolume> readSvt(std::span<const std::byte> bytes, const std::string& name = {});
 
 /// A `.svt` whose columns are decoded block by block, where they are asked for.

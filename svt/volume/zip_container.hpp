@@ -40,8 +40,9 @@ struct ZipEntry {
 [[nodiscard]] std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 /// Writes the entries in their order as one file, all or nothing. The same entries give the same bytes. Data are
-/// deflated on all cores; those that would be too small for unpack() are stored. \param zip64From  sizes and offsets
-/// from this on are written in ZIP64 form; only tests choose another \return bytes written, or CannotWrite or DiskFull
+/// deflated on all cores; stored where that gains nothing, or where unpack() would refuse the ratio.
+/// \param zip64From  sizes and offsets from this on are written in ZIP64 form; only tests choose another
+/// \return bytes written, or CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
                                              std::uint64_t zip64From = 0xFFFFFFFFu);
 
@@ -51,9 +52,8 @@ struct ZipEntry {
 [[nodiscard]] Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes);
 
 /// Data of an entry, unpacked into `buffer` where they are deflated, and checked against the CRC.
-/// \return the data; BadChecksum; BadVolume where they cannot be unpacked or claim more than 64 MiB and 128 times the
-/// bytes
-///         they have in the file; InputTooBig over `maxBytes`
+/// \return the data; BadChecksum; BadVolume where they cannot be unpacked or claim to unpack to more than 64 MiB + 128
+///         times their bytes in the file; InputTooBig over `maxBytes`
 [[nodiscard]] Result<std::span<const std::byte>> unpack(const ZipEntry& entry, std::uint64_t maxBytes,
                                                         std::vector<std::byte>& buffer);
 
