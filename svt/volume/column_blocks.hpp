@@ -36,7 +36,7 @@ struct CompressedColumns {
 };
 
 /// Compresses all blocks on all cores. The bytes depend on the samples alone, not on the number of threads; another
-/// release of libzstd may give others. Cost: 2 to 6 s per GB of arrays and core. Memory: the result, one block per
+/// release of libzstd may give others. Cost: 2 to 6 s per GB of arrays and core. Memory: the result, a block per
 /// thread. \param threads  as in parallelFor \return index and frames, or BadArgument where they break a limit
 [[nodiscard]] Result<CompressedColumns> compressColumns(const ColumnVolume& columns, int threads = 0);
 
