@@ -50,7 +50,7 @@ enum class Code : std::uint16_t {
     // 3xx: voxels
     BadDimension = 301,   ///< grid dimension or spacing out of range
     GridTooLarge = 302,   ///< over the grid's limits
-    TooManyLabels = 303,  ///< more scalars than 32 bits can number
+    TooManyLabels = 303,  ///< more scalars than a volume may number
     BadPattern = 304,     ///< a spatial pattern that cannot be used
     BadStyle = 305,       ///< a style file that does not follow its schema
     ThinObject = 306,     ///< an object thinner than a voxel, kept by a surface pass

@@ -126,9 +126,11 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
         label.count = styles[l].pattern.phaseCount();
         next += label.count;
         hasPattern = hasPattern || label.count > 1;
-        if (next > 0xFFFFFFFFull)
-            return Error(Code::TooManyLabels, "the objects and their patterns need more than 2^32 - 1 scalars");
     }
+    if (next > volume::kMaxScalarCount)
+        return Error(Code::TooManyLabels, fmt::format("{} scalars are needed, {} are possible; use fewer patterns, or "
+                                                      "patterns with fewer phases",
+                                                      next, volume::kMaxScalarCount));
     if (hasPattern) table.phaseColors.resize(next);
     result.claims.resize(scene.objects.size());
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {

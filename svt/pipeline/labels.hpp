@@ -24,7 +24,7 @@ struct Labelling {
 void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene);
 
 /// Numbers all features in tree order and gives every object its contiguous scalar range.
-/// \return the labels, or TooManyLabels over 2^32 - 1 scalars
+/// \return the labels, or TooManyLabels over volume::kMaxScalarCount
 [[nodiscard]] Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::MeshScene& scene,
                                            std::span<const StyleSheet* const> sheets);
 

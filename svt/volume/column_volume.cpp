@@ -2,8 +2,6 @@
 
 #include <svt/core/check.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstring>
 
@@ -39,41 +37,6 @@ bool isEqual(std::span<const T> a, std::span<const T> b) noexcept {
     return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
 
-// Everything that column() and scalarAt() rely on.
-Result<void> checkTile(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t nz,
-                       Scalar scalarCount, std::size_t number) {
-    const auto bad = [&](std::string_view what) {
-        return Error(Code::BadVolume, fmt::format("tile {}: {}; the file is damaged, build it again", number, what));
-    };
-    if (tile.rowOf.size() != static_cast<std::size_t>(height)) return bad("wrong count of rows");
-    if (tile.columnStart.size() < 2 || tile.columnStart.size() > std::size_t(1) + 65536)
-        return bad("wrong count of columns");
-    if (tile.columnStart.front() != 0 || tile.columnStart.back() != tile.runs.size())
-        return bad("column starts do not cover the runs");
-    if (tile.rowColumns.empty() || tile.rowColumns.size() % static_cast<std::size_t>(width) != 0)
-        return bad("wrong count of row entries");
-    const std::size_t rows = tile.rowColumns.size() / static_cast<std::size_t>(width);
-    const std::size_t columns = tile.columnStart.size() - 1;
-    for (const std::uint8_t row : tile.rowOf)
-        if (row >= rows) return bad("row number out of range");
-    for (const std::uint16_t column : tile.rowColumns)
-        if (column >= columns) return bad("column number out of range");
-    for (std::size_t column = 0; column < columns; ++column) {
-        const std::uint32_t begin = tile.columnStart[column];
-        const std::uint32_t end = tile.columnStart[column + 1];
-        if (end <= begin || end > tile.runs.size()) return bad("column starts do not ascend");
-        std::uint32_t previous = 0;
-        for (std::uint32_t r = begin; r < end; ++r) {
-            const Run& run = tile.runs[r];
-            if (run.end <= previous || run.end > static_cast<std::uint32_t>(nz)) return bad("run ends do not ascend");
-            if (run.scalar >= scalarCount) return bad(fmt::format("scalar {} is in no label's range", run.scalar));
-            previous = run.end;
-        }
-        if (previous != static_cast<std::uint32_t>(nz)) return bad("a column does not reach the top");
-    }
-    return {};
-}
-
 }  // namespace
 
 ColumnVolume ColumnVolume::fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles) {
@@ -83,26 +46,6 @@ ColumnVolume ColumnVolume::fromTiles(Vec3i dimension, std::vector<ColumnTileData
     auto storage = std::make_shared<std::vector<ColumnTileData>>(std::move(tiles));
     volume.tiles_.reserve(storage->size());
     for (const ColumnTileData& tile : *storage) volume.tiles_.push_back(tile.view());
-    volume.storage_ = std::move(storage);
-    return volume;
-}
-
-Result<ColumnVolume> ColumnVolume::fromViews(Vec3i dimension, std::vector<ColumnTile> tiles, Scalar scalarCount,
-                                             std::shared_ptr<const void> storage) {
-    ColumnVolume volume;
-    volume.dimension_ = dimension;
-    const std::size_t expected = std::size_t(volume.tilesX()) * std::size_t(volume.tilesY());
-    if (tiles.size() != expected)
-        return Error(Code::BadVolume, fmt::format("{} tiles found, {} expected", tiles.size(), expected));
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
-        const auto tileX = static_cast<std::int32_t>(t % std::size_t(volume.tilesX()));
-        const auto tileY = static_cast<std::int32_t>(t / std::size_t(volume.tilesX()));
-        if (auto checked =
-                checkTile(tiles[t], volume.tileWidth(tileX), volume.tileHeight(tileY), dimension.z, scalarCount, t);
-            !checked)
-            return checked.error();
-    }
-    volume.tiles_ = std::move(tiles);
     volume.storage_ = std::move(storage);
     return volume;
 }

@@ -15,7 +15,6 @@
 /// nz; neighbours differ in scalar. Columns and rows are numbered by first use (rows bottom up, x ascending), so equal
 /// volumes have equal bytes.
 
-#include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 
 #include <cstddef>
@@ -66,11 +65,6 @@ public:
 
     /// From tiles in row order (x fastest), as a voxelizer makes them. Takes the tiles as they are.
     [[nodiscard]] static ColumnVolume fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles);
-
-    /// From views of memory that `storage` keeps alive (a mapped file). Everything is checked: sizes, indices,
-    /// ascending ends, last end, scalars below `scalarCount`. \return the volume, or BadVolume that names the tile
-    [[nodiscard]] static Result<ColumnVolume> fromViews(Vec3i dimension, std::vector<ColumnTile> tiles,
-                                                        Scalar scalarCount, std::shared_ptr<const void> storage);
 
     /// From a dense array, x fastest, then y, then z (index i + nx * (j + ny * k)).
     [[nodiscard]] static ColumnVolume fromDense(Vec3i dimension, std::span<const Scalar> scalars);

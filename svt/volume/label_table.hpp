@@ -15,6 +15,9 @@
 namespace svt::volume {
 
 inline constexpr std::uint32_t kNoLabel = 0xFFFFFFFFu;
+/// Most scalars that a volume may number, background included. Tables indexed by scalar then stay within memory
+/// whatever a file claims.
+inline constexpr Scalar kMaxScalarCount = 1u << 26;
 
 /// How an object got its voxels.
 enum class Filling : std::uint8_t {

@@ -33,16 +33,7 @@ std::string bytesOfVolume(const SemanticVolume& volume) {
     return bytes;
 }
 
-/// Opens a copy of `text` that stands `shift` bytes behind a multiple of 64.
-Result<SemanticVolume> readBytes(std::string_view text, std::size_t shift = 0) {
-    struct alignas(64) Block {
-        std::byte bytes[64];
-    };
-    auto memory = std::make_shared<std::vector<Block>>((text.size() + shift) / 64 + 1);
-    auto* begin = reinterpret_cast<std::byte*>(memory->data()) + shift;
-    std::memcpy(begin, text.data(), text.size());
-    return readSvt(std::span(begin, text.size()), memory, "test.svt");
-}
+Result<SemanticVolume> readBytes(std::string_view text) { return readSvt(std::as_bytes(std::span(text)), "test.svt"); }
 
 using EntryTexts = std::map<std::string, std::string>;
 
@@ -51,8 +42,12 @@ std::string changed(const std::string& file, const std::function<void(EntryTexts
     const auto found = readZip(std::as_bytes(std::span(file)));
     EXPECT_TRUE(found);
     EntryTexts texts;
-    for (const ZipEntry& entry : *found)
-        texts[std::string(entry.name)] = {reinterpret_cast<const char*>(entry.data.data()), entry.data.size()};
+    for (const ZipEntry& entry : *found) {
+        std::vector<std::byte> buffer;
+        const auto data = unpack(entry, entry.size, buffer);
+        EXPECT_TRUE(data);
+        texts[std::string(entry.name)] = {reinterpret_cast<const char*>(data->data()), data->size()};
+    }
     change(texts);
     std::vector<ZipSource> sources;
     if (texts.count("mimetype") != 0)
@@ -150,29 +145,44 @@ TEST(SvtFile, EqualVolumesGiveEqualBytes) {
     EXPECT_TRUE(bytesOfVolume(*read) == bytes);
 }
 
-TEST(SvtFile, ColumnsAreUsedInPlace) {
-    const TemporaryFolder folder;
-    const std::string bytes = bytesOfVolume(sampleVolume());
-    auto memory = std::make_shared<std::vector<std::uint64_t>>(bytes.size() / 8 + 1);
-    std::memcpy(memory->data(), bytes.data(), bytes.size());
-    const auto* begin = reinterpret_cast<const std::byte*>(memory->data());
-    const auto read = readSvt(std::span(begin, bytes.size()), memory);
-    ASSERT_TRUE(read);
-    for (const ColumnTile& tile : read->columns.tiles()) {
-        const auto* runs = reinterpret_cast<const std::byte*>(tile.runs.data());
-        EXPECT_TRUE(runs >= begin && runs < begin + bytes.size());
-    }
-    EXPECT_EQ(memory.use_count(), 2) << "the volume keeps the bytes alive";
-}
-
 TEST(SvtFile, BytesAtAnyAddressCanBeRead) {
     const SemanticVolume volume = sampleVolume({70, 10, 9});
     const std::string bytes = bytesOfVolume(volume);
     for (const std::size_t shift : {1u, 2u, 3u, 5u}) {
-        const auto read = readBytes(bytes, shift);
+        const std::string moved = std::string(shift, ' ') + bytes;
+        const auto read = readBytes(std::string_view(moved).substr(shift));
         ASSERT_TRUE(read) << read.error().toString();
         EXPECT_TRUE(isSame(*read, volume));
     }
+}
+
+TEST(SvtFile, TilesAreDecodedOneByOne) {
+    const SemanticVolume volume = sampleVolume({600, 300, 9});
+    const std::string bytes = bytesOfVolume(volume);
+    const auto opened = openSvt(std::as_bytes(std::span(bytes)));
+    ASSERT_TRUE(opened) << opened.error().toString();
+    EXPECT_EQ(opened->grid, volume.grid);
+    EXPECT_EQ(opened->labels, volume.labels);
+    EXPECT_EQ(opened->crsName, volume.crsName);
+    ASSERT_EQ(opened->blocks.count(), 6u);
+    for (std::int32_t tileY = 0; tileY < volume.columns.tilesY(); ++tileY)
+        for (std::int32_t tileX = 0; tileX < volume.columns.tilesX(); ++tileX) {
+            const std::size_t block = opened->blocks.blockOfTile(tileX, tileY);
+            const auto tile = opened->blocks.decodeTile(
+                tileX, tileY, opened->frames.subspan(opened->blocks.offset(block), opened->blocks.block(block).size));
+            ASSERT_TRUE(tile) << tile.error().toString();
+            const ColumnTile& expected = volume.columns.tiles()[std::size_t(tileX + volume.columns.tilesX() * tileY)];
+            EXPECT_TRUE(std::equal(tile->rowOf.begin(), tile->rowOf.end(), expected.rowOf.begin()));
+            EXPECT_TRUE(std::equal(tile->rowColumns.begin(), tile->rowColumns.end(), expected.rowColumns.begin()));
+            EXPECT_TRUE(std::equal(tile->runs.begin(), tile->runs.end(), expected.runs.begin(), expected.runs.end()));
+        }
+}
+
+TEST(SvtFile, OpeningWithoutDecodingTellsTheFile) {
+    const auto opened = openSvt({}, "test.svt");
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().where().file, "test.svt");
+    EXPECT_NE(opened.error().message().find("is empty"), std::string::npos);
 }
 
 TEST(SvtFile, MappedFileOutlivesItsName) {
@@ -231,8 +241,9 @@ TEST(SvtFile, ExternalToolsOpenIt) {
                   "assert head['dimension']==[70,66,9] and head['scalarCount']==6\n"
                   "assert labels['labels'][0]['attributes'][3]['value']==2**63-1\n"
                   "assert labels['labels'][1]['name']=='K\\u00fcche'\n"
-                  "tiles=list(struct.iter_unpack('<III',z.read('columns/tiles')))\n"
-                  "assert len(tiles)==4 and sum(t[2] for t in tiles)*8==len(z.read('columns/runs'))\n");
+                  "blocks=list(struct.iter_unpack('<IIII',z.read('columns/index')))\n"
+                  "assert len(blocks)==1 and sum(b[0] for b in blocks)==len(z.read('columns/blocks'))\n"
+                  "assert z.read('columns/blocks')[:4]==bytes.fromhex('28b52ffd')\n");
         EXPECT_EQ(std::system(("python3 '" + (folder / "check.py").string() + "' '" + path + "'").c_str()), 0);
     }
     if (tools == 0) GTEST_SKIP() << "neither unzip nor python3 is installed";
@@ -246,13 +257,27 @@ TEST(SvtFile, FileRepackedByAnotherToolIsStillRead) {
     writeText(folder / "pack.py",
               "import sys,zipfile\n"
               "source=zipfile.ZipFile(sys.argv[1])\n"
-              "with zipfile.ZipFile(sys.argv[2],'w',zipfile.ZIP_STORED) as out:\n"
-              "    for name in source.namelist(): out.writestr(name,source.read(name))\n");
+              "deflated=sys.argv[3].split(',')\n"
+              "with zipfile.ZipFile(sys.argv[2],'w') as out:\n"
+              "    for name in source.namelist():\n"
+              "        out.writestr(name,source.read(name),zipfile.ZIP_DEFLATED if name in deflated else 0)\n");
     const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
-    ASSERT_EQ(std::system(("python3" + quoted("pack.py") + quoted("v.svt") + quoted("w.svt")).c_str()), 0);
-    const auto read = readSvt(folder / "w.svt");
-    ASSERT_TRUE(read) << read.error().toString();
-    EXPECT_TRUE(isSame(*read, volume));
+    const auto repacked = [&](const std::string& deflated) {
+        EXPECT_EQ(
+            std::system(("python3" + quoted("pack.py") + quoted("v.svt") + quoted("w.svt") + " " + deflated).c_str()),
+            0);
+        return readSvt(folder / "w.svt");
+    };
+    for (const char* deflated : {"none", "svt.json,labels.json"}) {
+        const auto read = repacked(deflated);
+        ASSERT_TRUE(read) << read.error().toString();
+        EXPECT_TRUE(isSame(*read, volume));
+    }
+    for (const char* deflated : {"columns/index", "columns/blocks"}) {
+        const auto read = repacked(deflated);
+        ASSERT_FALSE(read) << deflated;
+        EXPECT_NE(read.error().message().find("must be stored"), std::string::npos) << read.error().toString();
+    }
 }
 
 TEST(SvtFile, OnlyASvtLooksLikeOne) {
@@ -307,9 +332,9 @@ TEST(SvtFile, EveryTruncationIsRefused) {
 
 TEST(SvtFile, DamagedEntryFailsItsChecksum) {
     std::string bytes = bytesOfVolume(sampleVolume());
-    const std::size_t at = bytes.find("WallSurface");
-    bytes[at] = 'B';
-    expectRefused(bytes, Code::BadChecksum, "'labels.json'");
+    const std::size_t at = bytes.find("haus.gml");
+    bytes[at] = 'm';
+    expectRefused(bytes, Code::BadChecksum, "'svt.json'");
 }
 
 TEST(SvtFile, UnknownEntriesAndKeysAreIgnored) {
@@ -362,10 +387,9 @@ TEST(SvtFile, WrongHeadersAreRefused) {
         {"svt.json", "[70,66,9]", "[70,66,1]", "'dimension'"},
         {"svt.json", "[70,66,9]", "[70,66,70000]", "'dimension'"},
         {"svt.json", "[70,66,9]", "[65535,65535,9]", "columns"},
-        {"svt.json", "[70,66,9]", "[70,67,9]", "shorter"},
-        {"svt.json", "[70,66,9]", "[700,66,9]", "shorter"},
-        {"svt.json", "[70,66,9]", "[70,60,9]", "longer"},
-        {"svt.json", "[70,66,9]", "[70,66,10]", "top"},
+        {"svt.json", "[70,66,9]", "[700,66,9]", "3 blocks need"},
+        {"svt.json", "[70,66,9]", "[60,66,9]", "outside its row"},
+        {"svt.json", "[70,66,9]", "[70,66,8]", "beyond the top"},
         {"svt.json", "[0.05,", "[0.0,", "spacing"},
         {"svt.json", "[0.05,", "[1e999,", "out of range"},
         {"svt.json", "[458877.03,", "[\"458877.03\",", "no number"},
@@ -441,7 +465,7 @@ TEST(SvtFile, JsonOverItsLimitsIsRefused) {
     };
     const std::string deep(1'000'000, '[');
     expectRefused(with("svt.json", deep), Code::BadVolume, "nested deeper");
-    expectRefused(with("svt.json", std::string(2'000'000, ' ')), Code::InputTooBig, "svt.json has 2000000 bytes");
+    expectRefused(with("svt.json", std::string(2'000'000, ' ')), Code::InputTooBig, "'svt.json' has 2000000 bytes");
     expectRefused(with("labels.json", deep), Code::BadVolume, "nested deeper");
     expectRefused(with("labels.json", "{\"labels\":[{\"id\":" + deep), Code::BadVolume, "nested deeper");
     std::string many = "{\"labels\":[{\"id\":[0";
@@ -458,38 +482,32 @@ TEST(SvtFile, WrongColumnsAreRefused) {
         std::memcpy(text.data() + 4 * index, &value, 4);
     };
     const std::pair<std::function<void(EntryTexts&)>, const char*> cases[] = {
-        {[](EntryTexts& e) { e.erase("columns/runs"); }, "'columns/runs' is missing"},
+        {[](EntryTexts& e) { e.erase("columns/blocks"); }, "'columns/blocks' is missing"},
+        {[](EntryTexts& e) { e.erase("columns/index"); }, "'columns/index' is missing"},
         {[](EntryTexts& e) { e.erase("svt.json"); }, "'svt.json' is missing"},
-        {[](EntryTexts& e) { e["columns/tiles"].pop_back(); }, "no multiple of 12"},
-        {[](EntryTexts& e) { e["columns/tiles"].resize(36); }, "'columns/tiles' is shorter"},
-        {[](EntryTexts& e) { e["columns/tiles"].resize(60); }, "'columns/tiles' is longer"},
-        {[&](EntryTexts& e) { u32(e["columns/tiles"], 0, 0); }, "tile"},
-        {[&](EntryTexts& e) { u32(e["columns/tiles"], 0, 0xFFFFFFFF); }, "'columns/row-columns' is shorter"},
-        {[&](EntryTexts& e) { u32(e["columns/tiles"], 1, 0xFFFFFFFF); }, "'columns/starts' is shorter"},
-        {[&](EntryTexts& e) { u32(e["columns/tiles"], 2, 0xFFFFFFFF); }, "'columns/runs' is shorter"},
-        {[](EntryTexts& e) { e["columns/row-of"] += '\0'; }, "'columns/row-of' is longer"},
-        {[](EntryTexts& e) { e["columns/row-columns"] += std::string(2, '\0'); }, "'columns/row-columns' is longer"},
-        {[](EntryTexts& e) { e["columns/starts"] += std::string(4, '\0'); }, "'columns/starts' is longer"},
-        {[](EntryTexts& e) { e["columns/runs"] += std::string(8, '\0'); }, "'columns/runs' is longer"},
-        {[](EntryTexts& e) { e["columns/row-of"][3] = '\x7F'; }, "tile 0: row number"},
-        {[](EntryTexts& e) { e["columns/row-columns"][1] = '\x7F'; }, "tile 0: column number"},
-        {[&](EntryTexts& e) { u32(e["columns/starts"], 0, 1); }, "tile 0: column starts"},
-        {[&](EntryTexts& e) { u32(e["columns/starts"], 1, 0xFFFFFFFF); }, "tile 0: column starts"},
-        {[&](EntryTexts& e) { u32(e["columns/runs"], 0, 0); }, "tile 0: run ends"},
-        {[&](EntryTexts& e) { u32(e["columns/runs"], 0, 77); }, "tile 0: run ends"},
-        {[&](EntryTexts& e) { u32(e["columns/runs"], 1, 6); }, "scalar 6"},
+        {[](EntryTexts& e) { e["columns/index"].pop_back(); }, "has 15 bytes, 1 blocks need 16"},
+        {[](EntryTexts& e) { e["columns/index"].resize(32); }, "has 32 bytes"},
+        {[](EntryTexts& e) { e["columns/blocks"].pop_back(); }, "the index speaks of"},
+        {[](EntryTexts& e) { e["columns/blocks"] += 'x'; }, "the index speaks of"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 0, 0xFFFFFFFF); }, "the index speaks of"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 1, 0xFFFFFFFF); }, "are said to unpack to"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 1, 7); }, "block 0 of the columns: it is no zstd frame"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 2, 0xFFFFFFFF); }, "are said to take 4294967295 bytes"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 2, 100); }, "more bytes than the index says"},
     };
     for (const auto& [change, reason] : cases) {
         SCOPED_TRACE(reason);
         expectRefused(changed(file, change), Code::BadVolume, reason);
     }
+    expectRefused(changed(file, [](EntryTexts& e) { e["columns/blocks"][9] ^= 1; }), Code::BadChecksum,
+                  "block 0 of the columns has CRC32");
 }
 
 TEST(SvtFile, HugeGridInASmallFileIsRefusedWithoutAllocating) {
     const std::string file = changed(bytesOfVolume(sampleVolume()), [](EntryTexts& e) {
         replaceIn(e["svt.json"], "[70,66,9]", "[65535,32768,65535]");
     });
-    expectRefused(file, Code::BadVolume, "'columns/tiles' is shorter");
+    expectRefused(file, Code::BadVolume, "32768 blocks need");
 }
 
 TEST(SvtFile, InconsistentVolumesAreNotWritten) {

@@ -13,8 +13,6 @@ namespace svt::volume {
 
 inline constexpr int kSvtMajorVersion = 1;
 inline constexpr int kSvtMinorVersion = 0;
-/// Most scalars a `.svt` may number. Tables indexed by scalar then stay within memory whatever a file claims.
-inline constexpr Scalar kMaxScalarCount = 1u << 26;
 inline constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxLabelsBytes = std::size_t{1} << 30;
 

@@ -46,6 +46,9 @@ constexpr std::uint16_t kFlagUtf8 = 1u << 11;
 constexpr std::size_t kMaxEntries = 65535;
 constexpr std::size_t kMaxNameBytes = 255;
 constexpr std::size_t kCrcPiece = std::size_t{4} << 20;
+constexpr std::size_t kDeflatePiece = std::size_t{1} << 20;
+constexpr std::uint16_t kStored = 0;
+constexpr std::uint16_t kDeflated = 8;
 
 Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
@@ -82,12 +85,47 @@ T load(std::span<const std::byte> bytes, std::size_t offset) noexcept {
 /// What both headers of an entry say.
 struct Placed {
     std::uint64_t size = 0;
+    std::uint64_t packedSize = 0;
     std::uint64_t offset = 0;
     std::uint32_t crc = 0;
+    std::uint16_t method = kStored;
 };
 
+/// Most bytes that `packedSize` bytes may unpack to. Deflate could say 1032 times as many.
+constexpr std::uint64_t maxUnpacked(std::uint64_t packedSize) noexcept {
+    return (std::uint64_t{64} << 20) + 128 * packedSize;
+}
+
+/// One piece of a deflate stream that ends at a byte, so that the next piece can follow.
+std::vector<std::byte> deflatePiece(std::span<const std::byte> piece, bool isLast) {
+    z_stream stream{};
+    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
+    std::vector<std::byte> out(deflateBound(&stream, static_cast<uLong>(piece.size())) + 16);
+    stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(piece.data()));
+    stream.avail_in = static_cast<uInt>(piece.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    ::deflate(&stream, isLast ? Z_FINISH : Z_SYNC_FLUSH);
+    out.resize(out.size() - stream.avail_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+/// All parts as pieces of one deflate stream. The pieces do not depend on the number of threads.
+std::vector<std::vector<std::byte>> deflateParts(std::span<const std::span<const std::byte>> parts) {
+    std::vector<std::span<const std::byte>> pieces;
+    for (auto part : parts)
+        for (; !part.empty(); part = part.subspan(pieces.back().size()))
+            pieces.push_back(part.first(std::min(part.size(), kDeflatePiece)));
+    std::vector<std::vector<std::byte>> packed(pieces.size());
+    parallelFor(pieces.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) packed[p] = deflatePiece(pieces[p], p + 1 == pieces.size());
+    });
+    return packed;
+}
+
 std::string localHeader(const ZipSource& entry, const Placed& placed, std::uint64_t zip64From) {
-    const bool is64 = placed.size >= zip64From;
+    const bool is64 = std::max(placed.size, placed.packedSize) >= zip64From;
     std::size_t extra = is64 ? 20 : 0;
     std::size_t padding = 0;
     if (entry.isAligned) {
@@ -99,11 +137,11 @@ std::string localHeader(const ZipSource& entry, const Placed& placed, std::uint6
     r.u32(kLocalSignature);
     r.u16(is64 ? kVersion45 : kVersion20);
     r.u16(0);  // flags
-    r.u16(0);  // stored
+    r.u16(placed.method);
     r.u16(0);  // time
     r.u16(kDate1980);
     r.u32(placed.crc);
-    r.u32(is64 ? kIn64 : placed.size);
+    r.u32(is64 ? kIn64 : placed.packedSize);
     r.u32(is64 ? kIn64 : placed.size);
     r.u16(entry.name.size());
     r.u16(extra);
@@ -112,7 +150,7 @@ std::string localHeader(const ZipSource& entry, const Placed& placed, std::uint6
         r.u16(kZip64Extra);
         r.u16(16);
         r.u64(placed.size);
-        r.u64(placed.size);
+        r.u64(placed.packedSize);
     }
     if (entry.isAligned) {
         r.u16(kPaddingExtra);
@@ -123,7 +161,7 @@ std::string localHeader(const ZipSource& entry, const Placed& placed, std::uint6
 }
 
 void appendCentralHeader(Record& r, const ZipSource& entry, const Placed& placed, std::uint64_t zip64From) {
-    const bool isSize64 = placed.size >= zip64From;
+    const bool isSize64 = std::max(placed.size, placed.packedSize) >= zip64From;
     const bool isOffset64 = placed.offset >= zip64From;
     const std::size_t extraData = (isSize64 ? 16u : 0u) + (isOffset64 ? 8u : 0u);
     const std::uint16_t version = extraData > 0 ? kVersion45 : kVersion20;
@@ -131,11 +169,11 @@ void appendCentralHeader(Record& r, const ZipSource& entry, const Placed& placed
     r.u16(kMadeByUnix | version);
     r.u16(version);
     r.u16(0);  // flags
-    r.u16(0);  // stored
+    r.u16(placed.method);
     r.u16(0);  // time
     r.u16(kDate1980);
     r.u32(placed.crc);
-    r.u32(isSize64 ? kIn64 : placed.size);
+    r.u32(isSize64 ? kIn64 : placed.packedSize);
     r.u32(isSize64 ? kIn64 : placed.size);
     r.u16(entry.name.size());
     r.u16(extraData > 0 ? 4 + extraData : 0);
@@ -150,7 +188,7 @@ void appendCentralHeader(Record& r, const ZipSource& entry, const Placed& placed
         r.u16(extraData);
         if (isSize64) {
             r.u64(placed.size);
-            r.u64(placed.size);
+            r.u64(placed.packedSize);
         }
         if (isOffset64) r.u64(placed.offset);
     }
@@ -314,11 +352,9 @@ Result<void> checkKind(std::uint16_t flags, std::uint16_t method) {
     if ((flags & kFlagDescriptor) != 0)
         return bad("has its size after the data; a .svt has it in front. Pack the file again with 'zip -0 -X'");
     if ((flags & ~kFlagUtf8) != 0) return bad(fmt::format("has flags 0x{:04x} that are not understood", flags));
-    if (method != 0)
+    if (method != kStored && method != kDeflated)
         return bad(
-            fmt::format("is compressed (method {}); a .svt holds stored entries only. Pack the file again with "
-                        "'zip -0 -X'",
-                        method));
+            fmt::format("is compressed with method {}; a .svt holds entries that are stored or deflated", method));
     return {};
 }
 
@@ -330,30 +366,56 @@ struct Located {
 };
 
 /// Checks the local header at `offset` against what the central directory said. \return the entry's data
-Result<Located> readLocal(std::span<const std::byte> bytes, const ZipEntry& central, std::uint64_t offset,
-                          std::uint64_t size, std::uint64_t directoryOffset) {
+Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std::uint64_t offset,
+                          std::uint64_t packedSize, std::uint64_t directoryOffset) {
     if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
         return bad("is said to stand outside the file");
     const auto at = static_cast<std::size_t>(offset);
     if (load<std::uint32_t>(bytes, at) != kLocalSignature) return bad("has no local header where it is said to stand");
-    if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 6), load<std::uint16_t>(bytes, at + 8)); !kind)
-        return kind.error();
+    const auto method = load<std::uint16_t>(bytes, at + 8);
+    if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 6), method); !kind) return kind.error();
     const std::size_t nameSize = load<std::uint16_t>(bytes, at + 26);
     const std::size_t extraSize = load<std::uint16_t>(bytes, at + 28);
     const std::uint64_t dataOffset = offset + kLocalSize + nameSize + extraSize;
-    if (dataOffset > directoryOffset || size > directoryOffset - dataOffset)
-        return bad(fmt::format("has {} bytes at {}, which reach outside the file", size, dataOffset));
+    if (dataOffset > directoryOffset || packedSize > directoryOffset - dataOffset)
+        return bad(fmt::format("has {} bytes at {}, which reach outside the file", packedSize, dataOffset));
     std::uint64_t localSize = load<std::uint32_t>(bytes, at + 22);
-    std::uint64_t localStored = load<std::uint32_t>(bytes, at + 18);
+    std::uint64_t localPacked = load<std::uint32_t>(bytes, at + 18);
     const auto extra = bytes.subspan(at + kLocalSize + nameSize, extraSize);
-    if (auto resolved = resolve64(extra, {&localSize, &localStored}); !resolved) return resolved.error();
-    if (textAt(bytes, at + kLocalSize, nameSize) != central.name || localSize != size || localStored != size ||
-        load<std::uint32_t>(bytes, at + 14) != central.crc)
+    if (auto resolved = resolve64(extra, {&localSize, &localPacked}); !resolved) return resolved.error();
+    if (textAt(bytes, at + kLocalSize, nameSize) != entry.name || localSize != entry.size ||
+        localPacked != packedSize || load<std::uint32_t>(bytes, at + 14) != entry.crc ||
+        (method == kDeflated) != entry.isDeflated)
         return bad("differs between its local header and the central directory");
-    return Located{{central.name, bytes.subspan(static_cast<std::size_t>(dataOffset), static_cast<std::size_t>(size)),
-                    central.crc},
-                   offset,
-                   dataOffset + size};
+    entry.data = bytes.subspan(static_cast<std::size_t>(dataOffset), static_cast<std::size_t>(packedSize));
+    return Located{entry, offset, dataOffset + packedSize};
+}
+
+/// Exactly `entry.size` bytes. \return false where the data say otherwise
+bool inflateInto(const ZipEntry& entry, std::vector<std::byte>& buffer) {
+    buffer.resize(static_cast<std::size_t>(entry.size));
+    z_stream stream{};
+    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return false;
+    constexpr std::size_t kMost = std::size_t{1} << 30;
+    auto in = entry.data;
+    std::span<std::byte> out = buffer;
+    std::byte beyond[1];
+    int state = Z_OK;
+    while (state == Z_OK) {
+        const std::span<std::byte> target = out.empty() ? std::span(beyond) : out.first(std::min(out.size(), kMost));
+        const auto source = in.first(std::min(in.size(), kMost));
+        stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(source.data()));
+        stream.avail_in = static_cast<uInt>(source.size());
+        stream.next_out = reinterpret_cast<Bytef*>(target.data());
+        stream.avail_out = static_cast<uInt>(target.size());
+        state = ::inflate(&stream, Z_NO_FLUSH);
+        in = in.subspan(source.size() - stream.avail_in);
+        const std::size_t written = target.size() - stream.avail_out;
+        if (written > out.size()) state = Z_DATA_ERROR;
+        out = out.subspan(std::min(written, out.size()));
+    }
+    inflateEnd(&stream);
+    return state == Z_STREAM_END && in.empty() && out.empty();
 }
 
 }  // namespace
@@ -387,8 +449,21 @@ Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<cons
             placed.crc = crc32Of(part, placed.crc);
             placed.size += part.size();
         }
+        placed.packedSize = placed.size;
+        std::vector<std::span<const std::byte>> parts = entry.parts;
+        std::vector<std::vector<std::byte>> packed;
+        if (entry.isDeflated) {
+            packed = deflateParts(entry.parts);
+            std::uint64_t packedSize = 0;
+            for (const auto& piece : packed) packedSize += piece.size();
+            if (packedSize < placed.size && placed.size <= maxUnpacked(packedSize)) {
+                placed.method = kDeflated;
+                placed.packedSize = packedSize;
+                parts.assign(packed.begin(), packed.end());
+            }
+        }
         if (auto written = file->write(localHeader(entry, placed, zip64From)); !written) return written.error();
-        for (const auto part : entry.parts)
+        for (const auto part : parts)
             if (auto written = file->write(part); !written) return written.error();
         appendCentralHeader(directory, entry, placed, zip64From);
     }
@@ -425,14 +500,15 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
         if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 8), load<std::uint16_t>(bytes, at + 10)); !kind)
             return wrong(kind.error().message());
         if (load<std::uint16_t>(bytes, at + 34) != 0) return wrong("stands in another part of a split archive");
-        std::uint64_t size = load<std::uint32_t>(bytes, at + 24);
-        std::uint64_t stored = load<std::uint32_t>(bytes, at + 20);
+        entry.size = load<std::uint32_t>(bytes, at + 24);
+        entry.isDeflated = load<std::uint16_t>(bytes, at + 10) == kDeflated;
+        std::uint64_t packedSize = load<std::uint32_t>(bytes, at + 20);
         std::uint64_t offset = load<std::uint32_t>(bytes, at + 42);
         const auto extra = bytes.subspan(at + kCentralSize + nameSize, extraSize);
-        if (auto resolved = resolve64(extra, {&size, &stored, &offset}); !resolved)
+        if (auto resolved = resolve64(extra, {&entry.size, &packedSize, &offset}); !resolved)
             return wrong(resolved.error().message());
-        if (size != stored) return wrong("has two sizes, although it is stored");
-        auto located = readLocal(bytes, entry, offset, size, directory->offset);
+        if (entry.size != packedSize && !entry.isDeflated) return wrong("has two sizes, although it is stored");
+        auto located = readLocal(bytes, entry, offset, packedSize, directory->offset);
         if (!located) return wrong(located.error().message());
         found.push_back(*located);
         at += kCentralSize + nameSize + extraSize + commentSize;
@@ -453,13 +529,30 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
     return entries;
 }
 
-Result<void> checkCrc(const ZipEntry& entry) {
-    const std::uint32_t actual = crc32Of(entry.data);
-    if (actual == entry.crc) return {};
-    return Error(Code::BadChecksum,
-                 fmt::format("the data of entry {} have CRC32 {:08x}, {:08x} is expected: the file is damaged. Copy it "
-                             "again or build the volume again.",
-                             shown(entry.name), actual, entry.crc));
+Result<std::span<const std::byte>> unpack(const ZipEntry& entry, std::uint64_t maxBytes,
+                                          std::vector<std::byte>& buffer) {
+    if (entry.size > maxBytes)
+        return Error(Code::InputTooBig,
+                     fmt::format("entry {} has {} bytes, {} are possible", shown(entry.name), entry.size, maxBytes));
+    std::span<const std::byte> data = entry.data;
+    if (entry.isDeflated) {
+        if (entry.size > maxUnpacked(data.size()))
+            return bad(fmt::format("entry {} is said to unpack from {} bytes to {}, {} are possible", shown(entry.name),
+                                   data.size(), entry.size, maxUnpacked(data.size())));
+        if (!inflateInto(entry, buffer))
+            return bad(
+                fmt::format("entry {} cannot be unpacked: the file is damaged. Copy it again or build the "
+                            "volume again.",
+                            shown(entry.name)));
+        data = buffer;
+    }
+    if (const std::uint32_t actual = crc32Of(data); actual != entry.crc)
+        return Error(
+            Code::BadChecksum,
+            fmt::format("the data of entry {} have CRC32 {:08x}, {:08x} is expected: the file is damaged. Copy "
+                        "it again or build the volume again.",
+                        shown(entry.name), actual, entry.crc));
+    return data;
 }
 
 }  // namespace svt::volume

@@ -83,6 +83,14 @@ struct RawZip {
     }
 };
 
+/// The data of an entry where they are right.
+std::optional<std::string> unpackedText(const ZipEntry& entry) {
+    std::vector<std::byte> buffer;
+    const auto data = unpack(entry, entry.size, buffer);
+    if (!data) return std::nullopt;
+    return textOf(*data);
+}
+
 RawZip twoEntries() { return {{RawEntry("one", "first data"), RawEntry("two", "second")}, {}, {}, {}, {}, {}}; }
 
 void expectBad(std::string_view archive, std::string_view reason) {
@@ -109,7 +117,75 @@ TEST(ZipContainer, EntriesComeBackAsWritten) {
     EXPECT_EQ(textOf((*entries)[0].data), "text");
     EXPECT_EQ((*entries)[1].data.size(), 0u);
     EXPECT_EQ(textOf((*entries)[2].data), "one" + big);
-    for (const ZipEntry& entry : *entries) EXPECT_TRUE(checkCrc(entry));
+    for (const ZipEntry& entry : *entries) EXPECT_TRUE(unpackedText(entry));
+}
+
+TEST(ZipContainer, DeflatedEntriesComeBackAsWritten) {
+    const TemporaryFolder folder;
+    // Several pieces of one deflate stream, cut across the parts.
+    std::string text;
+    for (int i = 0; text.size() < 3'000'000; ++i) text += "{\"id\":\"wall-" + std::to_string(i * 7919) + "\"}\n";
+    const std::string noise = [] {
+        std::string bytes(1000, '\0');
+        std::uint32_t state = 1;
+        for (char& c : bytes) c = static_cast<char>((state = state * 1664525u + 1013904223u) >> 24);
+        return bytes;
+    }();
+    const ZipSource sources[] = {
+        {"text", {bytesOf(text).first(1'500'000), bytesOf(text).subspan(1'500'000)}, true, true},
+        {"empty", {}, true, true},
+        {"noise", {bytesOf(noise)}, true, true}};
+    ASSERT_TRUE(writeZip(folder / "z", sources));
+    const std::string archive = readText(folder / "z");
+    EXPECT_LT(archive.size(), text.size() / 4);
+    const auto entries = readZip(bytesOf(archive));
+    ASSERT_TRUE(entries) << entries.error().toString();
+    EXPECT_TRUE((*entries)[0].isDeflated);
+    EXPECT_EQ((*entries)[0].size, text.size());
+    EXPECT_EQ(unpackedText((*entries)[0]), text);
+    EXPECT_EQ(unpackedText((*entries)[1]), "");
+    EXPECT_FALSE((*entries)[2].isDeflated) << "deflating would make it longer";
+    EXPECT_EQ(unpackedText((*entries)[2]), noise);
+}
+
+TEST(ZipContainer, DeflatedDataThatLieAreRefused) {
+    const TemporaryFolder folder;
+    const std::string text(50'000, 'x');
+    ASSERT_TRUE(writeZip(folder / "z", std::vector<ZipSource>{{"text", {bytesOf(text)}, true, true}}));
+    const std::string archive = readText(folder / "z");
+    const auto good = readZip(bytesOf(archive));
+    ASSERT_TRUE(good);
+    const auto expectRefused = [&](const std::function<void(ZipEntry&)>& change, Code code, std::string_view reason) {
+        ZipEntry entry = (*good)[0];
+        change(entry);
+        std::vector<std::byte> buffer;
+        const auto data = unpack(entry, 1'000'000'000'000, buffer);
+        ASSERT_FALSE(data) << reason;
+        EXPECT_EQ(data.error().code(), code) << reason;
+        EXPECT_NE(data.error().message().find(reason), std::string::npos) << data.error().message();
+    };
+    expectRefused([](ZipEntry& e) { e.size -= 1; }, Code::BadVolume, "cannot be unpacked");
+    expectRefused([](ZipEntry& e) { e.size += 1; }, Code::BadVolume, "cannot be unpacked");
+    expectRefused([](ZipEntry& e) { e.size = 0; }, Code::BadVolume, "cannot be unpacked");
+    expectRefused([](ZipEntry& e) { e.data = e.data.first(e.data.size() - 1); }, Code::BadVolume, "cannot be unpacked");
+    expectRefused([](ZipEntry& e) { e.data = e.data.first(0); }, Code::BadVolume, "cannot be unpacked");
+    expectRefused([](ZipEntry& e) { e.data = bytesOf("\xFF\xFF\xFF\xFF"); }, Code::BadVolume, "cannot be unpacked");
+    expectRefused([](ZipEntry& e) { e.crc ^= 1; }, Code::BadChecksum, "'text' have CRC32");
+    expectRefused([](ZipEntry& e) { e.size = 100'000'000'000; }, Code::BadVolume, "is said to unpack from");
+    std::vector<std::byte> buffer;
+    EXPECT_EQ(unpack((*good)[0], 49'999, buffer).error().code(), Code::InputTooBig);
+}
+
+TEST(ZipContainer, DataThatDeflateTooWellAreStored) {
+    // 80 MB of zeros would unpack to more than a reader takes from 0.1 MB.
+    const TemporaryFolder folder;
+    const std::string zeros(80'000'000, '\0');
+    ASSERT_TRUE(writeZip(folder / "z", std::vector<ZipSource>{{"zeros", {bytesOf(zeros)}, true, true}}));
+    const std::string archive = readText(folder / "z");
+    const auto entries = readZip(bytesOf(archive));
+    ASSERT_TRUE(entries);
+    EXPECT_FALSE((*entries)[0].isDeflated);
+    EXPECT_TRUE(unpackedText((*entries)[0]) == zeros);
 }
 
 TEST(ZipContainer, DataAreAlignedAndTheMimeTypeStandsAtByte38) {
@@ -157,8 +233,9 @@ TEST(ZipContainer, WrongCrcNamesTheEntry) {
     const std::string archive = zip.bytes();
     const auto entries = readZip(bytesOf(archive));
     ASSERT_TRUE(entries);
-    EXPECT_TRUE(checkCrc((*entries)[0]));
-    const auto checked = checkCrc((*entries)[1]);
+    EXPECT_TRUE(unpackedText((*entries)[0]));
+    std::vector<std::byte> buffer;
+    const auto checked = unpack((*entries)[1], 100, buffer);
     ASSERT_FALSE(checked);
     EXPECT_EQ(checked.error().code(), Code::BadChecksum);
     EXPECT_NE(checked.error().message().find("'two'"), std::string::npos);
@@ -208,13 +285,13 @@ TEST(ZipContainer, TheSameNameTwiceIsRefused) {
     expectBad(zip.bytes(), "stands twice");
 }
 
-TEST(ZipContainer, CompressedEncryptedAndStreamedEntriesAreRefused) {
+TEST(ZipContainer, EncryptedStreamedAndStrangelyCompressedEntriesAreRefused) {
     const struct {
         std::uint32_t flags, method;
         const char* reason;
     } cases[] = {
-        {0, 8, "is compressed (method 8)"}, {0, 93, "is compressed (method 93)"}, {1, 0, "is encrypted"},
-        {8, 0, "size after the data"},      {1u << 13, 0, "flags 0x2000"},        {1u << 6, 0, "flags 0x0040"}};
+        {0, 12, "compressed with method 12"}, {0, 93, "compressed with method 93"}, {1, 0, "is encrypted"},
+        {8, 0, "size after the data"},        {1u << 13, 0, "flags 0x2000"},        {1u << 6, 0, "flags 0x0040"}};
     for (const auto& c : cases) {
         for (const bool isLocal : {false, true}) {
             RawZip zip = twoEntries();
@@ -234,6 +311,8 @@ TEST(ZipContainer, HeadersThatDifferAreRefused) {
                                                       [](RawEntry& e) { e.local.crc ^= 1; },
                                                       [](RawEntry& e) { e.local.size -= 1; },
                                                       [](RawEntry& e) { e.local.stored -= 1; },
+                                                      [](RawEntry& e) { e.local.method = 8; },
+                                                      [](RawEntry& e) { e.central.method = 8; },
                                                       [](RawEntry& e) { e.central.crc ^= 1; },
                                                       [](RawEntry& e) { e.central.size = e.central.stored = 3; },
                                                       [](RawEntry& e) { e.local.size = e.local.stored = 3; }};
@@ -356,8 +435,10 @@ TEST(ZipContainer, Zip64EndRecordThatLiesIsRefused) {
 
 TEST(ZipContainer, ExternalToolsAcceptTheFile) {
     const TemporaryFolder folder;
+    const std::string longText(3'000'000, 'x');
     const ZipSource sources[] = {{"mimetype", {bytesOf("text")}, false},
-                                 {"a/b", {bytesOf("a text of more than twenty bytes")}, true}};
+                                 {"a/b", {bytesOf("a text of more than twenty bytes")}, true},
+                                 {"deflated", {bytesOf(longText)}, true, true}};
     for (const std::uint64_t zip64From : {std::uint64_t{0xFFFFFFFF}, std::uint64_t{20}}) {
         ASSERT_TRUE(writeZip(folder / "z.zip", sources, zip64From));
         const std::string path = (folder / "z.zip").string();
@@ -370,7 +451,8 @@ TEST(ZipContainer, ExternalToolsAcceptTheFile) {
             ++tools;
             const std::string script =
                 "import sys,zipfile; z=zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; "
-                "assert z.read(\"a/b\")==b\"a text of more than twenty bytes\"";
+                "assert z.read(\"a/b\")==b\"a text of more than twenty bytes\"; "
+                "assert z.read(\"deflated\")==b\"x\"*3000000";
             EXPECT_EQ(std::system(("python3 -c '" + script + "' '" + path + "'").c_str()), 0)
                 << "ZIP64 from " << zip64From;
         }

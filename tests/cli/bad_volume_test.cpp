@@ -55,11 +55,11 @@ TEST_F(GoodVolume, AChangedByteIsNoticedOrDoesNoHarm) {
 TEST_F(GoodVolume, AChangedSampleBreaksTheChecksum) {
     std::string damaged = bytes;
     // Name and extra field stand between the local header and the data.
-    const std::size_t name = damaged.find("columns/runs");
+    const std::size_t name = damaged.find("columns/blocks");
     ASSERT_NE(name, std::string::npos);
     const auto extraBytes = static_cast<std::size_t>(static_cast<unsigned char>(damaged[name - 2])) +
                             256u * static_cast<unsigned char>(damaged[name - 1]);
-    char& sample = damaged[name + std::string_view("columns/runs").size() + extraBytes];
+    char& sample = damaged[name + std::string_view("columns/blocks").size() + extraBytes];
     sample = static_cast<char>(sample ^ 1);
     const CommandResult result = infoOf(damaged);
     EXPECT_EQ(result.exitCode, 3);
@@ -98,6 +98,9 @@ class OutputTest : public ::testing::TestWithParam<Output> {
 protected:
     OutputTest() {
         writeText(folder / "two.gml", twoBoxes());
+        // Grains that no compression makes small.
+        writeText(folder / "grains.json",
+                  R"({"rules": [{"select": "all", "pattern": {"type": "concrete", "size": 0.08}}]})");
         std::filesystem::create_directory(folder / "sub");
     }
     CommandResult runWith(const std::string& output, const Limits& limits = {}) {
@@ -143,7 +146,7 @@ TEST_P(OutputTest, SizeLimitIsToldAndLeavesTheOldFile) {
     const CommandResult result = runWith("o", limits);
     expect(result, "E404 CannotWrite: o.*limit");
     EXPECT_EQ(readText(folder / name), "old");
-    EXPECT_EQ(folder.count(), 3) << "a temporary file is left";
+    EXPECT_EQ(folder.count(), 4) << "a temporary file is left";
 }
 
 TEST_P(OutputTest, FullDeviceIsTold) {
@@ -154,7 +157,7 @@ TEST_P(OutputTest, FullDeviceIsTold) {
 
 // OUT in the last argument stands for the path without its extension.
 const std::vector<Output> kOutputs{
-    {"Build", {"build", "two.gml", "--dimension", "300,200,100", "--patterns", "--output", "OUT.svt"}},
+    {"Build", {"build", "two.gml", "--dimension", "300,200,100", "--style", "grains.json", "--output", "OUT.svt"}},
     {"Sample", {"sample", "house", "--output", "OUT.gml"}},
     {"Convert", {"convert", "two.gml", "--dimension", "100", "--encoding", "raw", "OUT.nrrd"}},
     {"Render",
