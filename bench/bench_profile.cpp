@@ -62,6 +62,7 @@ Result<void> runProfilePiece(ProfilePiece piece, const Input& input) {
     if (!spec) return spec.error();
     if (piece == ProfilePiece::Count) {
         fmt::print("{}\n", Json{{"machine", describeMachine()},
+                                {"input", input.name},
                                 {"crossings", crossingsOf(scene->meshes, drawable->grid)},
                                 {"rays", std::uint64_t{kWidth} * kHeight}}
                                .dump());

@@ -61,10 +61,7 @@ public:
         });
     }
 
-    render::Image<render::Rgba8> picture() override {
-        draw();
-        return image_;
-    }
+    render::Image<render::Rgba8> picture() override { return image_; }
 
 private:
     // Opacity is given per metre; a sample stands for a step.

@@ -117,7 +117,6 @@ public:
     }
 
     render::Image<render::Rgba8> picture() override {
-        draw();
         const int* size = window_->GetSize();
         vtkNew<vtkUnsignedCharArray> pixels;
         window_->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);

@@ -73,6 +73,7 @@ public:
     [[nodiscard]] virtual bool usesLabels() const = 0;
     /// Draws and waits for the picture.
     virtual void draw() = 0;
+    /// What draw() has drawn.
     [[nodiscard]] virtual render::Image<render::Rgba8> picture() = 0;
 };
 

@@ -25,6 +25,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.dont_write_bytecode = True  # nothing is left in scripts/
 import bench_page
 import bench_plot
 
@@ -114,8 +115,8 @@ def run_profile(program, build):
     rows = []
     for piece, unit in pieces.items():
         per_unit = {name: (counts[piece][name] - counts["prepare"][name]) / units[unit] for name in counts[piece]}
-        rows.append({"id": f"profile/{piece}", "stage": "profile", "piece": piece, "unit": unit[:-1],
-                     "units": units[unit], **per_unit})
+        rows.append({"id": f"profile/{piece}", "stage": "profile", "piece": piece, "input": units["input"],
+                     "unit": unit[:-1], "units": units[unit], **per_unit})
     return {"machine": units["machine"], "results": rows, "skipped": []}
 
 

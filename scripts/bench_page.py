@@ -56,7 +56,7 @@ def size(value):
     if not value:
         return "-"
     if value >= 1e9:
-        return f"{value / 1e9:.2f} GB"
+        return f"{value / 1e9:.3g} GB"
     return f"{value / 1e6:.0f} MB" if value >= 1e8 else f"{value / 1e6:.1f} MB" if value >= 1e7 else f"{value / 1e6:.2f} MB"
 
 
@@ -200,9 +200,10 @@ def scaling(rows):
 
 
 def profile(rows):
-    lines = [[row["piece"] + (" frame" if row["unit"] == "ray" else ""), f"{row['units']} {row['unit']}s",
-              f"{row['instructions']:.0f}", f"{row['l1_misses']:.2f}", f"{row['last_level_misses']:.3f}"] for row in rows]
-    return table(["work, FZK-Haus, one thread", "units", "instructions per unit", "misses of the first level",
+    lines = [[row["piece"] + (" frame" if row["unit"] == "ray" else ""), row["input"], f"{row['units']} {row['unit']}s",
+              f"{row['instructions']:.0f}", f"{max(0, row['l1_misses']):.2f}",
+              f"{max(0, row['last_level_misses']):.2f}"] for row in rows]
+    return table(["work, one thread", "input", "units", "instructions per unit", "misses of the first level",
                   "of the last level"], lines)
 
 
@@ -225,11 +226,12 @@ def machine_text(figures):
     text = f"Commit {commits(figures)}." if m is None else (
         f"Machine: {m['cores']} cores, {m['processor']}, {m['simd']}, {m['memory_gib']:.0f} GiB; {m['compiler']}, "
         f"{m['build']}; commit {commits(figures)}.")
-    parts = [(name, part) for name, part in figures["parts"].items() if "others_cores" in part and name != "profile"]
+    parts = [(part["others_cores"], part["stolen_cores"], name) for name, part in figures["parts"].items()
+             if "others_cores" in part and name != "profile"]
     if parts:
-        text += (" While the parts ran, other programs used this many cores on average, and the machine's host took "
-                 "away so many: " + "; ".join(f"{name} {part['others_cores']:.2f}, {part['stolen_cores']:.2f}"
-                                              for name, part in parts) + ".")
+        others, _, name = max(parts)
+        text += (f" Other programs used {others:.2f} cores at most while a part ran (part {name}), the machine's host "
+                 f"took away {max(stolen for _, stolen, _ in parts):.2f}.")
     return text
 
 
