@@ -81,9 +81,7 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
 }  // namespace
 
 Result<void> benchStages(const Input& input, const Scene& scene, const BenchOptions& options, Report& report) {
-    for (const Vec3i dimension : gridSizes(options.isQuick))
-        if (auto done = benchSize(input, scene, dimension, options, report); !done) return done;
-    return {};
+    return benchSize(input, scene, gridSize(options.isQuick), options, report);
 }
 
 }  // namespace svt::bench

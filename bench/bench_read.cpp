@@ -47,7 +47,7 @@ Result<Row> readRow(const Input& input, const BenchOptions& options) {
     } else {
         counts = libcitygml.peer->read(input.file);
         if (counts.polygons == 0)
-            row.missing.push_back("libcitygml refuses this file or finds nothing in it");
+            row.missing.push_back(fmt::format("libcitygml refuses {} or finds nothing in it", input.name));
         else
             contestants.push_back(
                 {libcitygml.peer->name(), [&] { static_cast<void>(libcitygml.peer->read(input.file)); }});
@@ -56,18 +56,12 @@ Result<Row> readRow(const Input& input, const BenchOptions& options) {
     row.ours = measured[0];
     row.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[0].median);
     row.extra["polygons"] = countUses(*model);
-    row.note = fmt::format("{:.0f} MB/s", megabytesPerSecond(bytes, measured[0].median));
     for (std::size_t m = 1; m < measured.size(); ++m) {
         Beside beside;
         beside.measurement = measured[m];
         beside.isPeer = m > 1;
-        const double speed = megabytesPerSecond(bytes, measured[m].median);
-        beside.extra["mb_per_s"] = speed;
-        beside.note = fmt::format("{:.0f} MB/s, SVT {:.0f} MB/s", speed, megabytesPerSecond(bytes, measured[0].median));
-        if (beside.isPeer) {
-            beside.extra["polygons"] = counts.polygons;
-            beside.note += fmt::format("; polygons: {}, SVT {}", counts.polygons, countUses(*model));
-        }
+        beside.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[m].median);
+        if (beside.isPeer) beside.extra["polygons"] = counts.polygons;
         row.beside.push_back(std::move(beside));
     }
     return row;

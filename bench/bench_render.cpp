@@ -1,11 +1,12 @@
 #include <bench/benches.hpp>
 #include <bench/compare.hpp>
+#include <bench/drawable.hpp>
+#include <bench/machine.hpp>
 #include <bench/peers.hpp>
-#include <svt/render/camera_presets.hpp>
+#include <svt/render/color.hpp>
+#include <svt/render/png.hpp>
 #include <svt/render/ray_caster.hpp>
-#include <svt/volume/brick_volume.hpp>
 #include <svt/volume/dense.hpp>
-#include <svt/voxelize/voxelize.hpp>
 
 #include <fmt/format.h>
 
@@ -14,66 +15,58 @@
 namespace svt::bench {
 namespace {
 
-// A volume ready to be drawn by ours and by the peers.
-struct Drawable {
-    volume::Grid grid;
-    volume::ColumnVolume columns;
-    volume::BrickVolume bricks;
-};
-
-Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension) {
-    const auto grid = gridOver(scene, dimension);
-    if (!grid) return grid.error();
-    auto voxels = voxelize::voxelize(scene.meshes, *grid, scene.labels.claims);
-    if (!voxels) return voxels.error();
-    auto bricks = volume::BrickVolume::fromColumns(voxels->columns);
-    if (!bricks) return bricks.error();
-    return Drawable{*grid, std::move(voxels->columns), std::move(*bricks)};
-}
-
-// What has a built-in opacity below 1 (rooms, units) is hidden; all else is opaque.
-std::vector<render::Style> opaqueStyles(const Scene& scene) {
-    const volume::LabelTable& table = scene.labels.table;
-    std::vector<render::Style> styles(table.scalarCount());
-    for (std::size_t s = 0; s < styles.size(); ++s) styles[s] = {telltaleColor(static_cast<std::uint32_t>(s)), 0};
-    for (const volume::Label& label : table.labels)
-        for (volume::Scalar s = 0; s < label.count; ++s)
-            styles[label.first + s].opacity = label.opacity < 1 ? 0.0f : 1.0f;
-    return styles;
-}
-
-// Everything, rooms too, stops 30 % of the light per metre: hardly a ray ends early.
-std::vector<render::Style> translucentStyles(const Scene& scene) {
-    std::vector<render::Style> styles = opaqueStyles(scene);
-    for (std::size_t s = 1; s < styles.size(); ++s) styles[s].opacity = 0.3f;
-    return styles;
-}
-
-Result<render::FrameSpec> frameOf(const Drawable& drawable, std::vector<render::Style> styles, std::int32_t width,
-                                  std::int32_t height) {
-    render::FrameSpec spec;
-    spec.width = width;
-    spec.height = height;
-    render::PresetOptions preset;
-    preset.aspect = double(width) / height;
-    auto camera = render::cameraPreset("iso", drawable.grid, preset);
-    if (!camera) return camera.error();
-    spec.camera = *camera;
-    render::Pass pass;
-    pass.styles = std::move(styles);
-    spec.passes.push_back(std::move(pass));
-    return spec;
-}
+enum class Look : std::uint8_t { Opaque, Translucent };
 
 void cast(const Drawable& drawable, const render::FrameSpec& spec) {
     static_cast<void>(render::castRays(drawable.bricks, drawable.grid, spec).hasValue());
 }
 
-render::FrameSpec unlit(render::FrameSpec spec) {
-    spec.light.key = 0;
-    spec.light.ambient = 1;
-    spec.light.ambientOcclusion = 0;
-    return spec;
+// What all who draw one frame need.
+struct Frame {
+    const Drawable& drawable;
+    Look look;
+    std::vector<render::Style> styles;
+    render::FrameSpec spec;
+};
+
+Result<Frame> makeFrame(const Scene& scene, const Drawable& drawable, Look look) {
+    const bool isOpaque = look == Look::Opaque;
+    std::vector<render::Style> styles =
+        isOpaque ? opaqueStyles(scene.labels.table) : translucentStyles(scene.labels.table);
+    auto spec = isOpaque ? frameOf(drawable.grid, styles, 1280, 720) : frameOf(drawable.grid, styles, 1920, 1080);
+    if (!spec) return spec.error();
+    return Frame{drawable, look, std::move(styles), std::move(*spec)};
+}
+
+// Opaque colors are not blended, so the peers get them as they are, and labels can be read back. Translucent ones are
+// blended in linear light by ours, so the peers get linear numbers, and their pictures hold linear numbers.
+std::vector<render::Style> stylesForPeers(const Frame& frame) {
+    std::vector<render::Style> styles = frame.styles;
+    if (frame.look == Look::Translucent)
+        for (render::Style& style : styles) style.color = render::linearFromSrgb(style.color);
+    return styles;
+}
+
+// Our picture of the frame without light, in the numbers of the peers' pictures, and its labels.
+struct OurPicture {
+    render::Image<render::Rgba8> color;
+    render::Image<volume::Scalar> label;
+};
+
+Result<OurPicture> pictureWithoutLight(const Frame& frame) {
+    auto cast = render::castRays(frame.drawable.bricks, frame.drawable.grid, dark(frame.spec));
+    if (!cast) return cast.error();
+    render::Image<render::Rgba8> color =
+        frame.look == Look::Opaque ? flatPicture(cast->label, frame.styles) : linearPicture(cast->color, 2);
+    return OurPicture{std::move(color), std::move(cast->label)};
+}
+
+Json colorsJson(const ColorComparison& comparison) {
+    return {{"pixels", comparison.pixels},
+            {"mean", comparison.mean},
+            {"largest", comparison.largest},
+            {"over_2_percent", 100 * comparison.over2},
+            {"over_8_percent", 100 * comparison.over8}};
 }
 
 class RenderBench {
@@ -82,19 +75,13 @@ public:
         : scene_(scene), options_(options), report_(report) {}
 
     Result<void> run() {
-        const Vec3i dimension = gridSizes(options_.isQuick).back();
-        auto drawable = makeDrawable(scene_, dimension);
+        const auto drawable = makeDrawable(scene_, gridSize(options_.isQuick));
         if (!drawable) return drawable.error();
-        dense_.dimension = dimension;
-        auto scalars = volume::toDense<std::uint16_t>(drawable->columns);
-        if (!scalars) return scalars.error();
-        dense_.scalars = std::move(*scalars);
-        if (auto done = besideVtk(*drawable, "opaque frame", opaqueStyles(scene_), 1280, 720); !done) return done;
-        if (auto done = besideVtk(*drawable, "translucent frame", translucentStyles(scene_), 1920, 1080); !done)
-            return done;
-        dense_ = {};
+        if (auto done = frames(*drawable, nullptr); !done) return done;
         if (auto done = edits(*drawable); !done) return done;
-        return options_.isQuick ? Result<void>{} : largerGrid(*drawable);
+        if (options_.isQuick || (scene_.name != kHouse && scene_.name != kTurnedHouse)) return {};
+        const auto larger = makeDrawable(scene_, kLargeGrid);
+        return larger ? frames(*larger, &*drawable) : larger.error();
     }
 
 private:
@@ -107,74 +94,137 @@ private:
         return row;
     }
 
-    Result<void> besideVtk(const Drawable& drawable, const char* stage, std::vector<render::Style> styles,
-                           std::int32_t width, std::int32_t height) {
-        Row row = newRow(stage, fmt::format("{}, {} x {} pixels", sizeText(drawable.grid.dimension()), width, height));
-        const bool isOpaque = styles[1].opacity != 0.3f;
-        const auto spec = frameOf(drawable, styles, width, height);
-        if (!spec) return spec.error();
-        const auto frame = render::castRays(drawable.bricks, drawable.grid, *spec);
-        if (!frame) return frame.error();
-        const render::FrameSpec flat = unlit(*spec);
-        std::vector<Contestant> contestants{{"SVT, lit", [&] { cast(drawable, *spec); }},
-                                            {"SVT, unlit", [&] { cast(drawable, flat); }}};
+    // Both looks beside all peers; where there is a smaller grid, beside the paper's method alone and our frame of the
+    // smaller grid.
+    Result<void> frames(const Drawable& drawable, const Drawable* smaller) {
+        DenseLabels dense;
+        std::string noDense;
+        const std::uint64_t denseBytes = 2 * drawable.grid.sampleCount(), free = availableMemory();
+        if (free != 0 && free < denseBytes + denseBytes / 2) {
+            noDense = fmt::format("{} of dense labels do not fit into the {} that are free", bytesText(denseBytes),
+                                  bytesText(free));
+        } else {
+            auto scalars = volume::toDense<std::uint16_t>(drawable.columns);
+            if (!scalars) return scalars.error();
+            dense = {drawable.grid.dimension(), std::move(*scalars)};
+        }
+        for (const Look look : {Look::Opaque, Look::Translucent}) {
+            const auto frame = makeFrame(scene_, drawable, look);
+            if (!frame) return frame.error();
+            Row row = newRow(look == Look::Opaque ? "opaque frame" : "translucent frame",
+                             fmt::format("{}, {} x {} pixels", sizeText(drawable.grid.dimension()), frame->spec.width,
+                                         frame->spec.height));
+            if (!noDense.empty()) row.missing.push_back(noDense);
+            if (auto done = besidePeers(*frame, dense, smaller, row); !done) return done;
+            report_.rows.push_back(std::move(row));
+        }
+        return {};
+    }
+
+    static std::vector<std::unique_ptr<VolumePeer>> makePeers(const DenseLabels& dense, bool withVtk, Row& row) {
         std::vector<std::unique_ptr<VolumePeer>> peers;
-        std::vector<std::uint64_t> memory;  // of each peer: its volume, and what it makes of it for the first frame
+        if (dense.scalars.empty()) return peers;
+        peers.push_back(makeDenseSteps().peer);
+        if (!withVtk) return peers;
         for (const VtkMapper mapper : {VtkMapper::FixedPoint, VtkMapper::Gpu}) {
             Peer<VolumePeer> vtk = makeVtkVolume(mapper);
-            if (vtk.peer == nullptr) {
-                if (mapper == VtkMapper::FixedPoint) row.missing.push_back(vtk.missing);
-                continue;
-            }
-            memory.push_back(peakMemoryOf([&] {
-                vtk.peer->setVolume(dense_, drawable.grid);
-                vtk.peer->setStyles(styles);
-                vtk.peer->setCamera(spec->camera, width, height);
-                vtk.peer->draw();
-            }));
-            peers.push_back(std::move(vtk.peer));
-            VolumePeer* const peer = peers.back().get();
-            contestants.push_back({peer->name(), [peer] { peer->draw(); }});
+            if (vtk.peer != nullptr)
+                peers.push_back(std::move(vtk.peer));
+            else if (mapper == VtkMapper::FixedPoint)
+                row.missing.push_back(vtk.missing);
+        }
+        return peers;
+    }
+
+    Result<void> besidePeers(const Frame& frame, const DenseLabels& dense, const Drawable* smaller, Row& row) {
+        const std::vector<render::Style> styles = stylesForPeers(frame);
+        const render::FrameSpec flat = unlit(frame.spec);
+        const auto ours = pictureWithoutLight(frame);
+        if (!ours) return ours.error();
+        std::vector<Contestant> contestants{{"SVT, lit", [&] { cast(frame.drawable, frame.spec); }},
+                                            {"SVT, unlit", [&] { cast(frame.drawable, flat); }}};
+        const auto peers = makePeers(dense, smaller == nullptr, row);
+        std::vector<bool> isReady(peers.size());
+        for (std::size_t p = 0; p < peers.size(); ++p)
+            contestants.push_back({peers[p]->name(), [&, p] {
+                                       VolumePeer& peer = *peers[p];
+                                       // The warm-up has the peer's copy of the volume in its memory.
+                                       if (!isReady[p]) {
+                                           peer.setVolume(dense, frame.drawable.grid);
+                                           peer.setStyles(styles);
+                                           peer.setCamera(frame.spec.camera, frame.spec.width, frame.spec.height);
+                                           isReady[p] = true;
+                                       }
+                                       peer.draw();
+                                   }});
+        render::FrameSpec smallerSpec;
+        if (smaller != nullptr) {
+            auto smallerFrame = makeFrame(scene_, *smaller, frame.look);
+            if (!smallerFrame) return smallerFrame.error();
+            smallerSpec = std::move(smallerFrame->spec);
+            contestants.push_back(
+                {"SVT at " + sizeText(smaller->grid.dimension()), [&] { cast(*smaller, smallerSpec); }});
         }
         auto measured = measureInTurns(contestants, options_.measure);
-        measured[0].peakBytes += drawable.bricks.sizeBytes();
-        measured[1].peakBytes += drawable.bricks.sizeBytes();
-        for (std::size_t p = 0; p < peers.size(); ++p) measured[p + 2].peakBytes = memory[p];
+        for (std::size_t m = 0; m < 2; ++m) measured[m].peakBytes += frame.drawable.bricks.sizeBytes();
         row.ours = measured[0];
-        row.extra["frames_per_s"] = 1 / measured[0].median;
-        row.resultBytes = drawable.bricks.sizeBytes();
-        row.beside.push_back({measured[1], "no light, no ambient occlusion, as VTK here", Json::object(), false});
+        row.resultBytes = frame.drawable.bricks.sizeBytes();
+        row.beside.push_back({measured[1], "ambient light alone", Json::object(), false});
+        writePicture(row, "svt", ours->color);
         for (std::size_t p = 0; p < peers.size(); ++p) {
-            Beside beside{measured[p + 2], "one sample a voxel", Json::object(), true};
-            if (isOpaque) {
-                const double share = agreeingShare(frame->label, peers[p]->picture());
-                peers[p]->setSamplesPerVoxel(8);
-                const double fineShare = agreeingShare(frame->label, peers[p]->picture());
-                beside.extra["agreeing_pixels_percent"] = 100 * share;
-                beside.extra["agreeing_pixels_percent_8_samples"] = 100 * fineShare;
-                beside.note +=
-                    fmt::format("; {:.2f} % of the pixels show the same label, {:.2f} % with 8 samples a voxel",
-                                100 * share, 100 * fineShare);
-            } else {
-                beside.note += "; pictures not compared";
-            }
-            row.beside.push_back(std::move(beside));
+            if (peers[p]->usesLabels()) measured[p + 2].peakBytes += 2 * dense.scalars.size();
+            row.beside.push_back({measured[p + 2], sampling(peers[p]->samplesPerVoxel()),
+                                  picturesJson(frame, *ours, *peers[p], row), true});
         }
-        report_.rows.push_back(std::move(row));
+        if (smaller != nullptr) {
+            Measurement& last = measured.back();
+            last.peakBytes += smaller->bricks.sizeBytes();
+            row.extra["times_smaller_grid"] = measured[0].median / last.median;
+            row.beside.push_back({last, "the same frame", Json::object(), false});
+        }
         return {};
+    }
+
+    static std::string sampling(int samples) {
+        return samples == 1 ? "one sample a voxel" : fmt::format("{} samples a voxel", samples);
+    }
+
+    // How the peer's picture agrees with ours: as it was timed, and for surfaces also at a fine step, which tells
+    // what is due to the step.
+    Json picturesJson(const Frame& frame, const OurPicture& ours, VolumePeer& peer, const Row& row) const {
+        constexpr int kFineSamples = 8;
+        Json json = Json::object();
+        std::vector<int> counts{peer.samplesPerVoxel()};
+        if (frame.look == Look::Opaque) counts.push_back(kFineSamples);
+        for (const int samples : counts) {
+            if (samples != peer.samplesPerVoxel()) {
+                peer.setSamplesPerVoxel(samples);
+                peer.draw();
+            }
+            const auto theirs = peer.picture();
+            Json entry{{"samples_per_voxel", samples}, {"colors", colorsJson(compareColors(ours.color, theirs))}};
+            if (frame.look == Look::Opaque) entry["same_label_percent"] = 100 * agreeingShare(ours.label, theirs);
+            json["pictures"].push_back(std::move(entry));
+            writePicture(row, fmt::format("{} {}", peer.name(), samples), theirs);
+        }
+        return json;
+    }
+
+    void writePicture(const Row& row, const std::string& who, const render::Image<render::Rgba8>& picture) const {
+        if (options_.pictures.empty()) return;
+        const auto file = options_.pictures / (slug(row.id() + ' ' + who) + ".png");
+        if (!render::writePng(file, picture)) tell(fmt::format("cannot write {}", file.string()));
     }
 
     // A frame with a section plane; the same with the plane in another place each time, and with another style each
     // time.
     Result<void> edits(const Drawable& drawable) {
         Row row = newRow("section frame", fmt::format("{}, 1280 x 720 pixels", sizeText(drawable.grid.dimension())));
-        auto spec = frameOf(drawable, opaqueStyles(scene_), 1280, 720);
+        auto spec = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
         if (!spec) return spec.error();
-        const Vec3d corner = drawable.grid.origin();
-        const Vec3d size{drawable.grid.spacing().x * (drawable.grid.dimension().x - 1), 0,
-                         drawable.grid.spacing().z * (drawable.grid.dimension().z - 1)};
+        const double height = drawable.grid.spacing().z * (drawable.grid.dimension().z - 1);
         const auto planeAt = [&](double share) {
-            return render::ClipRegion::plane({0, 0, 1}, corner + Vec3d{0, 0, size.z * share});
+            return render::ClipRegion::plane({0, 0, 1}, drawable.grid.origin() + Vec3d{0, 0, height * share});
         };
         spec->passes[0].clips = {planeAt(0.5)};
         render::FrameSpec moved = *spec, edited = *spec;
@@ -187,9 +237,9 @@ private:
                  cast(drawable, moved);
              }},
             {"SVT, a style changed before each frame", [&] {
-                 edited.passes[0]
-                     .styles[1 + static_cast<std::size_t>(++turn) % (edited.passes[0].styles.size() - 1)]
-                     .color.x = 0.5f;
+                 std::vector<render::Style>& styles = edited.passes[0].styles;
+                 float& red = styles[1 + static_cast<std::size_t>(++turn) % (styles.size() - 1)].color.x;
+                 red = 1 - red;
                  cast(drawable, edited);
              }}};
         const auto measured = measureInTurns(contestants, options_.measure);
@@ -200,34 +250,9 @@ private:
         return {};
     }
 
-    Result<void> largerGrid(const Drawable& drawable) {
-        const Vec3i dimension{1000, 1200, 600};
-        Row row = newRow("larger grid, opaque frame", fmt::format("{}, 1280 x 720 pixels", sizeText(dimension)));
-        const auto larger = makeDrawable(scene_, dimension);
-        if (!larger) return larger.error();
-        const auto spec = frameOf(drawable, opaqueStyles(scene_), 1280, 720);
-        const auto largerSpec = frameOf(*larger, opaqueStyles(scene_), 1280, 720);
-        if (!spec) return spec.error();
-        if (!largerSpec) return largerSpec.error();
-        const auto measured =
-            measureInTurns({{"SVT", [&] { cast(*larger, *largerSpec); }},
-                            {"SVT at " + sizeText(drawable.grid.dimension()), [&] { cast(drawable, *spec); }}},
-                           options_.measure);
-        row.ours = measured[0];
-        row.resultBytes = larger->bricks.sizeBytes();
-        row.extra["times_smaller_grid"] = measured[0].median / measured[1].median;
-        row.beside.push_back(
-            {measured[1],
-             fmt::format("the larger grid takes {:.2f} times as long", measured[0].median / measured[1].median),
-             Json::object(), false});
-        report_.rows.push_back(std::move(row));
-        return {};
-    }
-
     const Scene& scene_;
     const BenchOptions& options_;
     Report& report_;
-    DenseLabels dense_;
 };
 
 }  // namespace

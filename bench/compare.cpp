@@ -1,11 +1,13 @@
 #include <bench/compare.hpp>
 
+#include <svt/render/color.hpp>
 #include <svt/volume/dense.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 
 namespace svt::bench {
 namespace {
@@ -15,7 +17,8 @@ constexpr std::uint32_t kTelltales = kSteps * kSteps * kSteps;  // black among t
 constexpr double kStepSize = 28;
 
 std::array<std::uint32_t, 3> digitsOf(std::uint32_t scalar) {
-    const std::uint32_t number = scalar == 0 ? 0 : 1 + (scalar - 1) % (kTelltales - 1);
+    constexpr std::uint32_t kSpread = 275;  // without common factor with 728: neighbours get unlike colors
+    const std::uint32_t number = scalar == 0 ? 0 : 1 + (scalar - 1) % (kTelltales - 1) * kSpread % (kTelltales - 1);
     return {number % kSteps, number / kSteps % kSteps, number / kSteps / kSteps};
 }
 
@@ -74,6 +77,51 @@ double agreeingShare(const render::Image<volume::Scalar>& ours, const render::Im
             agreeing += isShown && seen == digitsOf(scalar);
         }
     return shown == 0 ? 0 : double(agreeing) / double(shown);
+}
+
+ColorComparison compareColors(const render::Image<render::Rgba8>& ours, const render::Image<render::Rgba8>& theirs) {
+    ColorComparison result;
+    std::uint64_t over2 = 0, over8 = 0;
+    for (std::size_t p = 0; p < ours.pixels().size(); ++p) {
+        const render::Rgba8 a = ours.pixels()[p], b = theirs.pixels()[p];
+        if ((a.r | a.g | a.b | b.r | b.g | b.b) == 0) continue;
+        const std::array<int, 3> difference{std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)};
+        for (std::size_t c = 0; c < 3; ++c) result.mean[c] += difference[c];
+        const int most = *std::max_element(difference.begin(), difference.end());
+        result.largest = std::max(result.largest, most);
+        over2 += most > 2;
+        over8 += most > 8;
+        ++result.pixels;
+    }
+    if (result.pixels == 0) return result;
+    for (double& mean : result.mean) mean /= double(result.pixels);
+    result.over2 = double(over2) / double(result.pixels);
+    result.over8 = double(over8) / double(result.pixels);
+    return result;
+}
+
+render::Image<render::Rgba8> flatPicture(const render::Image<volume::Scalar>& labels,
+                                         std::span<const render::Style> styles) {
+    const auto byte = [](float channel) { return static_cast<std::uint8_t>(std::lround(255 * channel)); };
+    render::Image<render::Rgba8> picture(labels.width(), labels.height(), {0, 0, 0, 255});
+    for (std::size_t p = 0; p < labels.pixels().size(); ++p) {
+        const volume::Scalar scalar = labels.pixels()[p];
+        if (scalar == 0 || scalar >= styles.size()) continue;
+        const Vec3f color = styles[scalar].color;
+        picture.pixels()[p] = {byte(color.x), byte(color.y), byte(color.z), 255};
+    }
+    return picture;
+}
+
+render::Image<render::Rgba8> linearPicture(const render::Image<render::Rgba8>& picture, float factor) {
+    std::array<std::uint8_t, 256> linear{};
+    for (std::size_t level = 0; level < linear.size(); ++level) {
+        const float light = factor * render::linearFromSrgb(static_cast<float>(level) / 255);
+        linear[level] = static_cast<std::uint8_t>(std::lround(255 * std::min(1.0f, light)));
+    }
+    render::Image<render::Rgba8> result = picture;
+    for (render::Rgba8& pixel : result.pixels()) pixel = {linear[pixel.r], linear[pixel.g], linear[pixel.b], 255};
+    return result;
 }
 
 }  // namespace svt::bench

@@ -6,7 +6,9 @@
 #include <svt/render/image.hpp>
 #include <svt/volume/column_volume.hpp>
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace svt::bench {
@@ -33,5 +35,24 @@ struct VoxelComparison {
 /// shows anything.
 [[nodiscard]] double agreeingShare(const render::Image<volume::Scalar>& ours,
                                    const render::Image<render::Rgba8>& theirs);
+
+/// How far colors are apart, in levels of 255, over the pixels where either picture is not black.
+struct ColorComparison {
+    std::uint64_t pixels = 0;
+    std::array<double, 3> mean{};  ///< of the difference, per channel
+    int largest = 0;               ///< of any channel
+    double over2 = 0, over8 = 0;   ///< share of these pixels, 0..1, with a channel more than 2, more than 8 levels off
+};
+
+/// Sizes must agree.
+[[nodiscard]] ColorComparison compareColors(const render::Image<render::Rgba8>& ours,
+                                            const render::Image<render::Rgba8>& theirs);
+
+/// The picture without light of opaque labels: each pixel has the color of its label's style, black without a label.
+[[nodiscard]] render::Image<render::Rgba8> flatPicture(const render::Image<volume::Scalar>& labels,
+                                                       std::span<const render::Style> styles);
+
+/// `picture` in linear light, times `factor`: what a renderer makes that blends linear numbers.
+[[nodiscard]] render::Image<render::Rgba8> linearPicture(const render::Image<render::Rgba8>& picture, float factor);
 
 }  // namespace svt::bench

@@ -23,6 +23,13 @@ std::string firstValue(const char* file, const std::string& key) {
     return "unknown";
 }
 
+std::uint64_t memoryBytes(const std::string& key) {
+    std::istringstream memory(firstValue("/proc/meminfo", key));
+    std::uint64_t kilobytes = 0;
+    memory >> kilobytes;
+    return kilobytes * 1024;
+}
+
 std::string simdOfProcessor() {
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx512bw")) return "AVX-512";
@@ -37,21 +44,17 @@ std::string simdOfProcessor() {
 
 }  // namespace
 
+std::uint64_t availableMemory() { return memoryBytes("MemAvailable"); }
+
 nlohmann::ordered_json describeMachine() {
-    double load = 0;
-    std::ifstream("/proc/loadavg") >> load;
-    std::istringstream memory(firstValue("/proc/meminfo", "MemTotal"));
-    double kilobytes = 0;
-    memory >> kilobytes;
 #if defined(__clang__)
     const std::string compiler = fmt::format("clang {}.{}", __clang_major__, __clang_minor__);
 #else
     const std::string compiler = fmt::format("gcc {}.{}", __GNUC__, __GNUC_MINOR__);
 #endif
     return {{"cores", hardwareThreads()}, {"processor", firstValue("/proc/cpuinfo", "model name")},
-            {"simd", simdOfProcessor()},  {"memory_gib", std::round(kilobytes / 1024 / 1024)},
-            {"compiler", compiler},       {"build", SVT_BENCH_BUILD},
-            {"load_before", load}};
+            {"simd", simdOfProcessor()},  {"memory_gib", std::round(double(memoryBytes("MemTotal")) / (1 << 30))},
+            {"compiler", compiler},       {"build", SVT_BENCH_BUILD}};
 }
 
 }  // namespace svt::bench

@@ -1,4 +1,5 @@
-// svt_bench: times every stage, and beside it VTK, OpenVDB and libcitygml, in one run on one machine.
+// svt_bench: times every stage, and beside it VTK, OpenVDB, libcitygml and the paper's own method, in one run on one
+// machine. scripts/bench.py runs it part by part and makes the tables.
 #include <bench/benches.hpp>
 #include <bench/machine.hpp>
 
@@ -10,6 +11,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <string>
 
 namespace svt::bench {
@@ -18,16 +20,29 @@ void tell(const std::string& text) { fmt::print(stderr, "svt_bench: {}\n", text)
 
 namespace {
 
-Result<void> runAll(const BenchOptions& options, const std::vector<std::string>& parts, Report& report) {
+const std::vector<std::string> kParts{"read", "voxelize", "render", "stages", "scaling"};
+const std::map<std::string, ProfilePiece> kPieces{{"count", ProfilePiece::Count},
+                                                  {"prepare", ProfilePiece::Prepare},
+                                                  {"voxelize", ProfilePiece::Voxelize},
+                                                  {"opaque", ProfilePiece::Opaque},
+                                                  {"translucent", ProfilePiece::Translucent}};
+
+struct Arguments {
+    BenchOptions options;
+    std::vector<std::string> parts;
+    std::string jsonFile, profile;
+};
+
+Result<void> runParts(const Arguments& arguments, const std::vector<Input>& inputs, Report& report) {
+    const BenchOptions& options = arguments.options;
     const auto isAsked = [&](const char* part) {
-        return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
+        return arguments.parts.empty() ||
+               std::find(arguments.parts.begin(), arguments.parts.end(), part) != arguments.parts.end();
     };
-    const auto inputs = findInputs(options.scratch, report.skipped);
-    if (!inputs) return inputs.error();
     if (isAsked("read"))
         if (auto done = benchRead(options, report); !done) return done;
-    for (const Input& input : *inputs) {
-        if (!isAsked("voxelize") && !isAsked("render") && !isAsked("stages")) break;
+    for (const Input& input : inputs) {
+        if (options.isQuick && input.name == kTurnedHouse) continue;
         const auto scene = loadScene(input);
         if (!scene) return scene.error();
         if (isAsked("voxelize"))
@@ -36,31 +51,44 @@ Result<void> runAll(const BenchOptions& options, const std::vector<std::string>&
             if (auto done = benchRender(*scene, options, report); !done) return done;
         if (isAsked("stages"))
             if (auto done = benchStages(input, *scene, options, report); !done) return done;
+        if (isAsked("scaling") && (input.name == kHouse || input.name == kTurnedHouse))
+            if (auto done = benchScaling(*scene, options, report); !done) return done;
     }
+    if (isAsked("scaling") && !options.isQuick) return benchDistrict(options, report);
     return {};
 }
 
-int run(BenchOptions options, const std::vector<std::string>& parts, const std::string& jsonFile,
-        const std::string& commit) {
-    if (options.isQuick) options.measure = {3, 9, 2, 5};
+Result<void> runAll(const Arguments& arguments, Report& report) {
+    const auto inputs = findInputs(arguments.options.scratch, report.skipped);
+    if (!inputs) return inputs.error();
+    if (arguments.profile.empty()) return runParts(arguments, *inputs, report);
+    return runProfilePiece(kPieces.at(arguments.profile), inputs->front());
+}
+
+int run(Arguments arguments) {
+    BenchOptions& options = arguments.options;
+    if (options.isQuick) options.measure = {3, 9, 2, 3};
     options.scratch = std::filesystem::temp_directory_path() / fmt::format("svt_bench_{}", getpid());
     std::filesystem::create_directories(options.scratch);
+    if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);
     Report report;
     report.machine = describeMachine();
-    report.commit = commit;
-    report.isQuick = options.isQuick;
-    const auto done = runAll(options, parts, report);
+    const auto done = runAll(arguments, report);
     std::filesystem::remove_all(options.scratch);
     if (!done) {
         tell(done.error().toString());
         return 1;
     }
-    fmt::print("{}", report.markdown());
-    if (jsonFile.empty()) return 0;
-    std::ofstream out(jsonFile);
-    out << report.json().dump(1) << '\n';
+    if (!arguments.profile.empty()) return 0;
+    const std::string text = report.json().dump(1) + '\n';
+    if (arguments.jsonFile.empty()) {
+        fmt::print("{}", text);
+        return 0;
+    }
+    std::ofstream out(arguments.jsonFile);
+    out << text << std::flush;
     if (!out.good()) {
-        tell(fmt::format("cannot write {}", jsonFile));
+        tell(fmt::format("cannot write {}", arguments.jsonFile));
         return 5;
     }
     return 0;
@@ -70,15 +98,21 @@ int run(BenchOptions options, const std::vector<std::string>& parts, const std::
 }  // namespace svt::bench
 
 int main(int argc, char** argv) {
-    CLI::App app("Times SVT stage by stage, beside VTK, OpenVDB and libcitygml in the same run. Tables on stdout.");
-    svt::bench::BenchOptions options;
-    std::vector<std::string> parts;
-    std::string jsonFile, commit;
-    app.add_flag("--quick", options.isQuick, "the small grid alone, fewer runs: about half a minute");
-    app.add_option("--only", parts, "parts to run: read, voxelize, render, stages; all without it")
-        ->check(CLI::IsMember({"read", "voxelize", "render", "stages"}));
-    app.add_option("--json", jsonFile, "also write all figures to this file")->type_name("FILE");
-    app.add_option("--commit", commit, "written into the figures");
+    CLI::App app(
+        "Times SVT stage by stage, beside VTK, OpenVDB, libcitygml and the paper's own method. JSON on stdout.");
+    svt::bench::Arguments arguments;
+    std::vector<std::string> pieces;
+    for (const auto& [name, piece] : svt::bench::kPieces) pieces.push_back(name);
+    app.add_flag("--quick", arguments.options.isQuick, "the small grid alone, without the turned house, fewer runs");
+    app.add_option("--only", arguments.parts, "parts to run: read, voxelize, render, stages, scaling; all without it")
+        ->check(CLI::IsMember(svt::bench::kParts));
+    app.add_option("--json", arguments.jsonFile, "write the figures to this file instead")->type_name("FILE");
+    app.add_option("--pictures", arguments.options.pictures, "also write the pictures that are compared, as PNG")
+        ->type_name("FOLDER");
+    app.add_option("--profile", arguments.profile,
+                   "run one piece once with one thread, for a profiler; `count` prints "
+                   "how many crossings and rays the pieces have")
+        ->check(CLI::IsMember(pieces));
     CLI11_PARSE(app, argc, argv);
-    return svt::bench::run(std::move(options), parts, jsonFile, commit);
+    return svt::bench::run(std::move(arguments));
 }

@@ -61,7 +61,9 @@ public:
         vtkNew<vtkImageData> image;
         image->SetDimensions(n.x + 2, n.y + 2, n.z + 2);
         image->SetSpacing(spacing.x, spacing.y, spacing.z);
-        image->SetOrigin(-spacing.x, -spacing.y, -spacing.z);
+        // The fixed-point caster takes the label at the next lower sample, not at the nearest.
+        const double first = kind_ == VtkMapper::FixedPoint ? -1.5 : -1;
+        image->SetOrigin(first * spacing.x, first * spacing.y, first * spacing.z);
         image->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
         auto* const padded = static_cast<std::uint16_t*>(image->GetScalarPointer());
         std::fill_n(padded, image->GetNumberOfPoints(), std::uint16_t{0});
@@ -74,9 +76,11 @@ public:
             setMapper(fixedPoint_, *image);
         else
             setMapper(gpu_, *image);
-        setSamplesPerVoxel(1);
+        setSamplesPerVoxel(samplesPerVoxel());
     }
 
+    int samplesPerVoxel() const override { return 1; }
+    bool usesLabels() const override { return false; }
     void setSamplesPerVoxel(int samples) override {
         const auto step = static_cast<float>(voxel_ / samples);
         fixedPoint_->SetSampleDistance(step);
@@ -86,10 +90,12 @@ public:
     void setStyles(std::span<const render::Style> styles) override {
         vtkNew<vtkColorTransferFunction> colors;
         vtkNew<vtkPiecewiseFunction> opacities;
-        for (std::size_t s = 0; s < styles.size(); ++s) {
-            colors->AddRGBPoint(double(s), styles[s].color.x, styles[s].color.y, styles[s].color.z);
-            opacities->AddPoint(double(s), styles[s].opacity);
-        }
+        // The GPU caster samples these functions into textures with filtering, so each label gets a plateau.
+        for (std::size_t s = 0; s < styles.size(); ++s)
+            for (const double side : {-0.4, 0.4}) {
+                colors->AddRGBPoint(double(s) + side, styles[s].color.x, styles[s].color.y, styles[s].color.z);
+                opacities->AddPoint(double(s) + side, styles[s].opacity);
+            }
         property_->SetColor(colors);
         property_->SetScalarOpacity(opacities);
     }
@@ -111,7 +117,6 @@ public:
     }
 
     render::Image<render::Rgba8> picture() override {
-        draw();
         const int* size = window_->GetSize();
         vtkNew<vtkUnsignedCharArray> pixels;
         window_->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);

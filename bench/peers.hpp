@@ -55,25 +55,32 @@ public:
 [[nodiscard]] Peer<SolidPeer> makeVtkStencils();
 [[nodiscard]] Peer<SolidPeer> makeOpenVdb();
 
-/// Draws a dense label volume without light, nearest label, one sample a voxel.
+/// Draws a dense label volume without light, nearest label, by samples at a fixed step. The numbers of a color are
+/// blended as they are given, over black; who wants linear light gives linear numbers.
 class VolumePeer {
 public:
     virtual ~VolumePeer() = default;
     [[nodiscard]] virtual std::string name() const = 0;
-    /// Copies what it needs.
+    /// \param labels  must live as long as the peer
     virtual void setVolume(const DenseLabels& labels, const volume::Grid& grid) = 0;
     /// Colors and opacities per metre, by scalar.
     virtual void setStyles(std::span<const render::Style> styles) = 0;
     virtual void setCamera(const render::Camera& camera, std::int32_t width, std::int32_t height) = 0;
-    /// 1 from the start.
+    /// Samples on the shortest side of a voxel, from the start samplesPerVoxel().
     virtual void setSamplesPerVoxel(int samples) = 0;
+    [[nodiscard]] virtual int samplesPerVoxel() const = 0;
+    /// Whether it draws from `labels` as they are; else it has made a copy of its own.
+    [[nodiscard]] virtual bool usesLabels() const = 0;
     /// Draws and waits for the picture.
     virtual void draw() = 0;
+    /// What draw() has drawn.
     [[nodiscard]] virtual render::Image<render::Rgba8> picture() = 0;
 };
 
 enum class VtkMapper : std::uint8_t { FixedPoint, Gpu };
 [[nodiscard]] Peer<VolumePeer> makeVtkVolume(VtkMapper mapper);
+/// The paper's own method on the CPU, all cores. Always there.
+[[nodiscard]] Peer<VolumePeer> makeDenseSteps();
 
 /// What another reader found in a CityGML file.
 struct ReadCounts {

@@ -7,7 +7,18 @@
 namespace svt::bench {
 namespace {
 
-// Lower case, words joined by '-'; "800 x 700 x 400" is "800x700x400".
+double ratioOf(const Row& row, const Beside& beside) {
+    return row.ours.median > 0 ? beside.measurement.median / row.ours.median : 0;
+}
+
+Json measurementJson(const Measurement& m) {
+    Json json{{"name", m.name}, {"median_s", m.median}, {"least_s", m.least}, {"most_s", m.most}, {"runs", m.runs}};
+    if (m.peakBytes != 0) json["peak_bytes"] = m.peakBytes;
+    return json;
+}
+
+}  // namespace
+
 std::string slug(const std::string& text) {
     std::string result;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -24,33 +35,6 @@ std::string slug(const std::string& text) {
     return result;
 }
 
-double ratioOf(const Row& row, const Beside& beside) {
-    return row.ours.median > 0 ? beside.measurement.median / row.ours.median : 0;
-}
-
-std::string ratioText(double ratio) {
-    return ratio >= 10  ? fmt::format("{:.0f} x", ratio)
-           : ratio >= 1 ? fmt::format("{:.1f} x", ratio)
-                        : fmt::format("{:.2f} x", ratio);
-}
-
-Json measurementJson(const Measurement& m) {
-    Json json{{"name", m.name}, {"median_s", m.median}, {"least_s", m.least}, {"most_s", m.most}, {"runs", m.runs}};
-    if (m.peakBytes != 0) json["peak_bytes"] = m.peakBytes;
-    return json;
-}
-
-std::string memoryText(const Measurement& m) { return m.peakBytes == 0 ? "-" : bytesText(m.peakBytes); }
-
-}  // namespace
-
-std::string secondsText(double seconds) {
-    if (seconds >= 1) return fmt::format("{:.2f} s", seconds);
-    if (seconds >= 0.1) return fmt::format("{:.0f} ms", seconds * 1e3);
-    if (seconds >= 0.01) return fmt::format("{:.1f} ms", seconds * 1e3);
-    return fmt::format("{:.2f} ms", seconds * 1e3);
-}
-
 std::string bytesText(std::uint64_t bytes) {
     const double megabytes = double(bytes) / 1e6;
     if (megabytes >= 100) return fmt::format("{:.0f} MB", megabytes);
@@ -58,34 +42,6 @@ std::string bytesText(std::uint64_t bytes) {
 }
 
 std::string Row::id() const { return slug(stage) + '/' + slug(input) + '/' + slug(size); }
-
-std::string Report::markdown() const {
-    std::string text =
-        "| work | input | size | SVT | beside it | its time | ratio | memory | its memory | notes "
-        "|\n|---|---|---|---|---|---|---|---|---|---|\n";
-    for (const Row& row : rows) {
-        if (row.isStage) continue;
-        const std::string head =
-            fmt::format("| {} | {} | {} | {} |", row.stage, row.input, row.size, secondsText(row.ours.median));
-        if (row.beside.empty() && row.missing.empty())
-            text += fmt::format("{} - | - | - | {} | - | {} |\n", head, memoryText(row.ours), row.note);
-        for (const Beside& beside : row.beside)
-            text += fmt::format("{} {} | {} | {} | {} | {} | {} |\n", head, beside.measurement.name,
-                                secondsText(beside.measurement.median), ratioText(ratioOf(row, beside)),
-                                memoryText(row.ours), memoryText(beside.measurement), beside.note);
-        for (const std::string& missing : row.missing)
-            text += fmt::format("{} - | - | - | {} | - | {} |\n", head, memoryText(row.ours), missing);
-    }
-    text += "\n| stage | input | size | time | most memory | result |\n|---|---|---|---|---|---|\n";
-    for (const Row& row : rows) {
-        if (!row.isStage) continue;
-        text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.stage, row.input, row.size,
-                            secondsText(row.ours.median), memoryText(row.ours),
-                            row.resultBytes == 0 ? "-" : bytesText(row.resultBytes));
-    }
-    for (const std::string& reason : skipped) text += fmt::format("\nSkipped: {}\n", reason);
-    return text;
-}
 
 Json Report::json() const {
     Json list = Json::array();
@@ -95,6 +51,7 @@ Json Report::json() const {
                    {"input", row.input},
                    {"size", row.size},
                    {"ours", measurementJson(row.ours)}};
+        if (row.isStage) entry["is_stage"] = true;
         if (row.yardsticks > 0) entry["yardsticks"] = row.yardsticks;
         if (row.resultBytes != 0) entry["result_bytes"] = row.resultBytes;
         if (!row.note.empty()) entry["note"] = row.note;
@@ -110,8 +67,7 @@ Json Report::json() const {
         for (const std::string& missing : row.missing) entry["missing"].push_back(missing);
         list.push_back(std::move(entry));
     }
-    return {{"schema", 1},        {"commit", commit},           {"quick", isQuick},
-            {"machine", machine}, {"results", std::move(list)}, {"skipped", skipped}};
+    return {{"machine", machine}, {"results", std::move(list)}, {"skipped", skipped}};
 }
 
 }  // namespace svt::bench

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Everything that was measured, as rows; printed as Markdown and JSON.
+/// Everything that was measured, as rows of JSON. scripts/bench.py makes the tables.
 
 #include <bench/measure.hpp>
 
@@ -42,18 +42,14 @@ struct Row {
 
 struct Report {
     Json machine;
-    std::string commit;
-    bool isQuick = false;
     std::vector<Row> rows;
     std::vector<std::string> skipped;  ///< inputs that were not there
 
-    /// Two tables: beside the peers, and per stage.
-    [[nodiscard]] std::string markdown() const;
     [[nodiscard]] Json json() const;
 };
 
-/// "12.3 ms"
-[[nodiscard]] std::string secondsText(double seconds);
+/// Lower case, words joined by '-'; "800 x 700 x 400" is "800x700x400".
+[[nodiscard]] std::string slug(const std::string& text);
 /// "1.23 MB" (10^6)
 [[nodiscard]] std::string bytesText(std::uint64_t bytes);
 

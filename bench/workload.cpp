@@ -9,10 +9,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <numbers>
 #include <numeric>
+#include <sstream>
 #include <tuple>
+#include <utility>
 
 namespace svt::bench {
 namespace {
@@ -23,6 +28,37 @@ Result<void> writeText(const std::string& text, const std::filesystem::path& fil
     if (!out.good()) return Error(Code::CannotWrite, "the benchmark cannot write its input", {file.string(), 0, 0, {}});
     return {};
 }
+
+Result<std::string> readText(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    if (!in.good() || text.empty())
+        return Error(Code::CannotOpen, "the benchmark cannot read its input", {file.string(), 0, 0, {}});
+    return text;
+}
+
+// Turns the points of one list of coordinates and appends them.
+class PlanTurner {
+public:
+    explicit PlanTurner(double degrees)
+        : cosine_(std::cos(degrees * std::numbers::pi / 180)), sine_(std::sin(degrees * std::numbers::pi / 180)) {}
+
+    void append(const std::string& list, std::string& result) {
+        std::istringstream numbers(list);
+        const char* separator = "";
+        for (double x = 0, y = 0, z = 0; numbers >> x >> y >> z; separator = " ") {
+            if (!hasPivot_) pivotX_ = x, pivotY_ = y, hasPivot_ = true;
+            const double east = x - pivotX_, north = y - pivotY_;
+            result += fmt::format("{}{:.6f} {:.6f} {:.6f}", separator, pivotX_ + cosine_ * east - sine_ * north,
+                                  pivotY_ + sine_ * east + cosine_ * north, z);
+        }
+    }
+
+private:
+    double cosine_, sine_;
+    bool hasPivot_ = false;
+    double pivotX_ = 0, pivotY_ = 0;
+};
 
 // Leaves out all members of the city model that are groups.
 std::string withoutGroups(const std::string& text) {
@@ -49,16 +85,55 @@ std::filesystem::path dataDir() {
 Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch, std::vector<std::string>& skipped) {
     std::vector<Input> inputs;
     const std::filesystem::path house = dataDir() / "fzk_haus_citygml3.gml";
-    if (std::filesystem::exists(house))
-        inputs.push_back({"FZK-Haus", house});
-    else
+    if (std::filesystem::exists(house)) {
+        inputs.push_back({kHouse, house});
+        const auto text = readText(house);
+        if (!text) return text.error();
+        inputs.push_back({kTurnedHouse, scratch / "turned.gml"});
+        if (const auto written = writeText(turnedCityGml(*text, kTurnDegrees), inputs.back().file); !written)
+            return written.error();
+    } else {
         skipped.push_back(
             "FZK-Haus: no fzk_haus_citygml3.gml in the data directory; set SVT_DATA_DIR to the folder that has it");
+    }
     const auto tower = samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml3, {});
     if (!tower) return tower.error();
     inputs.push_back({"tower", scratch / "tower.gml"});
     if (const auto written = writeText(*tower, inputs.back().file); !written) return written.error();
     return inputs;
+}
+
+std::string turnedCityGml(const std::string& text, double degrees) {
+    PlanTurner turner(degrees);
+    std::string result;
+    result.reserve(text.size() + text.size() / 4);
+    std::size_t at = 0;
+    for (std::size_t tag = text.find("<gml:"); tag != std::string::npos; tag = text.find("<gml:", at)) {
+        const std::size_t nameEnd = text.find_first_of(" \t\r\n/>", tag), begin = text.find('>', tag) + 1;
+        if (begin == 0) break;
+        result.append(text, at, begin - at);
+        at = begin;
+        const std::string name = text.substr(tag + 5, nameEnd - tag - 5);
+        if (name != "posList" && name != "pos" && name != "lowerCorner" && name != "upperCorner") continue;
+        const std::size_t end = std::min(text.find('<', begin), text.size());
+        turner.append(text.substr(begin, end - begin), result);
+        at = end;
+    }
+    return result.append(text, at);
+}
+
+Result<Input> writeDistrict(const std::filesystem::path& scratch) {
+    samples::SampleOptions options;
+    options.columns = options.rows = 20;
+    Input input{"district, 20 x 20 houses", scratch / "district.gml"};
+    std::ofstream out(input.file, std::ios::binary);
+    const auto written = samples::writeSample(samples::SampleKind::District, samples::SampleFormat::CityGml3, options,
+                                              [&](std::string_view part) {
+                                                  out << part;
+                                                  return out.good();
+                                              });
+    if (!written) return written.error();
+    return input;
 }
 
 Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch) {
@@ -87,10 +162,7 @@ Result<Scene> loadScene(const Input& input) {
     return scene;
 }
 
-std::vector<Vec3i> gridSizes(bool isQuick) {
-    if (isQuick) return {{271, 230, 163}};
-    return {{271, 230, 163}, {800, 700, 400}};
-}
+Vec3i gridSize(bool isQuick) { return isQuick ? kSmallGrid : kGrid; }
 
 std::string sizeText(Vec3i dimension) { return fmt::format("{} x {} x {}", dimension.x, dimension.y, dimension.z); }
 

@@ -21,8 +21,13 @@ struct Input {
     std::filesystem::path file;
 };
 
-/// The models that are there: the FZK-Haus of the data directory ($SVT_DATA_DIR, else ../shared/data), and the
-/// generated tower, written to `scratch`.
+inline constexpr const char* kHouse = "FZK-Haus";
+inline constexpr const char* kTurnedHouse = "FZK-Haus, turned";
+inline constexpr double kTurnDegrees = 30;
+
+/// The models that are there: the FZK-Haus of the data directory ($SVT_DATA_DIR, else ../shared/data); the same turned
+/// by kTurnDegrees in plan, so that hardly a face is parallel to the grid; the generated tower. The last two are
+/// written to `scratch`.
 /// \param skipped  gets a sentence for each input that is not there
 [[nodiscard]] Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch,
                                                     std::vector<std::string>& skipped);
@@ -30,6 +35,12 @@ struct Input {
 /// The generated tower as classical CityGML 2.0, without its groups of storeys: libcitygml refuses references to
 /// features, and with them the whole file.
 [[nodiscard]] Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch);
+
+/// CityGML with all coordinates turned counter-clockwise about the first point, in plan; written with six decimals.
+[[nodiscard]] std::string turnedCityGml(const std::string& text, double degrees);
+
+/// 20 x 20 generated houses in one CityGML 3.0 file.
+[[nodiscard]] Result<Input> writeDistrict(const std::filesystem::path& scratch);
 
 /// $SVT_DATA_DIR, else ../shared/data beside the checkout.
 [[nodiscard]] std::filesystem::path dataDir();
@@ -44,8 +55,10 @@ struct Scene {
 
 [[nodiscard]] Result<Scene> loadScene(const Input& input);
 
-/// The paper's two sizes.
-[[nodiscard]] std::vector<Vec3i> gridSizes(bool isQuick);
+inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGrid{1000, 1200, 600};  // the paper's
+
+/// The grid that most rows are about.
+[[nodiscard]] Vec3i gridSize(bool isQuick);
 /// "800 x 700 x 400"
 [[nodiscard]] std::string sizeText(Vec3i dimension);
 [[nodiscard]] Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension);

@@ -2,57 +2,41 @@
 """Runs the benchmark, compares it with bench/baseline.json and keeps docs/dev/performance.md up to date.
 
   scripts/bench.py                     run, print the tables, warn where a figure got more than 10 % worse
-  scripts/bench.py --quick             the small grid alone, about two minutes
+  scripts/bench.py --quick             the small grid alone, under two minutes
+  scripts/bench.py --only render ...   these parts alone; the others keep the figures of their last run
+  scripts/bench.py --profile           the same as --only profile: instructions and cache misses, counted by valgrind
   scripts/bench.py --no-run            the same with the figures of the last run
-  scripts/bench.py --update-docs       also rewrite the tables of docs/dev/performance.md
+  scripts/bench.py --update-docs       also rewrite the tables and the plot of docs/dev/performance.md
   scripts/bench.py --update-baseline   also store the figures as the new baseline
 
-Watched are ratios to the peers of the same run, times in units of a fixed piece of work of the same run, and sizes in
-bytes, so that a baseline of one machine means something on another. A warning does not fail; --strict makes it.
+Watched are ratios to the peers of the same run, times in units of a fixed piece of work of the same run, sizes in
+bytes and counted instructions, so that a baseline of one machine means something on another. A warning does not fail;
+--strict makes it.
 """
 
 import argparse
 import json
 import os
+import resource
 import shutil
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+sys.dont_write_bytecode = True  # nothing is left in scripts/
+import bench_page
+import bench_plot
 
 ROOT = Path(__file__).resolve().parent.parent
 BASELINE = ROOT / "bench" / "baseline.json"
 PAGE = ROOT / "docs" / "dev" / "performance.md"
+PLOT = ROOT / "docs" / "images" / "scaling.svg"
 BEGIN, END = "<!-- BEGIN bench -->", "<!-- END bench -->"
 TOLERANCE = 0.10
-
-HOUSE = "fzk-haus/800x700x400"
-# What is wanted, where it is read, how it is written, must, moonshot, whether more is better.
-GOALS = [
-    ("voxelize FZK-Haus, 800 x 700 x 400: times faster than VTK's stencils with their images",
-     lambda r: ratio(r, f"voxelize/{HOUSE}", "VTK stencils + images"), "{:.1f} x", 30, 150, True),
-    ("the same, model file to .svt on disk",
-     lambda r: r[f"model-file-to-.svt/{HOUSE}"]["ours"]["median_s"], "{:.3f} s", 0.25, 0.05, False),
-    ("size on disk, lossless",
-     lambda r: r[f"write-.svt/{HOUSE}"]["result_bytes"] / 1e6, "{:.2f} MB", 1, 0.1, False),
-    ("size in memory, ready to cast",
-     lambda r: r[f"make-bricks/{HOUSE}"]["result_bytes"] / 1e6, "{:.2f} MB", 4, 1, False),
-    ("opaque frame, 1280 x 720, lit: times faster than VTK's CPU ray caster, unlit",
-     lambda r: ratio(r, f"opaque-frame/{HOUSE}-1280x720-pixels", "VTK fixed-point"), "{:.1f} x", 5, 15, True),
-    ("fully translucent frame, 1920 x 1080",
-     lambda r: 1 / r[f"translucent-frame/{HOUSE}-1920x1080-pixels"]["ours"]["median_s"], "{:.1f} fps", 10, 30, True),
-    ("1000 x 1200 x 600 instead of 800 x 700 x 400: times as long a frame",
-     lambda r: r["larger-grid-opaque-frame/fzk-haus/1000x1200x600-1280x720-pixels"]["times_smaller_grid"],
-     "{:.2f}", 1.3, 1.0, False),
-    ("a section plane moved before each frame: times as long a frame (1: nothing is rebuilt)",
-     lambda r: ratio(r, f"section-frame/{HOUSE}-1280x720-pixels", "SVT, plane moved"), "{:.2f}", 1.1, 1.0, False),
-    ("a style changed before each frame: times as long a frame (1: nothing is rebuilt)",
-     lambda r: ratio(r, f"section-frame/{HOUSE}-1280x720-pixels", "SVT, a style"), "{:.2f}", 1.1, 1.0, False),
-]
-
-
-def ratio(results, row, name):
-    """Time of what stands beside ours, over ours."""
-    return next(b["ratio"] for b in results[row]["beside"] if b["name"].startswith(name))
+BUSY = 0.1  # cores that others may use during a part before its figures are called rough
+PARTS = ["read", "voxelize", "render", "stages", "scaling", "profile"]
 
 
 def commit():
@@ -65,54 +49,98 @@ def commit():
         return "unknown"
 
 
-def run(build, quick):
+class Quiet:
+    """How much of the machine others used between start and end: cores on average, and what a host took away."""
+
+    def __init__(self):
+        self.start = self.now()
+
+    @staticmethod
+    def now():
+        try:
+            ticks = [int(word) for word in Path("/proc/stat").read_text().split("\n", 1)[0].split()[1:9]]
+        except (OSError, ValueError):
+            return None
+        user, nice, system, _, _, interrupts, soft_interrupts, stolen = ticks
+        own = resource.getrusage(resource.RUSAGE_CHILDREN)
+        hertz = os.sysconf("SC_CLK_TCK")
+        busy = (user + nice + system + interrupts + soft_interrupts) / hertz
+        return time.monotonic(), busy - own.ru_utime - own.ru_stime, stolen / hertz
+
+    def end(self):
+        now = self.now()
+        if now is None or self.start is None:
+            return {}
+        wall, others, stolen = (b - a for a, b in zip(self.start, now))
+        return {"seconds": round(wall, 1), "others_cores": round(max(0, others) / wall, 3),
+                "stolen_cores": round(max(0, stolen) / wall, 3)}
+
+
+def run_part(program, build, part, quick):
+    """One part in a process of its own, so that no part finds memory that another has left."""
+    out = build / f"bench-{part}.json"
+    command = [str(program), "--only", part, "--json", str(out)] + (["--quick"] if quick else [])
+    if part == "render" and not os.environ.get("DISPLAY") and shutil.which("xvfb-run"):
+        command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24 -noreset"] + command
+    done = subprocess.run(command)
+    if done.returncode != 0:
+        sys.exit(f"bench: svt_bench failed with exit code {done.returncode}")
+    return json.loads(out.read_text())
+
+
+def counted(program, build, piece):
+    """Instructions and cache misses of one piece of work, as cachegrind simulates them."""
+    out = build / f"cachegrind-{piece}.out"
+    done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=yes", f"--cachegrind-out-file={out}",
+                           str(program), "--profile", piece], capture_output=True, text=True)
+    if done.returncode != 0:
+        sys.exit(f"bench: valgrind failed with exit code {done.returncode}:\n{done.stderr[-2000:]}")
+    lines = out.read_text().splitlines()
+    events = next(line for line in lines if line.startswith("events:")).split()[1:]
+    totals = dict(zip(events, map(int, next(line for line in lines if line.startswith("summary:")).split()[1:])))
+    return {"instructions": totals["Ir"], "l1_misses": totals["I1mr"] + totals["D1mr"] + totals["D1mw"],
+            "last_level_misses": totals["ILmr"] + totals["DLmr"] + totals["DLmw"]}
+
+
+def run_profile(program, build):
+    """What each piece takes over the preparation that all share, per unit of its work."""
+    if not shutil.which("valgrind"):
+        return {"results": [], "skipped": ["the counted piece: valgrind is not installed"]}
+    units = json.loads(subprocess.run([str(program), "--profile", "count"], stdout=subprocess.PIPE, text=True,
+                                      check=True).stdout)
+    print("bench: profile, under valgrind", file=sys.stderr)
+    pieces = {"voxelize": "crossings", "opaque": "rays", "translucent": "rays"}
+    with ThreadPoolExecutor(2) as pool:  # counts do not depend on what else runs
+        counts = dict(zip(["prepare", *pieces], pool.map(lambda p: counted(program, build, p), ["prepare", *pieces])))
+    rows = []
+    for piece, unit in pieces.items():
+        per_unit = {name: (counts[piece][name] - counts["prepare"][name]) / units[unit] for name in counts[piece]}
+        rows.append({"id": f"profile/{piece}", "stage": "profile", "piece": piece, "input": units["input"],
+                     "unit": unit[:-1], "units": units[unit], **per_unit})
+    return {"machine": units["machine"], "results": rows, "skipped": []}
+
+
+def run(build, parts, quick, figures):
     program = build / "bin" / "svt_bench"
     if not program.exists():
         sys.exit(f"bench: {program} is missing; run `make bench`, or configure with -DSVT_BENCH=ON and build svt_bench")
-    command = [str(program), "--json", str(build / "bench.json"), "--commit", commit()] + (["--quick"] if quick else [])
-    if not os.environ.get("DISPLAY") and shutil.which("xvfb-run"):
-        command = ["xvfb-run", "-a", "-s", "-screen 0 1920x1200x24 -noreset"] + command
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"bench: svt_bench failed with exit code {done.returncode}")
-    (build / "bench.md").write_text(done.stdout)
-
-
-def goal_table(figures):
-    results = {row["id"]: row for row in figures["results"]}
-    lines = ["| goal | measured | must | moonshot | reached |", "|---|---|---|---|---|"]
-    for text, read, style, must, moonshot, more in GOALS:
-        try:
-            value = read(results)
-        except (KeyError, StopIteration):
-            lines.append(f"| {text} | not measured in this run | {style.format(must)} | {style.format(moonshot)} | - |")
-            continue
-
-        def reaches(limit):
-            return value >= limit * 0.995 if more else value <= limit * 1.005
-
-        reached = "moonshot" if reaches(moonshot) else "must" if reaches(must) else "**no**"
-        lines.append(f"| {text} | {style.format(value)} | {style.format(must)} | {style.format(moonshot)} | {reached} |")
-    return "\n".join(lines)
-
-
-def machine_text(figures):
-    m = figures["machine"]
-    return (f"Machine: {m['cores']} cores, {m['processor']}, {m['simd']}, {m['memory_gib']:.0f} GiB; {m['compiler']}, {m['build']}; "
-            f"commit {figures['commit']}; load before the run {m['load_before']:.1f}.")
+    for part in parts:
+        quiet = Quiet()
+        result = run_profile(program, build) if part == "profile" else run_part(program, build, part, quick)
+        figures["parts"][part] = {"commit": commit(), **quiet.end(), **result}
 
 
 def watched(figures):
     """What may not get worse: name -> (value, whether more is better)."""
     values = {}
-    for row in figures["results"]:
+    for row in bench_page.all_rows(figures):
         for beside in row.get("beside", []):
             if beside["is_peer"]:
                 values[f"{row['id']}: times faster than {beside['name']}"] = (beside["ratio"], True)
-        if "yardsticks" in row:
-            values[f"{row['id']}: yardsticks"] = (row["yardsticks"], False)
-        if "result_bytes" in row:
-            values[f"{row['id']}: bytes"] = (row["result_bytes"], False)
+        for key, name in (("yardsticks", "yardsticks"), ("result_bytes", "bytes"), ("bricks_bytes", "bytes of bricks"),
+                          ("instructions", "instructions per unit")):
+            if key in row:
+                values[f"{row['id']}: {name}"] = (row[key], False)
     return values
 
 
@@ -124,7 +152,7 @@ def compare(figures):
     warnings = 0
     now = watched(figures)
     for name, (value, more) in now.items():
-        if name not in stored or not stored[name] or not value:
+        if not stored.get(name) or not value:
             continue
         worse = stored[name] / value - 1 if more else value / stored[name] - 1
         if worse > TOLERANCE:
@@ -135,46 +163,63 @@ def compare(figures):
     return warnings
 
 
-def update_docs(figures, tables):
+def warn_of_noise(figures):
+    for name, part in figures["parts"].items():
+        if name != "profile" and part.get("others_cores", 0) + part.get("stolen_cores", 0) > BUSY:
+            print(f"bench: warning: {name}: others used {part['others_cores']} cores during it, the host took "
+                  f"{part['stolen_cores']}; its figures are rough")
+
+
+def update_baseline(figures):
+    stored = {"machine": bench_page.machine(figures), "commit": bench_page.commits(figures),
+              "watched": {name: float(f"{value:.4g}") for name, (value, _) in watched(figures).items()}}
+    BASELINE.write_text(json.dumps(stored, indent=1) + "\n")
+    print(f"bench: {BASELINE.relative_to(ROOT)} rewritten")
+
+
+def update_docs(figures):
     text = PAGE.read_text()
     if text.count(BEGIN) != 1 or text.count(END) != 1:
         sys.exit(f"bench: {PAGE.relative_to(ROOT)} needs the marks {BEGIN} and {END}, once each")
     head, rest = text.split(BEGIN)
-    tail = rest.split(END)[1]
-    block = f"{machine_text(figures)}\n\n{goal_table(figures)}\n\n{tables.strip()}\n"
-    PAGE.write_text(f"{head}{BEGIN}\n{block}{END}{tail}")
+    PAGE.write_text(f"{head}{BEGIN}\n{bench_page.page(figures, '../images/scaling.svg')}\n{END}{rest.split(END)[1]}")
     print(f"bench: {PAGE.relative_to(ROOT)} rewritten")
+    rows = [row for row in bench_page.all_rows(figures) if row["stage"] == "scaling"]
+    if rows:
+        PLOT.write_text(bench_plot.scaling_svg(rows))
+        print(f"bench: {PLOT.relative_to(ROOT)} rewritten")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", help="build directory with bin/svt_bench")
     parser.add_argument("--quick", action="store_true", help="the small grid alone, fewer runs")
+    parser.add_argument("--only", nargs="+", choices=PARTS, metavar="PART", help=f"of {', '.join(PARTS)}")
+    parser.add_argument("--profile", action="store_true", help="the same as --only profile")
     parser.add_argument("--no-run", action="store_true", help="use the figures of the last run")
     parser.add_argument("--update-baseline", action="store_true", help="store the figures as the new baseline")
-    parser.add_argument("--update-docs", action="store_true", help="rewrite the tables of docs/dev/performance.md")
+    parser.add_argument("--update-docs", action="store_true", help="rewrite tables and plot of docs/dev/performance.md")
     parser.add_argument("--strict", action="store_true", help="exit 1 where a figure got worse")
     arguments = parser.parse_args()
-    if not arguments.no_run:
-        run(arguments.build, arguments.quick)
-    figures = json.loads((arguments.build / "bench.json").read_text())
-    tables = (arguments.build / "bench.md").read_text()
-    if figures["quick"] and (arguments.update_docs or arguments.update_baseline):
+    if arguments.quick and (arguments.update_docs or arguments.update_baseline):
         sys.exit("bench: the page and the baseline want a full run, not a quick one")
-    print(tables)
-    print(goal_table(figures))
+    parts = arguments.only or (["profile"] if arguments.profile else PARTS[:-1] if arguments.quick else PARTS)
+    store = arguments.build / ("bench-quick.json" if arguments.quick else "bench.json")
+    keep = arguments.no_run or arguments.only or arguments.profile
+    figures = json.loads(store.read_text()) if keep and store.exists() else {"parts": {}}
+    if not arguments.no_run:
+        run(arguments.build, parts, arguments.quick, figures)
+        store.write_text(json.dumps(figures, indent=1) + "\n")
+    if not figures["parts"]:
+        sys.exit(f"bench: {store} is missing; run without --no-run")
+    print(bench_page.page(figures, "../images/scaling.svg"))
     print()
-    print(machine_text(figures))
-    if figures["machine"]["load_before"] > 0.5:
-        print("bench: warning: the machine was busy before the run; the figures are rough")
+    warn_of_noise(figures)
     warnings = compare(figures)
     if arguments.update_baseline:
-        stored = {"machine": figures["machine"], "commit": figures["commit"],
-                  "watched": {name: float(f"{value:.4g}") for name, (value, _) in watched(figures).items()}}
-        BASELINE.write_text(json.dumps(stored, indent=1) + "\n")
-        print(f"bench: {BASELINE.relative_to(ROOT)} rewritten")
+        update_baseline(figures)
     if arguments.update_docs:
-        update_docs(figures, tables)
+        update_docs(figures)
     return 1 if arguments.strict and warnings else 0
 
 

@@ -10,7 +10,7 @@ packages=(
   libfmt-dev libcli11-dev libexpected-dev zlib1g-dev libzstd-dev libpng-dev libhwy-dev
   libgtest-dev libxml2-utils unzip python3 ccache
 )
-peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth)
+peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
 
 missing=()

@@ -1,0 +1,264 @@
+"""The tables of docs/dev/performance.md, made of the benchmark's figures. Used by bench.py."""
+
+HOUSE = "FZK-Haus"
+GRID = "800x700x400"
+OPAQUE, TRANSLUCENT = "1280x720-pixels", "1920x1080-pixels"
+ORDER = ["read", "voxelize", "render", "stages", "scaling", "profile"]
+
+
+def all_rows(figures):
+    return [row for part in ORDER for row in figures["parts"].get(part, {}).get("results", [])]
+
+
+def ratio(rows, row, name):
+    """Time of what stands beside ours, over ours."""
+    return next(b["ratio"] for b in rows[row]["beside"] if b["name"].startswith(name))
+
+
+def stage(rows, name, house, key):
+    row = rows[f"{name}/{house}/{GRID}"]
+    return row["ours"]["median_s"] if key == "time" else row["result_bytes"] / 1e6
+
+
+# What is wanted, where it is read, how it is written, must, moonshot, whether more is better.
+GOALS = [
+    ("voxelize, 800 x 700 x 400: times faster than VTK's stencils with their images",
+     lambda r, h: ratio(r, f"voxelize/{h}/{GRID}", "VTK stencils + images"), "{:.1f} x", 30, 150, True),
+    ("the same beside the stencils alone",
+     lambda r, h: next(b["ratio"] for b in r[f"voxelize/{h}/{GRID}"]["beside"] if b["name"] == "VTK stencils"),
+     "{:.1f} x", None, None, True),
+    ("model file to `.svt` on disk",
+     lambda r, h: stage(r, "model-file-to-.svt", h, "time"), "{:.3f} s", 0.25, 0.05, False),
+    ("size on disk, lossless", lambda r, h: stage(r, "write-.svt", h, "size"), "{:.2f} MB", 1, 0.1, False),
+    ("size in memory, ready to cast", lambda r, h: stage(r, "make-bricks", h, "size"), "{:.2f} MB", 4, 1, False),
+    ("opaque frame, 1280 x 720, lit: times faster than VTK's CPU ray caster, unlit",
+     lambda r, h: ratio(r, f"opaque-frame/{h}/{GRID}-{OPAQUE}", "VTK fixed-point"), "{:.1f} x", 5, 15, True),
+    ("the same beside the paper's method on the CPU",
+     lambda r, h: ratio(r, f"opaque-frame/{h}/{GRID}-{OPAQUE}", "dense texture"), "{:.1f} x", None, None, True),
+    ("fully translucent frame, 1920 x 1080",
+     lambda r, h: 1 / r[f"translucent-frame/{h}/{GRID}-{TRANSLUCENT}"]["ours"]["median_s"], "{:.1f} fps", 10, 30, True),
+    ("1000 x 1200 x 600 instead of 800 x 700 x 400: times as long an opaque frame",
+     lambda r, h: r[f"opaque-frame/{h}/1000x1200x600-{OPAQUE}"]["times_smaller_grid"], "{:.2f}", 1.3, 1.0, False),
+    ("a section plane moved before each frame: times as long a frame (1: nothing is rebuilt)",
+     lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, plane moved"), "{:.2f}", 1.1, 1.0, False),
+    ("a style changed before each frame: times as long a frame (1: nothing is rebuilt)",
+     lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, a style"), "{:.2f}", 1.1, 1.0, False),
+]
+
+
+def seconds(value):
+    if value >= 1:
+        return f"{value:.2f} s"
+    return f"{1e3 * value:.0f} ms" if value >= 0.1 else f"{1e3 * value:.1f} ms" if value >= 0.01 else f"{1e3 * value:.2f} ms"
+
+
+def size(value):
+    if not value:
+        return "-"
+    if value >= 1e9:
+        return f"{value / 1e9:.3g} GB"
+    return f"{value / 1e6:.0f} MB" if value >= 1e8 else f"{value / 1e6:.1f} MB" if value >= 1e7 else f"{value / 1e6:.2f} MB"
+
+
+def times(value):
+    return f"{value:.0f} x" if value >= 10 else f"{value:.1f} x" if value >= 1 else f"{value:.2f} x"
+
+
+def table(head, lines):
+    text = [head, ["---"] * len(head)] + lines
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in text)
+
+
+def goals(figures):
+    rows = {row["id"]: row for row in all_rows(figures)}
+    lines, measured = [], False
+    for text, read, style, must, moonshot, more in GOALS:
+        def cell(house):
+            try:
+                value = read(rows, house)
+            except (KeyError, StopIteration):
+                return "not measured"
+            if must is None:
+                return style.format(value)
+
+            def reaches(limit):
+                return value >= limit * 0.995 if more else value <= limit * 1.005
+
+            reached = "moonshot" if reaches(moonshot) else "must" if reaches(must) else "**no**"
+            return f"{style.format(value)}, {reached}"
+
+        limits = [style.format(limit) if limit is not None else "-" for limit in (must, moonshot)]
+        cells = [cell("fzk-haus"), cell("fzk-haus-turned")]
+        measured = measured or cells != ["not measured"] * 2
+        lines.append([text, *limits, *cells])
+    return table(["goal", "must", "moonshot", HOUSE, "turned by 30 degrees"], lines) if measured else \
+        "The goals are about the large grid, which this run leaves out."
+
+
+def beside(row, name):
+    return next((b for b in row.get("beside", []) if b["name"].startswith(name)), None)
+
+
+def peers(row):
+    return [b for b in row.get("beside", []) if b["is_peer"]]
+
+
+def missing(rows):
+    """Each reason once."""
+    return list(dict.fromkeys(reason for row in rows for reason in row.get("missing", [])))
+
+
+def reading(rows):
+    lines = []
+    for row in rows:
+        peer = next(iter(peers(row)), None)
+        one = beside(row, "SVT, one thread")
+        lines.append([row["input"], row["size"], seconds(row["ours"]["median_s"]), seconds(one["median_s"]),
+                      f"{row['mb_per_s']:.0f} MB/s", str(row["polygons"])] +
+                     ([seconds(peer["median_s"]), times(peer["ratio"]), str(peer["polygons"])] if peer else ["-"] * 3))
+    return table(["file", "size", "SVT", "one thread", "speed", "polygons", "libcitygml", "ratio", "its polygons"], lines)
+
+
+def voxels(rows):
+    lines = []
+    for row in rows:
+        for peer in peers(row):
+            agreement = peer.get("agreement")
+            differ = "-" if agreement is None else \
+                f"{agreement['differing'] - agreement['differing_on_border']} ({agreement['differing_percent']:.4f} %)"
+            lines.append([row["input"], row["size"], seconds(row["ours"]["median_s"]),
+                          seconds(beside(row, "SVT, one thread")["median_s"]), peer["name"], seconds(peer["median_s"]),
+                          times(peer["ratio"]), size(row["ours"].get("peak_bytes")), size(peer.get("peak_bytes")), differ])
+    return table(["input", "samples", "SVT", "one thread", "beside it", "its time", "ratio", "memory", "its memory",
+                  "voxels that differ"], lines)
+
+
+def agreement_of_pictures(peer):
+    pictures = peer.get("pictures")
+    if not pictures:
+        return "-"
+    first, last = pictures[0], pictures[-1]
+    if "same_label_percent" in first:
+        return (f"same label: {first['same_label_percent']:.1f} % of pixels, "
+                f"{last['same_label_percent']:.1f} % at {last['samples_per_voxel']} samples a voxel")
+    colors = first["colors"]
+    return (f"colors: {sum(colors['mean']) / 3:.1f} of 255 off on average, {colors['largest']} at most; "
+            f"{colors['over_2_percent']:.1f} % of pixels by more than 2, {colors['over_8_percent']:.1f} % by more than 8")
+
+
+def frames(rows):
+    lines = []
+    for row in rows:
+        grid = row["size"].split(",")[0]
+        unlit = beside(row, "SVT, unlit")
+        for other in row.get("beside", []):
+            if other["is_peer"] or other["name"].startswith("SVT at"):
+                lines.append([row["stage"].split()[0], row["input"], grid, seconds(row["ours"]["median_s"]),
+                              seconds(unlit["median_s"]), other["name"], seconds(other["median_s"]), times(other["ratio"]),
+                              size(row["ours"].get("peak_bytes")), size(other.get("peak_bytes")),
+                              agreement_of_pictures(other)])
+    return table(["frame", "input", "samples", "SVT", "unlit", "beside it", "its time", "ratio", "memory", "its memory",
+                  "pictures"], lines)
+
+
+def edits(rows):
+    lines = [[row["input"], row["size"].split(",")[0], seconds(row["ours"]["median_s"])] +
+             [seconds(beside(row, name)["median_s"]) for name in ("SVT, plane moved", "SVT, a style")] for row in rows]
+    return table(["input", "samples", "frame with a section plane", "the plane moved before each frame",
+                  "a style changed before each frame"], lines)
+
+
+def stages(rows):
+    inputs = list(dict.fromkeys(row["input"] for row in rows))
+    names = list(dict.fromkeys(row["stage"] for row in rows))
+    cells = {(row["stage"], row["input"]): row for row in rows}
+    lines = []
+    for name in names:
+        line = [name]
+        for one in inputs:
+            row = cells[name, one]
+            line.append(f"{seconds(row['ours']['median_s'])}, {size(row['ours'].get('peak_bytes'))}")
+        sizes = [size(cells[name, one].get("result_bytes")) for one in inputs]
+        lines.append(line + ["-" if set(sizes) == {"-"} else " / ".join(sizes)])
+    return table(["stage", *(f"{one}: time, memory" for one in inputs), "result: " + " / ".join(inputs)], lines)
+
+
+def scaling(rows):
+    lines = []
+    for row in rows:
+        lines.append([row["input"], row["size"], size(row["dense_bytes"]), seconds(row["voxelize_s"]),
+                      size(row["columns_bytes"]), seconds(row["bricks_s"]), size(row["bricks_bytes"]),
+                      seconds(row["frame_s"]), size(row["peak_bytes"])])
+    text = table(["input", "samples", "dense, 16 bit", "voxelize", "columns", "make bricks", "bricks", "opaque frame",
+                  "most memory"], lines)
+    for row in rows:
+        if row["stage"] == "district":
+            text += (f"\n\nThe district: a file of {size(row['file_bytes'])} with {row['objects']} objects and "
+                     f"{row['triangles']} triangles; file to volume {seconds(row['build_s'])} (reading "
+                     f"{seconds(row['read_s'])}, meshes {seconds(row['mesh_s'])}, voxelizing {seconds(row['voxelize_s'])}).")
+    return text
+
+
+def profile(rows):
+    lines = [[row["piece"] + (" frame" if row["unit"] == "ray" else ""), row["input"], f"{row['units']} {row['unit']}s",
+              f"{row['instructions']:.0f}", f"{max(0, row['l1_misses']):.2f}",
+              f"{max(0, row['last_level_misses']):.2f}"] for row in rows]
+    return table(["work, one thread", "input", "units", "instructions per unit", "misses of the first level",
+                  "of the last level"], lines)
+
+
+def machine(figures):
+    """Of the first part that says it."""
+    return next((part["machine"] for part in figures["parts"].values() if "machine" in part), None)
+
+
+def commits(figures):
+    """One commit, or which part is of which."""
+    found = {name: part["commit"] for name, part in figures["parts"].items()}
+    if len(set(found.values())) == 1:
+        return next(iter(found.values()))
+    return ", ".join(f"{commit} ({', '.join(n for n, c in found.items() if c == commit)})"
+                     for commit in dict.fromkeys(found.values()))
+
+
+def machine_text(figures):
+    m = machine(figures)
+    text = f"Commit {commits(figures)}." if m is None else (
+        f"Machine: {m['cores']} cores, {m['processor']}, {m['simd']}, {m['memory_gib']:.0f} GiB; {m['compiler']}, "
+        f"{m['build']}; commit {commits(figures)}.")
+    parts = [(part["others_cores"], part["stolen_cores"], name) for name, part in figures["parts"].items()
+             if "others_cores" in part and name != "profile"]
+    if parts:
+        others, _, name = max(parts)
+        text += (f" Other programs used {others:.2f} cores at most while a part ran (part {name}), the machine's host "
+                 f"took away {max(stolen for _, stolen, _ in parts):.2f}.")
+    return text
+
+
+# Heading, part, which rows, how.
+SECTIONS = [
+    ("Reading", {"read"}, reading),
+    ("Voxelizing", {"voxelize"}, voxels),
+    ("Frames", {"opaque frame", "translucent frame"}, frames),
+    ("Edits", {"section frame"}, edits),
+    ("Stages", None, stages),
+    ("Scaling", {"scaling", "district"}, scaling),
+    ("Counted", {"profile"}, profile),
+]
+
+
+def page(figures, plot):
+    rows = all_rows(figures)
+    text = [machine_text(figures), goals(figures)]
+    for heading, names, make in SECTIONS:
+        chosen = [row for row in rows if (row.get("is_stage") if names is None else
+                                          row["stage"] in names and not row.get("is_stage"))]
+        if not chosen:
+            continue
+        text += [f"### {heading}", make(chosen)]
+        if heading == "Scaling":
+            text.append(f"![Time and memory against samples along x]({plot})")
+        text += [f"Missing: {reason}." for reason in missing(chosen)]
+    text += [f"Skipped: {reason}." for reason in
+             dict.fromkeys(r for part in figures["parts"].values() for r in part.get("skipped", []))]
+    return "\n\n".join(text)
