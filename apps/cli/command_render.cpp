@@ -23,7 +23,8 @@ struct Arguments {
     std::string camera = "iso", size = "1280x720", background = "white";
     std::vector<std::string> hide, show, color, opacity, section;
     std::vector<double> eye, target;
-    int samples = 4, level = 0;
+    int samples = 4;
+    std::optional<int> level;
     double edges = 0.5, fov = 30, zoom = 1;
     bool orthographic = false, transparent = false, verbose = false;
 };
@@ -228,10 +229,12 @@ int runRender(const Arguments& arguments) {
     render::CastOptions options;
     options.threads = arguments.build.threads;
     options.progress = progress.get();
+    options.isAdaptive = true;
+    const int level = arguments.level ? *arguments.level : render::levelForView(spec, volume->grid);
     const auto frame = [&]() -> Result<render::Frame> {
-        if (arguments.level > 0) {
+        if (level > 0) {
             const auto levels =
-                volume::buildLodPyramid(volume->columns, volume->grid, arguments.level, arguments.build.threads);
+                volume::buildLodPyramid(volume->columns, volume->grid, level, arguments.build.threads);
             if (!levels) return levels.error();
             if (!levels->empty()) return render::castRays(levels->back(), spec, options);
         }
@@ -318,7 +321,7 @@ Run addRenderCommand(CLI::App& app) {
         ->group("Style")
         ->capture_default_str();
     command->add_flag("--transparent", arguments->transparent, "leave the background transparent")->group("Style");
-    command->add_option("--level", arguments->level, "draw a coarser level of detail, 0 to 6")
+    command->add_option("--level", arguments->level, "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
         ->group("Style")
         ->check(CLI::Range(0, 6));
     command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")

@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
-#include <optional>
 #include <limits>
+#include <optional>
 
 namespace svt::render {
 namespace {
@@ -72,7 +73,7 @@ Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& g
     }
 
     std::optional<PacketPasses> packets;
-    if (!isReference && !getenv("SVT_SCALAR")) packets.emplace(scene);
+    if (!isReference) packets.emplace(scene);
     Frame frame{Image<Rgba8>(spec.width, spec.height), Image<volume::Scalar>(spec.width, spec.height),
                 Image<float>(spec.width, spec.height, std::numeric_limits<float>::infinity())};
     const auto tilesX = static_cast<std::size_t>((spec.width + kTilePixels - 1) / kTilePixels);
@@ -118,6 +119,20 @@ Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec, con
     return castFrame(
         level.bricks, level.grid, spec, options,
         [&](const Pass& pass) { return PassTable(pass, spec.objectOfScalar, level); }, false);
+}
+
+int levelForView(const FrameSpec& spec, const volume::Grid& grid, int coarsest) {
+    const CameraRays rays(spec, grid);
+    double nearest = std::numeric_limits<double>::infinity();
+    const Vec3i n = grid.dimension();
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        nearest = std::min(nearest, dot(grid.worldFromIndex(index) - spec.camera.eye, rays.forward()));
+    }
+    const Vec3d spacing = grid.spacing();
+    const double voxelsAPixel = rays.pixelSize(nearest) / std::max({spacing.x, spacing.y, spacing.z});
+    if (!(voxelsAPixel >= 4) || nearest <= 0) return 0;
+    return std::min(coarsest, static_cast<int>(std::log2(voxelsAPixel)) - 1);
 }
 
 }  // namespace svt::render

@@ -18,6 +18,10 @@ struct CastOptions {
     float opaqueAt = 0.999f;  ///< a ray ends at this opacity, in (0, 1]
     float labelAt = 0;        ///< label and depth are of the first run after which the ray's opacity is above this, in
                               ///< [0, 1): 0 = the first visible label, 0.5 = looks through ghosts
+    /// With several samples per pixel: whether a pixel gets them only where it differs from one of its eight neighbours
+    /// in label, depth, normal or colour. What is smaller than a pixel and lies between the middles of pixels that see
+    /// the same is missed then.
+    bool isAdaptive = false;
     const Progress* progress = nullptr;  ///< may cancel; told nothing
 };
 
@@ -62,5 +66,10 @@ struct Frame {
 /// label of the cell.
 [[nodiscard]] Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec,
                                      const CastOptions& options = {});
+
+/// Level of detail for a picture of a volume on `grid`: the coarsest whose cells are at most half a pixel wide wherever
+/// the volume is seen, so that what is far away does not alias; 0 = the volume itself, where pixels are finer than 4
+/// voxels or the eye is in it. At most `coarsest`.
+[[nodiscard]] int levelForView(const FrameSpec& spec, const volume::Grid& grid, int coarsest = 6);
 
 }  // namespace svt::render

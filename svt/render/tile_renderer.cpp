@@ -61,7 +61,10 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
 
 void TileRenderer::castSamples() {
     if (packets_) {
-        castPackets();
+        if (side_ > 1 && scene_.options.isAdaptive)
+            castAdaptively();
+        else
+            castPackets();
         return;
     }
     for (std::int32_t y = -margin_; y < tileHeight_ * side_ + margin_; ++y)
@@ -93,6 +96,85 @@ void TileRenderer::castPackets() {
             packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
             for (std::size_t n = 0; n < count; ++n) samples_[places[n]] = seen[n];
         }
+}
+
+// Several samples only for pixels that differ from a neighbor; the others are filled with what their middle sees.
+void TileRenderer::castAdaptively() {
+    castPixels();
+    std::array<double, kPacketRays> u, v;
+    std::array<std::size_t, kPacketRays> places;
+    std::array<Sample, kPacketRays> seen;
+    std::size_t count = 0;
+    const auto cast = [&] {
+        if (count == 0) return;
+        packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
+        for (std::size_t n = 0; n < count; ++n) samples_[places[n]] = seen[n];
+        count = 0;
+    };
+    const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
+    const std::int32_t around = margin_ > 0 ? 1 : 0;  // pixels beside the tile that have samples of its margin
+    for (std::int32_t y = -around; y < tileHeight_ + around; ++y)
+        for (std::int32_t x = -around; x < tileWidth_ + around; ++x) {
+            const bool isSmooth = !needsSamples(x, y);
+            for (std::int32_t sy = std::max(y * side_, -margin_); sy < std::min((y + 1) * side_, endY); ++sy)
+                for (std::int32_t sx = std::max(x * side_, -margin_); sx < std::min((x + 1) * side_, endX); ++sx) {
+                    if (isSmooth) {
+                        samples_[at(sx, sy)] = pixels_[pixelAt(x, y)];
+                        continue;
+                    }
+                    u[count] = horizontal(sx + 0.5);
+                    v[count] = vertical(sy + 0.5);
+                    places[count++] = at(sx, sy);
+                    if (count == kPacketRays) cast();
+                }
+        }
+    cast();
+}
+
+// pixels_, in packets of 4 x 4.
+void TileRenderer::castPixels() {
+    pixels_.resize(static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(kPixelStride));
+    const double middle = side_ / 2.0;
+    const std::int32_t endX = tileWidth_ + kPixelMargin, endY = tileHeight_ + kPixelMargin;
+    std::array<double, kPacketRays> u, v;
+    std::array<std::size_t, kPacketRays> places;
+    std::array<Sample, kPacketRays> seen;
+    for (std::int32_t y0 = -kPixelMargin; y0 < endY; y0 += 4)
+        for (std::int32_t x0 = -kPixelMargin; x0 < endX; x0 += 4) {
+            std::size_t count = 0;
+            for (std::int32_t y = y0; y < std::min(y0 + 4, endY); ++y)
+                for (std::int32_t x = x0; x < std::min(x0 + 4, endX); ++x) {
+                    u[count] = horizontal(x * side_ + middle);
+                    v[count] = vertical(y * side_ + middle);
+                    places[count++] = pixelAt(x, y);
+                }
+            packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
+            for (std::size_t n = 0; n < count; ++n) pixels_[places[n]] = seen[n];
+        }
+}
+
+bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {
+    const Sample& sample = pixels_[pixelAt(x, y)];
+    const double step = sample.hasHit() ? scene_.rays.pixelSize(static_cast<double>(sample.depth)) : 0;
+    for (std::int32_t dy = -1; dy <= 1; ++dy)
+        for (std::int32_t dx = -1; dx <= 1; ++dx) {
+            if (dx == 0 && dy == 0) continue;
+            const Vec3d aside = scene_.rays.right() * (step * dx) - scene_.rays.up() * (step * dy);
+            if (looksOther(sample, pixels_[pixelAt(x + dx, y + dy)], aside)) return true;
+        }
+    return false;
+}
+
+// `other` lies by `aside` (metres, world space) beside `sample`.
+bool TileRenderer::looksOther(const Sample& sample, const Sample& other, Vec3d aside) const {
+    constexpr float kColor = 0.02f, kTurned = 0.995f;
+    if (sample.hasHit() != other.hasHit() || std::abs(sample.alpha - other.alpha) > kColor) return true;
+    if (std::max({std::abs(sample.color.x - other.color.x), std::abs(sample.color.y - other.color.y),
+                  std::abs(sample.color.z - other.color.z)}) > kColor)
+        return true;
+    if (!sample.hasHit()) return false;
+    return dot(sample.normal, other.normal) < kTurned || lineBetween(sample, other, aside, true) > 0 ||
+           lineBetween(other, sample, -aside, true) > 0;
 }
 
 // What the rays through the middles of the pixels see, with an even number of samples along a pixel.
@@ -168,13 +250,15 @@ void TileRenderer::fillBackground() {
 
 void TileRenderer::writePixels() {
     const bool isOdd = side_ % 2 == 1;
-    if (!isOdd) castCenters();
+    const bool isAdaptive = packets_ && scene_.options.isAdaptive;
+    if (!isOdd && !isAdaptive) castCenters();
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
         const Rgba8 background = pixelOf({}, 0, y);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
             writePixel(x, y, background);
             const Sample& center = isOdd ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
-                                         : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
+                                 : isAdaptive ? pixels_[pixelAt(x, y)]
+                                              : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
             frame_.label.at(tileX_ + x, tileY_ + y) = center.hasHit() ? center.label : 0;
             frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
         }

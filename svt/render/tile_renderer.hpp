@@ -27,6 +27,10 @@ public:
 private:
     void castSamples();
     void castPackets();
+    void castAdaptively();
+    void castPixels();
+    [[nodiscard]] bool needsSamples(std::int32_t x, std::int32_t y) const;
+    [[nodiscard]] bool looksOther(const Sample& sample, const Sample& other, Vec3d aside) const;
     void castCenters();
     void findLines();
     [[nodiscard]] float lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const;
@@ -39,6 +43,11 @@ private:
     [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y) const noexcept {
         return static_cast<std::size_t>(x + margin_) +
                static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y + margin_);
+    }
+    static constexpr std::int32_t kPixelMargin = 2, kPixelStride = kTilePixels + 2 * kPixelMargin;
+    [[nodiscard]] static std::size_t pixelAt(std::int32_t x, std::int32_t y) noexcept {
+        return static_cast<std::size_t>(x + kPixelMargin) +
+               static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(y + kPixelMargin);
     }
     [[nodiscard]] double horizontal(double sampleX) const noexcept;
     [[nodiscard]] double vertical(double sampleY) const noexcept;
@@ -56,7 +65,8 @@ private:
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
     std::vector<double> columns_, rows_;  // places of the samples in the picture
     std::vector<Sample> samples_;
-    std::vector<Sample> centers_;  // of the pixels, where no sample stands there
+    std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
+    std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
     std::vector<float> lines_;  // how dark, 0..1
 };
 
