@@ -16,10 +16,14 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
     return hash ^ (hash >> 32);
 }
 
+// Multilinear: runs times odd factors, all at once, since no product waits for the one before. Good in its upper half.
 std::uint64_t hashRuns(std::span<const Run> runs) noexcept {
-    std::uint64_t hash = runs.size();
-    for (const Run& run : runs) hash = mix(hash, (std::uint64_t(run.end) << 32) | run.scalar);
-    return hash;
+    std::uint64_t hash = runs.size(), factor = 0x9E3779B97F4A7C15ull;
+    for (const Run& run : runs) {
+        hash += ((std::uint64_t(run.scalar) << 32 | run.end) + (factor >> 7)) * factor;
+        factor += 0xBF58476D1CE4E5BAull;
+    }
+    return hash ^ hash >> 29;
 }
 
 std::uint64_t hashRow(std::span<const std::uint16_t> columns) noexcept {
@@ -202,35 +206,43 @@ bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept {
     return true;
 }
 
-ColumnTileBuilder::ColumnTileBuilder(std::int32_t width) : width_(width), columnTable_(512, 0) {
-    data_.rowOf.reserve(static_cast<std::size_t>(ColumnVolume::kTileSize));
-    data_.columnStart.push_back(0);
+void ColumnTileBuilder::start(std::int32_t width) {
+    constexpr std::size_t kFirstTable = 512;
+    width_ = width;
+    data_.rowOf.clear();
+    data_.rowColumns.clear();
+    data_.columnStart.assign(1, 0);
+    data_.runs.clear();
+    columnTable_.assign(kFirstTable, 0);
+    rowHashes_.clear();
 }
 
-void ColumnTileBuilder::grow() {
-    std::vector<std::uint32_t> table(columnTable_.size() * 2, 0);
+void ColumnTileBuilder::growTable() {
+    std::vector<std::uint64_t> table(columnTable_.size() * 2, 0);
     const std::size_t mask = table.size() - 1;
-    for (std::uint32_t column = 0; column < columnCount_; ++column) {
-        std::size_t slot = hashRuns(data_.view().column(column)) & mask;
+    for (const std::uint64_t entry : columnTable_) {
+        if (entry == 0) continue;
+        std::size_t slot = entry >> 32 & mask;
         while (table[slot] != 0) slot = (slot + 1) & mask;
-        table[slot] = column + 1;
+        table[slot] = entry;
     }
     columnTable_ = std::move(table);
 }
 
 std::uint16_t ColumnTileBuilder::addColumn(std::span<const Run> runs) {
+    const std::uint64_t hash = hashRuns(runs) >> 32;
     const std::size_t mask = columnTable_.size() - 1;
-    std::size_t slot = hashRuns(runs) & mask;
-    while (columnTable_[slot] != 0) {
-        const std::uint32_t column = columnTable_[slot] - 1;
+    std::size_t slot = hash & mask;
+    for (; columnTable_[slot] != 0; slot = (slot + 1) & mask) {
+        if (columnTable_[slot] >> 32 != hash) continue;
+        const auto column = static_cast<std::uint32_t>(columnTable_[slot] & 0xFFFFFFFFu) - 1;
         if (isEqual<Run>(data_.view().column(column), runs)) return static_cast<std::uint16_t>(column);
-        slot = (slot + 1) & mask;
     }
-    const std::uint32_t column = columnCount_++;
-    columnTable_[slot] = column + 1;
+    const auto column = static_cast<std::uint32_t>(data_.columnStart.size() - 1);
+    columnTable_[slot] = hash << 32 | (column + 1);
     data_.runs.insert(data_.runs.end(), runs.begin(), runs.end());
     data_.columnStart.push_back(static_cast<std::uint32_t>(data_.runs.size()));
-    if (columnCount_ * 2 > columnTable_.size()) grow();
+    if (data_.columnStart.size() * 2 > columnTable_.size()) growTable();
     return static_cast<std::uint16_t>(column);
 }
 
@@ -250,7 +262,5 @@ void ColumnTileBuilder::addRow(std::span<const std::uint16_t> columns) {
 }
 
 void ColumnTileBuilder::repeatRow() { data_.rowOf.push_back(data_.rowOf.back()); }
-
-ColumnTileData ColumnTileBuilder::finish() { return std::move(data_); }
 
 }  // namespace svt::volume

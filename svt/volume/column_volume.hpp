@@ -102,10 +102,14 @@ private:
     std::shared_ptr<const void> storage_;
 };
 
-/// Makes one tile row by row, sharing equal columns and equal rows.
+/// Makes tiles one after the other, each row by row, sharing equal columns and equal rows. Keeps its buffers between
+/// tiles.
 class ColumnTileBuilder {
 public:
-    explicit ColumnTileBuilder(std::int32_t width);
+    explicit ColumnTileBuilder(std::int32_t width) { start(width); }
+
+    /// Begins a tile of `width` columns; an unfinished one is forgotten.
+    void start(std::int32_t width);
 
     /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in
     /// scalar.
@@ -117,16 +121,15 @@ public:
     /// Number of rows added so far.
     [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(data_.rowOf.size()); }
     /// The finished tile; numbered by first use where addColumn was called in order of first use.
-    [[nodiscard]] ColumnTileData finish();
+    [[nodiscard]] ColumnTileData finish() const { return data_; }
 
 private:
-    void grow();
+    void growTable();
 
-    std::int32_t width_;
+    std::int32_t width_ = 0;
     ColumnTileData data_;
-    std::vector<std::uint32_t> columnTable_;  // open addressing: column number + 1, 0 = free
+    std::vector<std::uint64_t> columnTable_;  // open addressing: upper half of the hash, column number + 1; 0 = free
     std::vector<std::uint64_t> rowHashes_;
-    std::uint32_t columnCount_ = 0;
 };
 
 }  // namespace svt::volume

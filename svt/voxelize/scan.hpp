@@ -49,6 +49,21 @@ struct ScanAxes {
 /// runs.
 inline constexpr ScanAxes kScanAxes[3] = {{2, 1, 0, true}, {2, 0, 1, false}, {0, 1, 2, false}};
 
+/// Heights of a face, and between which samples they are kept.
+struct FaceHeight {
+    Height height;
+    std::int32_t lowest = 0, highest = 0;  ///< first sample above its lowest and highest corner; no limits on a plane
+};
+
+/// Heights over the triangle a, b, c, which is not upright.
+/// \param plane  shared plane in index space (quanta of z per voxel), used where not null and not too steep; lines
+/// along z only
+[[nodiscard]] FaceHeight faceHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
+                                    const ScanAxes& axes, const mesh::Plane* plane) noexcept;
+
+/// True where heights are taken from `plane`: it is not so steep that the snap matters more than who shares the face.
+[[nodiscard]] bool isScanPlane(const mesh::Plane& plane) noexcept;
+
 /// Sets up the triangle with corners a, b, c for scanning.
 /// \param plane  shared plane in index space (quanta of z per voxel), used where not null; lines along z only
 /// \return false where the triangle crosses no sample line

@@ -16,11 +16,11 @@ std::int32_t along(Vec3i dimension, std::size_t axis) { return dimension[int(axi
 void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
                 std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     if (axes.z == 2)
-        boxes.push_back({row, begin, end, at, at + 1, claim});
+        boxes.push_back({row, row + 1, begin, end, at, at + 1, claim});
     else if (axes.z == 0)
-        boxes.push_back({row, at, at + 1, begin, end, claim});
+        boxes.push_back({row, row + 1, at, at + 1, begin, end, claim});
     else
-        boxes.push_back({at, row, row + 1, begin, end, claim});
+        boxes.push_back({at, at + 1, row, row + 1, begin, end, claim});
 }
 
 // Joins neighbours in a row that lie at the same sample.
@@ -44,7 +44,7 @@ std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, 
     for (const ClaimedBox& box : raw)
         for (std::int32_t i = box.begin; i < box.end; ++i)
             for (std::int32_t k = box.low; k < box.high; ++k)
-                voxels.push_back((std::uint64_t(box.j) * std::uint64_t(dimension.x) + std::uint64_t(i)) *
+                voxels.push_back((std::uint64_t(box.firstRow) * std::uint64_t(dimension.x) + std::uint64_t(i)) *
                                      std::uint64_t(dimension.z) +
                                  std::uint64_t(k));
     std::sort(voxels.begin(), voxels.end());
@@ -55,18 +55,18 @@ std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, 
         const std::uint64_t column = voxel / std::uint64_t(dimension.z);
         const auto i = static_cast<std::int32_t>(column % std::uint64_t(dimension.x));
         const auto j = static_cast<std::int32_t>(column / std::uint64_t(dimension.x));
-        if (!runs.empty() && runs.back().j == j && runs.back().begin == i && runs.back().high == k)
+        if (!runs.empty() && runs.back().firstRow == j && runs.back().begin == i && runs.back().high == k)
             ++runs.back().high;
         else
-            runs.push_back({j, i, i + 1, k, k + 1, raw.front().claim});
+            runs.push_back({j, j + 1, i, i + 1, k, k + 1, raw.front().claim});
     }
     std::sort(runs.begin(), runs.end(), [](const ClaimedBox& p, const ClaimedBox& q) {
-        return std::tie(p.j, p.low, p.high, p.begin) < std::tie(q.j, q.low, q.high, q.begin);
+        return std::tie(p.firstRow, p.low, p.high, p.begin) < std::tie(q.firstRow, q.low, q.high, q.begin);
     });
     const std::size_t first = boxes.size();
     for (const ClaimedBox& run : runs) {
         ClaimedBox* last = boxes.size() > first ? &boxes.back() : nullptr;
-        if (last != nullptr && last->j == run.j && last->low == run.low && last->high == run.high &&
+        if (last != nullptr && last->firstRow == run.firstRow && last->low == run.low && last->high == run.high &&
             last->end == run.begin)
             last->end = run.end;
         else
@@ -83,7 +83,7 @@ Vec3i nearestSample(Vec3d index) {
 void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     const Vec3i v = nearestSample(index);
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= dimension.x || v.y >= dimension.y || v.z >= dimension.z) return;
-    boxes.push_back({v.y, v.x, v.x + 1, v.z, v.z + 1, claim});
+    boxes.push_back({v.y, v.y + 1, v.x, v.x + 1, v.z, v.z + 1, claim});
 }
 
 // Separating axis test of a triangle against the box [-h, h]^3 around `center`.
@@ -170,7 +170,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
                     const bool isTouched = k <= k1 && touchesBox(corner, {double(i), double(j), double(k)}, kTouch);
                     if (isTouched && begin < 0) begin = k;
                     if (!isTouched && begin >= 0) {
-                        boxes.push_back({j, i, i + 1, begin, k, claim});
+                        boxes.push_back({j, j + 1, i, i + 1, begin, k, claim});
                         begin = -1;
                     }
                 }

@@ -24,7 +24,7 @@ std::set<Voxel> voxelsOf(const std::vector<ClaimedBox>& boxes) {
     for (const ClaimedBox& box : boxes) {
         EXPECT_EQ(box.claim, 5u);
         for (int i = box.begin; i < box.end; ++i)
-            for (int k = box.low; k < box.high; ++k) voxels.insert({i, box.j, k});
+            for (int k = box.low; k < box.high; ++k) voxels.insert({i, box.firstRow, k});
     }
     return voxels;
 }

@@ -6,192 +6,190 @@
 namespace svt::voxelize {
 namespace {
 
-std::uint32_t clampToDepth(std::int32_t k, std::int32_t depth) noexcept {
-    return static_cast<std::uint32_t>(k < 0 ? 0 : k > depth ? depth : k);
-}
+constexpr std::int32_t kTile = volume::ColumnVolume::kTileSize;
+constexpr std::size_t kStackTable = 256;
 
-// A crossing in one word, in the order in which the sweep meets them: depth up to 2^16, 2^31 claims.
-constexpr int kDepthShift = 40;
-std::uint64_t packCrossing(std::uint32_t k, std::uint32_t claim, bool isEntry) noexcept {
-    return std::uint64_t(k) << kDepthShift | std::uint64_t(claim) << 1 | std::uint64_t(isEntry);
-}
-std::uint32_t claimOf(std::uint64_t crossing) noexcept {
-    return static_cast<std::uint32_t>(crossing >> 1 & 0x7FFFFFFFu);
+// The lowest set bit above `bit`, or `end`.
+std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noexcept {
+    const std::uint64_t above = bit + 1 < kTile ? bits >> (bit + 1) << (bit + 1) : 0;
+    return above != 0 ? std::countr_zero(above) : end;
 }
 
 }  // namespace
 
-void TileColumns::collectSpans(const TileInput& input) {
-    for (std::int32_t row = 0; row < input.height; ++row) rows_[row].clear();
-    for (const std::uint32_t index : input.triangleIndices) {
-        const ScanTriangle& t = input.triangles[index];
-        const bool isFlat = t.height.isFlat();
-        const std::int32_t flatK = isFlat ? sampleAbove(t, t.height.base) : 0;
-        scanRows(t, input.firstRow, input.firstRow + input.height, input.firstColumn, input.firstColumn + input.width,
-                 [&](std::int32_t j, std::int32_t begin, std::int32_t end) {
-                     const bool isEntry = t.sign > 0;
-                     Span span{keyOf(t.claim, isEntry, flatK), 0, 0, 0, 0, begin - input.firstColumn,
-                               end - input.firstColumn};
-                     if (!isFlat) {
-                         const std::int64_t base =
-                             t.height.base + t.height.slopeY * j + t.height.slopeX * input.firstColumn;
-                         if (t.height.slopeX == 0) {
-                             span.key = keyOf(t.claim, isEntry, sampleAbove(t, base));
-                         } else {
-                             span.base = base;
-                             span.slope = t.height.slopeX;
-                             span.lowest = t.lowest;
-                             span.highest = t.highest;
-                         }
-                     }
-                     rows_[j - input.firstRow].push_back(span);
-                 });
+std::uint32_t TileColumns::findStack(const PlanCell& cell) {
+    const auto faces = plan_.facesOf(cell);
+    const std::size_t mask = stackTable_.size() - 1;
+    std::size_t slot = cell.hash >> 32 & mask;
+    for (; stackTable_[slot] != 0; slot = (slot + 1) & mask) {
+        const Stack& known = stacks_[stackTable_[slot] - 1];
+        if (known.hash == cell.hash && known.count == faces.size() &&
+            std::equal(faces.begin(), faces.end(), members_.begin() + known.first))
+            return stackTable_[slot] - 1;
     }
-    for (const ClaimedBox& box : input.boxes) {
-        const std::int32_t begin = std::max(box.begin - input.firstColumn, 0);
-        const std::int32_t end = std::min(box.end - input.firstColumn, input.width);
-        if (begin >= end) continue;
-        auto& spans = rows_[box.j - input.firstRow];
-        spans.push_back({keyOf(box.claim, true, box.low), 0, 0, 0, 0, begin, end});
-        spans.push_back({keyOf(box.claim, false, box.high), 0, 0, 0, 0, begin, end});
+    Stack stack;
+    stack.hash = cell.hash;
+    stack.first = static_cast<std::uint32_t>(members_.size());
+    stack.count = static_cast<std::uint32_t>(faces.size());
+    for (std::uint32_t m = 0; m < faces.size(); ++m) {
+        const TileFace& face = plan_.faces()[faces[m]];
+        stack.slopesX = stack.slopesX || face.slopeX != 0;
+        stack.slopesY = stack.slopesY || face.slopeY != 0;
+        members_.push_back(faces[m]);
+        order_.push_back(m);
     }
+    stacks_.push_back(stack);
+    stackTable_[slot] = static_cast<std::uint32_t>(stacks_.size());
+    const auto number = static_cast<std::uint32_t>(stacks_.size() - 1);
+    if (stacks_.size() * 2 > stackTable_.size()) {
+        stackTable_.assign(stackTable_.size() * 2, 0);
+        const std::size_t wider = stackTable_.size() - 1;
+        for (std::uint32_t s = 0; s < stacks_.size(); ++s) {
+            slot = stacks_[s].hash >> 32 & wider;
+            while (stackTable_[slot] != 0) slot = (slot + 1) & wider;
+            stackTable_[slot] = s + 1;
+        }
+    }
+    return number;
 }
 
-// Joins neighbours on the same plane, so that the row reads the same however faces were triangulated.
-void TileColumns::mergeSpans(std::vector<Span>& spans) {
-    const auto isBefore = [](const Span& p, const Span& q) {
-        if (p.key != q.key) return p.key < q.key;
-        if (p.slope != q.slope) return p.slope < q.slope;
-        if (p.base != q.base) return p.base < q.base;
-        return p.begin != q.begin ? p.begin < q.begin : p.end < q.end;
-    };
-    // Triangles come in the order of claims, so short rows are nearly sorted: insertion is the faster way.
-    constexpr std::size_t kShort = 64;
-    if (spans.size() > kShort) {
-        std::sort(spans.begin(), spans.end(), isBefore);
+void TileColumns::layOutRow(std::int32_t y) {
+    cells_.clear();
+    for (const PlanCell& cell : plan_.layOut(y)) cells_.push_back({cell.begin, cell.end, findStack(cell)});
+}
+
+// heights_ to sortedHeights_ by the stack's order; false where they do not ascend.
+bool TileColumns::sortHeights(const Stack& stack) noexcept {
+    const std::uint32_t* order = order_.data() + stack.first;
+    std::int32_t previous = 0;
+    bool ascends = true;
+    for (std::uint32_t c = 0; c < stack.count; ++c) {
+        const std::int32_t height = heights_[order[c]];
+        ascends = ascends && height >= previous;
+        sortedHeights_[c] = previous = height;
+    }
+    sortedHeights_[stack.count] = depth_;
+    return ascends;
+}
+
+// The order of the stack's faces at heights_, and the profile that goes with it. Which of equal heights comes
+// first makes no difference: nothing lies between them.
+void TileColumns::orderStack(Stack& stack) {
+    std::uint32_t* order = order_.data() + stack.first;
+    constexpr std::uint32_t kShort = 64;
+    if (stack.count > kShort) {
+        std::stable_sort(order, order + stack.count,
+                         [&](std::uint32_t p, std::uint32_t q) { return heights_[p] < heights_[q]; });
     } else {
-        for (std::size_t s = 1; s < spans.size(); ++s) {
-            if (!isBefore(spans[s], spans[s - 1])) continue;
-            const Span moving = spans[s];
-            std::size_t to = s;
-            for (; to > 0 && isBefore(moving, spans[to - 1]); --to) spans[to] = spans[to - 1];
-            spans[to] = moving;
+        for (std::uint32_t c = 1; c < stack.count; ++c) {
+            const std::uint32_t moving = order[c];
+            std::uint32_t to = c;
+            for (; to > 0 && heights_[order[to - 1]] > heights_[moving]; --to) order[to] = order[to - 1];
+            order[to] = moving;
         }
     }
-    std::size_t kept = 0;
-    for (std::size_t s = 1; s < spans.size(); ++s) {
-        Span& last = spans[kept];
-        const Span& next = spans[s];
-        if (last.key == next.key && last.end == next.begin && last.slope == next.slope && last.base == next.base &&
-            last.lowest == next.lowest && last.highest == next.highest)
-            last.end = next.end;
-        else
-            spans[++kept] = next;
-    }
-    if (!spans.empty()) spans.resize(kept + 1);
+    codes_.resize(stack.count);
+    for (std::uint32_t c = 0; c < stack.count; ++c) codes_[c] = plan_.faces()[members_[stack.first + order[c]]].code;
+    stack.profile = profiles_.find(codes_);
+    stack.isOrdered = true;
 }
 
-void TileColumns::changeWinding(std::uint32_t claim, bool isEntry) {
-    std::int32_t& winding = winding_[claim];
-    if (isEntry) {
-        if (++winding == 1) active_.insert(std::lower_bound(active_.begin(), active_.end(), claim), claim);
-    } else if (--winding == 0) {
-        active_.erase(std::lower_bound(active_.begin(), active_.end(), claim));
+// Number of the column with heights_; `columns` of them are made.
+std::uint16_t TileColumns::makeColumn(Stack& stack, std::uint64_t columns) {
+    if (!sortHeights(stack) || !stack.isOrdered) {
+        orderStack(stack);
+        static_cast<void>(sortHeights(stack));
     }
-}
-
-// crossings_ to runs_; `columns` equal columns stand side by side.
-void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
-    std::sort(crossings_.begin(), crossings_.end());
-    runs_.clear();
-    const auto depth = static_cast<std::uint32_t>(input.depth);
+    profiles_.addColumns(stack.profile, std::span(sortedHeights_).first(stack.count + 1), columns);
+    volume::Run* const first = runs_.data();
+    volume::Run* end = first;
     std::uint32_t from = 0;
-    const auto emit = [&](std::uint32_t to) {
+    const auto emit = [&](std::uint32_t to, volume::Scalar scalar) {
         if (to == from) return;
-        const volume::Scalar scalar = active_.empty() ? 0 : input.claims[active_.front()].scalar;
-        if (!runs_.empty() && runs_.back().scalar == scalar)
-            runs_.back().end = to;
+        if (end != first && end[-1].scalar == scalar)
+            end[-1].end = to;
         else
-            runs_.push_back({to, scalar});
-        for (std::size_t a = 0; a + 1 < active_.size(); ++a) {
-            if (!input.claims[active_[a]].isSolid) continue;
-            for (std::size_t b = a + 1; b < active_.size(); ++b)
-                if (input.claims[active_[b]].isSolid)
-                    rowShared_.push_back({active_[a], active_[b], (to - from) * columns});
-        }
+            *end++ = {to, scalar};
         from = to;
     };
-    for (const std::uint64_t crossing : crossings_) {
-        emit(static_cast<std::uint32_t>(crossing >> kDepthShift));
-        changeWinding(claimOf(crossing), (crossing & 1) != 0);
-    }
-    emit(depth);
-    for (const std::uint64_t crossing : crossings_) winding_[claimOf(crossing)] = 0;
-    active_.clear();
+    for (const ScalarChange& change : profiles_.changes(stack.profile))
+        emit(static_cast<std::uint32_t>(sortedHeights_[change.crossing]), change.below);
+    emit(static_cast<std::uint32_t>(depth_), profiles_.topScalar(stack.profile));
+    return builder_.addColumn({first, end});
 }
 
-// Merged spans to a row of columns.
-void TileColumns::addRow(const TileInput& input, const std::vector<Span>& spans, std::vector<SharedCount>& shared) {
-    const auto width = static_cast<std::size_t>(input.width);
-    rowShared_.clear();
-    // Bit x is set where some crossing begins, ends or changes its sample.
-    std::uint64_t breaks = 1;
-    heights_.clear();
-    for (const Span& span : spans) {
-        breaks |= std::uint64_t{1} << span.begin;
-        if (span.end < 64) breaks |= std::uint64_t{1} << span.end;
-        if (span.slope == 0) continue;
-        const std::size_t first = heights_.size();
-        heights_.resize(first + width);
-        std::int64_t height = span.base + span.slope * span.begin - (std::int64_t{1} << Height::kBits);
-        std::int32_t previous = 0;
-        for (std::int32_t x = span.begin; x < span.end; ++x, height += span.slope) {
-            const std::int64_t above = (height >> (Height::kBits + kQuantaBits)) + 1;
-            const auto k = static_cast<std::int32_t>(std::clamp<std::int64_t>(above, span.lowest, span.highest));
-            if (x != span.begin && k != previous) breaks |= std::uint64_t{1} << x;
-            previous = heights_[first + std::size_t(x)] = k;
+void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::uint64_t rows) {
+    Stack& stack = stacks_[cell.stack];
+    if (runs_.size() < stack.count + 2) {
+        runs_.resize(stack.count + 2);
+        heights_.resize(stack.count + 2);
+        sortedHeights_.resize(stack.count + 2);
+    }
+    const std::uint32_t* members = members_.data() + stack.first;
+    for (std::uint32_t m = 0; m < stack.count; ++m) heights_[m] = plan_.faces()[members[m]].sampleAbove(cell.begin, y);
+    if (stack.slopesX) {
+        makeSlopedCell(cell, y, rows);
+        return;
+    }
+    const std::uint16_t column = makeColumn(stack, rows * static_cast<std::uint64_t>(cell.end - cell.begin));
+    std::fill(row_.begin() + cell.begin, row_.begin() + cell.end, column);
+}
+
+void TileColumns::makeSlopedCell(const Cell& cell, std::int32_t y, std::uint64_t rows) {
+    Stack& stack = stacks_[cell.stack];
+    const std::uint32_t* members = members_.data() + stack.first;
+    slopedMembers_.clear();
+    slopedHeights_.resize(std::size_t(stack.count) * kTile);
+    std::uint64_t breaks = std::uint64_t{1} << cell.begin;  // bit x: some height differs from that at x - 1
+    for (std::uint32_t m = 0; m < stack.count; ++m) {
+        const TileFace& face = plan_.faces()[members[m]];
+        if (face.slopeX == 0) continue;
+        std::int32_t* heights = slopedHeights_.data() + slopedMembers_.size() * kTile;
+        slopedMembers_.push_back(m);
+        std::int64_t height = face.base + face.slopeX * cell.begin + face.slopeY * y;
+        std::int32_t previous = heights_[m];
+        for (std::int32_t x = cell.begin; x < cell.end; ++x, height += face.slopeX) {
+            const std::int32_t k = face.clamped(height);
+            breaks |= std::uint64_t(k != previous) << x;
+            heights[x] = previous = k;
         }
     }
-    if (input.width < 64) breaks &= (std::uint64_t{1} << input.width) - 1;
-
-    row_.resize(width);
     while (breaks != 0) {
         const int x = std::countr_zero(breaks);
         breaks &= breaks - 1;
-        const int next = breaks != 0 ? std::countr_zero(breaks) : input.width;
-        crossings_.clear();
-        std::size_t sloped = 0;
-        for (const Span& span : spans) {
-            const std::size_t heights = sloped;
-            if (span.slope != 0) sloped += width;
-            if (x < span.begin || x >= span.end) continue;
-            const std::int32_t k = span.slope == 0 ? span.flatK() : heights_[heights + std::size_t(x)];
-            crossings_.push_back(packCrossing(clampToDepth(k, input.depth), span.claim(), span.isEntry()));
-        }
-        sweepColumn(input, static_cast<std::uint64_t>(next - x));
-        const std::uint16_t column = builder_->addColumn(runs_);
+        const int next = breaks != 0 ? std::countr_zero(breaks) : cell.end;
+        for (std::size_t s = 0; s < slopedMembers_.size(); ++s)
+            heights_[slopedMembers_[s]] = slopedHeights_[s * kTile + std::size_t(x)];
+        const std::uint16_t column = makeColumn(stack, rows * static_cast<std::uint64_t>(next - x));
         std::fill(row_.begin() + x, row_.begin() + next, column);
     }
-    builder_->addRow(row_);
-    shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
 }
 
-volume::ColumnTileData TileColumns::make(const TileInput& input, std::vector<SharedCount>& shared) {
-    winding_.resize(input.claims.size(), 0);  // all zero between columns
-    collectSpans(input);
-    volume::ColumnTileBuilder builder(input.width);
-    builder_ = &builder;
-    for (std::int32_t row = 0; row < input.height; ++row) {
-        mergeSpans(rows_[row]);
-        if (row > 0 && rows_[row] == rows_[row - 1]) {
-            builder.repeatRow();
-            shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
-        } else {
-            addRow(input, rows_[row], shared);
+volume::ColumnTileData TileColumns::make(const TileInput& input) {
+    plan_.build(input);
+    builder_.start(input.width);
+    depth_ = input.depth;
+    stacks_.clear();
+    members_.clear();
+    order_.clear();
+    stackTable_.assign(kStackTable, 0);
+    row_.resize(static_cast<std::size_t>(input.width));
+    const std::uint64_t newRows = plan_.newRows(), changedRows = newRows | plan_.slopedRows();
+    for (std::int32_t y = 0; y < input.height;) {
+        const std::int32_t next = nextBit(changedRows, y, input.height);
+        const bool isNew = (newRows >> y & 1) != 0;
+        if (isNew) layOutRow(y);
+        for (const Cell& cell : cells_) {
+            const bool slopesY = stacks_[cell.stack].slopesY;
+            if (!isNew && !slopesY) continue;
+            makeCell(cell, y, static_cast<std::uint64_t>((slopesY ? next : nextBit(newRows, y, input.height)) - y));
         }
+        builder_.addRow(row_);
+        while (++y < next) builder_.repeatRow();
     }
-    builder_ = nullptr;
-    return builder.finish();
+    return builder_.finish();
 }
+
+void TileColumns::takeCounts(std::vector<SharedCount>& counts) { profiles_.takeCounts(counts); }
 
 }  // namespace svt::voxelize
