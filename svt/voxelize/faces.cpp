@@ -1,7 +1,7 @@
 #include <svt/voxelize/faces.hpp>
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 namespace svt::voxelize {
 namespace {
@@ -47,13 +47,31 @@ struct EdgeUse {
     bool isForward;
 };
 
-// Marks the edges that two triangles of a face use in opposite directions.
-void markInnerEdges(std::span<FaceTriangle> face, std::span<const std::uint32_t> sources,
-                    const std::vector<mesh::Triangle>& triangles, std::vector<EdgeUse>& uses) {
-    if (face.size() < 2) return;
+// Buffers of one object's faces.
+struct FaceBuilder {
+    const std::vector<mesh::Triangle>& source;
+    FaceList& list;
+    std::vector<std::uint32_t> numbers;  // source triangles of the level that is open; they stand last in the list
+    std::vector<EdgeUse> uses;
+    std::vector<std::uint32_t> partOf;  // per triangle: one of its part with a lower or the same number
+    std::vector<FaceTriangle> unsorted;
+
+    // Neighbouring triangles of one level become faces, each in one piece.
+    void closeLevel();
+
+private:
+    void markInnerEdges(std::span<FaceTriangle> triangles);
+    std::uint32_t rootOf(std::uint32_t triangle) {
+        while (partOf[triangle] != triangle) triangle = partOf[triangle] = partOf[partOf[triangle]];
+        return triangle;
+    }
+};
+
+// Marks the edges that two triangles use in opposite directions, and joins these triangles.
+void FaceBuilder::markInnerEdges(std::span<FaceTriangle> triangles) {
     uses.clear();
-    for (std::uint32_t t = 0; t < face.size(); ++t) {
-        const auto& corners = triangles[sources[t]].corners;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto& corners = source[numbers[t]].corners;
         for (std::uint8_t e = 0; e < 3; ++e) {
             const std::uint32_t from = corners[e], to = corners[(e + 1) % 3];
             uses.push_back({std::uint64_t(std::min(from, to)) << 32 | std::max(from, to), t, e, from < to});
@@ -63,14 +81,60 @@ void markInnerEdges(std::span<FaceTriangle> face, std::span<const std::uint32_t>
         return p.ends != q.ends ? p.ends < q.ends : p.triangle < q.triangle;
     });
     for (std::size_t u = 1; u < uses.size(); ++u) {
-        if (uses[u - 1].ends != uses[u].ends || uses[u - 1].isForward == uses[u].isForward) continue;
-        face[uses[u - 1].triangle].innerEdges |= static_cast<std::uint8_t>(1u << uses[u - 1].edge);
-        face[uses[u].triangle].innerEdges |= static_cast<std::uint8_t>(1u << uses[u].edge);
+        const EdgeUse &p = uses[u - 1], &q = uses[u];
+        if (p.ends != q.ends || p.isForward == q.isForward) continue;
+        triangles[p.triangle].innerEdges |= static_cast<std::uint8_t>(1u << p.edge);
+        triangles[q.triangle].innerEdges |= static_cast<std::uint8_t>(1u << q.edge);
+        const std::uint32_t pPart = rootOf(p.triangle), qPart = rootOf(q.triangle);
+        partOf[std::max(pPart, qPart)] = std::min(pPart, qPart);
         ++u;
     }
 }
 
+void FaceBuilder::closeLevel() {
+    const auto count = static_cast<std::uint32_t>(numbers.size());
+    if (count >= 2) {
+        const auto triangles = std::span(list.triangles).last(count);
+        partOf.resize(count);
+        std::iota(partOf.begin(), partOf.end(), 0u);
+        markInnerEdges(triangles);
+        bool isOnePart = true;
+        for (std::uint32_t t = 0; t < count; ++t) isOnePart = (partOf[t] = rootOf(t)) == 0 && isOnePart;
+        if (!isOnePart) {
+            std::iota(numbers.begin(), numbers.end(), 0u);
+            std::stable_sort(numbers.begin(), numbers.end(),
+                             [&](std::uint32_t p, std::uint32_t q) { return partOf[p] < partOf[q]; });
+            unsorted.assign(triangles.begin(), triangles.end());
+            for (std::uint32_t t = 0; t < count; ++t) {
+                if (t > 0 && partOf[numbers[t]] != partOf[numbers[t - 1]])
+                    list.faces.push_back(ScanFace(list.faces.back()));
+                triangles[t] = unsorted[numbers[t]];
+                triangles[t].face = static_cast<std::uint32_t>(list.faces.size() - 1);
+            }
+        }
+    }
+    numbers.clear();
+}
+
 }  // namespace
+
+bool touchesSamples(const FaceTriangle& t, std::int8_t sign, std::int32_t firstColumn, std::int32_t firstRow,
+                    std::int32_t width, std::int32_t height) noexcept {
+    if (t.endColumn <= firstColumn || t.firstColumn >= firstColumn + width || t.endRow <= firstRow ||
+        t.firstRow >= firstRow + height)
+        return false;
+    const auto quanta = [](std::int32_t sample) { return std::int64_t(sample) * kQuanta + 1; };
+    const std::int64_t west = quanta(firstColumn), east = quanta(firstColumn + width - 1);
+    const std::int64_t south = quanta(firstRow), north = quanta(firstRow + height - 1);
+    // Separated where all of the rectangle lies outside of one edge.
+    for (int e = 0; e < 3; ++e) {
+        const int to = e == 2 ? 0 : e + 1;
+        const std::int64_t dx = -sign * (std::int64_t(t.x[to]) - t.x[e]), dy = -sign * (std::int64_t(t.y[to]) - t.y[e]);
+        const std::int64_t x = dy < 0 ? east : west, y = dx > 0 ? north : south;
+        if (dx * (y - t.y[e]) - dy * (x - t.x[e]) < 0) return false;
+    }
+    return true;
+}
 
 void FaceList::append(const FaceList& other) {
     const auto firstFace = static_cast<std::uint32_t>(faces.size());
@@ -84,13 +148,8 @@ void FaceList::append(const FaceList& other) {
 void addFaces(const IndexMesh& mesh, std::span<const mesh::Plane> planes, Vec3i dimension, std::uint32_t claim,
               FaceList& list) {
     const auto& triangles = mesh.mesh->triangles;
-    std::vector<std::uint32_t> sources;  // of the current face's triangles
-    std::vector<EdgeUse> uses;
+    FaceBuilder builder{triangles, list, {}, {}, {}, {}};
     Level current;
-    const auto closeFace = [&] {
-        markInnerEdges(std::span(list.triangles).last(sources.size()), sources, triangles, uses);
-        sources.clear();
-    };
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const mesh::Triangle& triangle = triangles[t];
         const QuantaPoint& a = mesh.points[triangle.corners[0]];
@@ -109,15 +168,15 @@ void addFaces(const IndexMesh& mesh, std::span<const mesh::Plane> planes, Vec3i 
             level.value = static_cast<std::uint32_t>(a[2]);
         }
         if (!(level == current)) {
-            closeFace();
+            builder.closeLevel();
             current = level;
             list.faces.push_back({faceHeight(a, b, c, kScanAxes[2], plane), claim, level.sign});
         }
         plan.face = static_cast<std::uint32_t>(list.faces.size() - 1);
         list.triangles.push_back(plan);
-        sources.push_back(t);
+        builder.numbers.push_back(t);
     }
-    closeFace();
+    builder.closeLevel();
 }
 
 }  // namespace svt::voxelize

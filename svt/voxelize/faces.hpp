@@ -28,6 +28,11 @@ struct FaceTriangle {
     std::uint8_t innerEdges = 0;  ///< bit e: another triangle of the face lies beyond the edge from corner e to e + 1
 };
 
+/// True where the triangle meets the rectangle of samples [firstColumn, firstColumn + width) x [firstRow, firstRow +
+/// height); exact, borders included. \param sign  that of its face
+[[nodiscard]] bool touchesSamples(const FaceTriangle& triangle, std::int8_t sign, std::int32_t firstColumn,
+                                  std::int32_t firstRow, std::int32_t width, std::int32_t height) noexcept;
+
 /// Faces and triangles of many objects.
 struct FaceList {
     std::vector<ScanFace> faces;

@@ -2,17 +2,23 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <tuple>
+#include <utility>
 
 namespace svt::voxelize {
 namespace {
 
-constexpr std::int32_t kTile = 64;
+// Bits below `end`, at most 64.
+std::uint64_t bitsBelow(std::int32_t end) noexcept {
+    return end >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << end) - 1;
+}
 
 // Bits [first, end).
-std::uint64_t bits(std::int32_t first, std::int32_t end) noexcept {
-    const std::uint64_t below = end >= kTile ? ~std::uint64_t{0} : (std::uint64_t{1} << end) - 1;
-    return below & ~std::uint64_t{0} << first;
-}
+std::uint64_t bits(std::int32_t first, std::int32_t end) noexcept { return bitsBelow(end) & ~bitsBelow(first); }
+
+// Bits whose value differs from that of the bit below.
+std::uint64_t changes(std::uint64_t rows) noexcept { return rows ^ rows << 1; }
 
 std::uint64_t scramble(std::uint64_t number) noexcept {
     number = (number + 1) * 0x9E3779B97F4A7C15ull;
@@ -21,65 +27,182 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
 
 }  // namespace
 
-void TilePlan::addFace(std::int64_t base, std::int64_t slopeX, std::int64_t slopeY, std::int32_t lowest,
-                       std::int32_t highest, BoundaryCode code) {
-    faces_.push_back({base, slopeX, slopeY, lowest, highest, code.packed()});
-    if (faceHashes_.size() < faces_.size()) faceHashes_.push_back(scramble(faces_.size()));
-    hasTwin_.push_back(0);
-}
-
-void TilePlan::addStretch(std::int32_t firstRow, std::int32_t endRow, std::int32_t column, std::int8_t winding) {
-    newRows_ |= std::uint64_t{1} << firstRow;
-    if (endRow < kTile) newRows_ |= std::uint64_t{1} << endRow;
-    if (column >= width_) return;  // a cover that does not end within the tile ends at its side
-    stretches_.push_back({static_cast<std::uint32_t>(faces_.size() - 1), static_cast<std::uint8_t>(firstRow),
-                          static_cast<std::uint8_t>(endRow), static_cast<std::uint8_t>(column), winding});
-}
-
-void TilePlan::addEdge(const TileInput& input, const FaceTriangle& t, int edge, std::int8_t sign) {
-    int low = edge, high = edge == 2 ? 0 : edge + 1;
+// False where the edge makes no difference to the tile.
+bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
+                         PlacedEdge& out) noexcept {
+    const int from = edge, to = edge == 2 ? 0 : edge + 1;
     // Counter-clockwise, an edge that goes south has the triangle to its east.
-    const bool goesNorth = t.y[low] < t.y[high];
-    const auto winding = static_cast<std::int8_t>(goesNorth == (sign > 0) ? 1 : -1);
-    if (!goesNorth) std::swap(low, high);
-    const auto firstRow =
-        std::max(static_cast<std::int32_t>(firstSampleAbove(t.y[low])) - input.firstRow, std::int32_t{0});
-    const auto endRow = std::min(static_cast<std::int32_t>(firstSampleAbove(t.y[high])) - input.firstRow, input.height);
-    if (firstRow >= endRow) return;
-    const auto [west, east] = std::minmax(t.x[low], t.x[high]);
-    const auto first = static_cast<std::int32_t>(firstSampleAbove(west)) - input.firstColumn;
-    const auto last = static_cast<std::int32_t>(firstSampleAbove(east)) - input.firstColumn;
+    const bool goesNorth = t.y[from] < t.y[to];
+    out.isEntry = goesNorth == looksDown;
+    const int south = goesNorth ? from : to, north = goesNorth ? to : from;
+    out.x0 = t.x[south];
+    out.y0 = t.y[south];
+    out.x1 = t.x[north];
+    out.y1 = t.y[north];
+    out.firstRow = std::max(static_cast<std::int32_t>(firstSampleAbove(out.y0)) - input.firstRow, 0);
+    out.endRow = std::min(static_cast<std::int32_t>(firstSampleAbove(out.y1)) - input.firstRow, input.height);
+    if (out.firstRow >= out.endRow) return false;
+    out.first = static_cast<std::int32_t>(firstSampleAbove(std::min(out.x0, out.x1))) - input.firstColumn;
+    out.last = static_cast<std::int32_t>(firstSampleAbove(std::max(out.x0, out.x1))) - input.firstColumn;
+    if (out.first >= input.width) return false;
+    if (out.last <= 0 || (t.innerEdges >> edge & 1) == 0) return true;
     // The triangle beyond an inner edge touches the tile too, unless all of the edge lies west of it.
-    if (last <= 0) {
-        addStretch(firstRow, endRow, 0, winding);
-        return;
-    }
-    if ((t.innerEdges >> edge & 1) != 0 || first >= input.width) return;
-    if (first == last) {
-        addStretch(firstRow, endRow, first, winding);
-        return;
-    }
-    EdgeWalk walk(t.x[low], t.y[low], t.x[high], t.y[high], input.firstRow + firstRow);
-    const auto column = [&] {
-        return static_cast<std::int32_t>(std::clamp<std::int64_t>(walk.sample() - input.firstColumn, 0, input.width));
+    if (out.first > 0) return false;
+    const auto isWest = [&](std::int32_t row) {
+        return EdgeWalk(out.x0, out.y0, out.x1, out.y1, input.firstRow + row).sample() <= input.firstColumn;
     };
-    std::int32_t begin = firstRow, current = column();
-    for (std::int32_t row = firstRow + 1; row < endRow; ++row) {
-        walk.nextRow();
-        const std::int32_t next = column();
-        if (next == current) continue;
-        addStretch(begin, row, current, winding);
-        begin = row;
-        current = next;
-    }
-    addStretch(begin, endRow, current, winding);
+    if (!isWest(out.firstRow) || !isWest(out.endRow - 1)) return false;
+    out.last = 0;
+    return true;
 }
 
-void TilePlan::addTriangle(const TileInput& input, const FaceTriangle& triangle, std::int8_t sign) {
-    if (faces_.back().slopeY != 0)
-        slopedRows_ |= bits(std::max(triangle.firstRow - input.firstRow, 0),
-                            std::min(triangle.endRow - input.firstRow, input.height));
-    for (int edge = 0; edge < 3; ++edge) addEdge(input, triangle, edge, sign);
+// Rows [first, end) outside of which an edge passes the tile to its west or east. A row too many does no harm.
+std::pair<std::int32_t, std::int32_t> TilePlan::rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept {
+    const double perColumn = (double(edge.y1) - edge.y0) / (double(edge.x1) - edge.x0);
+    const auto rowAt = [&](std::int32_t column) {
+        const double y = edge.y0 + (double(input.firstColumn + column) * double(kQuanta) - edge.x0) * perColumn;
+        return std::clamp(y / double(kQuanta) - input.firstRow, -4.0, 68.0);
+    };
+    const double west = rowAt(-1), east = rowAt(input.width + 1);
+    return {std::clamp(static_cast<std::int32_t>(std::min(west, east)) - 1, edge.firstRow, edge.endRow),
+            std::clamp(static_cast<std::int32_t>(std::max(west, east)) + 2, edge.firstRow, edge.endRow)};
+}
+
+// West of the tile only the sum of windings matters.
+void TilePlan::addWest(std::uint64_t rows, bool isEntry) {
+    std::uint64_t& same = isEntry ? outline_.westIn : outline_.westOut;
+    std::uint64_t& opposite = isEntry ? outline_.westOut : outline_.westIn;
+    const std::uint64_t cancelled = rows & opposite;
+    opposite ^= cancelled;
+    if ((same & (rows ^ cancelled)) != 0) outline_.isSimple = false;
+    same |= rows ^ cancelled;
+}
+
+void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
+    if (edge.last <= 0) {
+        addWest(bits(edge.firstRow, edge.endRow), edge.isEntry);
+        return;
+    }
+    std::uint8_t* columns = edge.isEntry ? outline_.cover.begin : outline_.cover.end;
+    std::uint64_t within = 0, turns = 0;  // rows in which the edge lies within the tile, and where it moves
+    if (edge.first == edge.last) {
+        within = bits(edge.firstRow, edge.endRow);
+        std::memset(columns + edge.firstRow, edge.first, static_cast<std::size_t>(edge.endRow - edge.firstRow));
+    } else {
+        const auto [firstRow, endRow] = rowsWithin(input, edge);
+        std::uint64_t west = edge.x0 < edge.x1 ? bits(edge.firstRow, firstRow) : bits(endRow, edge.endRow);
+        if (firstRow < endRow) {
+            EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + firstRow);
+            std::int64_t previous = 0;
+            for (std::int32_t row = firstRow; row < endRow; ++row, walk.nextRow()) {
+                const std::int64_t column = walk.sample() - input.firstColumn;
+                const std::uint64_t bit = std::uint64_t{1} << row;
+                turns |= column != previous ? bit : 0;
+                previous = column;
+                if (column <= 0) {
+                    west |= bit;
+                } else if (column < input.width) {
+                    within |= bit;
+                    columns[row] = static_cast<std::uint8_t>(column);
+                }
+            }
+        }
+        if (west != 0) addWest(west, edge.isEntry);
+    }
+    std::uint64_t& met = edge.isEntry ? outline_.begun : outline_.ended;
+    if ((met & within) != 0) outline_.isSimple = false;
+    met |= within;
+    outline_.turns |= (turns & within) | changes(within);
+}
+
+// The rare face of which a row meets more than one stretch: all crossings, sorted and paired.
+void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, bool looksDown) {
+    crossings_.clear();
+    for (const std::uint32_t index : triangles) {
+        const FaceTriangle& t = input.triangles[index];
+        for (int e = 0; e < 3; ++e) {
+            PlacedEdge edge;
+            if (!placeEdge(input, t, e, looksDown, edge)) continue;
+            EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + edge.firstRow);
+            for (std::int32_t row = edge.firstRow; row < edge.endRow; ++row, walk.nextRow())
+                crossings_.push_back({static_cast<std::uint8_t>(row),
+                                      static_cast<std::uint8_t>(
+                                          std::clamp<std::int64_t>(walk.sample() - input.firstColumn, 0, input.width)),
+                                      static_cast<std::int8_t>(edge.isEntry ? 1 : -1)});
+        }
+    }
+    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& p, const Crossing& q) {
+        return std::tie(p.row, p.column) < std::tie(q.row, q.column);
+    });
+    const std::size_t firstCover = covers_.size();
+    const auto face = static_cast<std::uint32_t>(faces_.size() - 1);
+    const auto addStretch = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
+        if (firstCover + number == covers_.size()) covers_.push_back({0, face, 1, {}, {}});
+        Cover& cover = covers_[firstCover + number];
+        cover.rows |= std::uint64_t{1} << row;
+        cover.begin[row] = begin;
+        cover.end[row] = end;
+    };
+    for (std::size_t c = 0; c < crossings_.size();) {
+        const std::uint8_t row = crossings_[c].row;
+        begins_.clear();
+        std::size_t ended = 0;
+        while (c < crossings_.size() && crossings_[c].row == row) {
+            const std::uint8_t column = crossings_[c].column;
+            int winding = 0;
+            for (; c < crossings_.size() && crossings_[c].row == row && crossings_[c].column == column; ++c)
+                winding += crossings_[c].winding;
+            for (; winding > 0; --winding) begins_.push_back(column);
+            for (; winding < 0 && ended < begins_.size(); ++winding, ++ended)
+                addStretch(row, ended, begins_[ended], column);
+        }
+        for (; ended < begins_.size(); ++ended)
+            addStretch(row, ended, begins_[ended], static_cast<std::uint8_t>(input.width));
+    }
+    for (std::size_t n = firstCover; n < covers_.size(); ++n) {
+        const Cover& cover = covers_[n];
+        newRows_ |= changes(cover.rows);
+        for (std::uint64_t rows = cover.rows & cover.rows << 1; rows != 0; rows &= rows - 1) {
+            const int row = std::countr_zero(rows);
+            if (cover.begin[row] != cover.begin[row - 1] || cover.end[row] != cover.end[row - 1])
+                newRows_ |= std::uint64_t{1} << row;
+        }
+    }
+}
+
+void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> triangles) {
+    const ScanFace& face = input.faces[input.triangles[triangles.front()].face];
+    // Sample k stands at quanta 512 k + 1, and the one strictly above is wanted.
+    const Height& height = face.height.height;
+    const std::int64_t base = height.base + height.slopeX * input.firstColumn + height.slopeY * input.firstRow +
+                              (std::int64_t{1} << TileFace::kBits) - (std::int64_t{1} << Height::kBits);
+    const bool looksDown = face.sign > 0;
+    faces_.push_back({base, height.slopeX, height.slopeY, std::clamp(face.height.lowest, 0, input.depth),
+                      std::clamp(face.height.highest, 0, input.depth), BoundaryCode{face.claim, looksDown}.packed()});
+
+    outline_.westIn = outline_.westOut = outline_.begun = outline_.ended = outline_.turns = 0;
+    outline_.isSimple = true;
+    std::memset(outline_.cover.begin, 0, kTile);
+    std::memset(outline_.cover.end, input.width, kTile);
+    for (const std::uint32_t index : triangles) {
+        const FaceTriangle& triangle = input.triangles[index];
+        if (height.slopeY != 0)
+            slopedRows_ |= bits(std::max(triangle.firstRow - input.firstRow, 0),
+                                std::min(triangle.endRow - input.firstRow, input.height));
+        for (int e = 0; e < 3; ++e) {
+            PlacedEdge edge;
+            if (placeEdge(input, triangle, e, looksDown, edge)) addToOutline(input, edge);
+        }
+    }
+    const std::uint64_t rows = outline_.westIn | outline_.begun;
+    if (!outline_.isSimple || outline_.westOut != 0 || (outline_.westIn & outline_.begun) != 0) {
+        addConcaveFace(input, triangles, looksDown);
+    } else if (rows != 0) {
+        newRows_ |= changes(outline_.westIn) | outline_.turns;
+        covers_.push_back(outline_.cover);
+        covers_.back().rows = rows;
+        covers_.back().face = static_cast<std::uint32_t>(faces_.size() - 1);
+    }
 }
 
 void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
@@ -88,105 +211,68 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
     const std::int32_t firstRow = std::max(box.firstRow - input.firstRow, 0);
     const std::int32_t endRow = std::min(box.endRow - input.firstRow, input.height);
     if (begin >= end || firstRow >= endRow) return;
+    covers_.push_back({bits(firstRow, endRow), static_cast<std::uint32_t>(faces_.size()), 2, {}, {}});
+    std::memset(covers_.back().begin, begin, kTile);
+    std::memset(covers_.back().end, end, kTile);
+    newRows_ |= changes(covers_.back().rows);
     const std::int32_t low = std::clamp(box.low, 0, input.depth), high = std::clamp(box.high, 0, input.depth);
-    addFace(0, 0, 0, low, low, {box.claim, true});
-    hasTwin_.back() = 1;
-    addStretch(firstRow, endRow, begin, 1);
-    addStretch(firstRow, endRow, end, -1);
-    addFace(0, 0, 0, high, high, {box.claim, false});
+    faces_.push_back({0, 0, 0, low, low, BoundaryCode{box.claim, true}.packed()});
+    faces_.push_back({0, 0, 0, high, high, BoundaryCode{box.claim, false}.packed()});
 }
 
 void TilePlan::build(const TileInput& input) {
     width_ = input.width;
     faces_.clear();
-    hasTwin_.clear();
-    stretches_.clear();
+    covers_.clear();
     newRows_ = 1;
     slopedRows_ = 0;
-    std::uint32_t current = 0xFFFFFFFFu;
-    for (const std::uint32_t index : input.triangleIndices) {
-        const FaceTriangle& triangle = input.triangles[index];
-        const ScanFace& face = input.faces[triangle.face];
-        if (triangle.face != current) {
-            current = triangle.face;
-            // Sample k stands at quanta 512 k + 1, and the one strictly above is wanted.
-            const Height& height = face.height.height;
-            const std::int64_t base = height.base + height.slopeX * input.firstColumn + height.slopeY * input.firstRow +
-                                      (std::int64_t{1} << TileFace::kBits) - (std::int64_t{1} << Height::kBits);
-            addFace(base, height.slopeX, height.slopeY, std::clamp(face.height.lowest, 0, input.depth),
-                    std::clamp(face.height.highest, 0, input.depth), {face.claim, face.sign > 0});
-        }
-        addTriangle(input, triangle, face.sign);
+    const auto indices = input.triangleIndices;
+    for (std::size_t n = 0; n < indices.size();) {
+        const std::size_t first = n;
+        while (n < indices.size() && input.triangles[indices[n]].face == input.triangles[indices[first]].face) ++n;
+        addFace(input, indices.subspan(first, n - first));
     }
     for (const std::uint32_t index : input.boxIndices) addBox(input, input.boxes[index]);
+    while (faceHashes_.size() < faces_.size()) faceHashes_.push_back(scramble(faceHashes_.size()));
 
     newRows_ &= bits(0, input.height);
-    for (std::uint64_t rows = newRows_; rows != 0; rows &= rows - 1) rows_[std::countr_zero(rows)].clear();
-    for (const EdgeStretch& stretch : stretches_)
-        for (std::uint64_t rows = newRows_ & bits(stretch.firstRow, stretch.endRow); rows != 0; rows &= rows - 1)
-            rows_[std::countr_zero(rows)].push_back({stretch.face, stretch.column, stretch.winding});
-}
-
-void TilePlan::addSpan(std::uint32_t face, std::int32_t begin, std::int32_t end) {
-    breaks_ |= std::uint64_t{1} << begin;
-    if (end < width_) breaks_ |= std::uint64_t{1} << end;
-    spans_.push_back({face, begin, end});
-    if (hasTwin_[face] != 0) spans_.push_back({face + 1, begin, end});
-}
-
-// Where the edges of one face cross a row, to the stretches that it covers.
-void TilePlan::addSpansOf(std::span<EdgeCrossing> crossings) {
-    const std::uint32_t face = crossings.front().face;
-    if (crossings.size() == 1) {
-        addSpan(face, crossings[0].column, width_);
-        return;
+    for (std::vector<Span>& row : rows_) row.clear();
+    for (const Cover& cover : covers_) {
+        for (std::uint64_t rows = cover.rows & newRows_; rows != 0; rows &= rows - 1) {
+            const int row = std::countr_zero(rows);
+            if (cover.begin[row] < cover.end[row])
+                rows_[row].push_back({cover.face, cover.begin[row], cover.end[row], cover.faceCount});
+        }
     }
-    if (crossings.size() == 2 && crossings[0].winding + crossings[1].winding == 0) {
-        const auto [begin, end] = std::minmax(crossings[0].column, crossings[1].column);
-        if (begin < end) addSpan(face, begin, end);
-        return;
-    }
-    std::sort(crossings.begin(), crossings.end(),
-              [](const EdgeCrossing& p, const EdgeCrossing& q) { return p.column < q.column; });
-    begins_.clear();
-    std::size_t ended = 0;
-    for (std::size_t c = 0; c < crossings.size();) {
-        const std::int32_t column = crossings[c].column;
-        int cover = 0;
-        for (; c < crossings.size() && crossings[c].column == column; ++c) cover += crossings[c].winding;
-        for (; cover > 0; --cover) begins_.push_back(column);
-        for (; cover < 0 && ended < begins_.size(); ++cover) addSpan(face, begins_[ended++], column);
-    }
-    for (; ended < begins_.size(); ++ended) addSpan(face, begins_[ended], width_);
 }
 
 std::span<const PlanCell> TilePlan::layOut(std::int32_t y) {
-    std::vector<EdgeCrossing>& crossings = rows_[y];
-    spans_.clear();
-    breaks_ = 1;
-    for (std::size_t c = 0; c < crossings.size();) {
-        const std::size_t first = c;
-        while (c < crossings.size() && crossings[c].face == crossings[first].face) ++c;
-        addSpansOf(std::span(crossings).subspan(first, c - first));
+    const std::vector<Span>& spans = rows_[y];
+    std::uint64_t breaks = 1;  // bit x: a cell begins
+    std::size_t faceCount = 0;
+    for (const Span& span : spans) {
+        breaks |= std::uint64_t{1} << span.begin;
+        if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
+        faceCount += span.faceCount;
     }
-
     cells_.clear();
     std::uint8_t cellAt[kTile + 1];
-    for (std::uint64_t breaks = breaks_; breaks != 0;) {
+    while (breaks != 0) {
         const int begin = std::countr_zero(breaks);
         breaks &= breaks - 1;
         cellAt[begin] = static_cast<std::uint8_t>(cells_.size());
         cells_.push_back({begin, breaks != 0 ? std::countr_zero(breaks) : width_,
-                          static_cast<std::uint32_t>(cells_.size() * spans_.size()), 0, 0});
+                          static_cast<std::uint32_t>(cells_.size() * faceCount), 0, 0});
     }
     cellAt[width_] = static_cast<std::uint8_t>(cells_.size());
-    if (members_.size() < cells_.size() * spans_.size()) members_.resize(cells_.size() * spans_.size());
-    for (const Span& span : spans_) {
+    if (members_.size() < cells_.size() * faceCount) members_.resize(cells_.size() * faceCount);
+    for (const Span& span : spans) {
         const std::uint64_t hash = faceHashes_[span.face];
         for (std::size_t c = cellAt[span.begin]; c < cellAt[span.end]; ++c) {
             PlanCell& cell = cells_[c];
-            members_[cell.firstMember + cell.faceCount++] = span.face;
             cell.hash += hash;
+            for (std::uint32_t f = 0; f < span.faceCount; ++f)
+                members_[cell.firstMember + cell.faceCount++] = span.face + f;
         }
     }
     return cells_;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace svt::voxelize {
@@ -80,42 +81,57 @@ public:
     }
 
 private:
-    // An edge over rows in which it stays at one column; passing it to the east adds `winding` to the face's cover.
-    struct EdgeStretch {
-        std::uint32_t face;
-        std::uint8_t firstRow, endRow, column;
-        std::int8_t winding;
-    };
-    struct EdgeCrossing {
-        std::uint32_t face;
-        std::uint8_t column;
-        std::int8_t winding;
+    static constexpr std::size_t kTile = 64;
+
+    // What a face covers: in each row one stretch of columns. Concave ones have several.
+    struct Cover {
+        std::uint64_t rows = 0;  // bit y: [begin[y], end[y]) is covered; may be empty
+        std::uint32_t face = 0;
+        std::uint8_t faceCount = 1;  // 2: the next face lies over the same columns (top of a box)
+        std::uint8_t begin[kTile], end[kTile];
     };
     struct Span {
         std::uint32_t face;
-        std::int32_t begin, end;
+        std::uint8_t begin, end, faceCount;
+    };
+    // The cover of one face while its edges come. Passing an edge to the east adds its winding to the cover.
+    struct Outline {
+        Cover cover;
+        std::uint64_t westIn = 0, westOut = 0;  // rows with winding 1 and -1 to the west of the tile
+        std::uint64_t begun = 0, ended = 0;     // rows with an edge of winding 1 and -1 within the tile
+        std::uint64_t turns = 0;                // rows in which one of these begins, ends or moves
+        bool isSimple = true;                   // no row has two of either
     };
 
-    void addFace(std::int64_t base, std::int64_t slopeX, std::int64_t slopeY, std::int32_t lowest, std::int32_t highest,
-                 BoundaryCode code);
-    void addTriangle(const TileInput& input, const FaceTriangle& triangle, std::int8_t sign);
-    void addEdge(const TileInput& input, const FaceTriangle& triangle, int edge, std::int8_t sign);
-    void addBox(const TileInput& input, const ClaimedBox& box);
-    void addStretch(std::int32_t firstRow, std::int32_t endRow, std::int32_t column, std::int8_t winding);
-    void addSpan(std::uint32_t face, std::int32_t begin, std::int32_t end);
-    void addSpansOf(std::span<EdgeCrossing> crossings);
+    // An edge as far as it matters to the tile: over rows [firstRow, endRow) of it, between columns first and last.
+    struct PlacedEdge {
+        std::int32_t firstRow, endRow, first, last;
+        std::int32_t x0, y0, x1, y1;  // quanta, to the north
+        bool isEntry;                 // winding 1, else -1
+    };
+    struct Crossing {
+        std::uint8_t row, column;
+        std::int8_t winding;
+    };
 
-    static constexpr std::size_t kRows = 64;
+    void addFace(const TileInput& input, std::span<const std::uint32_t> triangles);
+    static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool looksDown,
+                          PlacedEdge& out) noexcept;
+    static std::pair<std::int32_t, std::int32_t> rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept;
+    void addWest(std::uint64_t rows, bool isEntry);
+    void addToOutline(const TileInput& input, const PlacedEdge& edge);
+    void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, bool looksDown);
+    void addBox(const TileInput& input, const ClaimedBox& box);
+
     std::int32_t width_ = 0;
     std::uint64_t newRows_ = 0, slopedRows_ = 0;
     std::vector<TileFace> faces_;
     std::vector<std::uint64_t> faceHashes_;
-    std::vector<std::uint8_t> hasTwin_;   // per face: the next one lies over the same columns (top of a box)
-    std::vector<EdgeStretch> stretches_;  // ascending by face
-    std::vector<EdgeCrossing> rows_[kRows];
-    std::vector<Span> spans_;
-    std::uint64_t breaks_ = 0;  // bit x: a cell begins
-    std::vector<std::int32_t> begins_;
+    Outline outline_;
+    std::vector<Cover> covers_;  // ascending by face
+    std::vector<Crossing> crossings_;
+    std::vector<std::uint8_t> begins_;
+    std::vector<Span> rows_[kTile];
     std::vector<PlanCell> cells_;
     std::vector<std::uint32_t> members_;
 };

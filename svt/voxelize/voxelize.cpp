@@ -66,24 +66,33 @@ struct TileBins {
     }
 };
 
-// `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n.
-template <class RangeOf>
-TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, RangeOf&& rangeOf) {
+// `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n, `touches(n, tx, ty)` has the last
+// word.
+template <class RangeOf, class Touches>
+TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, RangeOf&& rangeOf, Touches&& touches) {
+    struct Entry {
+        std::uint32_t tile, item;
+    };
+    std::vector<Entry> entries;
+    entries.reserve(2 * count);
     TileBins bins;
     bins.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
-    const auto forEach = [&](auto&& body) {
-        for (std::uint32_t n = 0; n < count; ++n) {
-            std::int32_t x0, x1, y0, y1;
-            rangeOf(n, x0, x1, y0, y1);
-            for (std::int32_t y = y0; y < y1; ++y)
-                for (std::int32_t x = x0; x < x1; ++x) body(n, std::size_t(x) + std::size_t(tilesX) * std::size_t(y));
-        }
-    };
-    forEach([&](std::uint32_t, std::size_t tile) { ++bins.first[tile + 1]; });
+    for (std::uint32_t n = 0; n < count; ++n) {
+        std::int32_t x0, x1, y0, y1;
+        rangeOf(n, x0, x1, y0, y1);
+        const bool isBlock = x1 - x0 > 1 && y1 - y0 > 1;
+        for (std::int32_t y = y0; y < y1; ++y)
+            for (std::int32_t x = x0; x < x1; ++x) {
+                if (isBlock && !touches(n, x, y)) continue;
+                const auto tile = static_cast<std::uint32_t>(x + tilesX * y);
+                entries.push_back({tile, n});
+                ++bins.first[tile + 1];
+            }
+    }
     std::partial_sum(bins.first.begin(), bins.first.end(), bins.first.begin());
     bins.items.resize(bins.first.back());
     std::vector<std::uint32_t> next(bins.first.begin(), bins.first.end() - 1);
-    forEach([&](std::uint32_t n, std::size_t tile) { bins.items[next[tile]++] = n; });
+    for (const Entry& entry : entries) bins.items[next[entry.tile]++] = entry.item;
     return bins;
 }
 
@@ -285,16 +294,24 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
     const std::int32_t tilesY = (dimension.y + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
     const auto& triangles = geometry.faces.triangles;
     const auto& boxes = geometry.boxes;
-    const TileBins triangleBins =
-        fillBins(triangles.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+    constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+    const TileBins triangleBins = fillBins(
+        triangles.size(), tilesX, tilesY,
+        [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
             tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
+        },
+        [&](std::uint32_t n, std::int32_t x, std::int32_t y) {
+            return touchesSamples(triangles[n], geometry.faces.faces[triangles[n].face].sign, x * kTile, y * kTile,
+                                  kTile, kTile);
         });
-    const TileBins boxBins =
-        fillBins(boxes.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+    const TileBins boxBins = fillBins(
+        boxes.size(), tilesX, tilesY,
+        [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
             tileRange(boxes[n].firstRow, boxes[n].endRow, dimension.y, y0, y1);
-        });
+        },
+        [](std::uint32_t, std::int32_t, std::int32_t) { return true; });
 
     const std::size_t tileCount = std::size_t(tilesX) * std::size_t(tilesY);
     Tiles result;
