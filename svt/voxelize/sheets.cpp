@@ -1,5 +1,7 @@
 #include <svt/voxelize/sheets.hpp>
 
+#include <svt/voxelize/disjoint_boxes.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,43 +38,6 @@ void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin,
         from = x;
         current = sample;
     }
-}
-
-// The same voxels without repetition, as few boxes: runs along z, then equal runs side by side along x.
-std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, std::vector<ClaimedBox>& boxes) {
-    std::vector<std::uint64_t> voxels;
-    for (const ClaimedBox& box : raw)
-        for (std::int32_t i = box.begin; i < box.end; ++i)
-            for (std::int32_t k = box.low; k < box.high; ++k)
-                voxels.push_back((std::uint64_t(box.firstRow) * std::uint64_t(dimension.x) + std::uint64_t(i)) *
-                                     std::uint64_t(dimension.z) +
-                                 std::uint64_t(k));
-    std::sort(voxels.begin(), voxels.end());
-    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
-    std::vector<ClaimedBox> runs;
-    for (const std::uint64_t voxel : voxels) {
-        const auto k = static_cast<std::int32_t>(voxel % std::uint64_t(dimension.z));
-        const std::uint64_t column = voxel / std::uint64_t(dimension.z);
-        const auto i = static_cast<std::int32_t>(column % std::uint64_t(dimension.x));
-        const auto j = static_cast<std::int32_t>(column / std::uint64_t(dimension.x));
-        if (!runs.empty() && runs.back().firstRow == j && runs.back().begin == i && runs.back().high == k)
-            ++runs.back().high;
-        else
-            runs.push_back({j, j + 1, i, i + 1, k, k + 1, raw.front().claim});
-    }
-    std::sort(runs.begin(), runs.end(), [](const ClaimedBox& p, const ClaimedBox& q) {
-        return std::tie(p.firstRow, p.low, p.high, p.begin) < std::tie(q.firstRow, q.low, q.high, q.begin);
-    });
-    const std::size_t first = boxes.size();
-    for (const ClaimedBox& run : runs) {
-        ClaimedBox* last = boxes.size() > first ? &boxes.back() : nullptr;
-        if (last != nullptr && last->firstRow == run.firstRow && last->low == run.low && last->high == run.high &&
-            last->end == run.begin)
-            last->end = run.end;
-        else
-            boxes.push_back(run);
-    }
-    return voxels.size();
 }
 
 Vec3i nearestSample(Vec3d index) {
@@ -243,7 +208,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
         for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, raw);
     }
-    return appendUnique(raw, dimension, boxes);
+    return addDisjoint(raw, boxes);
 }
 
 }  // namespace svt::voxelize
