@@ -50,8 +50,9 @@ public:
     /// Above the last crossing.
     [[nodiscard]] volume::Scalar topScalar(std::uint32_t profile) const noexcept { return profiles_[profile].top; }
 
-    /// Adds `columns` columns that meet the profile's crossings at `heights` (first sample above, ascending).
-    void addColumns(std::uint32_t profile, std::span<const std::int32_t> heights, std::uint64_t columns) noexcept {
+    /// Adds `columns` columns that meet the profile's crossings at `heights` (first sample above, ascending; one more
+    /// than crossings, the last is the grid's depth).
+    void addColumns(std::uint32_t profile, const std::int32_t* heights, std::uint64_t columns) noexcept {
         const Profile& p = profiles_[profile];
         for (std::uint32_t s = p.firstShared; s < p.firstShared + p.sharedCount; ++s) {
             SharedInterval& interval = shared_[s];

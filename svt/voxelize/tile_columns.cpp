@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace svt::voxelize {
 namespace {
@@ -20,37 +21,50 @@ std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noe
 std::uint32_t TileColumns::findStack(const PlanCell& cell) {
     const auto faces = plan_.facesOf(cell);
     const std::size_t mask = stackTable_.size() - 1;
-    std::size_t slot = cell.hash >> 32 & mask;
-    for (; stackTable_[slot] != 0; slot = (slot + 1) & mask) {
+    for (std::size_t slot = cell.hash >> 32 & mask; stackTable_[slot] != 0; slot = (slot + 1) & mask) {
         const Stack& known = stacks_[stackTable_[slot] - 1];
         if (known.hash == cell.hash && known.count == faces.size() &&
             std::equal(faces.begin(), faces.end(), members_.begin() + known.first))
             return stackTable_[slot] - 1;
     }
+    return addStack(cell, faces);
+}
+
+std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint32_t> faces) {
     Stack stack;
     stack.hash = cell.hash;
     stack.first = static_cast<std::uint32_t>(members_.size());
     stack.count = static_cast<std::uint32_t>(faces.size());
+    stack.firstHeight = static_cast<std::uint32_t>(heights_.size());
+    stack.firstSloped = static_cast<std::uint32_t>(sloped_.size());
     for (std::uint32_t m = 0; m < faces.size(); ++m) {
         const TileFace& face = plan_.faces()[faces[m]];
         stack.slopesX = stack.slopesX || face.slopeX != 0;
         stack.slopesY = stack.slopesY || face.slopeY != 0;
-        members_.push_back(faces[m]);
+        if (face.slopeX != 0 || face.slopeY != 0) sloped_.push_back({faces[m], m, 0});
         order_.push_back(m);
     }
+    stack.slopedCount = static_cast<std::uint32_t>(sloped_.size()) - stack.firstSloped;
+    members_.insert(members_.end(), faces.begin(), faces.end());
+    heights_.resize(heights_.size() + faces.size() + 2, 0);
+    heights_.back() = depth_;
     stacks_.push_back(stack);
-    stackTable_[slot] = static_cast<std::uint32_t>(stacks_.size());
-    const auto number = static_cast<std::uint32_t>(stacks_.size() - 1);
-    if (stacks_.size() * 2 > stackTable_.size()) {
-        stackTable_.assign(stackTable_.size() * 2, 0);
-        const std::size_t wider = stackTable_.size() - 1;
-        for (std::uint32_t s = 0; s < stacks_.size(); ++s) {
-            slot = stacks_[s].hash >> 32 & wider;
-            while (stackTable_[slot] != 0) slot = (slot + 1) & wider;
-            stackTable_[slot] = s + 1;
-        }
+
+    const std::size_t size = stacks_.size() * 2 > stackTable_.size() ? stackTable_.size() * 2 : stackTable_.size();
+    const std::size_t mask = size - 1;
+    const auto enter = [&](std::size_t number) {
+        std::size_t slot = stacks_[number].hash >> 32 & mask;
+        while (stackTable_[slot] != 0) slot = (slot + 1) & mask;
+        stackTable_[slot] = static_cast<std::uint32_t>(number + 1);
+    };
+    const std::size_t number = stacks_.size() - 1;
+    if (size == stackTable_.size()) {
+        enter(number);
+    } else {
+        stackTable_.assign(size, 0);
+        for (std::size_t s = 0; s <= number; ++s) enter(s);
     }
-    return number;
+    return static_cast<std::uint32_t>(number);
 }
 
 void TileColumns::layOutRow(std::int32_t y) {
@@ -58,49 +72,64 @@ void TileColumns::layOutRow(std::int32_t y) {
     for (const PlanCell& cell : plan_.layOut(y)) cells_.push_back({cell.begin, cell.end, findStack(cell)});
 }
 
-// heights_ to sortedHeights_ by the stack's order; false where they do not ascend.
-bool TileColumns::sortHeights(const Stack& stack) noexcept {
-    const std::uint32_t* order = order_.data() + stack.first;
-    std::int32_t previous = 0;
-    bool ascends = true;
-    for (std::uint32_t c = 0; c < stack.count; ++c) {
-        const std::int32_t height = heights_[order[c]];
-        ascends = ascends && height >= previous;
-        sortedHeights_[c] = previous = height;
-    }
-    sortedHeights_[stack.count] = depth_;
-    return ascends;
-}
-
-// The order of the stack's faces at heights_, and the profile that goes with it. Which of equal heights comes
-// first makes no difference: nothing lies between them.
+// Sorts the stack's faces by their heights and finds the profile that goes with this order. Which of equal heights
+// comes first makes no difference: nothing lies between them.
 void TileColumns::orderStack(Stack& stack) {
-    std::uint32_t* order = order_.data() + stack.first;
+    std::uint32_t* const order = order_.data() + stack.first;
+    std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
     constexpr std::uint32_t kShort = 64;
     if (stack.count > kShort) {
-        std::stable_sort(order, order + stack.count,
-                         [&](std::uint32_t p, std::uint32_t q) { return heights_[p] < heights_[q]; });
+        pairs_.clear();
+        for (std::uint32_t c = 0; c < stack.count; ++c) pairs_.emplace_back(heights[c], order[c]);
+        std::sort(pairs_.begin(), pairs_.end());
+        for (std::uint32_t c = 0; c < stack.count; ++c) std::tie(heights[c], order[c]) = pairs_[c];
     } else {
         for (std::uint32_t c = 1; c < stack.count; ++c) {
-            const std::uint32_t moving = order[c];
+            const std::uint32_t member = order[c];
+            const std::int32_t height = heights[c];
             std::uint32_t to = c;
-            for (; to > 0 && heights_[order[to - 1]] > heights_[moving]; --to) order[to] = order[to - 1];
-            order[to] = moving;
+            for (; to > 0 && heights[to - 1] > height; --to) {
+                order[to] = order[to - 1];
+                heights[to] = heights[to - 1];
+            }
+            order[to] = member;
+            heights[to] = height;
         }
     }
     codes_.resize(stack.count);
-    for (std::uint32_t c = 0; c < stack.count; ++c) codes_[c] = plan_.faces()[members_[stack.first + order[c]]].code;
+    places_.resize(stack.count);
+    for (std::uint32_t c = 0; c < stack.count; ++c) {
+        codes_[c] = plan_.faces()[members_[stack.first + order[c]]].code;
+        places_[order[c]] = stack.firstHeight + 1 + c;
+    }
+    for (SlopedFace& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount))
+        sloped.height = places_[sloped.member];
     stack.profile = profiles_.find(codes_);
-    stack.isOrdered = true;
 }
 
-// Number of the column with heights_; `columns` of them are made.
-std::uint16_t TileColumns::makeColumn(Stack& stack, std::uint64_t columns) {
-    if (!sortHeights(stack) || !stack.isOrdered) {
-        orderStack(stack);
-        static_cast<void>(sortHeights(stack));
+// The first column of a stack: all heights.
+void TileColumns::beginStack(Stack& stack, std::int32_t x, std::int32_t y) {
+    const std::uint32_t* members = members_.data() + stack.first;
+    for (std::uint32_t c = 0; c < stack.count; ++c)
+        heights_[stack.firstHeight + 1 + c] = plan_.faces()[members[c]].sampleAbove(x, y);
+    if (runs_.size() < stack.count + 1) runs_.resize(stack.count + 1);
+    orderStack(stack);
+}
+
+// The stack's heights to its column, which stays where they are as before; `columns` of them are made.
+void TileColumns::makeColumn(Stack& stack, bool isMoved, std::uint64_t columns) {
+    if (isMoved) {
+        bool ascends = true;
+        for (const SlopedFace& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
+            const std::int32_t* height = heights_.data() + sloped.height;
+            ascends = ascends && height[-1] <= height[0] && height[0] <= height[1];
+        }
+        if (!ascends) orderStack(stack);
     }
-    profiles_.addColumns(stack.profile, std::span(sortedHeights_).first(stack.count + 1), columns);
+    const std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
+    profiles_.addColumns(stack.profile, heights, columns);
+    if (!isMoved && stack.isMade) return;
+
     volume::Run* const first = runs_.data();
     volume::Run* end = first;
     std::uint32_t from = 0;
@@ -113,55 +142,54 @@ std::uint16_t TileColumns::makeColumn(Stack& stack, std::uint64_t columns) {
         from = to;
     };
     for (const ScalarChange& change : profiles_.changes(stack.profile))
-        emit(static_cast<std::uint32_t>(sortedHeights_[change.crossing]), change.below);
+        emit(static_cast<std::uint32_t>(heights[change.crossing]), change.below);
     emit(static_cast<std::uint32_t>(depth_), profiles_.topScalar(stack.profile));
-    return builder_.addColumn({first, end});
+    stack.column = builder_.addColumn({first, end});
+    stack.isMade = true;
 }
 
 void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::uint64_t rows) {
     Stack& stack = stacks_[cell.stack];
-    if (runs_.size() < stack.count + 2) {
-        runs_.resize(stack.count + 2);
-        heights_.resize(stack.count + 2);
-        sortedHeights_.resize(stack.count + 2);
-    }
-    const std::uint32_t* members = members_.data() + stack.first;
-    for (std::uint32_t m = 0; m < stack.count; ++m) heights_[m] = plan_.faces()[members[m]].sampleAbove(cell.begin, y);
+    if (!stack.isMade) beginStack(stack, cell.begin, y);
     if (stack.slopesX) {
         makeSlopedCell(cell, y, rows);
         return;
     }
-    const std::uint16_t column = makeColumn(stack, rows * static_cast<std::uint64_t>(cell.end - cell.begin));
-    std::fill(row_.begin() + cell.begin, row_.begin() + cell.end, column);
+    bool isMoved = false;
+    for (const SlopedFace& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
+        const std::int32_t height = plan_.faces()[sloped.face].sampleAbove(cell.begin, y);
+        isMoved = isMoved || heights_[sloped.height] != height;
+        heights_[sloped.height] = height;
+    }
+    makeColumn(stack, isMoved, rows * static_cast<std::uint64_t>(cell.end - cell.begin));
+    std::fill(row_.begin() + cell.begin, row_.begin() + cell.end, stack.column);
 }
 
 void TileColumns::makeSlopedCell(const Cell& cell, std::int32_t y, std::uint64_t rows) {
     Stack& stack = stacks_[cell.stack];
-    const std::uint32_t* members = members_.data() + stack.first;
-    slopedMembers_.clear();
-    slopedHeights_.resize(std::size_t(stack.count) * kTile);
+    const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
+    if (slopedHeights_.size() < sloped.size() * kTile) slopedHeights_.resize(sloped.size() * kTile);
     std::uint64_t breaks = std::uint64_t{1} << cell.begin;  // bit x: some height differs from that at x - 1
-    for (std::uint32_t m = 0; m < stack.count; ++m) {
-        const TileFace& face = plan_.faces()[members[m]];
-        if (face.slopeX == 0) continue;
-        std::int32_t* heights = slopedHeights_.data() + slopedMembers_.size() * kTile;
-        slopedMembers_.push_back(m);
+    std::int32_t* slopedHeights = slopedHeights_.data();
+    for (const SlopedFace& one : sloped) {
+        const TileFace& face = plan_.faces()[one.face];
         std::int64_t height = face.base + face.slopeX * cell.begin + face.slopeY * y;
-        std::int32_t previous = heights_[m];
+        std::int32_t previous = face.clamped(height);
         for (std::int32_t x = cell.begin; x < cell.end; ++x, height += face.slopeX) {
             const std::int32_t k = face.clamped(height);
             breaks |= std::uint64_t(k != previous) << x;
-            heights[x] = previous = k;
+            slopedHeights[x] = previous = k;
         }
+        slopedHeights += kTile;
     }
     while (breaks != 0) {
         const int x = std::countr_zero(breaks);
         breaks &= breaks - 1;
         const int next = breaks != 0 ? std::countr_zero(breaks) : cell.end;
-        for (std::size_t s = 0; s < slopedMembers_.size(); ++s)
-            heights_[slopedMembers_[s]] = slopedHeights_[s * kTile + std::size_t(x)];
-        const std::uint16_t column = makeColumn(stack, rows * static_cast<std::uint64_t>(next - x));
-        std::fill(row_.begin() + x, row_.begin() + next, column);
+        for (std::size_t s = 0; s < sloped.size(); ++s)
+            heights_[sloped[s].height] = slopedHeights_[s * kTile + std::size_t(x)];
+        makeColumn(stack, true, rows * static_cast<std::uint64_t>(next - x));
+        std::fill(row_.begin() + x, row_.begin() + next, stack.column);
     }
 }
 
@@ -172,6 +200,8 @@ volume::ColumnTileData TileColumns::make(const TileInput& input) {
     stacks_.clear();
     members_.clear();
     order_.clear();
+    heights_.clear();
+    sloped_.clear();
     stackTable_.assign(kStackTable, 0);
     row_.resize(static_cast<std::size_t>(input.width));
     const std::uint64_t newRows = plan_.newRows(), changedRows = newRows | plan_.slopedRows();

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace svt::voxelize {
@@ -24,12 +25,18 @@ public:
     void takeCounts(std::vector<SharedCount>& counts);
 
 private:
-    // The faces over a cell, and in which order the last column met them. Cells with the same faces share one.
+    // The faces over a cell, in the order in which the last column met them. Cells with the same faces share one.
     struct Stack {
         std::uint64_t hash = 0;
-        std::uint32_t first = 0, count = 0;  // of members_ and order_
+        std::uint32_t first = 0, count = 0;              // of members_ and order_
+        std::uint32_t firstHeight = 0;                   // of heights_: 0, those of the faces bottom up, depth
+        std::uint32_t firstSloped = 0, slopedCount = 0;  // of sloped_
         std::uint32_t profile = 0;
-        bool isOrdered = false, slopesX = false, slopesY = false;
+        std::uint16_t column = 0;  // the last one made
+        bool isMade = false, slopesX = false, slopesY = false;
+    };
+    struct SlopedFace {
+        std::uint32_t face, member, height;  // height: its place in heights_
     };
     struct Cell {
         std::int32_t begin = 0, end = 0;
@@ -38,10 +45,11 @@ private:
 
     void layOutRow(std::int32_t y);
     std::uint32_t findStack(const PlanCell& cell);
+    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint32_t> faces);
     void makeCell(const Cell& cell, std::int32_t y, std::uint64_t rows);
     void makeSlopedCell(const Cell& cell, std::int32_t y, std::uint64_t rows);
-    [[nodiscard]] std::uint16_t makeColumn(Stack& stack, std::uint64_t columns);
-    [[nodiscard]] bool sortHeights(const Stack& stack) noexcept;
+    void makeColumn(Stack& stack, bool isMoved, std::uint64_t columns);
+    void beginStack(Stack& stack, std::int32_t x, std::int32_t y);
     void orderStack(Stack& stack);
 
     Profiles profiles_;
@@ -50,16 +58,15 @@ private:
     std::int32_t depth_ = 0;
     std::vector<Stack> stacks_;
     std::vector<std::uint32_t> stackTable_;  // open addressing: stack + 1, 0 = free
-    std::vector<std::uint32_t> members_;     // faces of all stacks, ascending
+    std::vector<std::uint32_t> members_;     // of all stacks: faces, ascending
     std::vector<std::uint32_t> order_;       // of all stacks: numbers of members, bottom up
+    std::vector<std::int32_t> heights_;      // of all stacks
+    std::vector<SlopedFace> sloped_;         // of all stacks
     std::vector<Cell> cells_;                // of the current row
     std::vector<std::uint16_t> row_;
-    // Of one cell:
-    std::vector<std::int32_t> heights_;         // per member: first sample above
-    std::vector<std::int32_t> sortedHeights_;   // per crossing, bottom up; the grid's depth at the end
-    std::vector<std::uint32_t> codes_;          // per crossing
-    std::vector<std::uint32_t> slopedMembers_;  // that slope along x
-    std::vector<std::int32_t> slopedHeights_;   // 64 each
+    std::vector<std::pair<std::int32_t, std::uint32_t>> pairs_;  // of one stack: height and member
+    std::vector<std::uint32_t> codes_, places_;                  // of one stack, per crossing and per member
+    std::vector<std::int32_t> slopedHeights_;                    // of one cell, 64 for each face that slopes
     std::vector<volume::Run> runs_;
 };
 
