@@ -6,12 +6,10 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr std::size_t kFirstTable = 1024;
-
 std::uint64_t hashCodes(std::span<const std::uint32_t> codes) noexcept {
     std::uint64_t hash = codes.size();
-    for (const std::uint32_t code : codes) hash = (hash ^ code) * 0x9E3779B97F4A7C15ull;
-    return hash ^ hash >> 32;
+    for (const std::uint32_t code : codes) hash = (hash ^ hash >> 29 ^ code) * 0x9E3779B97F4A7C15ull;
+    return hash;
 }
 
 }  // namespace
@@ -31,62 +29,49 @@ void joinCounts(std::vector<SharedCount>& counts) {
 }
 
 std::uint32_t Profiles::find(std::span<const std::uint32_t> codes) {
-    if (table_.empty()) table_.assign(kFirstTable, 0);
-    const std::uint64_t hash = hashCodes(codes);
-    const std::size_t mask = table_.size() - 1;
-    std::size_t slot = hash & mask;
-    for (; table_[slot] != 0; slot = (slot + 1) & mask) {
-        const std::uint32_t number = table_[slot] - 1;
-        if (profiles_[number].hash == hash && std::ranges::equal(codesOf(profiles_[number]), codes)) return number;
-    }
-    table_[slot] = static_cast<std::uint32_t>(profiles_.size() + 1);
-    const std::uint32_t number = add(codes, hash);
-    if (profiles_.size() * 2 > table_.size()) growTable();
-    return number;
+    return index_.findOrAdd(
+        hashCodes(codes), [&](std::uint32_t number) { return std::ranges::equal(codesOf(profiles_[number]), codes); },
+        [&] { return add(codes); });
 }
 
-void Profiles::growTable() {
-    table_.assign(table_.size() * 2, 0);
-    const std::size_t mask = table_.size() - 1;
-    for (std::uint32_t number = 0; number < profiles_.size(); ++number) {
-        std::size_t slot = profiles_[number].hash & mask;
-        while (table_[slot] != 0) slot = (slot + 1) & mask;
-        table_[slot] = number + 1;
-    }
-}
-
-void Profiles::pass(std::uint32_t code) {
-    const BoundaryCode boundary = BoundaryCode::unpack(code);
-    std::int32_t& winding = winding_[boundary.claim];
-    if (boundary.isEntry) {
-        if (++winding == 1)
-            active_.insert(std::lower_bound(active_.begin(), active_.end(), boundary.claim), boundary.claim);
-    } else if (--winding == 0) {
-        active_.erase(std::lower_bound(active_.begin(), active_.end(), boundary.claim));
-    }
+// Crosses all that lies at the level of codes[first]; returns where the next level begins.
+std::size_t Profiles::passLevel(std::span<const std::uint32_t> codes, std::size_t first) {
+    std::size_t c = first;
+    do {
+        const ProfileCode code = ProfileCode::unpack(codes[c]);
+        std::int32_t& winding = winding_[code.claim];
+        if (code.isEntry) {
+            if (++winding == 1)
+                active_.insert(std::lower_bound(active_.begin(), active_.end(), code.claim), code.claim);
+        } else if (--winding == 0) {
+            active_.erase(std::lower_bound(active_.begin(), active_.end(), code.claim));
+        }
+        ++c;
+    } while (c < codes.size() && ProfileCode::unpack(codes[c]).isLevel);
+    return c;
 }
 
 void Profiles::leaveAll(std::span<const std::uint32_t> codes) {
-    for (const std::uint32_t code : codes) winding_[BoundaryCode::unpack(code).claim] = 0;
+    for (const std::uint32_t code : codes) winding_[ProfileCode::unpack(code).claim] = 0;
     active_.clear();
 }
 
-std::uint32_t Profiles::add(std::span<const std::uint32_t> codes, std::uint64_t hash) {
+std::uint32_t Profiles::add(std::span<const std::uint32_t> codes) {
     Profile profile;
-    profile.hash = hash;
     profile.firstCode = static_cast<std::uint32_t>(codes_.size());
     profile.codeCount = static_cast<std::uint32_t>(codes.size());
     profile.firstChange = static_cast<std::uint32_t>(changes_.size());
     profile.firstShared = static_cast<std::uint32_t>(shared_.size());
     codes_.insert(codes_.end(), codes.begin(), codes.end());
+    const auto isSolid = [&](std::uint32_t claim) { return claims_[claim].isSolid; };
     volume::Scalar scalar = 0;
-    for (std::uint32_t c = 0; c < codes.size(); ++c) {
-        pass(codes[c]);
+    std::uint32_t level = 0;
+    for (std::size_t c = 0; c < codes.size(); ++level) {
+        c = passLevel(codes, c);
         const volume::Scalar above = active_.empty() ? 0 : claims_[active_.front()].scalar;
-        if (above != scalar) changes_.push_back({c, scalar});
+        if (above != scalar) changes_.push_back({level, scalar});
         scalar = above;
-        const auto isSolid = [&](std::uint32_t claim) { return claims_[claim].isSolid; };
-        if (std::count_if(active_.begin(), active_.end(), isSolid) > 1) shared_.push_back({c, 0});
+        if (std::count_if(active_.begin(), active_.end(), isSolid) > 1) shared_.push_back({level, 0});
     }
     leaveAll(codes);
     profile.top = scalar;
@@ -102,9 +87,10 @@ void Profiles::takeCounts(std::vector<SharedCount>& counts) {
     for (const Profile& profile : profiles_) {
         if (profile.sharedCount == 0) continue;
         const auto codes = codesOf(profile);
-        std::uint32_t c = 0;
+        std::size_t c = 0;
+        std::uint32_t level = 0;
         for (std::uint32_t s = profile.firstShared; s < profile.firstShared + profile.sharedCount; ++s) {
-            while (c <= shared_[s].crossing) pass(codes[c++]);
+            for (; level <= shared_[s].level; ++level) c = passLevel(codes, c);
             if (shared_[s].voxels == 0) continue;
             for (std::size_t a = 0; a + 1 < active_.size(); ++a) {
                 if (!claims_[active_[a]].isSolid) continue;
@@ -119,7 +105,7 @@ void Profiles::takeCounts(std::vector<SharedCount>& counts) {
         leaveAll(codes);
     }
     profiles_.clear();
-    table_.clear();
+    index_.clear();
     codes_.clear();
     changes_.clear();
     shared_.clear();

@@ -3,8 +3,8 @@
 /// Profiles: what a vertical line reads when it meets given boundaries in a given order. Columns by the
 /// thousand share one profile and differ in heights alone, so the sweep that settles who owns what runs once for each.
 
+#include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
-#include <svt/voxelize/tile_plan.hpp>
 
 #include <cstdint>
 #include <span>
@@ -28,9 +28,22 @@ struct SharedCount {
 /// Sorts by claims and joins entries of the same two.
 void joinCounts(std::vector<SharedCount>& counts);
 
+/// A crossing of a profile, packed: which claim's boundary, in which direction, and whether it lies at the level of the
+/// crossing before.
+struct ProfileCode {
+    std::uint32_t claim = 0;  ///< below 2^30
+    bool isEntry = false, isLevel = false;
+    [[nodiscard]] std::uint32_t packed() const noexcept {
+        return claim << 2 | std::uint32_t(isEntry) << 1 | std::uint32_t(isLevel);
+    }
+    [[nodiscard]] static ProfileCode unpack(std::uint32_t code) noexcept {
+        return {code >> 2, (code & 2) != 0, (code & 1) != 0};
+    }
+};
+
 /// Where a profile's scalar changes.
 struct ScalarChange {
-    std::uint32_t crossing = 0;  ///< number of the crossing, bottom up
+    std::uint32_t level = 0;  ///< number of the level, bottom up
     volume::Scalar below = 0;
 };
 
@@ -39,7 +52,7 @@ class Profiles {
 public:
     explicit Profiles(std::span<const OrderedClaim> claims) : claims_(claims), winding_(claims.size(), 0) {}
 
-    /// Number of the profile with these crossings (packed BoundaryCodes, bottom up). Cost: O(n) where known, else
+    /// Number of the profile with these crossings (packed ProfileCodes, bottom up). Cost: O(n) where known, else
     /// O(n * claims active at once).
     [[nodiscard]] std::uint32_t find(std::span<const std::uint32_t> codes);
 
@@ -50,14 +63,17 @@ public:
     /// Above the last crossing.
     [[nodiscard]] volume::Scalar topScalar(std::uint32_t profile) const noexcept { return profiles_[profile].top; }
 
-    /// Adds `columns` columns that meet the profile's crossings at `heights` (first sample above, ascending; one more
-    /// than crossings, the last is the grid's depth).
+    /// True where it has an interval that two solids share.
+    [[nodiscard]] bool isShared(std::uint32_t profile) const noexcept { return profiles_[profile].sharedCount != 0; }
+
+    /// Adds `columns` columns that meet the profile's levels at `heights` (first sample above, ascending; one more than
+    /// levels, the last is the grid's depth).
     void addColumns(std::uint32_t profile, const std::int32_t* heights, std::uint64_t columns) noexcept {
         const Profile& p = profiles_[profile];
         for (std::uint32_t s = p.firstShared; s < p.firstShared + p.sharedCount; ++s) {
             SharedInterval& interval = shared_[s];
             interval.voxels +=
-                columns * static_cast<std::uint64_t>(heights[interval.crossing + 1] - heights[interval.crossing]);
+                columns * static_cast<std::uint64_t>(heights[interval.level + 1] - heights[interval.level]);
         }
     }
 
@@ -68,21 +84,19 @@ public:
 
 private:
     struct Profile {
-        std::uint64_t hash = 0;
         std::uint32_t firstCode = 0, codeCount = 0;
         std::uint32_t firstChange = 0, changeCount = 0;
         std::uint32_t firstShared = 0, sharedCount = 0;
         volume::Scalar top = 0;
     };
-    // Between two crossings, where two solids or more are active.
+    // Between two levels, where two solids or more are active.
     struct SharedInterval {
-        std::uint32_t crossing = 0;  // the lower one
+        std::uint32_t level = 0;  // the lower one
         std::uint64_t voxels = 0;
     };
 
-    std::uint32_t add(std::span<const std::uint32_t> codes, std::uint64_t hash);
-    void growTable();
-    void pass(std::uint32_t code);
+    std::uint32_t add(std::span<const std::uint32_t> codes);
+    std::size_t passLevel(std::span<const std::uint32_t> codes, std::size_t first);
     void leaveAll(std::span<const std::uint32_t> codes);
     [[nodiscard]] std::span<const std::uint32_t> codesOf(const Profile& p) const noexcept {
         return std::span(codes_).subspan(p.firstCode, p.codeCount);
@@ -90,7 +104,7 @@ private:
 
     std::span<const OrderedClaim> claims_;
     std::vector<Profile> profiles_;
-    std::vector<std::uint32_t> table_;  // open addressing: profile + 1, 0 = free
+    HashIndex index_{1024};
     std::vector<std::uint32_t> codes_;
     std::vector<ScalarChange> changes_;
     std::vector<SharedInterval> shared_;

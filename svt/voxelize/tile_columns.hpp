@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// One tile of 64 x 64 columns: from faces over its plan to columns of labelled runs. Cells of the plan
-/// have stacks of faces, stacks have an order and with it a profile; a column is that profile at its heights.
+/// One tile of 64 x 64 columns: from boundaries over its plan to columns of labelled runs. A cell of the plan has a
+/// stack of boundaries; their levels have an order and with it a profile; a column is that profile at its heights.
 
+#include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/voxelize/profiles.hpp>
 #include <svt/voxelize/tile_plan.hpp>
@@ -25,48 +26,76 @@ public:
     void takeCounts(std::vector<SharedCount>& counts);
 
 private:
-    // The faces over a cell, in the order in which the last column met them. Cells with the same faces share one.
+    static constexpr std::size_t kTile = 64;
+
+    // The boundaries over a cell, by levels, in the order in which the last column met them. Cells with the same
+    // boundaries share one.
     struct Stack {
         std::uint64_t hash = 0;
-        std::uint32_t first = 0, count = 0;              // of members_ and order_
-        std::uint32_t firstHeight = 0;                   // of heights_: 0, those of the faces bottom up, depth
+        std::uint32_t firstMember = 0, memberCount = 0;  // of members_
+        std::uint32_t firstLevel = 0, levelCount = 0;    // of stackLevels_ and order_
         std::uint32_t firstSloped = 0, slopedCount = 0;  // of sloped_
+        std::uint32_t firstHeight = 0;                   // of heights_: 0, those of the levels bottom up, depth
         std::uint32_t profile = 0;
-        std::uint16_t column = 0;  // the last one made
-        bool isMade = false, slopesX = false, slopesY = false;
+        std::uint16_t column = 0;  // of a stack without slopes
+        bool isOrdered = false, slopesX = false, slopesY = false;
     };
-    struct SlopedFace {
-        std::uint32_t face, member, height;  // height: its place in heights_
+    struct StackLevel {
+        std::uint32_t level, firstCode, codeCount;  // of stackCodes_
+    };
+    struct SlopedLevel {
+        std::uint32_t level, slot, height;  // slot: number within the stack; height: its place in heights_
     };
     struct Cell {
         std::int32_t begin = 0, end = 0;
         std::uint32_t stack = 0;
+        std::uint32_t line = 0;    // of lines_: heights along y, where it slopes that way alone
+        std::uint64_t breaks = 0;  // bit i: row i of the line differs from the one before
     };
 
-    void layOutRow(std::int32_t y);
+    // Columns made lately, by their stack and the heights of its sloped levels.
+    struct KnownColumn {
+        static constexpr std::size_t kMostSloped = 6;
+        std::uint32_t stack = 0, profile = 0;  // stack: firstStack_ + its number
+        std::int32_t heights[kMostSloped] = {};
+        std::uint16_t column = 0;
+    };
+
     std::uint32_t findStack(const PlanCell& cell);
-    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint32_t> faces);
-    void makeCell(const Cell& cell, std::int32_t y, std::uint64_t rows);
-    void makeSlopedCell(const Cell& cell, std::int32_t y, std::uint64_t rows);
-    void makeColumn(Stack& stack, bool isMoved, std::uint64_t columns);
+    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint32_t> members);
     void beginStack(Stack& stack, std::int32_t x, std::int32_t y);
     void orderStack(Stack& stack);
+    void moveStack(Stack& stack, std::uint32_t line, std::size_t step);
+
+    void makeRows(std::int32_t firstRow, std::int32_t endRow);
+    void makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
+    std::uint64_t measureLine(const Stack& stack, const TileLine& line, std::uint32_t place);
+    std::uint16_t makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
+    std::uint16_t makeColumn(const Stack& stack);
 
     Profiles profiles_;
     TilePlan plan_;
     volume::ColumnTileBuilder builder_;
     std::int32_t depth_ = 0;
+    std::vector<SharedCount> counts_;
+
     std::vector<Stack> stacks_;
-    std::vector<std::uint32_t> stackTable_;  // open addressing: stack + 1, 0 = free
-    std::vector<std::uint32_t> members_;     // of all stacks: faces, ascending
-    std::vector<std::uint32_t> order_;       // of all stacks: numbers of members, bottom up
-    std::vector<std::int32_t> heights_;      // of all stacks
-    std::vector<SlopedFace> sloped_;         // of all stacks
-    std::vector<Cell> cells_;                // of the current row
+    HashIndex stackIndex_;
+    std::vector<std::uint32_t> members_;
+    std::vector<StackLevel> stackLevels_;
+    std::vector<std::uint32_t> stackCodes_;  // of the boundaries, level by level
+    std::vector<std::uint32_t> order_;       // slots, bottom up
+    std::vector<SlopedLevel> sloped_;
+    std::vector<std::int32_t> heights_;
+    std::vector<std::uint32_t> slotOf_;                           // per level of the plan; for one stack at a time
+    std::vector<std::pair<std::int32_t, std::uint32_t>> sorted_;  // of one stack: height and slot
+    std::vector<std::uint32_t> codes_, places_;                   // of one stack: codes bottom up; per slot
+
+    std::vector<Cell> cells_;  // of the current row
     std::vector<std::uint16_t> row_;
-    std::vector<std::pair<std::int32_t, std::uint32_t>> pairs_;  // of one stack: height and member
-    std::vector<std::uint32_t> codes_, places_;                  // of one stack, per crossing and per member
-    std::vector<std::int32_t> slopedHeights_;                    // of one cell, 64 for each face that slopes
+    std::vector<std::int32_t> lines_;  // of a line: kTile heights for each sloped level of its stack
+    std::vector<KnownColumn> known_;
+    std::uint32_t firstStack_ = 1;  // numbers of stacks in known_ count on from tile to tile
     std::vector<volume::Run> runs_;
 };
 

@@ -25,6 +25,8 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
     return (number ^ number >> 29) * 0xBF58476D1CE4E5B9ull;
 }
 
+TileLevel flatLevel(std::int32_t k) noexcept { return {std::int64_t(k) << TileLevel::kBits, 0, 0, k, k}; }
+
 }  // namespace
 
 // False where the edge makes no difference to the tile.
@@ -115,8 +117,33 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
     outline_.turns |= (turns & within) | changes(within);
 }
 
+std::uint32_t TilePlan::findLevel(const TileLevel& level) {
+    const std::uint64_t hash = scramble(std::uint64_t(level.base) ^
+                                        scramble(std::uint64_t(level.slopeX) ^ scramble(std::uint64_t(level.slopeY)) ^
+                                                 std::uint64_t(level.lowest) << 32 ^ std::uint64_t(level.highest)));
+    return levelIndex_.findOrAdd(
+        hash, [&](std::uint32_t number) { return levels_[number] == level; },
+        [&] {
+            levels_.push_back(level);
+            return static_cast<std::uint32_t>(levels_.size() - 1);
+        });
+}
+
+std::uint32_t TilePlan::findBoundary(const Boundary& boundary) {
+    const std::uint64_t hash = scramble(std::uint64_t(boundary.level) << 33 | std::uint64_t(boundary.claim) << 1 |
+                                        std::uint64_t(boundary.isEntry));
+    return boundaryIndex_.findOrAdd(
+        hash, [&](std::uint32_t number) { return boundaries_[number] == boundary; },
+        [&] {
+            boundaries_.push_back(boundary);
+            return static_cast<std::uint32_t>(boundaries_.size() - 1);
+        });
+}
+
 // The rare face of which a row meets more than one stretch: all crossings, sorted and paired.
-void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, bool looksDown) {
+void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles,
+                              std::uint32_t boundary) {
+    const bool looksDown = boundaries_[boundary].isEntry;
     crossings_.clear();
     for (const std::uint32_t index : triangles) {
         const FaceTriangle& t = input.triangles[index];
@@ -135,9 +162,8 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint3
         return std::tie(p.row, p.column) < std::tie(q.row, q.column);
     });
     const std::size_t firstCover = covers_.size();
-    const auto face = static_cast<std::uint32_t>(faces_.size() - 1);
     const auto addStretch = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
-        if (firstCover + number == covers_.size()) covers_.push_back({0, face, 1, {}, {}});
+        if (firstCover + number == covers_.size()) covers_.push_back({0, boundary, kNone, {}, {}});
         Cover& cover = covers_[firstCover + number];
         cover.rows |= std::uint64_t{1} << row;
         cover.begin[row] = begin;
@@ -175,10 +201,12 @@ void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> tr
     // Sample k stands at quanta 512 k + 1, and the one strictly above is wanted.
     const Height& height = face.height.height;
     const std::int64_t base = height.base + height.slopeX * input.firstColumn + height.slopeY * input.firstRow +
-                              (std::int64_t{1} << TileFace::kBits) - (std::int64_t{1} << Height::kBits);
+                              (std::int64_t{1} << TileLevel::kBits) - (std::int64_t{1} << Height::kBits);
     const bool looksDown = face.sign > 0;
-    faces_.push_back({base, height.slopeX, height.slopeY, std::clamp(face.height.lowest, 0, input.depth),
-                      std::clamp(face.height.highest, 0, input.depth), BoundaryCode{face.claim, looksDown}.packed()});
+    TileLevel level{base, height.slopeX, height.slopeY, std::clamp(face.height.lowest, 0, input.depth),
+                    std::clamp(face.height.highest, 0, input.depth)};
+    if (height.isFlat()) level = flatLevel(level.sampleAbove(0, 0));
+    const std::uint32_t boundary = findBoundary({findLevel(level), face.claim, looksDown});
 
     outline_.westIn = outline_.westOut = outline_.begun = outline_.ended = outline_.turns = 0;
     outline_.isSimple = true;
@@ -186,9 +214,6 @@ void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> tr
     std::memset(outline_.cover.end, input.width, kTile);
     for (const std::uint32_t index : triangles) {
         const FaceTriangle& triangle = input.triangles[index];
-        if (height.slopeY != 0)
-            slopedRows_ |= bits(std::max(triangle.firstRow - input.firstRow, 0),
-                                std::min(triangle.endRow - input.firstRow, input.height));
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
             if (placeEdge(input, triangle, e, looksDown, edge)) addToOutline(input, edge);
@@ -196,12 +221,12 @@ void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> tr
     }
     const std::uint64_t rows = outline_.westIn | outline_.begun;
     if (!outline_.isSimple || outline_.westOut != 0 || (outline_.westIn & outline_.begun) != 0) {
-        addConcaveFace(input, triangles, looksDown);
+        addConcaveFace(input, triangles, boundary);
     } else if (rows != 0) {
         newRows_ |= changes(outline_.westIn) | outline_.turns;
         covers_.push_back(outline_.cover);
         covers_.back().rows = rows;
-        covers_.back().face = static_cast<std::uint32_t>(faces_.size() - 1);
+        covers_.back().boundary = boundary;
     }
 }
 
@@ -211,21 +236,23 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
     const std::int32_t firstRow = std::max(box.firstRow - input.firstRow, 0);
     const std::int32_t endRow = std::min(box.endRow - input.firstRow, input.height);
     if (begin >= end || firstRow >= endRow) return;
-    covers_.push_back({bits(firstRow, endRow), static_cast<std::uint32_t>(faces_.size()), 2, {}, {}});
+    const auto find = [&](std::int32_t k, bool isEntry) {
+        return findBoundary({findLevel(flatLevel(std::clamp(k, 0, input.depth))), box.claim, isEntry});
+    };
+    covers_.push_back({bits(firstRow, endRow), find(box.low, true), find(box.high, false), {}, {}});
     std::memset(covers_.back().begin, begin, kTile);
     std::memset(covers_.back().end, end, kTile);
     newRows_ |= changes(covers_.back().rows);
-    const std::int32_t low = std::clamp(box.low, 0, input.depth), high = std::clamp(box.high, 0, input.depth);
-    faces_.push_back({0, 0, 0, low, low, BoundaryCode{box.claim, true}.packed()});
-    faces_.push_back({0, 0, 0, high, high, BoundaryCode{box.claim, false}.packed()});
 }
 
 void TilePlan::build(const TileInput& input) {
     width_ = input.width;
-    faces_.clear();
+    levels_.clear();
+    boundaries_.clear();
+    levelIndex_.clear();
+    boundaryIndex_.clear();
     covers_.clear();
     newRows_ = 1;
-    slopedRows_ = 0;
     const auto indices = input.triangleIndices;
     for (std::size_t n = 0; n < indices.size();) {
         const std::size_t first = n;
@@ -233,15 +260,16 @@ void TilePlan::build(const TileInput& input) {
         addFace(input, indices.subspan(first, n - first));
     }
     for (const std::uint32_t index : input.boxIndices) addBox(input, input.boxes[index]);
-    while (faceHashes_.size() < faces_.size()) faceHashes_.push_back(scramble(faceHashes_.size()));
+    while (hashes_.size() < boundaries_.size()) hashes_.push_back(scramble(hashes_.size()));
 
     newRows_ &= bits(0, input.height);
     for (std::vector<Span>& row : rows_) row.clear();
     for (const Cover& cover : covers_) {
         for (std::uint64_t rows = cover.rows & newRows_; rows != 0; rows &= rows - 1) {
             const int row = std::countr_zero(rows);
-            if (cover.begin[row] < cover.end[row])
-                rows_[row].push_back({cover.face, cover.begin[row], cover.end[row], cover.faceCount});
+            if (cover.begin[row] >= cover.end[row]) continue;
+            rows_[row].push_back({cover.boundary, cover.begin[row], cover.end[row]});
+            if (cover.second != kNone) rows_[row].push_back({cover.second, cover.begin[row], cover.end[row]});
         }
     }
 }
@@ -249,32 +277,35 @@ void TilePlan::build(const TileInput& input) {
 std::span<const PlanCell> TilePlan::layOut(std::int32_t y) {
     const std::vector<Span>& spans = rows_[y];
     std::uint64_t breaks = 1;  // bit x: a cell begins
-    std::size_t faceCount = 0;
     for (const Span& span : spans) {
         breaks |= std::uint64_t{1} << span.begin;
         if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
-        faceCount += span.faceCount;
     }
     cells_.clear();
     std::uint8_t cellAt[kTile + 1];
+    std::uint32_t* next[kTile];  // where the next member of a cell goes
+    const auto cellCount = static_cast<std::size_t>(std::popcount(breaks));
+    if (members_.size() < cellCount * spans.size()) members_.resize(cellCount * spans.size());
     while (breaks != 0) {
         const int begin = std::countr_zero(breaks);
         breaks &= breaks - 1;
-        cellAt[begin] = static_cast<std::uint8_t>(cells_.size());
+        const std::size_t cell = cells_.size();
+        cellAt[begin] = static_cast<std::uint8_t>(cell);
+        next[cell] = members_.data() + cell * spans.size();
         cells_.push_back({begin, breaks != 0 ? std::countr_zero(breaks) : width_,
-                          static_cast<std::uint32_t>(cells_.size() * faceCount), 0, 0});
+                          static_cast<std::uint32_t>(cell * spans.size()), 0, 0});
     }
-    cellAt[width_] = static_cast<std::uint8_t>(cells_.size());
-    if (members_.size() < cells_.size() * faceCount) members_.resize(cells_.size() * faceCount);
+    cellAt[width_] = static_cast<std::uint8_t>(cellCount);
     for (const Span& span : spans) {
-        const std::uint64_t hash = faceHashes_[span.face];
-        for (std::size_t c = cellAt[span.begin]; c < cellAt[span.end]; ++c) {
-            PlanCell& cell = cells_[c];
-            cell.hash += hash;
-            for (std::uint32_t f = 0; f < span.faceCount; ++f)
-                members_[cell.firstMember + cell.faceCount++] = span.face + f;
+        const std::uint64_t hash = hashes_[span.boundary];
+        for (std::size_t cell = cellAt[span.begin]; cell < cellAt[span.end]; ++cell) {
+            *next[cell]++ = span.boundary;
+            cells_[cell].hash += hash;
         }
     }
+    for (std::size_t cell = 0; cell < cellCount; ++cell)
+        cells_[cell].memberCount =
+            static_cast<std::uint32_t>(next[cell] - (members_.data() + cells_[cell].firstMember));
     return cells_;
 }
 

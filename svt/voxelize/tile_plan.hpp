@@ -3,7 +3,9 @@
 /// One tile of 64 x 64 columns seen from above: which faces lie over which columns. Rows whose plan is that of
 /// the row before are told apart from those that must be laid out again.
 
+#include <svt/core/hash_index.hpp>
 #include <svt/voxelize/faces.hpp>
+#include <svt/voxelize/tile_level.hpp>
 
 #include <cstdint>
 #include <span>
@@ -29,36 +31,19 @@ struct TileInput {
     std::span<const std::uint32_t> boxIndices;  ///< those that touch the tile
 };
 
-/// The crossings of one claim's boundary: which one, and in which direction.
-struct BoundaryCode {
+/// What bounds a claim at one level: winding changes when a line passes it upwards.
+struct Boundary {
+    std::uint32_t level = 0;
     std::uint32_t claim = 0;
     bool isEntry = false;
-    [[nodiscard]] std::uint32_t packed() const noexcept { return claim << 1 | std::uint32_t(isEntry); }
-    [[nodiscard]] static BoundaryCode unpack(std::uint32_t code) noexcept { return {code >> 1, (code & 1) != 0}; }
+    friend bool operator==(const Boundary&, const Boundary&) = default;
 };
 
-/// A face over the columns of a tile.
-struct TileFace {
-    static constexpr int kBits = Height::kBits + kQuantaBits;
-    std::int64_t base, slopeX, slopeY;  ///< first sample above (x, y) of the tile: base + slopeX x + slopeY y >> kBits,
-    std::int32_t lowest, highest;       ///< clamped to these, which lie within [0, depth]
-    std::uint32_t code;                 ///< a packed BoundaryCode
-
-    /// First sample above the face, 0 to depth.
-    [[nodiscard]] std::int32_t sampleAbove(std::int32_t x, std::int32_t y) const noexcept {
-        return clamped(base + slopeX * x + slopeY * y);
-    }
-    [[nodiscard]] std::int32_t clamped(std::int64_t height) const noexcept {
-        const std::int64_t k = height >> kBits;
-        return static_cast<std::int32_t>(k < lowest ? lowest : k > highest ? highest : k);
-    }
-};
-
-/// A stretch of a row under the same faces.
+/// A stretch of a row under the same boundaries.
 struct PlanCell {
     std::int32_t begin = 0, end = 0;  ///< columns of the tile
-    std::uint32_t firstMember = 0, faceCount = 0;
-    std::uint64_t hash = 0;  ///< of its faces
+    std::uint32_t firstMember = 0, memberCount = 0;
+    std::uint64_t hash = 0;  ///< of its boundaries, in any order
 };
 
 /// Keeps its buffers between tiles.
@@ -67,36 +52,36 @@ public:
     /// Takes in what lies over a tile. Cost: O(triangles + rows of slanted edges).
     void build(const TileInput& input);
 
-    [[nodiscard]] std::span<const TileFace> faces() const noexcept { return faces_; }
+    [[nodiscard]] std::span<const TileLevel> levels() const noexcept { return levels_; }
+    [[nodiscard]] std::span<const Boundary> boundaries() const noexcept { return boundaries_; }
     /// Bit y: the plan of row y may differ from that of the row before. Bit 0 is set.
     [[nodiscard]] std::uint64_t newRows() const noexcept { return newRows_; }
-    /// Bit y: a face over row y slopes along y.
-    [[nodiscard]] std::uint64_t slopedRows() const noexcept { return slopedRows_; }
 
     /// Cells of row y, which is one of newRows(); west to east, without gap. Valid until the next call.
     [[nodiscard]] std::span<const PlanCell> layOut(std::int32_t y);
-    /// Faces of a cell of the last layOut(), ascending numbers.
-    [[nodiscard]] std::span<const std::uint32_t> facesOf(const PlanCell& cell) const noexcept {
-        return std::span(members_).subspan(cell.firstMember, cell.faceCount);
+    /// Boundaries of a cell of the last layOut().
+    [[nodiscard]] std::span<const std::uint32_t> boundariesOf(const PlanCell& cell) const noexcept {
+        return std::span(members_).subspan(cell.firstMember, cell.memberCount);
     }
 
 private:
     static constexpr std::size_t kTile = 64;
 
-    // What a face covers: in each row one stretch of columns. Concave ones have several.
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+    // Where a boundary is: in each row over one stretch of columns. Concave faces have several.
     struct Cover {
-        std::uint64_t rows = 0;  // bit y: [begin[y], end[y]) is covered; may be empty
-        std::uint32_t face = 0;
-        std::uint8_t faceCount = 1;  // 2: the next face lies over the same columns (top of a box)
+        std::uint64_t rows = 0;                      // bit y: [begin[y], end[y]) is covered; may be empty
+        std::uint32_t boundary = 0, second = kNone;  // second: lies over the same columns (top of a box)
         std::uint8_t begin[kTile], end[kTile];
     };
     struct Span {
-        std::uint32_t face;
-        std::uint8_t begin, end, faceCount;
+        std::uint32_t boundary;
+        std::uint8_t begin, end;
     };
     // The cover of one face while its edges come. Passing an edge to the east adds its winding to the cover.
     struct Outline {
-        Cover cover;
+        Cover cover = {};
         std::uint64_t westIn = 0, westOut = 0;  // rows with winding 1 and -1 to the west of the tile
         std::uint64_t begun = 0, ended = 0;     // rows with an edge of winding 1 and -1 within the tile
         std::uint64_t turns = 0;                // rows in which one of these begins, ends or moves
@@ -114,21 +99,25 @@ private:
         std::int8_t winding;
     };
 
+    std::uint32_t findLevel(const TileLevel& level);
+    std::uint32_t findBoundary(const Boundary& boundary);
     void addFace(const TileInput& input, std::span<const std::uint32_t> triangles);
     static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool looksDown,
                           PlacedEdge& out) noexcept;
     static std::pair<std::int32_t, std::int32_t> rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept;
     void addWest(std::uint64_t rows, bool isEntry);
     void addToOutline(const TileInput& input, const PlacedEdge& edge);
-    void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, bool looksDown);
+    void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, std::uint32_t boundary);
     void addBox(const TileInput& input, const ClaimedBox& box);
 
     std::int32_t width_ = 0;
-    std::uint64_t newRows_ = 0, slopedRows_ = 0;
-    std::vector<TileFace> faces_;
-    std::vector<std::uint64_t> faceHashes_;
+    std::uint64_t newRows_ = 0;
+    std::vector<TileLevel> levels_;
+    std::vector<Boundary> boundaries_;
+    HashIndex levelIndex_, boundaryIndex_;
+    std::vector<std::uint64_t> hashes_;  // of the numbers of boundaries
     Outline outline_;
-    std::vector<Cover> covers_;  // ascending by face
+    std::vector<Cover> covers_;
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
     std::vector<Span> rows_[kTile];
