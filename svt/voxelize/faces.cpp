@@ -8,7 +8,7 @@ namespace {
 
 // False where the triangle crosses no sample line within `dimension`.
 bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Vec3i dimension, FaceTriangle& out,
-               std::int8_t& sign) noexcept {
+               bool& looksDown) noexcept {
     const auto [lowY, highY] = std::minmax({a[1], b[1], c[1]});
     out.firstRow = static_cast<std::int32_t>(firstSampleAbove(lowY));
     out.endRow = static_cast<std::int32_t>(firstSampleAbove(highY));
@@ -20,7 +20,7 @@ bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
     const std::int64_t area = (std::int64_t(b[0]) - a[0]) * (std::int64_t(c[1]) - a[1]) -
                               (std::int64_t(b[1]) - a[1]) * (std::int64_t(c[0]) - a[0]);
     if (area == 0) return false;
-    sign = area > 0 ? -1 : 1;
+    looksDown = area < 0;
     const QuantaPoint* corners[3] = {&a, &b, &c};
     for (int i = 0; i < 3; ++i) {
         out.x[i] = (*corners[i])[0];
@@ -28,16 +28,6 @@ bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
     }
     return true;
 }
-
-// What tells that two triangles lie on one plane, whose heights are then the same to the bit.
-struct Level {
-    enum class Kind : std::uint8_t { Plane, Flat, Alone } kind = Kind::Alone;
-    std::int8_t sign = 0;
-    std::uint32_t value = 0;  // plane or height
-    friend bool operator==(const Level& p, const Level& q) noexcept {
-        return p.kind == q.kind && p.kind != Kind::Alone && p.sign == q.sign && p.value == q.value;
-    }
-};
 
 // An edge of a face, told apart by its ends.
 struct EdgeUse {
@@ -107,7 +97,7 @@ void FaceBuilder::closeLevel() {
             unsorted.assign(triangles.begin(), triangles.end());
             for (std::uint32_t t = 0; t < count; ++t) {
                 if (t > 0 && partOf[numbers[t]] != partOf[numbers[t - 1]])
-                    list.faces.push_back(ScanFace(list.faces.back()));
+                    list.faces.push_back(Boundary(list.faces.back()));
                 triangles[t] = unsorted[numbers[t]];
                 triangles[t].face = static_cast<std::uint32_t>(list.faces.size() - 1);
             }
@@ -118,7 +108,7 @@ void FaceBuilder::closeLevel() {
 
 }  // namespace
 
-bool touchesSamples(const FaceTriangle& t, std::int8_t sign, std::int32_t firstColumn, std::int32_t firstRow,
+bool touchesSamples(const FaceTriangle& t, bool looksDown, std::int32_t firstColumn, std::int32_t firstRow,
                     std::int32_t width, std::int32_t height) noexcept {
     if (t.endColumn <= firstColumn || t.firstColumn >= firstColumn + width || t.endRow <= firstRow ||
         t.firstRow >= firstRow + height)
@@ -126,57 +116,42 @@ bool touchesSamples(const FaceTriangle& t, std::int8_t sign, std::int32_t firstC
     const auto quanta = [](std::int32_t sample) { return std::int64_t(sample) * kQuanta + 1; };
     const std::int64_t west = quanta(firstColumn), east = quanta(firstColumn + width - 1);
     const std::int64_t south = quanta(firstRow), north = quanta(firstRow + height - 1);
+    const std::int64_t turn = looksDown ? -1 : 1;
     // Separated where all of the rectangle lies outside of one edge.
     for (int e = 0; e < 3; ++e) {
         const int to = e == 2 ? 0 : e + 1;
-        const std::int64_t dx = -sign * (std::int64_t(t.x[to]) - t.x[e]), dy = -sign * (std::int64_t(t.y[to]) - t.y[e]);
+        const std::int64_t dx = turn * (std::int64_t(t.x[to]) - t.x[e]), dy = turn * (std::int64_t(t.y[to]) - t.y[e]);
         const std::int64_t x = dy < 0 ? east : west, y = dx > 0 ? north : south;
         if (dx * (y - t.y[e]) - dy * (x - t.x[e]) < 0) return false;
     }
     return true;
 }
 
-void FaceList::append(const FaceList& other) {
-    const auto firstFace = static_cast<std::uint32_t>(faces.size());
-    faces.insert(faces.end(), other.faces.begin(), other.faces.end());
-    for (FaceTriangle triangle : other.triangles) {
-        triangle.face += firstFace;
-        triangles.push_back(triangle);
-    }
-}
-
-void addFaces(const IndexMesh& mesh, std::span<const mesh::Plane> planes, Vec3i dimension, std::uint32_t claim,
-              FaceList& list) {
+FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLevels, Vec3i dimension,
+                   std::uint32_t claim, LevelTable& ownLevels) {
     const auto& triangles = mesh.mesh->triangles;
+    FaceList list;
     FaceBuilder builder{triangles, list, {}, {}, {}, {}};
-    Level current;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const mesh::Triangle& triangle = triangles[t];
         const QuantaPoint& a = mesh.points[triangle.corners[0]];
         const QuantaPoint& b = mesh.points[triangle.corners[1]];
         const QuantaPoint& c = mesh.points[triangle.corners[2]];
         FaceTriangle plan;
-        Level level;
-        if (!setUpPlan(a, b, c, dimension, plan, level.sign)) continue;
-        const mesh::Plane* plane =
-            triangle.plane != mesh::kNoPlane && !planes.empty() ? &planes[triangle.plane] : nullptr;
-        if (plane != nullptr && isScanPlane(*plane)) {
-            level.kind = Level::Kind::Plane;
-            level.value = triangle.plane;
-        } else if (a[2] == b[2] && a[2] == c[2]) {
-            level.kind = Level::Kind::Flat;
-            level.value = static_cast<std::uint32_t>(a[2]);
-        }
-        if (!(level == current)) {
+        Boundary face{kNoLevel, claim, false};
+        if (!setUpPlan(a, b, c, dimension, plan, face.isEntry)) continue;
+        if (triangle.plane != mesh::kNoPlane && !planeLevels.empty()) face.level = planeLevels[triangle.plane];
+        if (face.level == kNoLevel) face.level = ownLevels.add(triangleHeight(a, b, c, kScanAxes[2]));
+        if (builder.numbers.empty() || face.packed() != list.faces.back().packed()) {
             builder.closeLevel();
-            current = level;
-            list.faces.push_back({faceHeight(a, b, c, kScanAxes[2], plane), claim, level.sign});
+            list.faces.push_back(face);
         }
         plan.face = static_cast<std::uint32_t>(list.faces.size() - 1);
         list.triangles.push_back(plan);
         builder.numbers.push_back(t);
     }
     builder.closeLevel();
+    return list;
 }
 
 }  // namespace svt::voxelize

@@ -4,20 +4,13 @@
 /// them are never scanned, so a face reads the same however it was cut.
 
 #include <svt/core/vec.hpp>
-#include <svt/voxelize/scan.hpp>
+#include <svt/voxelize/levels.hpp>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace svt::voxelize {
-
-/// What all triangles of a face have in common.
-struct ScanFace {
-    FaceHeight height;
-    std::uint32_t claim = 0;  ///< priority order of the claim it bounds
-    std::int8_t sign = 0;     ///< winding change when passing upwards: +1 enters (face looks down), -1 leaves
-};
 
 /// A triangle of a face in plan: quanta, corners counter-clockwise where the face looks up, else clockwise.
 struct FaceTriangle {
@@ -29,23 +22,22 @@ struct FaceTriangle {
 };
 
 /// True where the triangle meets the rectangle of samples [firstColumn, firstColumn + width) x [firstRow, firstRow +
-/// height); exact, borders included. \param sign  that of its face
-[[nodiscard]] bool touchesSamples(const FaceTriangle& triangle, std::int8_t sign, std::int32_t firstColumn,
+/// height); exact, borders included.
+/// \param looksDown  as its face does
+[[nodiscard]] bool touchesSamples(const FaceTriangle& triangle, bool looksDown, std::int32_t firstColumn,
                                   std::int32_t firstRow, std::int32_t width, std::int32_t height) noexcept;
 
-/// Faces and triangles of many objects.
+/// Faces of objects: for each the boundary that it is.
 struct FaceList {
-    std::vector<ScanFace> faces;
+    std::vector<Boundary> faces;
     std::vector<FaceTriangle> triangles;
-
-    /// Appends all of `other`.
-    void append(const FaceList& other);
 };
 
-/// Appends what of a closed mesh crosses sample lines along z within `dimension` (rows and columns).
-/// \param planes  of the scene in index space; empty where planes do not carry over
+/// Makes faces of what of a closed mesh crosses sample lines along z within `dimension` (rows and columns).
+/// \param planeLevels  level of each plane of the scene; empty where planes do not carry over
+/// \param ownLevels    gets levels of faces that share no plane
 /// Cost: O(n log n) in the triangles of the largest face.
-void addFaces(const IndexMesh& mesh, std::span<const mesh::Plane> planes, Vec3i dimension, std::uint32_t claim,
-              FaceList& list);
+[[nodiscard]] FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLevels, Vec3i dimension,
+                                 std::uint32_t claim, LevelTable& ownLevels);
 
 }  // namespace svt::voxelize

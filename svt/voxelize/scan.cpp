@@ -31,16 +31,17 @@ bool isScanPlane(const mesh::Plane& plane) noexcept {
     return std::abs(plane.slopeX) <= kSteepest && std::abs(plane.slopeY) <= kSteepest;
 }
 
-FaceHeight faceHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes,
-                      const mesh::Plane* plane) noexcept {
-    if (plane != nullptr && isScanPlane(*plane)) {
-        // The shared plane may pass the snapped corners by a hair; whoever shares it must not be told apart by a clamp.
-        constexpr std::int32_t kNoLow = std::numeric_limits<std::int32_t>::min();
-        constexpr std::int32_t kNoHigh = std::numeric_limits<std::int32_t>::max();
-        if (plane->slopeX == 0 && plane->slopeY == 0)
-            return {{(2 * std::llrint(plane->offset / 2)) << Height::kBits, 0, 0}, kNoLow, kNoHigh};
-        return {heightAtSamples(plane->slopeX, plane->slopeY, plane->offset), kNoLow, kNoHigh};
-    }
+FaceHeight planeHeight(const mesh::Plane& plane) noexcept {
+    // The plane may pass the snapped corners by a hair; whoever shares it must not be told apart by a clamp.
+    constexpr std::int32_t kNoLow = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int32_t kNoHigh = std::numeric_limits<std::int32_t>::max();
+    if (plane.slopeX == 0 && plane.slopeY == 0)
+        return {{(2 * std::llrint(plane.offset / 2)) << Height::kBits, 0, 0}, kNoLow, kNoHigh};
+    return {heightAtSamples(plane.slopeX, plane.slopeY, plane.offset), kNoLow, kNoHigh};
+}
+
+FaceHeight triangleHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
+                          const ScanAxes& axes) noexcept {
     const std::int32_t low = std::min({a[axes.z], b[axes.z], c[axes.z]});
     const std::int32_t high = std::max({a[axes.z], b[axes.z], c[axes.z]});
     FaceHeight face;
@@ -69,7 +70,7 @@ FaceHeight faceHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPo
 }
 
 bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes,
-               const mesh::Plane* plane, ScanTriangle& out) noexcept {
+               ScanTriangle& out) noexcept {
     const QuantaPoint* corner[3] = {&a, &b, &c};
     const auto x = [&](int i) { return (*corner[i])[axes.x]; };
     const auto y = [&](int i) { return (*corner[i])[axes.y]; };
@@ -85,7 +86,7 @@ bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
     const std::int64_t area = ax * by - ay * bx;
     if (area == 0) return false;
     out.sign = (area > 0) != axes.isMirrored ? -1 : 1;
-    const FaceHeight face = faceHeight(a, b, c, axes, plane);
+    const FaceHeight face = triangleHeight(a, b, c, axes);
     out.height = face.height;
     out.lowest = face.lowest;
     out.highest = face.highest;

@@ -78,7 +78,7 @@ void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, s
         for (const ScanAxes& axes : kScanAxes) {
             ScanTriangle scan;
             if (!setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                           mesh.points[triangle.corners[2]], axes, nullptr, scan))
+                           mesh.points[triangle.corners[2]], axes, scan))
                 continue;
             const std::int32_t behind = scan.sign < 0 ? -1 : 0;  // the face looks up: its back is the sample below
             const std::int32_t count = along(dimension, axes.z);
@@ -166,7 +166,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         const ScanAxes& axes = kScanAxes[axis];
         ScanTriangle scan;
         if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], axes, nullptr, scan) &&
+                      mesh.points[triangle.corners[2]], axes, scan) &&
             scan.sign > 0) {
             // Only faces that look down the axis: those on the other side of the sheet would find the same voxels.
             const auto depth = static_cast<std::int64_t>(std::ldexp(chord * double(kQuanta), Height::kBits));

@@ -8,7 +8,6 @@ namespace svt::voxelize {
 namespace {
 
 constexpr int kKnownBits = 10;
-constexpr std::uint32_t kNoSlot = 0xFFFFFFFFu;
 
 // The lowest set bit above `bit`, or `end`.
 std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noexcept {
@@ -30,7 +29,8 @@ std::uint32_t TileColumns::findStack(const PlanCell& cell) {
         [&] { return addStack(cell, members); });
 }
 
-std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint32_t> members) {
+// Members ascend, so those of one level stand side by side, and flat levels come bottom up.
+std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint64_t> members) {
     Stack stack;
     stack.hash = cell.hash;
     stack.firstMember = static_cast<std::uint32_t>(members_.size());
@@ -39,40 +39,25 @@ std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::u
     stack.firstSloped = static_cast<std::uint32_t>(sloped_.size());
     stack.firstHeight = static_cast<std::uint32_t>(heights_.size());
     members_.insert(members_.end(), members.begin(), members.end());
-
-    const auto boundaries = plan_.boundaries();
-    if (slotOf_.size() < plan_.levels().size()) slotOf_.resize(plan_.levels().size(), kNoSlot);
-    for (const std::uint32_t member : members) {
-        std::uint32_t& slot = slotOf_[boundaries[member].level];
-        if (slot == kNoSlot) {
-            slot = stack.levelCount++;
-            stackLevels_.push_back({boundaries[member].level, 0, 0});
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const Boundary boundary = Boundary::unpack(members[m]);
+        const bool isLevel = m > 0 && boundary.level == stackLevels_.back().level;
+        if (!isLevel) {
+            if (levels_.isSloped(boundary.level)) {
+                const Level& level = levels_[boundary.level];
+                stack.slopesX = stack.slopesX || level.slopeX != 0;
+                stack.slopesY = stack.slopesY || level.slopeY != 0;
+                sloped_.push_back({boundary.level, stack.levelCount, 0});
+            }
+            order_.push_back(stack.levelCount++);
+            stackLevels_.push_back({boundary.level, static_cast<std::uint32_t>(stackCodes_.size()), 0});
         }
-        ++stackLevels_[stack.firstLevel + slot].codeCount;
+        stackCodes_.push_back(ProfileCode{boundary.claim, boundary.isEntry, isLevel}.packed());
+        ++stackLevels_.back().codeCount;
     }
-    auto firstCode = static_cast<std::uint32_t>(stackCodes_.size());
-    for (std::uint32_t slot = 0; slot < stack.levelCount; ++slot) {
-        StackLevel& stackLevel = stackLevels_[stack.firstLevel + slot];
-        stackLevel.firstCode = firstCode;
-        firstCode += stackLevel.codeCount;
-        stackLevel.codeCount = 0;
-        order_.push_back(slot);
-        const TileLevel& level = plan_.levels()[stackLevel.level];
-        stack.slopesX = stack.slopesX || level.slopeX != 0;
-        stack.slopesY = stack.slopesY || level.slopeY != 0;
-        if (!level.isFlat()) sloped_.push_back({stackLevel.level, slot, 0});
-    }
-    stackCodes_.resize(firstCode);
-    for (const std::uint32_t member : members) {
-        const Boundary& boundary = boundaries[member];
-        StackLevel& stackLevel = stackLevels_[stack.firstLevel + slotOf_[boundary.level]];
-        const ProfileCode code{boundary.claim, boundary.isEntry, stackLevel.codeCount > 0};
-        stackCodes_[stackLevel.firstCode + stackLevel.codeCount++] = code.packed();
-    }
-    for (const std::uint32_t member : members) slotOf_[boundaries[member].level] = kNoSlot;
     stack.slopedCount = static_cast<std::uint32_t>(sloped_.size()) - stack.firstSloped;
     heights_.resize(heights_.size() + stack.levelCount + 2, 0);
-    heights_.back() = depth_;
+    heights_.back() = levels_.depth;
     stacks_.push_back(stack);
     return static_cast<std::uint32_t>(stacks_.size() - 1);
 }
@@ -116,31 +101,42 @@ void TileColumns::orderStack(Stack& stack) {
 }
 
 // All heights of a stack.
-void TileColumns::beginStack(Stack& stack, std::int32_t x, std::int32_t y) {
+void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
     for (std::uint32_t c = 0; c < stack.levelCount; ++c) {
-        const StackLevel& level = stackLevels_[stack.firstLevel + order_[stack.firstLevel + c]];
-        heights_[stack.firstHeight + 1 + c] = plan_.levels()[level.level].sampleAbove(x, y);
+        const std::uint32_t level = stackLevels_[stack.firstLevel + c].level;
+        heights_[stack.firstHeight + 1 + c] =
+            levels_.isSloped(level) ? levels_[level].sampleAbove(i, j) : static_cast<std::int32_t>(level);
     }
     if (runs_.size() < stack.levelCount + 1) runs_.resize(stack.levelCount + 1);
+    if (stepHeights_.size() < stack.slopedCount) stepHeights_.resize(stack.slopedCount);
     orderStack(stack);
-    if (stack.slopedCount == 0) stack.column = makeColumn(stack);
     stack.isOrdered = true;
 }
 
-// Sets the heights of the sloped levels to those at a step of the line.
-void TileColumns::moveStack(Stack& stack, std::uint32_t line, std::size_t step) {
+// Sets the heights of the sloped levels.
+void TileColumns::moveStack(Stack& stack, const std::int32_t* slopedHeights) {
     const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
-    const std::int32_t* place = lines_.data() + line + step;
-    for (const SlopedLevel& level : sloped) {
-        heights_[level.height] = *place;
-        place += kTile;
-    }
+    for (const SlopedLevel& level : sloped) heights_[level.height] = *slopedHeights++;
     bool ascends = true;
     for (const SlopedLevel& level : sloped) {
         const std::int32_t* height = heights_.data() + level.height;
         ascends = ascends && height[-1] <= height[0] && height[0] <= height[1];
     }
     if (!ascends) orderStack(stack);
+}
+
+// Counts the voxels that solids share in columns at the stack's heights.
+void TileColumns::countColumns(const Stack& stack, std::uint64_t columns) noexcept {
+    profiles_.addColumns(stack.profile, heights_.data() + stack.firstHeight + 1, columns);
+}
+
+// The same for a column made lately, once for all that were made.
+void TileColumns::countKnown(KnownColumn& known) {
+    if (known.columns == 0 || !known.isShared) return;
+    Stack& stack = stacks_[known.stack];
+    moveStack(stack, known.heights);
+    countColumns(stack, known.columns);
+    known.columns = 0;
 }
 
 // Number of the column with the stack's heights.
@@ -159,26 +155,26 @@ std::uint16_t TileColumns::makeColumn(const Stack& stack) {
     };
     for (const ScalarChange& change : profiles_.changes(stack.profile))
         emit(static_cast<std::uint32_t>(heights[change.level]), change.below);
-    emit(static_cast<std::uint32_t>(depth_), profiles_.topScalar(stack.profile));
+    emit(static_cast<std::uint32_t>(levels_.depth), profiles_.topScalar(stack.profile));
     return builder_.addColumn({first, end});
 }
 
-// Heights along a line to lines_, from `place` on. Bit i of the result: some height of step i differs from that of the
-// step before, or i is 0.
-std::uint64_t TileColumns::measureLine(const Stack& stack, const TileLine& line, std::uint32_t place) {
+// Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
+// step before, or n is 0.
+std::uint64_t TileColumns::measureLine(const Stack& stack, const Line& line, std::uint32_t place) {
     const std::size_t needed = place + std::size_t(stack.slopedCount) * kTile;
     if (lines_.size() < needed) lines_.resize(needed);
     std::int32_t* heights = lines_.data() + place;
     std::uint64_t breaks = 1;
     for (const SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
-        const TileLevel level = plan_.levels()[sloped.level];
+        const Level level = levels_[sloped.level];
         const std::int64_t step = line.isAlongX ? level.slopeX : level.slopeY;
-        std::int64_t height = level.base + level.slopeX * line.x + level.slopeY * line.y;
+        std::int64_t height = level.base + level.slopeX * line.i + level.slopeY * line.j;
         std::int32_t previous = level.clamped(height);
-        for (std::int32_t i = 0; i < line.count; ++i) {
+        for (std::int32_t n = 0; n < line.count; ++n) {
             const std::int32_t k = level.clamped(height);
-            breaks |= std::uint64_t(k != previous) << i;
-            heights[i] = previous = k;
+            breaks |= std::uint64_t(k != previous) << n;
+            heights[n] = previous = k;
             height += step;
         }
         heights += kTile;
@@ -189,45 +185,41 @@ std::uint64_t TileColumns::measureLine(const Stack& stack, const TileLine& line,
 // The column at a step of a line, of which there are `columns`.
 std::uint16_t TileColumns::makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns) {
     Stack& stack = stacks_[number];
-    const auto countShared = [&] {
-        profiles_.addColumns(stack.profile, heights_.data() + stack.firstHeight + 1, columns);
-    };
-    const std::int32_t* const heights = lines_.data() + line + step;
-    KnownColumn* known = nullptr;
-    if (stack.slopedCount <= KnownColumn::kMostSloped) {
-        const std::uint32_t stackKey = firstStack_ + number;
-        std::uint32_t key = stackKey;
-        for (std::size_t s = 0; s < stack.slopedCount; ++s)
-            key = (key + static_cast<std::uint32_t>(heights[s * kTile])) * 0x9E3779B1u;
-        known = &known_[key >> (32 - kKnownBits)];
-        bool isKnown = known->stack == stackKey;
-        for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s)
-            isKnown = known->heights[s] == heights[s * kTile];
-        if (isKnown) {
-            if (profiles_.isShared(known->profile)) {
-                moveStack(stack, line, step);
-                countShared();
-            }
-            return known->column;
-        }
-        known->stack = stackKey;
-        for (std::size_t s = 0; s < stack.slopedCount; ++s) known->heights[s] = heights[s * kTile];
+    const std::int32_t* place = lines_.data() + line + step;
+    std::uint32_t key = number;
+    for (std::size_t s = 0; s < stack.slopedCount; ++s, place += kTile) {
+        stepHeights_[s] = *place;
+        key = (key + static_cast<std::uint32_t>(*place)) * 0x9E3779B1u;
     }
-    moveStack(stack, line, step);
-    countShared();
-    const std::uint16_t column = makeColumn(stack);
-    if (known != nullptr) {
-        known->column = column;
-        known->profile = stack.profile;
+    if (stack.slopedCount > KnownColumn::kMostSloped) {
+        moveStack(stack, stepHeights_.data());
+        countColumns(stack, columns);
+        return makeColumn(stack);
     }
-    return column;
+    KnownColumn& known = known_[key >> (32 - kKnownBits)];
+    bool isKnown = known.stack == number;
+    for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == stepHeights_[s];
+    if (!isKnown) {
+        countKnown(known);
+        known.stack = number;
+        known.columns = 0;
+        std::copy_n(stepHeights_.data(), stack.slopedCount, known.heights);
+    }
+    if (!isKnown || known.tile != tile_) {
+        moveStack(stack, known.heights);
+        known.tile = tile_;
+        known.column = makeColumn(stack);
+        known.isShared = profiles_.isShared(stack.profile);
+    }
+    known.columns += columns;
+    return known.column;
 }
 
 // Columns of a cell in row y, as far as they differ from those of the row before. Rows [firstRow, endRow) have one
 // plan.
 void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow) {
     Stack& stack = stacks_[cell.stack];
-    if (!stack.isOrdered) beginStack(stack, cell.begin, y);
+    if (!stack.isOrdered) beginStack(stack, firstColumn_ + cell.begin, firstRow_ + y);
     std::uint16_t* const columns = row_.data() + cell.begin;
     const std::int32_t width = cell.end - cell.begin;
     const std::int32_t step = y - firstRow, rows = endRow - firstRow;
@@ -240,11 +232,15 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
     if (y != firstRow && !stack.slopesY) return;
     const auto count = static_cast<std::uint64_t>(stack.slopesY ? 1 : rows);
     if (!stack.slopesX) {
-        profiles_.addColumns(stack.profile, heights_.data() + stack.firstHeight + 1, count * std::uint64_t(width));
+        countColumns(stack, count * std::uint64_t(width));
+        if (stack.tile != tile_) {
+            stack.tile = tile_;
+            stack.column = makeColumn(stack);
+        }
         std::fill_n(columns, width, stack.column);
         return;
     }
-    std::uint64_t breaks = measureLine(stack, {cell.begin, y, width, true}, cell.line);
+    std::uint64_t breaks = measureLine(stack, {firstColumn_ + cell.begin, firstRow_ + y, width, true}, cell.line);
     while (breaks != 0) {
         const int x = std::countr_zero(breaks);
         breaks &= breaks - 1;
@@ -266,7 +262,8 @@ void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
         if (stack.slopesY && stack.slopesX) {
             changedRows = ~std::uint64_t{0};
         } else if (stack.slopesY) {
-            cell.breaks = measureLine(stack, {cell.begin, firstRow, endRow - firstRow, false}, line);
+            cell.breaks =
+                measureLine(stack, {firstColumn_ + cell.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
             changedRows |= cell.breaks << firstRow;
             line += static_cast<std::uint32_t>(stack.slopedCount * kTile);
         }
@@ -285,25 +282,14 @@ void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
 }
 
 volume::ColumnTileData TileColumns::make(const TileInput& input) {
-    constexpr std::size_t kMostCodes = std::size_t{1} << 22;
-    constexpr std::uint32_t kMostStacks = std::uint32_t{1} << 31;
-    if (profiles_.size() > kMostCodes) profiles_.takeCounts(counts_);
-    firstStack_ += static_cast<std::uint32_t>(stacks_.size());
-    if (known_.empty() || profiles_.size() == 0 || firstStack_ > kMostStacks) {
-        known_.assign(std::size_t{1} << kKnownBits, KnownColumn{});
-        firstStack_ = 1;
-    }
+    constexpr std::size_t kMostMembers = std::size_t{1} << 20;
+    if (members_.size() + profiles_.size() > kMostMembers) forget();
+    if (known_.empty()) known_.resize(std::size_t{1} << kKnownBits);
+    ++tile_;
+    firstColumn_ = input.firstColumn;
+    firstRow_ = input.firstRow;
     plan_.build(input);
     builder_.start(input.width);
-    depth_ = input.depth;
-    stacks_.clear();
-    stackIndex_.clear();
-    members_.clear();
-    stackLevels_.clear();
-    stackCodes_.clear();
-    order_.clear();
-    sloped_.clear();
-    heights_.clear();
     row_.resize(static_cast<std::size_t>(input.width));
     for (std::int32_t y = 0; y < input.height;) {
         const std::int32_t next = nextBit(plan_.newRows(), y, input.height);
@@ -313,10 +299,27 @@ volume::ColumnTileData TileColumns::make(const TileInput& input) {
     return builder_.finish();
 }
 
+// Forgets all stacks and profiles; what they counted goes to counts_.
+void TileColumns::forget() {
+    for (KnownColumn& known : known_) {
+        countKnown(known);
+        known = {};
+    }
+    profiles_.takeCounts(counts_);
+    stacks_.clear();
+    stackIndex_.clear();
+    members_.clear();
+    stackLevels_.clear();
+    stackCodes_.clear();
+    order_.clear();
+    sloped_.clear();
+    heights_.clear();
+}
+
 void TileColumns::takeCounts(std::vector<SharedCount>& counts) {
+    forget();
     counts.insert(counts.end(), counts_.begin(), counts_.end());
     counts_.clear();
-    profiles_.takeCounts(counts);
 }
 
 }  // namespace svt::voxelize

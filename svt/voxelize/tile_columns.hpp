@@ -18,7 +18,8 @@ namespace svt::voxelize {
 /// Makes the columns of tiles; keeps its buffers between them. One per thread.
 class TileColumns {
 public:
-    explicit TileColumns(std::span<const OrderedClaim> claims) : profiles_(claims), builder_(1) {}
+    TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels)
+        : levels_(levels), profiles_(claims), builder_(1) {}
 
     [[nodiscard]] volume::ColumnTileData make(const TileInput& input);
 
@@ -29,7 +30,7 @@ private:
     static constexpr std::size_t kTile = 64;
 
     // The boundaries over a cell, by levels, in the order in which the last column met them. Cells with the same
-    // boundaries share one.
+    // boundaries share one, in all tiles.
     struct Stack {
         std::uint64_t hash = 0;
         std::uint32_t firstMember = 0, memberCount = 0;  // of members_
@@ -37,6 +38,7 @@ private:
         std::uint32_t firstSloped = 0, slopedCount = 0;  // of sloped_
         std::uint32_t firstHeight = 0;                   // of heights_: 0, those of the levels bottom up, depth
         std::uint32_t profile = 0;
+        std::uint32_t tile = 0;    // whose column is known:
         std::uint16_t column = 0;  // of a stack without slopes
         bool isOrdered = false, slopesX = false, slopesY = false;
     };
@@ -52,42 +54,54 @@ private:
         std::uint32_t line = 0;    // of lines_: heights along y, where it slopes that way alone
         std::uint64_t breaks = 0;  // bit i: row i of the line differs from the one before
     };
+    // Columns side by side along x, or rows along y; samples of the grid.
+    struct Line {
+        std::int32_t i, j, count;
+        bool isAlongX;
+    };
 
     // Columns made lately, by their stack and the heights of its sloped levels.
     struct KnownColumn {
         static constexpr std::size_t kMostSloped = 6;
-        std::uint32_t stack = 0, profile = 0;  // stack: firstStack_ + its number
+        std::uint32_t stack = kNoStack, tile = 0;
         std::int32_t heights[kMostSloped] = {};
         std::uint16_t column = 0;
+        bool isShared = false;      // voxels of it are to be counted:
+        std::uint64_t columns = 0;  // how many were made since
     };
+    static constexpr std::uint32_t kNoStack = 0xFFFFFFFFu;
 
     std::uint32_t findStack(const PlanCell& cell);
-    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint32_t> members);
-    void beginStack(Stack& stack, std::int32_t x, std::int32_t y);
+    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint64_t> members);
+    void beginStack(Stack& stack, std::int32_t i, std::int32_t j);
     void orderStack(Stack& stack);
-    void moveStack(Stack& stack, std::uint32_t line, std::size_t step);
+    void moveStack(Stack& stack, const std::int32_t* slopedHeights);
+    void countColumns(const Stack& stack, std::uint64_t columns) noexcept;
+    void countKnown(KnownColumn& known);
+    void forget();
 
     void makeRows(std::int32_t firstRow, std::int32_t endRow);
     void makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
-    std::uint64_t measureLine(const Stack& stack, const TileLine& line, std::uint32_t place);
+    std::uint64_t measureLine(const Stack& stack, const Line& line, std::uint32_t place);
     std::uint16_t makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
     std::uint16_t makeColumn(const Stack& stack);
 
+    const LevelTable& levels_;
     Profiles profiles_;
     TilePlan plan_;
     volume::ColumnTileBuilder builder_;
-    std::int32_t depth_ = 0;
+    std::int32_t firstColumn_ = 0, firstRow_ = 0;
+    std::uint32_t tile_ = 0;  // counts the tiles
     std::vector<SharedCount> counts_;
 
     std::vector<Stack> stacks_;
     HashIndex stackIndex_;
-    std::vector<std::uint32_t> members_;
+    std::vector<std::uint64_t> members_;
     std::vector<StackLevel> stackLevels_;
     std::vector<std::uint32_t> stackCodes_;  // of the boundaries, level by level
     std::vector<std::uint32_t> order_;       // slots, bottom up
     std::vector<SlopedLevel> sloped_;
     std::vector<std::int32_t> heights_;
-    std::vector<std::uint32_t> slotOf_;                           // per level of the plan; for one stack at a time
     std::vector<std::pair<std::int32_t, std::uint32_t>> sorted_;  // of one stack: height and slot
     std::vector<std::uint32_t> codes_, places_;                   // of one stack: codes bottom up; per slot
 
@@ -95,7 +109,7 @@ private:
     std::vector<std::uint16_t> row_;
     std::vector<std::int32_t> lines_;  // of a line: kTile heights for each sloped level of its stack
     std::vector<KnownColumn> known_;
-    std::uint32_t firstStack_ = 1;  // numbers of stacks in known_ count on from tile to tile
+    std::vector<std::int32_t> stepHeights_;  // of the sloped levels at one step of a line
     std::vector<volume::Run> runs_;
 };
 

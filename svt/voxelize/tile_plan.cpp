@@ -25,8 +25,6 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
     return (number ^ number >> 29) * 0xBF58476D1CE4E5B9ull;
 }
 
-TileLevel flatLevel(std::int32_t k) noexcept { return {std::int64_t(k) << TileLevel::kBits, 0, 0, k, k}; }
-
 }  // namespace
 
 // False where the edge makes no difference to the tile.
@@ -117,39 +115,14 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
     outline_.turns |= (turns & within) | changes(within);
 }
 
-std::uint32_t TilePlan::findLevel(const TileLevel& level) {
-    const std::uint64_t hash = scramble(std::uint64_t(level.base) ^
-                                        scramble(std::uint64_t(level.slopeX) ^ scramble(std::uint64_t(level.slopeY)) ^
-                                                 std::uint64_t(level.lowest) << 32 ^ std::uint64_t(level.highest)));
-    return levelIndex_.findOrAdd(
-        hash, [&](std::uint32_t number) { return levels_[number] == level; },
-        [&] {
-            levels_.push_back(level);
-            return static_cast<std::uint32_t>(levels_.size() - 1);
-        });
-}
-
-std::uint32_t TilePlan::findBoundary(const Boundary& boundary) {
-    const std::uint64_t hash = scramble(std::uint64_t(boundary.level) << 33 | std::uint64_t(boundary.claim) << 1 |
-                                        std::uint64_t(boundary.isEntry));
-    return boundaryIndex_.findOrAdd(
-        hash, [&](std::uint32_t number) { return boundaries_[number] == boundary; },
-        [&] {
-            boundaries_.push_back(boundary);
-            return static_cast<std::uint32_t>(boundaries_.size() - 1);
-        });
-}
-
 // The rare face of which a row meets more than one stretch: all crossings, sorted and paired.
-void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles,
-                              std::uint32_t boundary) {
-    const bool looksDown = boundaries_[boundary].isEntry;
+void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, Boundary face) {
     crossings_.clear();
     for (const std::uint32_t index : triangles) {
         const FaceTriangle& t = input.triangles[index];
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
-            if (!placeEdge(input, t, e, looksDown, edge)) continue;
+            if (!placeEdge(input, t, e, face.isEntry, edge)) continue;
             EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + edge.firstRow);
             for (std::int32_t row = edge.firstRow; row < edge.endRow; ++row, walk.nextRow())
                 crossings_.push_back({static_cast<std::uint8_t>(row),
@@ -163,7 +136,7 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint3
     });
     const std::size_t firstCover = covers_.size();
     const auto addStretch = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
-        if (firstCover + number == covers_.size()) covers_.push_back({0, boundary, kNone, {}, {}});
+        if (firstCover + number == covers_.size()) covers_.push_back({0, face.packed(), kNone, {}, {}});
         Cover& cover = covers_[firstCover + number];
         cover.rows |= std::uint64_t{1} << row;
         cover.begin[row] = begin;
@@ -197,17 +170,7 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint3
 }
 
 void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> triangles) {
-    const ScanFace& face = input.faces[input.triangles[triangles.front()].face];
-    // Sample k stands at quanta 512 k + 1, and the one strictly above is wanted.
-    const Height& height = face.height.height;
-    const std::int64_t base = height.base + height.slopeX * input.firstColumn + height.slopeY * input.firstRow +
-                              (std::int64_t{1} << TileLevel::kBits) - (std::int64_t{1} << Height::kBits);
-    const bool looksDown = face.sign > 0;
-    TileLevel level{base, height.slopeX, height.slopeY, std::clamp(face.height.lowest, 0, input.depth),
-                    std::clamp(face.height.highest, 0, input.depth)};
-    if (height.isFlat()) level = flatLevel(level.sampleAbove(0, 0));
-    const std::uint32_t boundary = findBoundary({findLevel(level), face.claim, looksDown});
-
+    const Boundary face = input.faces[input.triangles[triangles.front()].face];
     outline_.westIn = outline_.westOut = outline_.begun = outline_.ended = outline_.turns = 0;
     outline_.isSimple = true;
     std::memset(outline_.cover.begin, 0, kTile);
@@ -216,17 +179,17 @@ void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> tr
         const FaceTriangle& triangle = input.triangles[index];
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
-            if (placeEdge(input, triangle, e, looksDown, edge)) addToOutline(input, edge);
+            if (placeEdge(input, triangle, e, face.isEntry, edge)) addToOutline(input, edge);
         }
     }
     const std::uint64_t rows = outline_.westIn | outline_.begun;
     if (!outline_.isSimple || outline_.westOut != 0 || (outline_.westIn & outline_.begun) != 0) {
-        addConcaveFace(input, triangles, boundary);
+        addConcaveFace(input, triangles, face);
     } else if (rows != 0) {
         newRows_ |= changes(outline_.westIn) | outline_.turns;
         covers_.push_back(outline_.cover);
         covers_.back().rows = rows;
-        covers_.back().boundary = boundary;
+        covers_.back().boundary = face.packed();
     }
 }
 
@@ -236,10 +199,10 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
     const std::int32_t firstRow = std::max(box.firstRow - input.firstRow, 0);
     const std::int32_t endRow = std::min(box.endRow - input.firstRow, input.height);
     if (begin >= end || firstRow >= endRow) return;
-    const auto find = [&](std::int32_t k, bool isEntry) {
-        return findBoundary({findLevel(flatLevel(std::clamp(k, 0, input.depth))), box.claim, isEntry});
+    const auto boundaryAt = [&](std::int32_t k, bool isEntry) {
+        return Boundary{static_cast<std::uint32_t>(std::clamp(k, 0, input.depth)), box.claim, isEntry}.packed();
     };
-    covers_.push_back({bits(firstRow, endRow), find(box.low, true), find(box.high, false), {}, {}});
+    covers_.push_back({bits(firstRow, endRow), boundaryAt(box.low, true), boundaryAt(box.high, false), {}, {}});
     std::memset(covers_.back().begin, begin, kTile);
     std::memset(covers_.back().end, end, kTile);
     newRows_ |= changes(covers_.back().rows);
@@ -247,10 +210,6 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
 
 void TilePlan::build(const TileInput& input) {
     width_ = input.width;
-    levels_.clear();
-    boundaries_.clear();
-    levelIndex_.clear();
-    boundaryIndex_.clear();
     covers_.clear();
     newRows_ = 1;
     const auto indices = input.triangleIndices;
@@ -260,16 +219,20 @@ void TilePlan::build(const TileInput& input) {
         addFace(input, indices.subspan(first, n - first));
     }
     for (const std::uint32_t index : input.boxIndices) addBox(input, input.boxes[index]);
-    while (hashes_.size() < boundaries_.size()) hashes_.push_back(scramble(hashes_.size()));
 
     newRows_ &= bits(0, input.height);
     for (std::vector<Span>& row : rows_) row.clear();
-    for (const Cover& cover : covers_) {
+    // Ascending boundaries, so that equal cells list them in the same order.
+    order_.resize(covers_.size());
+    for (std::uint32_t c = 0; c < covers_.size(); ++c) order_[c] = {covers_[c].boundary, c};
+    for (std::uint32_t c = 0; c < covers_.size(); ++c)
+        if (covers_[c].second != kNone) order_.push_back({covers_[c].second, c});
+    std::sort(order_.begin(), order_.end());
+    for (const auto& [boundary, number] : order_) {
+        const Cover& cover = covers_[number];
         for (std::uint64_t rows = cover.rows & newRows_; rows != 0; rows &= rows - 1) {
             const int row = std::countr_zero(rows);
-            if (cover.begin[row] >= cover.end[row]) continue;
-            rows_[row].push_back({cover.boundary, cover.begin[row], cover.end[row]});
-            if (cover.second != kNone) rows_[row].push_back({cover.second, cover.begin[row], cover.end[row]});
+            if (cover.begin[row] < cover.end[row]) rows_[row].push_back({boundary, cover.begin[row], cover.end[row]});
         }
     }
 }
@@ -283,7 +246,7 @@ std::span<const PlanCell> TilePlan::layOut(std::int32_t y) {
     }
     cells_.clear();
     std::uint8_t cellAt[kTile + 1];
-    std::uint32_t* next[kTile];  // where the next member of a cell goes
+    std::uint64_t* next[kTile];  // where the next member of a cell goes
     const auto cellCount = static_cast<std::size_t>(std::popcount(breaks));
     if (members_.size() < cellCount * spans.size()) members_.resize(cellCount * spans.size());
     while (breaks != 0) {
@@ -297,7 +260,7 @@ std::span<const PlanCell> TilePlan::layOut(std::int32_t y) {
     }
     cellAt[width_] = static_cast<std::uint8_t>(cellCount);
     for (const Span& span : spans) {
-        const std::uint64_t hash = hashes_[span.boundary];
+        const std::uint64_t hash = scramble(span.boundary);
         for (std::size_t cell = cellAt[span.begin]; cell < cellAt[span.end]; ++cell) {
             *next[cell]++ = span.boundary;
             cells_[cell].hash += hash;

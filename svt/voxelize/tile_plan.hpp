@@ -3,9 +3,7 @@
 /// One tile of 64 x 64 columns seen from above: which faces lie over which columns. Rows whose plan is that of
 /// the row before are told apart from those that must be laid out again.
 
-#include <svt/core/hash_index.hpp>
 #include <svt/voxelize/faces.hpp>
-#include <svt/voxelize/tile_level.hpp>
 
 #include <cstdint>
 #include <span>
@@ -24,19 +22,11 @@ struct ClaimedBox {
 /// What lies over a tile.
 struct TileInput {
     std::int32_t firstColumn = 0, firstRow = 0, width = 0, height = 0, depth = 0;  ///< samples; width, height <= 64
-    std::span<const ScanFace> faces;
+    std::span<const Boundary> faces;
     std::span<const FaceTriangle> triangles;
     std::span<const std::uint32_t> triangleIndices;  ///< those that touch the tile, ascending
     std::span<const ClaimedBox> boxes;
     std::span<const std::uint32_t> boxIndices;  ///< those that touch the tile
-};
-
-/// What bounds a claim at one level: winding changes when a line passes it upwards.
-struct Boundary {
-    std::uint32_t level = 0;
-    std::uint32_t claim = 0;
-    bool isEntry = false;
-    friend bool operator==(const Boundary&, const Boundary&) = default;
 };
 
 /// A stretch of a row under the same boundaries.
@@ -52,31 +42,29 @@ public:
     /// Takes in what lies over a tile. Cost: O(triangles + rows of slanted edges).
     void build(const TileInput& input);
 
-    [[nodiscard]] std::span<const TileLevel> levels() const noexcept { return levels_; }
-    [[nodiscard]] std::span<const Boundary> boundaries() const noexcept { return boundaries_; }
     /// Bit y: the plan of row y may differ from that of the row before. Bit 0 is set.
     [[nodiscard]] std::uint64_t newRows() const noexcept { return newRows_; }
 
     /// Cells of row y, which is one of newRows(); west to east, without gap. Valid until the next call.
     [[nodiscard]] std::span<const PlanCell> layOut(std::int32_t y);
-    /// Boundaries of a cell of the last layOut().
-    [[nodiscard]] std::span<const std::uint32_t> boundariesOf(const PlanCell& cell) const noexcept {
+    /// Boundaries of a cell of the last layOut(), packed, ascending.
+    [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanCell& cell) const noexcept {
         return std::span(members_).subspan(cell.firstMember, cell.memberCount);
     }
 
 private:
     static constexpr std::size_t kTile = 64;
 
-    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    static constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
     // Where a boundary is: in each row over one stretch of columns. Concave faces have several.
     struct Cover {
         std::uint64_t rows = 0;                      // bit y: [begin[y], end[y]) is covered; may be empty
-        std::uint32_t boundary = 0, second = kNone;  // second: lies over the same columns (top of a box)
+        std::uint64_t boundary = 0, second = kNone;  // second: lies over the same columns (top of a box)
         std::uint8_t begin[kTile], end[kTile];
     };
     struct Span {
-        std::uint32_t boundary;
+        std::uint64_t boundary;
         std::uint8_t begin, end;
     };
     // The cover of one face while its edges come. Passing an edge to the east adds its winding to the cover.
@@ -99,30 +87,25 @@ private:
         std::int8_t winding;
     };
 
-    std::uint32_t findLevel(const TileLevel& level);
-    std::uint32_t findBoundary(const Boundary& boundary);
     void addFace(const TileInput& input, std::span<const std::uint32_t> triangles);
     static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool looksDown,
                           PlacedEdge& out) noexcept;
     static std::pair<std::int32_t, std::int32_t> rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept;
     void addWest(std::uint64_t rows, bool isEntry);
     void addToOutline(const TileInput& input, const PlacedEdge& edge);
-    void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, std::uint32_t boundary);
+    void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, Boundary face);
     void addBox(const TileInput& input, const ClaimedBox& box);
 
     std::int32_t width_ = 0;
     std::uint64_t newRows_ = 0;
-    std::vector<TileLevel> levels_;
-    std::vector<Boundary> boundaries_;
-    HashIndex levelIndex_, boundaryIndex_;
-    std::vector<std::uint64_t> hashes_;  // of the numbers of boundaries
     Outline outline_;
     std::vector<Cover> covers_;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  // boundaries with their covers, ascending
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
     std::vector<Span> rows_[kTile];
     std::vector<PlanCell> cells_;
-    std::vector<std::uint32_t> members_;
+    std::vector<std::uint64_t> members_;
 };
 
 }  // namespace svt::voxelize

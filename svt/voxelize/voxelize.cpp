@@ -108,13 +108,14 @@ void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std
 struct Prepared {
     IndexMesh index;
     FaceList faces;
+    LevelTable ownLevels;
     std::vector<ClaimedBox> boxes;
     std::uint64_t thinVoxels = 0;
     std::uint64_t uncertainVoxels = 0;
 };
 
-void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const mesh::Plane> planes,
-                   const IndexFromLocal& indexFromLocal, const Claims& claims, const VoxelizeOptions& options,
+void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
+                   std::span<const std::uint32_t> planeLevels, const Claims& claims, const VoxelizeOptions& options,
                    std::uint32_t object, Prepared& out) {
     const mesh::ObjectMesh& mesh = scene.objects[object];
     out.index = makeIndexMesh(mesh, indexFromLocal);
@@ -125,7 +126,7 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::
     }
     if (!mesh.isSolid()) return;  // open: filled by winding number, all cores on one object
     const Vec3i dimension = grid.dimension();
-    addFaces(out.index, planes, dimension, claims.solidOrder[object], out.faces);
+    out.faces = makeFaces(out.index, planeLevels, dimension, claims.solidOrder[object], out.ownLevels);
     if (options.keepThinParts)
         out.thinVoxels = addThinParts(out.index, indexFromLocal, dimension, claims.thinOrder[object], out.boxes);
 }
@@ -191,30 +192,14 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
 
 // Everything of all objects, in object order.
 struct Geometry {
+    LevelTable levels;
     FaceList faces;
     std::vector<ClaimedBox> boxes;
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
 };
 
-Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid,
-                                const IndexFromLocal& indexFromLocal, const Claims& claims,
-                                const VoxelizeOptions& options) {
-    std::vector<mesh::Plane> planes;
-    if (indexFromLocal.keepsVertical())
-        for (const mesh::Plane& plane : scene.planes) planes.push_back(indexFromLocal.plane(plane));
-    std::vector<Prepared> prepared(scene.objects.size());
-    parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t o = begin; o < end; ++o)
-            prepareObject(scene, grid, planes, indexFromLocal, claims, options, static_cast<std::uint32_t>(o),
-                          prepared[o]);
-    });
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
-        if (scene.objects[o].closure != mesh::Closure::Open) continue;
-        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
-        prepared[o].uncertainVoxels =
-            addWindingFill(prepared[o].index, scene, grid, claims.solidOrder[o], options.threads, prepared[o].boxes);
-    }
-    Geometry all;
+// All objects' parts, in object order; levels of their own are numbered anew.
+void join(std::vector<Prepared>& prepared, Geometry& all) {
     std::size_t faceCount = 0, triangleCount = 0, boxCount = 0;
     for (const Prepared& object : prepared) {
         faceCount += object.faces.faces.size();
@@ -224,16 +209,55 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
     all.faces.faces.reserve(faceCount);
     all.faces.triangles.reserve(triangleCount);
     all.boxes.reserve(boxCount);
-    all.thinVoxels.resize(prepared.size());
-    all.uncertainVoxels.resize(prepared.size());
-    for (std::size_t o = 0; o < prepared.size(); ++o) {
-        Prepared& object = prepared[o];
-        all.faces.append(object.faces);
+    for (Prepared& object : prepared) {
+        const auto firstFace = static_cast<std::uint32_t>(all.faces.faces.size());
+        const std::uint32_t firstLevel = all.levels.next();
+        for (Boundary face : object.faces.faces) {
+            if (face.level >= object.ownLevels.first) face.level += firstLevel - object.ownLevels.first;
+            all.faces.faces.push_back(face);
+        }
+        for (FaceTriangle triangle : object.faces.triangles) {
+            triangle.face += firstFace;
+            all.faces.triangles.push_back(triangle);
+        }
+        const auto& own = object.ownLevels.sloped;
+        all.levels.sloped.insert(all.levels.sloped.end(), own.begin(), own.end());
         all.boxes.insert(all.boxes.end(), object.boxes.begin(), object.boxes.end());
-        all.thinVoxels[o] = object.thinVoxels;
-        all.uncertainVoxels[o] = object.uncertainVoxels;
+        all.thinVoxels.push_back(object.thinVoxels);
+        all.uncertainVoxels.push_back(object.uncertainVoxels);
         object = {};
     }
+}
+
+Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid,
+                                const IndexFromLocal& indexFromLocal, const Claims& claims,
+                                const VoxelizeOptions& options) {
+    Geometry all;
+    all.levels.depth = grid.dimension().z;
+    all.levels.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
+    std::vector<std::uint32_t> planeLevels;
+    if (indexFromLocal.keepsVertical()) {
+        std::vector<mesh::Plane> planes;
+        planes.reserve(scene.planes.size());
+        for (const mesh::Plane& plane : scene.planes) planes.push_back(indexFromLocal.plane(plane));
+        planeLevels = addPlanes(planes, all.levels);
+    }
+    std::vector<Prepared> prepared(scene.objects.size());
+    parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t o = begin; o < end; ++o) {
+            prepared[o].ownLevels.depth = all.levels.depth;
+            prepared[o].ownLevels.first = all.levels.next();
+            prepareObject(scene, grid, indexFromLocal, planeLevels, claims, options, static_cast<std::uint32_t>(o),
+                          prepared[o]);
+        }
+    });
+    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+        if (scene.objects[o].closure != mesh::Closure::Open) continue;
+        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
+        prepared[o].uncertainVoxels =
+            addWindingFill(prepared[o].index, scene, grid, claims.solidOrder[o], options.threads, prepared[o].boxes);
+    }
+    join(prepared, all);
     return all;
 }
 
@@ -258,10 +282,10 @@ private:
 // Tile makers with their buffers, lent from task to task.
 class MakerPool {
 public:
-    explicit MakerPool(std::span<const OrderedClaim> claims) : claims_(claims) {}
+    MakerPool(std::span<const OrderedClaim> claims, const LevelTable& levels) : claims_(claims), levels_(levels) {}
     std::unique_ptr<TileColumns> take() {
         const std::lock_guard lock(mutex_);
-        if (free_.empty()) return std::make_unique<TileColumns>(claims_);
+        if (free_.empty()) return std::make_unique<TileColumns>(claims_, levels_);
         auto maker = std::move(free_.back());
         free_.pop_back();
         return maker;
@@ -280,6 +304,7 @@ public:
 
 private:
     std::span<const OrderedClaim> claims_;
+    const LevelTable& levels_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<TileColumns>> free_;
 };
@@ -302,7 +327,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
             tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
         },
         [&](std::uint32_t n, std::int32_t x, std::int32_t y) {
-            return touchesSamples(triangles[n], geometry.faces.faces[triangles[n].face].sign, x * kTile, y * kTile,
+            return touchesSamples(triangles[n], geometry.faces.faces[triangles[n].face].isEntry, x * kTile, y * kTile,
                                   kTile, kTile);
         });
     const TileBins boxBins = fillBins(
@@ -317,7 +342,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
     Tiles result;
     result.tiles.resize(tileCount);
     TileProgress progress(options.progress, tileCount);
-    MakerPool makers(claims.ordered);
+    MakerPool makers(claims.ordered, geometry.levels);
     parallelFor(tileCount, 1, options.threads, [&](std::size_t begin, std::size_t end) {
         auto maker = makers.take();
         for (std::size_t tile = begin; tile < end; ++tile) {

@@ -86,7 +86,7 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         ScanTriangle scan;
         if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], kScanAxes[2], nullptr, scan))
+                      mesh.points[triangle.corners[2]], kScanAxes[2], scan))
             triangles.push_back(scan);
     }
 
