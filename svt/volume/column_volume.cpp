@@ -48,7 +48,7 @@ bool isEqualColumn(std::span<const Run> a, std::span<const Run> b) noexcept {
 
 template <class T>
 bool isEqual(std::span<const T> a, std::span<const T> b) noexcept {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 // Everything that column() and scalarAt() rely on.
@@ -215,60 +215,47 @@ bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept {
 }
 
 void ColumnTileBuilder::start(std::int32_t width) {
-    constexpr std::size_t kFirstTable = 512;
-    width_ = width;
-    data_.rowOf.clear();
-    data_.rowColumns.clear();
-    data_.columnStart.assign(1, 0);
-    data_.runs.clear();
-    columnTable_.assign(kFirstTable, 0);
-    rowHashes_.clear();
-}
-
-void ColumnTileBuilder::growTable() {
-    std::vector<std::uint64_t> table(columnTable_.size() * 2, 0);
-    const std::size_t mask = table.size() - 1;
-    for (const std::uint64_t entry : columnTable_) {
-        if (entry == 0) continue;
-        std::size_t slot = entry >> 32 & mask;
-        while (table[slot] != 0) slot = (slot + 1) & mask;
-        table[slot] = entry;
-    }
-    columnTable_ = std::move(table);
+    width_ = static_cast<std::size_t>(width);
+    runCount_ = 0;
+    columnStart_.assign(1, 0);
+    rowColumns_.clear();
+    rowOf_.clear();
+    columnIndex_.clear();
+    rowIndex_.clear();
 }
 
 std::uint16_t ColumnTileBuilder::addColumn(std::span<const Run> runs) {
-    const std::uint64_t hash = hashRuns(runs) >> 32;
-    const std::size_t mask = columnTable_.size() - 1;
-    std::size_t slot = hash & mask;
-    for (; columnTable_[slot] != 0; slot = (slot + 1) & mask) {
-        if (columnTable_[slot] >> 32 != hash) continue;
-        const auto column = static_cast<std::uint32_t>(columnTable_[slot] & 0xFFFFFFFFu) - 1;
-        if (isEqualColumn(data_.view().column(column), runs)) return static_cast<std::uint16_t>(column);
-    }
-    const auto column = static_cast<std::uint32_t>(data_.columnStart.size() - 1);
-    columnTable_[slot] = hash << 32 | (column + 1);
-    data_.runs.insert(data_.runs.end(), runs.begin(), runs.end());
-    data_.columnStart.push_back(static_cast<std::uint32_t>(data_.runs.size()));
-    if (data_.columnStart.size() * 2 > columnTable_.size()) growTable();
-    return static_cast<std::uint16_t>(column);
+    std::copy(runs.begin(), runs.end(), beginColumn(runs.size()));
+    return endColumn(runs.size());
+}
+
+std::uint16_t ColumnTileBuilder::endColumn(std::size_t count) {
+    const std::span<const Run> runs(runs_.data() + runCount_, count);
+    return static_cast<std::uint16_t>(columnIndex_.findOrAdd(
+        hashRuns(runs), [&](std::uint32_t known) { return isEqualColumn(column(known), runs); },
+        [&] {
+            runCount_ += count;
+            columnStart_.push_back(static_cast<std::uint32_t>(runCount_));
+            return static_cast<std::uint32_t>(columnStart_.size() - 2);
+        }));
 }
 
 void ColumnTileBuilder::addRow(std::span<const std::uint16_t> columns) {
-    const std::uint64_t hash = hashRow(columns);
-    const std::size_t width = static_cast<std::size_t>(width_);
-    for (std::size_t row = 0; row < rowHashes_.size(); ++row) {
-        const std::span<const std::uint16_t> known(data_.rowColumns.data() + row * width, width);
-        if (rowHashes_[row] == hash && isEqual(known, columns)) {
-            data_.rowOf.push_back(static_cast<std::uint8_t>(row));
-            return;
-        }
-    }
-    data_.rowOf.push_back(static_cast<std::uint8_t>(rowHashes_.size()));
-    rowHashes_.push_back(hash);
-    data_.rowColumns.insert(data_.rowColumns.end(), columns.begin(), columns.end());
+    rowOf_.push_back(static_cast<std::uint8_t>(rowIndex_.findOrAdd(
+        hashRow(columns),
+        [&](std::uint32_t known) {
+            return isEqual<std::uint16_t>(std::span(rowColumns_).subspan(known * width_, width_), columns);
+        },
+        [&] {
+            rowColumns_.insert(rowColumns_.end(), columns.begin(), columns.end());
+            return static_cast<std::uint32_t>(rowColumns_.size() / width_ - 1);
+        })));
 }
 
-void ColumnTileBuilder::repeatRow() { data_.rowOf.push_back(data_.rowOf.back()); }
+void ColumnTileBuilder::repeatRow() { rowOf_.push_back(rowOf_.back()); }
+
+ColumnTileData ColumnTileBuilder::finish() const {
+    return {rowOf_, rowColumns_, columnStart_, {runs_.begin(), runs_.begin() + static_cast<std::ptrdiff_t>(runCount_)}};
+}
 
 }  // namespace svt::volume

@@ -15,6 +15,7 @@
 /// nz; neighbours differ in scalar. Columns and rows are numbered by first use (rows bottom up, x ascending), so equal
 /// volumes have equal bytes.
 
+#include <svt/core/hash_index.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 
@@ -114,22 +115,34 @@ public:
     /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in
     /// scalar.
     [[nodiscard]] std::uint16_t addColumn(std::span<const Run> runs);
+    /// The same without a copy: room for at most `count` runs, ...
+    [[nodiscard]] Run* beginColumn(std::size_t count) {
+        if (runs_.size() < runCount_ + count) runs_.resize(2 * (runCount_ + count));
+        return runs_.data() + runCount_;
+    }
+    /// ... of which the column has so many.
+    [[nodiscard]] std::uint16_t endColumn(std::size_t count);
     /// The next row: `width` column numbers.
     void addRow(std::span<const std::uint16_t> columns);
     /// The next row is equal to the one before.
     void repeatRow();
     /// Number of rows added so far.
-    [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(data_.rowOf.size()); }
-    /// The finished tile; numbered by first use where addColumn was called in order of first use.
-    [[nodiscard]] ColumnTileData finish() const { return data_; }
+    [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(rowOf_.size()); }
+    /// The finished tile; numbered by first use where columns were added in order of first use.
+    [[nodiscard]] ColumnTileData finish() const;
 
 private:
-    void growTable();
+    [[nodiscard]] std::span<const Run> column(std::uint32_t number) const noexcept {
+        return std::span(runs_).subspan(columnStart_[number], columnStart_[number + 1] - columnStart_[number]);
+    }
 
-    std::int32_t width_ = 0;
-    ColumnTileData data_;
-    std::vector<std::uint64_t> columnTable_;  // open addressing: upper half of the hash, column number + 1; 0 = free
-    std::vector<std::uint64_t> rowHashes_;
+    std::size_t width_ = 0;
+    std::vector<Run> runs_;  // the first runCount_ are in use
+    std::size_t runCount_ = 0;
+    std::vector<std::uint32_t> columnStart_;
+    std::vector<std::uint16_t> rowColumns_;
+    std::vector<std::uint8_t> rowOf_;
+    HashIndex columnIndex_{512}, rowIndex_{128};
 };
 
 }  // namespace svt::volume

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace svt::voxelize {
 namespace {
@@ -9,19 +10,17 @@ namespace {
 // False where the triangle crosses no sample line within `dimension`.
 bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Vec3i dimension, FaceTriangle& out,
                bool& looksDown) noexcept {
-    const auto [lowY, highY] = std::minmax({a[1], b[1], c[1]});
-    out.firstRow = static_cast<std::int32_t>(firstSampleAbove(lowY));
-    out.endRow = static_cast<std::int32_t>(firstSampleAbove(highY));
+    const QuantaPoint* corners[3] = {&a, &b, &c};
+    for (int i = 0; i < 3; ++i) out.row[i] = static_cast<std::int32_t>(firstSampleAbove((*corners[i])[1]));
+    std::tie(out.firstRow, out.endRow) = std::minmax({out.row[0], out.row[1], out.row[2]});
     if (out.firstRow >= out.endRow || out.endRow <= 0 || out.firstRow >= dimension.y) return false;
-    const auto [lowX, highX] = std::minmax({a[0], b[0], c[0]});
-    out.firstColumn = static_cast<std::int32_t>(firstSampleAbove(lowX));
-    out.endColumn = static_cast<std::int32_t>(firstSampleAbove(highX));
+    for (int i = 0; i < 3; ++i) out.column[i] = static_cast<std::int32_t>(firstSampleAbove((*corners[i])[0]));
+    std::tie(out.firstColumn, out.endColumn) = std::minmax({out.column[0], out.column[1], out.column[2]});
     if (out.firstColumn >= out.endColumn || out.endColumn <= 0 || out.firstColumn >= dimension.x) return false;
     const std::int64_t area = (std::int64_t(b[0]) - a[0]) * (std::int64_t(c[1]) - a[1]) -
                               (std::int64_t(b[1]) - a[1]) * (std::int64_t(c[0]) - a[0]);
     if (area == 0) return false;
     looksDown = area < 0;
-    const QuantaPoint* corners[3] = {&a, &b, &c};
     for (int i = 0; i < 3; ++i) {
         out.x[i] = (*corners[i])[0];
         out.y[i] = (*corners[i])[1];

@@ -63,19 +63,19 @@ public:
     /// Above the last crossing.
     [[nodiscard]] volume::Scalar topScalar(std::uint32_t profile) const noexcept { return profiles_[profile].top; }
 
-    /// True where it has an interval that two solids share.
-    [[nodiscard]] bool isShared(std::uint32_t profile) const noexcept { return profiles_[profile].sharedCount != 0; }
-
-    /// Adds `columns` columns that meet the profile's levels at `heights` (first sample above, ascending; one more than
-    /// levels, the last is the grid's depth).
-    void addColumns(std::uint32_t profile, const std::int32_t* heights, std::uint64_t columns) noexcept {
+    /// Calls `body(interval, length)` for each interval in which two solids or more are active and that is not empty
+    /// where a column meets the profile's levels at `heights` (first sample above, ascending; one more than levels, the
+    /// last is the grid's depth).
+    template <class Body>
+    void forEachShared(std::uint32_t profile, const std::int32_t* heights, Body&& body) const {
         const Profile& p = profiles_[profile];
         for (std::uint32_t s = p.firstShared; s < p.firstShared + p.sharedCount; ++s) {
-            SharedInterval& interval = shared_[s];
-            interval.voxels +=
-                columns * static_cast<std::uint64_t>(heights[interval.level + 1] - heights[interval.level]);
+            const std::int32_t* height = heights + shared_[s].level;
+            if (height[1] > height[0]) body(s, static_cast<std::uint32_t>(height[1] - height[0]));
         }
     }
+    /// Adds voxels to an interval.
+    void addShared(std::uint32_t interval, std::uint64_t voxels) noexcept { shared_[interval].voxels += voxels; }
 
     /// Appends what solids share to `counts` and forgets all profiles: their numbers are no longer valid.
     void takeCounts(std::vector<SharedCount>& counts);

@@ -39,6 +39,8 @@ std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::u
     stack.firstSloped = static_cast<std::uint32_t>(sloped_.size());
     stack.firstHeight = static_cast<std::uint32_t>(heights_.size());
     members_.insert(members_.end(), members.begin(), members.end());
+    const std::size_t firstCode = stackCodes_.size();
+    stackCodes_.resize(firstCode + members.size());
     for (std::size_t m = 0; m < members.size(); ++m) {
         const Boundary boundary = Boundary::unpack(members[m]);
         const bool isLevel = m > 0 && boundary.level == stackLevels_.back().level;
@@ -50,9 +52,9 @@ std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::u
                 sloped_.push_back({boundary.level, stack.levelCount, 0});
             }
             order_.push_back(stack.levelCount++);
-            stackLevels_.push_back({boundary.level, static_cast<std::uint32_t>(stackCodes_.size()), 0});
+            stackLevels_.push_back({boundary.level, static_cast<std::uint32_t>(firstCode + m), 0});
         }
-        stackCodes_.push_back(ProfileCode{boundary.claim, boundary.isEntry, isLevel}.packed());
+        stackCodes_[firstCode + m] = ProfileCode{boundary.claim, boundary.isEntry, isLevel}.packed();
         ++stackLevels_.back().codeCount;
     }
     stack.slopedCount = static_cast<std::uint32_t>(sloped_.size()) - stack.firstSloped;
@@ -87,12 +89,12 @@ void TileColumns::orderStack(Stack& stack) {
             heights[to] = height;
         }
     }
-    codes_.clear();
+    codes_.resize(stack.memberCount);
     places_.resize(count);
+    std::uint32_t* code = codes_.data();
     for (std::uint32_t c = 0; c < count; ++c) {
         const StackLevel& level = stackLevels_[stack.firstLevel + order[c]];
-        const auto first = stackCodes_.begin() + level.firstCode;
-        codes_.insert(codes_.end(), first, first + level.codeCount);
+        code = std::copy_n(stackCodes_.data() + level.firstCode, level.codeCount, code);
         places_[order[c]] = stack.firstHeight + 1 + c;
     }
     for (SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount))
@@ -107,7 +109,6 @@ void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
         heights_[stack.firstHeight + 1 + c] =
             levels_.isSloped(level) ? levels_[level].sampleAbove(i, j) : static_cast<std::int32_t>(level);
     }
-    if (runs_.size() < stack.levelCount + 1) runs_.resize(stack.levelCount + 1);
     if (stepHeights_.size() < stack.slopedCount) stepHeights_.resize(stack.slopedCount);
     orderStack(stack);
     stack.isOrdered = true;
@@ -126,23 +127,28 @@ void TileColumns::moveStack(Stack& stack, const std::int32_t* slopedHeights) {
 }
 
 // Counts the voxels that solids share in columns at the stack's heights.
-void TileColumns::countColumns(const Stack& stack, std::uint64_t columns) noexcept {
-    profiles_.addColumns(stack.profile, heights_.data() + stack.firstHeight + 1, columns);
+void TileColumns::countShared(const Stack& stack, std::uint64_t columns) {
+    profiles_.forEachShared(
+        stack.profile, heights_.data() + stack.firstHeight + 1,
+        [&](std::uint32_t interval, std::uint32_t length) { profiles_.addShared(interval, columns * length); });
 }
 
-// The same for a column made lately, once for all that were made.
-void TileColumns::countKnown(KnownColumn& known) {
-    if (known.columns == 0 || !known.isShared) return;
-    Stack& stack = stacks_[known.stack];
-    moveStack(stack, known.heights);
-    countColumns(stack, known.columns);
-    known.columns = 0;
+// The same, noted for all that will be made; no longer known where it is too much to note.
+void TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
+    known.sharedCount = 0;
+    profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
+                            [&](std::uint32_t interval, std::uint32_t length) {
+                                if (known.sharedCount < KnownColumn::kMostShared)
+                                    known.shared[known.sharedCount++] = {interval, length};
+                                else
+                                    known.stack = kNoStack;
+                            });
 }
 
 // Number of the column with the stack's heights.
 std::uint16_t TileColumns::makeColumn(const Stack& stack) {
     const std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
-    volume::Run* const first = runs_.data();
+    volume::Run* const first = builder_.beginColumn(std::size_t(stack.levelCount) + 1);
     volume::Run* end = first;
     std::uint32_t from = 0;
     const auto emit = [&](std::uint32_t to, volume::Scalar scalar) {
@@ -156,7 +162,7 @@ std::uint16_t TileColumns::makeColumn(const Stack& stack) {
     for (const ScalarChange& change : profiles_.changes(stack.profile))
         emit(static_cast<std::uint32_t>(heights[change.level]), change.below);
     emit(static_cast<std::uint32_t>(levels_.depth), profiles_.topScalar(stack.profile));
-    return builder_.addColumn({first, end});
+    return builder_.endColumn(static_cast<std::size_t>(end - first));
 }
 
 // Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
@@ -191,28 +197,25 @@ std::uint16_t TileColumns::makeStep(std::uint32_t number, std::uint32_t line, st
         stepHeights_[s] = *place;
         key = (key + static_cast<std::uint32_t>(*place)) * 0x9E3779B1u;
     }
-    if (stack.slopedCount > KnownColumn::kMostSloped) {
-        moveStack(stack, stepHeights_.data());
-        countColumns(stack, columns);
-        return makeColumn(stack);
-    }
     KnownColumn& known = known_[key >> (32 - kKnownBits)];
-    bool isKnown = known.stack == number;
+    bool isKnown = known.stack == number && known.tile == tile_;
     for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == stepHeights_[s];
-    if (!isKnown) {
-        countKnown(known);
+    if (isKnown) {
+        for (const auto& shared : std::span(known.shared, known.sharedCount))
+            profiles_.addShared(shared.interval, columns * shared.length);
+        return known.column;
+    }
+    moveStack(stack, stepHeights_.data());
+    countShared(stack, columns);
+    const std::uint16_t column = makeColumn(stack);
+    if (stack.slopedCount <= KnownColumn::kMostSloped) {
         known.stack = number;
-        known.columns = 0;
-        std::copy_n(stepHeights_.data(), stack.slopedCount, known.heights);
-    }
-    if (!isKnown || known.tile != tile_) {
-        moveStack(stack, known.heights);
         known.tile = tile_;
-        known.column = makeColumn(stack);
-        known.isShared = profiles_.isShared(stack.profile);
+        known.column = column;
+        std::copy_n(stepHeights_.data(), stack.slopedCount, known.heights);
+        measureShared(stack, known);
     }
-    known.columns += columns;
-    return known.column;
+    return column;
 }
 
 // Columns of a cell in row y, as far as they differ from those of the row before. Rows [firstRow, endRow) have one
@@ -232,7 +235,7 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
     if (y != firstRow && !stack.slopesY) return;
     const auto count = static_cast<std::uint64_t>(stack.slopesY ? 1 : rows);
     if (!stack.slopesX) {
-        countColumns(stack, count * std::uint64_t(width));
+        countShared(stack, count * std::uint64_t(width));
         if (stack.tile != tile_) {
             stack.tile = tile_;
             stack.column = makeColumn(stack);
@@ -301,10 +304,7 @@ volume::ColumnTileData TileColumns::make(const TileInput& input) {
 
 // Forgets all stacks and profiles; what they counted goes to counts_.
 void TileColumns::forget() {
-    for (KnownColumn& known : known_) {
-        countKnown(known);
-        known = {};
-    }
+    std::ranges::fill(known_, KnownColumn{});
     profiles_.takeCounts(counts_);
     stacks_.clear();
     stackIndex_.clear();

@@ -60,14 +60,16 @@ private:
         bool isAlongX;
     };
 
-    // Columns made lately, by their stack and the heights of its sloped levels.
+    // Columns made lately, by their stack and the heights of its sloped levels, with what solids share in each.
     struct KnownColumn {
-        static constexpr std::size_t kMostSloped = 6;
+        static constexpr std::size_t kMostSloped = 6, kMostShared = 4;
         std::uint32_t stack = kNoStack, tile = 0;
         std::int32_t heights[kMostSloped] = {};
         std::uint16_t column = 0;
-        bool isShared = false;      // voxels of it are to be counted:
-        std::uint64_t columns = 0;  // how many were made since
+        std::uint8_t sharedCount = 0;
+        struct Shared {
+            std::uint32_t interval, length;
+        } shared[kMostShared] = {};
     };
     static constexpr std::uint32_t kNoStack = 0xFFFFFFFFu;
 
@@ -76,8 +78,8 @@ private:
     void beginStack(Stack& stack, std::int32_t i, std::int32_t j);
     void orderStack(Stack& stack);
     void moveStack(Stack& stack, const std::int32_t* slopedHeights);
-    void countColumns(const Stack& stack, std::uint64_t columns) noexcept;
-    void countKnown(KnownColumn& known);
+    void countShared(const Stack& stack, std::uint64_t columns);
+    void measureShared(const Stack& stack, KnownColumn& known) const;
     void forget();
 
     void makeRows(std::int32_t firstRow, std::int32_t endRow);
@@ -110,7 +112,6 @@ private:
     std::vector<std::int32_t> lines_;  // of a line: kTile heights for each sloped level of its stack
     std::vector<KnownColumn> known_;
     std::vector<std::int32_t> stepHeights_;  // of the sloped levels at one step of a line
-    std::vector<volume::Run> runs_;
 };
 
 }  // namespace svt::voxelize

@@ -31,20 +31,21 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
 bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
                          PlacedEdge& out) noexcept {
     const int from = edge, to = edge == 2 ? 0 : edge + 1;
+    if (t.row[from] == t.row[to]) return false;
     // Counter-clockwise, an edge that goes south has the triangle to its east.
-    const bool goesNorth = t.y[from] < t.y[to];
-    out.isEntry = goesNorth == looksDown;
+    const bool goesNorth = t.row[from] < t.row[to];
     const int south = goesNorth ? from : to, north = goesNorth ? to : from;
+    out.firstRow = std::max(t.row[south] - input.firstRow, 0);
+    out.endRow = std::min(t.row[north] - input.firstRow, input.height);
+    if (out.firstRow >= out.endRow) return false;
+    out.first = std::min(t.column[from], t.column[to]) - input.firstColumn;
+    out.last = std::max(t.column[from], t.column[to]) - input.firstColumn;
+    if (out.first >= input.width) return false;
+    out.isEntry = goesNorth == looksDown;
     out.x0 = t.x[south];
     out.y0 = t.y[south];
     out.x1 = t.x[north];
     out.y1 = t.y[north];
-    out.firstRow = std::max(static_cast<std::int32_t>(firstSampleAbove(out.y0)) - input.firstRow, 0);
-    out.endRow = std::min(static_cast<std::int32_t>(firstSampleAbove(out.y1)) - input.firstRow, input.height);
-    if (out.firstRow >= out.endRow) return false;
-    out.first = static_cast<std::int32_t>(firstSampleAbove(std::min(out.x0, out.x1))) - input.firstColumn;
-    out.last = static_cast<std::int32_t>(firstSampleAbove(std::max(out.x0, out.x1))) - input.firstColumn;
-    if (out.first >= input.width) return false;
     if (out.last <= 0 || (t.innerEdges >> edge & 1) == 0) return true;
     // The triangle beyond an inner edge touches the tile too, unless all of the edge lies west of it.
     if (out.first > 0) return false;
