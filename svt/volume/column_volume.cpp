@@ -14,10 +14,14 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
     return hash ^ (hash >> 32);
 }
 
+// Multilinear: runs times odd factors, all at once, since no product waits for the one before. Good in its upper half.
 std::uint64_t hashRuns(std::span<const Run> runs) noexcept {
-    std::uint64_t hash = runs.size();
-    for (const Run& run : runs) hash = mix(hash, (std::uint64_t(run.end) << 32) | run.scalar);
-    return hash;
+    std::uint64_t hash = runs.size(), factor = 0x9E3779B97F4A7C15ull;
+    for (const Run& run : runs) {
+        hash += ((std::uint64_t(run.scalar) << 32 | run.end) + (factor >> 7)) * factor;
+        factor += 0xBF58476D1CE4E5BAull;
+    }
+    return hash ^ hash >> 29;
 }
 
 std::uint64_t hashRow(std::span<const std::uint16_t> columns) noexcept {
@@ -32,9 +36,17 @@ std::uint64_t hashRow(std::span<const std::uint16_t> columns) noexcept {
     return hash;
 }
 
+// Without a branch for each run: the runs that a table leads to are nearly always equal.
+bool isEqualColumn(std::span<const Run> a, std::span<const Run> b) noexcept {
+    if (a.size() != b.size()) return false;
+    std::uint32_t differences = 0;
+    for (std::size_t r = 0; r < a.size(); ++r) differences |= (a[r].end ^ b[r].end) | (a[r].scalar ^ b[r].scalar);
+    return differences == 0;
+}
+
 template <class T>
 bool isEqual(std::span<const T> a, std::span<const T> b) noexcept {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 }  // namespace
@@ -145,55 +157,48 @@ bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept {
     return true;
 }
 
-ColumnTileBuilder::ColumnTileBuilder(std::int32_t width) : width_(width), columnTable_(512, 0) {
-    data_.rowOf.reserve(static_cast<std::size_t>(ColumnVolume::kTileSize));
-    data_.columnStart.push_back(0);
-}
-
-void ColumnTileBuilder::grow() {
-    std::vector<std::uint32_t> table(columnTable_.size() * 2, 0);
-    const std::size_t mask = table.size() - 1;
-    for (std::uint32_t column = 0; column < columnCount_; ++column) {
-        std::size_t slot = hashRuns(data_.view().column(column)) & mask;
-        while (table[slot] != 0) slot = (slot + 1) & mask;
-        table[slot] = column + 1;
-    }
-    columnTable_ = std::move(table);
+void ColumnTileBuilder::start(std::int32_t width) {
+    width_ = static_cast<std::size_t>(width);
+    runCount_ = 0;
+    columnStart_.assign(1, 0);
+    rowColumns_.clear();
+    rowOf_.clear();
+    columnIndex_.clear();
+    rowIndex_.clear();
 }
 
 std::uint16_t ColumnTileBuilder::addColumn(std::span<const Run> runs) {
-    const std::size_t mask = columnTable_.size() - 1;
-    std::size_t slot = hashRuns(runs) & mask;
-    while (columnTable_[slot] != 0) {
-        const std::uint32_t column = columnTable_[slot] - 1;
-        if (isEqual<Run>(data_.view().column(column), runs)) return static_cast<std::uint16_t>(column);
-        slot = (slot + 1) & mask;
-    }
-    const std::uint32_t column = columnCount_++;
-    columnTable_[slot] = column + 1;
-    data_.runs.insert(data_.runs.end(), runs.begin(), runs.end());
-    data_.columnStart.push_back(static_cast<std::uint32_t>(data_.runs.size()));
-    if (columnCount_ * 2 > columnTable_.size()) grow();
-    return static_cast<std::uint16_t>(column);
+    std::copy(runs.begin(), runs.end(), beginColumn(runs.size()));
+    return endColumn(runs.size());
+}
+
+std::uint16_t ColumnTileBuilder::endColumn(std::size_t count) {
+    const std::span<const Run> runs(runs_.data() + runCount_, count);
+    return static_cast<std::uint16_t>(columnIndex_.findOrAdd(
+        hashRuns(runs), [&](std::uint32_t known) { return isEqualColumn(column(known), runs); },
+        [&] {
+            runCount_ += count;
+            columnStart_.push_back(static_cast<std::uint32_t>(runCount_));
+            return static_cast<std::uint32_t>(columnStart_.size() - 2);
+        }));
 }
 
 void ColumnTileBuilder::addRow(std::span<const std::uint16_t> columns) {
-    const std::uint64_t hash = hashRow(columns);
-    const std::size_t width = static_cast<std::size_t>(width_);
-    for (std::size_t row = 0; row < rowHashes_.size(); ++row) {
-        const std::span<const std::uint16_t> known(data_.rowColumns.data() + row * width, width);
-        if (rowHashes_[row] == hash && isEqual(known, columns)) {
-            data_.rowOf.push_back(static_cast<std::uint8_t>(row));
-            return;
-        }
-    }
-    data_.rowOf.push_back(static_cast<std::uint8_t>(rowHashes_.size()));
-    rowHashes_.push_back(hash);
-    data_.rowColumns.insert(data_.rowColumns.end(), columns.begin(), columns.end());
+    rowOf_.push_back(static_cast<std::uint8_t>(rowIndex_.findOrAdd(
+        hashRow(columns),
+        [&](std::uint32_t known) {
+            return isEqual<std::uint16_t>(std::span(rowColumns_).subspan(known * width_, width_), columns);
+        },
+        [&] {
+            rowColumns_.insert(rowColumns_.end(), columns.begin(), columns.end());
+            return static_cast<std::uint32_t>(rowColumns_.size() / width_ - 1);
+        })));
 }
 
-void ColumnTileBuilder::repeatRow() { data_.rowOf.push_back(data_.rowOf.back()); }
+void ColumnTileBuilder::repeatRow() { rowOf_.push_back(rowOf_.back()); }
 
-ColumnTileData ColumnTileBuilder::finish() { return std::move(data_); }
+ColumnTileData ColumnTileBuilder::finish() const {
+    return {rowOf_, rowColumns_, columnStart_, {runs_.begin(), runs_.begin() + static_cast<std::ptrdiff_t>(runCount_)}};
+}
 
 }  // namespace svt::volume

@@ -15,6 +15,7 @@
 /// nz; neighbours differ in scalar. Columns and rows are numbered by first use (rows bottom up, x ascending), so equal
 /// volumes have equal bytes.
 
+#include <svt/core/hash_index.hpp>
 #include <svt/core/vec.hpp>
 
 #include <cstddef>
@@ -96,31 +97,46 @@ private:
     std::shared_ptr<const void> storage_;
 };
 
-/// Makes one tile row by row, sharing equal columns and equal rows.
+/// Makes tiles one after the other, each row by row, sharing equal columns and equal rows. Keeps its buffers between
+/// tiles.
 class ColumnTileBuilder {
 public:
-    explicit ColumnTileBuilder(std::int32_t width);
+    explicit ColumnTileBuilder(std::int32_t width) { start(width); }
+
+    /// Begins a tile of `width` columns; an unfinished one is forgotten.
+    void start(std::int32_t width);
 
     /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in
     /// scalar.
     [[nodiscard]] std::uint16_t addColumn(std::span<const Run> runs);
+    /// The same without a copy: room for at most `count` runs, ...
+    [[nodiscard]] Run* beginColumn(std::size_t count) {
+        if (runs_.size() < runCount_ + count) runs_.resize(2 * (runCount_ + count));
+        return runs_.data() + runCount_;
+    }
+    /// ... of which the column has so many.
+    [[nodiscard]] std::uint16_t endColumn(std::size_t count);
     /// The next row: `width` column numbers.
     void addRow(std::span<const std::uint16_t> columns);
     /// The next row is equal to the one before.
     void repeatRow();
     /// Number of rows added so far.
-    [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(data_.rowOf.size()); }
-    /// The finished tile; numbered by first use where addColumn was called in order of first use.
-    [[nodiscard]] ColumnTileData finish();
+    [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(rowOf_.size()); }
+    /// The finished tile; numbered by first use where columns were added in order of first use.
+    [[nodiscard]] ColumnTileData finish() const;
 
 private:
-    void grow();
+    [[nodiscard]] std::span<const Run> column(std::uint32_t number) const noexcept {
+        return std::span(runs_).subspan(columnStart_[number], columnStart_[number + 1] - columnStart_[number]);
+    }
 
-    std::int32_t width_;
-    ColumnTileData data_;
-    std::vector<std::uint32_t> columnTable_;  // open addressing: column number + 1, 0 = free
-    std::vector<std::uint64_t> rowHashes_;
-    std::uint32_t columnCount_ = 0;
+    std::size_t width_ = 0;
+    std::vector<Run> runs_;  // the first runCount_ are in use
+    std::size_t runCount_ = 0;
+    std::vector<std::uint32_t> columnStart_;
+    std::vector<std::uint16_t> rowColumns_;
+    std::vector<std::uint8_t> rowOf_;
+    HashIndex columnIndex_{512}, rowIndex_{128};
 };
 
 }  // namespace svt::volume

@@ -26,7 +26,6 @@ struct ScanTriangle {
     std::int32_t firstColumn, endColumn;
     std::int32_t lowest, highest;  ///< first sample above its lowest and highest corner: heights are clamped to it
     Height height;
-    std::uint32_t claim = 0;     ///< priority order of the claim it bounds
     std::int8_t sign = 0;        ///< winding change when passing upwards: +1 enters (face looks down), -1 leaves
     bool isMiddleRight = false;  ///< corner 1 lies right of the edge from corner 0 to corner 2
 };
@@ -49,11 +48,26 @@ struct ScanAxes {
 /// runs.
 inline constexpr ScanAxes kScanAxes[3] = {{2, 1, 0, true}, {2, 0, 1, false}, {0, 1, 2, false}};
 
+/// Heights of a face, and between which samples they are kept.
+struct FaceHeight {
+    Height height;
+    std::int32_t lowest = 0, highest = 0;  ///< first sample above its lowest and highest corner; no limits on a plane
+};
+
+/// Heights over the triangle a, b, c, which is not upright.
+[[nodiscard]] FaceHeight triangleHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
+                                        const ScanAxes& axes) noexcept;
+
+/// Heights over a plane in index space (quanta of z per voxel), for lines along z; without limits.
+[[nodiscard]] FaceHeight planeHeight(const mesh::Plane& plane) noexcept;
+
+/// True where heights are taken from `plane`: it is not so steep that the snap matters more than who shares the face.
+[[nodiscard]] bool isScanPlane(const mesh::Plane& plane) noexcept;
+
 /// Sets up the triangle with corners a, b, c for scanning.
-/// \param plane  shared plane in index space (quanta of z per voxel), used where not null; lines along z only
 /// \return false where the triangle crosses no sample line
 [[nodiscard]] bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes,
-                             const mesh::Plane* plane, ScanTriangle& out) noexcept;
+                             ScanTriangle& out) noexcept;
 
 /// Calls `body(j, begin, end)` for each row of `t` within [firstRow, endRow) and the samples [begin, end) of it within
 /// [firstColumn, endColumn). Exact: neighbours over an edge share no sample and leave none.

@@ -19,7 +19,7 @@ QuantaPoint corner(std::int64_t x, std::int64_t y, std::int64_t z = 0) {
 std::map<Sample, int> scanned(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c) {
     std::map<Sample, int> samples;
     ScanTriangle triangle;
-    if (!setUpScan(a, b, c, kScanAxes[2], nullptr, triangle)) return samples;
+    if (!setUpScan(a, b, c, kScanAxes[2], triangle)) return samples;
     scanRows(triangle, -1000, 1000, -1000, 1000, [&](std::int32_t j, std::int32_t begin, std::int32_t end) {
         for (std::int32_t i = begin; i < end; ++i) samples[{i, j}] += 1;
     });
@@ -78,34 +78,31 @@ TEST(ScanRows, FanAroundAPointCoversEverySampleOnce) {
 
 TEST(SetUpScan, TriangleThatMeetsNoSampleLineIsNone) {
     ScanTriangle triangle;
-    EXPECT_FALSE(
-        setUpScan(corner(10, 10), corner(200, 10), corner(10, 200), kScanAxes[2], nullptr, triangle));  // between lines
-    EXPECT_FALSE(
-        setUpScan(corner(0, 0), corner(500, 500), corner(1000, 1000), kScanAxes[2], nullptr, triangle));  // upright
+    EXPECT_FALSE(setUpScan(corner(10, 10), corner(200, 10), corner(10, 200), kScanAxes[2], triangle));  // between lines
+    EXPECT_FALSE(setUpScan(corner(0, 0), corner(500, 500), corner(1000, 1000), kScanAxes[2], triangle));  // upright
 }
 
 TEST(SetUpScan, SignTellsWhichWayTheFaceLooks) {
     ScanTriangle up, down;
-    ASSERT_TRUE(setUpScan(corner(0, 0), corner(1000, 0), corner(0, 1000), kScanAxes[2], nullptr, up));
-    ASSERT_TRUE(setUpScan(corner(0, 0), corner(0, 1000), corner(1000, 0), kScanAxes[2], nullptr, down));
+    ASSERT_TRUE(setUpScan(corner(0, 0), corner(1000, 0), corner(0, 1000), kScanAxes[2], up));
+    ASSERT_TRUE(setUpScan(corner(0, 0), corner(0, 1000), corner(1000, 0), kScanAxes[2], down));
     EXPECT_EQ(up.sign, -1);
     EXPECT_EQ(down.sign, 1);
     // The same for lines along x and y: a face that looks along the axis ends the solid.
     ScanTriangle east, north;
-    ASSERT_TRUE(setUpScan({0, 0, 0}, {0, 2000, 0}, {0, 0, 2000}, kScanAxes[0], nullptr, east));
-    ASSERT_TRUE(setUpScan({0, 0, 0}, {0, 0, 2000}, {2000, 0, 0}, kScanAxes[1], nullptr, north));
+    ASSERT_TRUE(setUpScan({0, 0, 0}, {0, 2000, 0}, {0, 0, 2000}, kScanAxes[0], east));
+    ASSERT_TRUE(setUpScan({0, 0, 0}, {0, 0, 2000}, {2000, 0, 0}, kScanAxes[1], north));
     EXPECT_EQ(east.sign, -1);
     EXPECT_EQ(north.sign, -1);
 }
 
 TEST(SampleAbove, IsTheFirstSampleOverTheFace) {
     ScanTriangle flat;
-    ASSERT_TRUE(setUpScan(corner(0, 0, 640), corner(2000, 0, 640), corner(0, 2000, 640), kScanAxes[2], nullptr, flat));
+    ASSERT_TRUE(setUpScan(corner(0, 0, 640), corner(2000, 0, 640), corner(0, 2000, 640), kScanAxes[2], flat));
     EXPECT_TRUE(flat.height.isFlat());
     EXPECT_EQ(sampleAbove(flat, flat.height.base), 3);  // 1280 quanta are 2.5 voxels
     ScanTriangle slope;                                 // one voxel up for two along
-    ASSERT_TRUE(setUpScan(corner(0, 0, 0), corner(256 * 20, 0, 256 * 10), corner(0, 256 * 20, 0), kScanAxes[2], nullptr,
-                          slope));
+    ASSERT_TRUE(setUpScan(corner(0, 0, 0), corner(256 * 20, 0, 256 * 10), corner(0, 256 * 20, 0), kScanAxes[2], slope));
     for (std::int32_t i = 1; i < 10; ++i)
         EXPECT_EQ(sampleAbove(slope, slope.height.base + slope.height.slopeX * i), i / 2 + (i % 2 == 0 ? 0 : 1)) << i;
 }

@@ -1,5 +1,7 @@
 #include <svt/voxelize/sheets.hpp>
 
+#include <svt/voxelize/disjoint_boxes.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,11 +18,11 @@ std::int32_t along(Vec3i dimension, std::size_t axis) { return dimension[int(axi
 void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
                 std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     if (axes.z == 2)
-        boxes.push_back({row, begin, end, at, at + 1, claim});
+        boxes.push_back({row, row + 1, begin, end, at, at + 1, claim});
     else if (axes.z == 0)
-        boxes.push_back({row, at, at + 1, begin, end, claim});
+        boxes.push_back({row, row + 1, at, at + 1, begin, end, claim});
     else
-        boxes.push_back({at, row, row + 1, begin, end, claim});
+        boxes.push_back({at, at + 1, row, row + 1, begin, end, claim});
 }
 
 // Joins neighbours in a row that lie at the same sample.
@@ -38,43 +40,6 @@ void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin,
     }
 }
 
-// The same voxels without repetition, as few boxes: runs along z, then equal runs side by side along x.
-std::uint64_t appendUnique(const std::vector<ClaimedBox>& raw, Vec3i dimension, std::vector<ClaimedBox>& boxes) {
-    std::vector<std::uint64_t> voxels;
-    for (const ClaimedBox& box : raw)
-        for (std::int32_t i = box.begin; i < box.end; ++i)
-            for (std::int32_t k = box.low; k < box.high; ++k)
-                voxels.push_back((std::uint64_t(box.j) * std::uint64_t(dimension.x) + std::uint64_t(i)) *
-                                     std::uint64_t(dimension.z) +
-                                 std::uint64_t(k));
-    std::sort(voxels.begin(), voxels.end());
-    voxels.erase(std::unique(voxels.begin(), voxels.end()), voxels.end());
-    std::vector<ClaimedBox> runs;
-    for (const std::uint64_t voxel : voxels) {
-        const auto k = static_cast<std::int32_t>(voxel % std::uint64_t(dimension.z));
-        const std::uint64_t column = voxel / std::uint64_t(dimension.z);
-        const auto i = static_cast<std::int32_t>(column % std::uint64_t(dimension.x));
-        const auto j = static_cast<std::int32_t>(column / std::uint64_t(dimension.x));
-        if (!runs.empty() && runs.back().j == j && runs.back().begin == i && runs.back().high == k)
-            ++runs.back().high;
-        else
-            runs.push_back({j, i, i + 1, k, k + 1, raw.front().claim});
-    }
-    std::sort(runs.begin(), runs.end(), [](const ClaimedBox& p, const ClaimedBox& q) {
-        return std::tie(p.j, p.low, p.high, p.begin) < std::tie(q.j, q.low, q.high, q.begin);
-    });
-    const std::size_t first = boxes.size();
-    for (const ClaimedBox& run : runs) {
-        ClaimedBox* last = boxes.size() > first ? &boxes.back() : nullptr;
-        if (last != nullptr && last->j == run.j && last->low == run.low && last->high == run.high &&
-            last->end == run.begin)
-            last->end = run.end;
-        else
-            boxes.push_back(run);
-    }
-    return voxels.size();
-}
-
 Vec3i nearestSample(Vec3d index) {
     return {static_cast<std::int32_t>(std::lrint(index.x)), static_cast<std::int32_t>(std::lrint(index.y)),
             static_cast<std::int32_t>(std::lrint(index.z))};
@@ -83,7 +48,7 @@ Vec3i nearestSample(Vec3d index) {
 void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     const Vec3i v = nearestSample(index);
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= dimension.x || v.y >= dimension.y || v.z >= dimension.z) return;
-    boxes.push_back({v.y, v.x, v.x + 1, v.z, v.z + 1, claim});
+    boxes.push_back({v.y, v.y + 1, v.x, v.x + 1, v.z, v.z + 1, claim});
 }
 
 // Separating axis test of a triangle against the box [-h, h]^3 around `center`.
@@ -113,7 +78,7 @@ void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, s
         for (const ScanAxes& axes : kScanAxes) {
             ScanTriangle scan;
             if (!setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                           mesh.points[triangle.corners[2]], axes, nullptr, scan))
+                           mesh.points[triangle.corners[2]], axes, scan))
                 continue;
             const std::int32_t behind = scan.sign < 0 ? -1 : 0;  // the face looks up: its back is the sample below
             const std::int32_t count = along(dimension, axes.z);
@@ -170,7 +135,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
                     const bool isTouched = k <= k1 && touchesBox(corner, {double(i), double(j), double(k)}, kTouch);
                     if (isTouched && begin < 0) begin = k;
                     if (!isTouched && begin >= 0) {
-                        boxes.push_back({j, i, i + 1, begin, k, claim});
+                        boxes.push_back({j, j + 1, i, i + 1, begin, k, claim});
                         begin = -1;
                     }
                 }
@@ -201,7 +166,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         const ScanAxes& axes = kScanAxes[axis];
         ScanTriangle scan;
         if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], axes, nullptr, scan) &&
+                      mesh.points[triangle.corners[2]], axes, scan) &&
             scan.sign > 0) {
             // Only faces that look down the axis: those on the other side of the sheet would find the same voxels.
             const auto depth = static_cast<std::int64_t>(std::ldexp(chord * double(kQuanta), Height::kBits));
@@ -243,7 +208,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
         for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, raw);
     }
-    return appendUnique(raw, dimension, boxes);
+    return addDisjoint(raw, boxes);
 }
 
 }  // namespace svt::voxelize

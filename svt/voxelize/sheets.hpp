@@ -2,7 +2,7 @@
 /// \file
 /// Voxels of what has no inside: sheets, and parts of solids that are thinner than a voxel.
 
-#include <svt/voxelize/tile_columns.hpp>
+#include <svt/voxelize/tile_plan.hpp>
 #include <svt/voxelize/voxelize.hpp>
 
 #include <vector>

@@ -23,8 +23,9 @@ std::set<Voxel> voxelsOf(const std::vector<ClaimedBox>& boxes) {
     std::set<Voxel> voxels;
     for (const ClaimedBox& box : boxes) {
         EXPECT_EQ(box.claim, 5u);
-        for (int i = box.begin; i < box.end; ++i)
-            for (int k = box.low; k < box.high; ++k) voxels.insert({i, box.j, k});
+        for (int j = box.firstRow; j < box.endRow; ++j)
+            for (int i = box.begin; i < box.end; ++i)
+                for (int k = box.low; k < box.high; ++k) voxels.insert({i, j, k});
     }
     return voxels;
 }

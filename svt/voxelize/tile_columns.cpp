@@ -2,196 +2,324 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 namespace svt::voxelize {
 namespace {
 
-std::uint32_t clampToDepth(std::int32_t k, std::int32_t depth) noexcept {
-    return static_cast<std::uint32_t>(k < 0 ? 0 : k > depth ? depth : k);
-}
+constexpr int kKnownBits = 10;
 
-// A crossing in one word, in the order in which the sweep meets them: depth up to 2^16, 2^31 claims.
-constexpr int kDepthShift = 40;
-std::uint64_t packCrossing(std::uint32_t k, std::uint32_t claim, bool isEntry) noexcept {
-    return std::uint64_t(k) << kDepthShift | std::uint64_t(claim) << 1 | std::uint64_t(isEntry);
-}
-std::uint32_t claimOf(std::uint64_t crossing) noexcept {
-    return static_cast<std::uint32_t>(crossing >> 1 & 0x7FFFFFFFu);
+// The lowest set bit above `bit`, or `end`.
+std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noexcept {
+    const std::uint64_t above = bit + 1 < 64 ? bits >> (bit + 1) << (bit + 1) : 0;
+    return above != 0 ? std::countr_zero(above) : end;
 }
 
 }  // namespace
 
-void TileColumns::collectSpans(const TileInput& input) {
-    for (std::int32_t row = 0; row < input.height; ++row) rows_[row].clear();
-    for (const std::uint32_t index : input.triangleIndices) {
-        const ScanTriangle& t = input.triangles[index];
-        const bool isFlat = t.height.isFlat();
-        const std::int32_t flatK = isFlat ? sampleAbove(t, t.height.base) : 0;
-        scanRows(t, input.firstRow, input.firstRow + input.height, input.firstColumn, input.firstColumn + input.width,
-                 [&](std::int32_t j, std::int32_t begin, std::int32_t end) {
-                     const bool isEntry = t.sign > 0;
-                     Span span{keyOf(t.claim, isEntry, flatK), 0, 0, 0, 0, begin - input.firstColumn,
-                               end - input.firstColumn};
-                     if (!isFlat) {
-                         const std::int64_t base =
-                             t.height.base + t.height.slopeY * j + t.height.slopeX * input.firstColumn;
-                         if (t.height.slopeX == 0) {
-                             span.key = keyOf(t.claim, isEntry, sampleAbove(t, base));
-                         } else {
-                             span.base = base;
-                             span.slope = t.height.slopeX;
-                             span.lowest = t.lowest;
-                             span.highest = t.highest;
-                         }
-                     }
-                     rows_[j - input.firstRow].push_back(span);
-                 });
-    }
-    for (const ClaimedBox& box : input.boxes) {
-        const std::int32_t begin = std::max(box.begin - input.firstColumn, 0);
-        const std::int32_t end = std::min(box.end - input.firstColumn, input.width);
-        if (begin >= end) continue;
-        auto& spans = rows_[box.j - input.firstRow];
-        spans.push_back({keyOf(box.claim, true, box.low), 0, 0, 0, 0, begin, end});
-        spans.push_back({keyOf(box.claim, false, box.high), 0, 0, 0, 0, begin, end});
-    }
+std::uint32_t TileColumns::findStack(const PlanCell& cell) {
+    const auto members = plan_.boundariesOf(cell);
+    return stackIndex_.findOrAdd(
+        cell.hash,
+        [&](std::uint32_t number) {
+            const Stack& known = stacks_[number];
+            return known.hash == cell.hash && known.memberCount == members.size() &&
+                   std::equal(members.begin(), members.end(), members_.begin() + known.firstMember);
+        },
+        [&] { return addStack(cell, members); });
 }
 
-// Joins neighbours on the same plane, so that the row reads the same however faces were triangulated.
-void TileColumns::mergeSpans(std::vector<Span>& spans) {
-    const auto isBefore = [](const Span& p, const Span& q) {
-        if (p.key != q.key) return p.key < q.key;
-        if (p.slope != q.slope) return p.slope < q.slope;
-        if (p.base != q.base) return p.base < q.base;
-        return p.begin != q.begin ? p.begin < q.begin : p.end < q.end;
-    };
-    // Triangles come in the order of claims, so short rows are nearly sorted: insertion is the faster way.
-    constexpr std::size_t kShort = 64;
-    if (spans.size() > kShort) {
-        std::sort(spans.begin(), spans.end(), isBefore);
+// Members ascend, so those of one level stand side by side, and flat levels come bottom up.
+std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint64_t> members) {
+    Stack stack;
+    stack.hash = cell.hash;
+    stack.firstMember = static_cast<std::uint32_t>(members_.size());
+    stack.memberCount = static_cast<std::uint32_t>(members.size());
+    stack.firstLevel = static_cast<std::uint32_t>(stackLevels_.size());
+    stack.firstSloped = static_cast<std::uint32_t>(sloped_.size());
+    stack.firstHeight = static_cast<std::uint32_t>(heights_.size());
+    members_.insert(members_.end(), members.begin(), members.end());
+    const std::size_t firstCode = stackCodes_.size();
+    stackCodes_.resize(firstCode + members.size());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const Boundary boundary = Boundary::unpack(members[m]);
+        const bool isLevel = m > 0 && boundary.level == stackLevels_.back().level;
+        if (!isLevel) {
+            if (levels_.isSloped(boundary.level)) {
+                const Level& level = levels_[boundary.level];
+                stack.slopesX = stack.slopesX || level.slopeX != 0;
+                stack.slopesY = stack.slopesY || level.slopeY != 0;
+                sloped_.push_back({boundary.level, stack.levelCount, 0});
+            }
+            order_.push_back(stack.levelCount++);
+            stackLevels_.push_back({boundary.level, static_cast<std::uint32_t>(firstCode + m), 0});
+        }
+        stackCodes_[firstCode + m] = ProfileCode{boundary.claim, boundary.isEntry, isLevel}.packed();
+        ++stackLevels_.back().codeCount;
+    }
+    stack.slopedCount = static_cast<std::uint32_t>(sloped_.size()) - stack.firstSloped;
+    heights_.resize(heights_.size() + stack.levelCount + 2, 0);
+    heights_.back() = levels_.depth;
+    stacks_.push_back(stack);
+    return static_cast<std::uint32_t>(stacks_.size() - 1);
+}
+
+// Sorts the stack's levels by their heights and finds the profile that goes with this order. Which of equal heights
+// comes first makes no difference: nothing lies between them.
+void TileColumns::orderStack(Stack& stack) {
+    std::uint32_t* const order = order_.data() + stack.firstLevel;
+    std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
+    const std::uint32_t count = stack.levelCount;
+    constexpr std::uint32_t kShort = 32;
+    if (count > kShort) {
+        sorted_.clear();
+        for (std::uint32_t c = 0; c < count; ++c) sorted_.emplace_back(heights[c], order[c]);
+        std::sort(sorted_.begin(), sorted_.end());
+        for (std::uint32_t c = 0; c < count; ++c) std::tie(heights[c], order[c]) = sorted_[c];
     } else {
-        for (std::size_t s = 1; s < spans.size(); ++s) {
-            if (!isBefore(spans[s], spans[s - 1])) continue;
-            const Span moving = spans[s];
-            std::size_t to = s;
-            for (; to > 0 && isBefore(moving, spans[to - 1]); --to) spans[to] = spans[to - 1];
-            spans[to] = moving;
+        for (std::uint32_t c = 1; c < count; ++c) {
+            const std::uint32_t slot = order[c];
+            const std::int32_t height = heights[c];
+            std::uint32_t to = c;
+            for (; to > 0 && heights[to - 1] > height; --to) {
+                order[to] = order[to - 1];
+                heights[to] = heights[to - 1];
+            }
+            order[to] = slot;
+            heights[to] = height;
         }
     }
-    std::size_t kept = 0;
-    for (std::size_t s = 1; s < spans.size(); ++s) {
-        Span& last = spans[kept];
-        const Span& next = spans[s];
-        if (last.key == next.key && last.end == next.begin && last.slope == next.slope && last.base == next.base &&
-            last.lowest == next.lowest && last.highest == next.highest)
-            last.end = next.end;
-        else
-            spans[++kept] = next;
+    codes_.resize(stack.memberCount);
+    places_.resize(count);
+    std::uint32_t* code = codes_.data();
+    for (std::uint32_t c = 0; c < count; ++c) {
+        const StackLevel& level = stackLevels_[stack.firstLevel + order[c]];
+        code = std::copy_n(stackCodes_.data() + level.firstCode, level.codeCount, code);
+        places_[order[c]] = stack.firstHeight + 1 + c;
     }
-    if (!spans.empty()) spans.resize(kept + 1);
+    for (SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount))
+        sloped.height = places_[sloped.slot];
+    stack.profile = profiles_.find(codes_);
 }
 
-void TileColumns::changeWinding(std::uint32_t claim, bool isEntry) {
-    std::int32_t& winding = winding_[claim];
-    if (isEntry) {
-        if (++winding == 1) active_.insert(std::lower_bound(active_.begin(), active_.end(), claim), claim);
-    } else if (--winding == 0) {
-        active_.erase(std::lower_bound(active_.begin(), active_.end(), claim));
+// All heights of a stack.
+void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
+    for (std::uint32_t c = 0; c < stack.levelCount; ++c) {
+        const std::uint32_t level = stackLevels_[stack.firstLevel + c].level;
+        heights_[stack.firstHeight + 1 + c] =
+            levels_.isSloped(level) ? levels_[level].sampleAbove(i, j) : static_cast<std::int32_t>(level);
     }
+    if (stepHeights_.size() < stack.slopedCount) stepHeights_.resize(stack.slopedCount);
+    orderStack(stack);
+    stack.isOrdered = true;
 }
 
-// crossings_ to runs_; `columns` equal columns stand side by side.
-void TileColumns::sweepColumn(const TileInput& input, std::uint64_t columns) {
-    std::sort(crossings_.begin(), crossings_.end());
-    runs_.clear();
-    const auto depth = static_cast<std::uint32_t>(input.depth);
+// Sets the heights of the sloped levels.
+void TileColumns::moveStack(Stack& stack, const std::int32_t* slopedHeights) {
+    const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
+    for (const SlopedLevel& level : sloped) heights_[level.height] = *slopedHeights++;
+    bool ascends = true;
+    for (const SlopedLevel& level : sloped) {
+        const std::int32_t* height = heights_.data() + level.height;
+        ascends = ascends && height[-1] <= height[0] && height[0] <= height[1];
+    }
+    if (!ascends) orderStack(stack);
+}
+
+// Counts the voxels that solids share in columns at the stack's heights.
+void TileColumns::countShared(const Stack& stack, std::uint64_t columns) {
+    profiles_.forEachShared(
+        stack.profile, heights_.data() + stack.firstHeight + 1,
+        [&](std::uint32_t interval, std::uint32_t length) { profiles_.addShared(interval, columns * length); });
+}
+
+// The same, noted for all that will be made; no longer known where it is too much to note.
+void TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
+    known.sharedCount = 0;
+    profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
+                            [&](std::uint32_t interval, std::uint32_t length) {
+                                if (known.sharedCount < KnownColumn::kMostShared)
+                                    known.shared[known.sharedCount++] = {interval, length};
+                                else
+                                    known.stack = kNoStack;
+                            });
+}
+
+// Number of the column with the stack's heights.
+std::uint16_t TileColumns::makeColumn(const Stack& stack) {
+    const std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
+    volume::Run* const first = builder_.beginColumn(std::size_t(stack.levelCount) + 1);
+    volume::Run* end = first;
     std::uint32_t from = 0;
-    const auto emit = [&](std::uint32_t to) {
+    const auto emit = [&](std::uint32_t to, volume::Scalar scalar) {
         if (to == from) return;
-        const volume::Scalar scalar = active_.empty() ? 0 : input.claims[active_.front()].scalar;
-        if (!runs_.empty() && runs_.back().scalar == scalar)
-            runs_.back().end = to;
+        if (end != first && end[-1].scalar == scalar)
+            end[-1].end = to;
         else
-            runs_.push_back({to, scalar});
-        for (std::size_t a = 0; a + 1 < active_.size(); ++a) {
-            if (!input.claims[active_[a]].isSolid) continue;
-            for (std::size_t b = a + 1; b < active_.size(); ++b)
-                if (input.claims[active_[b]].isSolid)
-                    rowShared_.push_back({active_[a], active_[b], (to - from) * columns});
-        }
+            *end++ = {to, scalar};
         from = to;
     };
-    for (const std::uint64_t crossing : crossings_) {
-        emit(static_cast<std::uint32_t>(crossing >> kDepthShift));
-        changeWinding(claimOf(crossing), (crossing & 1) != 0);
-    }
-    emit(depth);
-    for (const std::uint64_t crossing : crossings_) winding_[claimOf(crossing)] = 0;
-    active_.clear();
+    for (const ScalarChange& change : profiles_.changes(stack.profile))
+        emit(static_cast<std::uint32_t>(heights[change.level]), change.below);
+    emit(static_cast<std::uint32_t>(levels_.depth), profiles_.topScalar(stack.profile));
+    return builder_.endColumn(static_cast<std::size_t>(end - first));
 }
 
-// Merged spans to a row of columns.
-void TileColumns::addRow(const TileInput& input, const std::vector<Span>& spans, std::vector<SharedCount>& shared) {
-    const auto width = static_cast<std::size_t>(input.width);
-    rowShared_.clear();
-    // Bit x is set where some crossing begins, ends or changes its sample.
+// Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
+// step before, or n is 0.
+std::uint64_t TileColumns::measureLine(const Stack& stack, const Line& line, std::uint32_t place) {
+    const std::size_t needed = place + std::size_t(stack.slopedCount) * kTile;
+    if (lines_.size() < needed) lines_.resize(needed);
+    std::int32_t* heights = lines_.data() + place;
     std::uint64_t breaks = 1;
-    heights_.clear();
-    for (const Span& span : spans) {
-        breaks |= std::uint64_t{1} << span.begin;
-        if (span.end < 64) breaks |= std::uint64_t{1} << span.end;
-        if (span.slope == 0) continue;
-        const std::size_t first = heights_.size();
-        heights_.resize(first + width);
-        std::int64_t height = span.base + span.slope * span.begin - (std::int64_t{1} << Height::kBits);
-        std::int32_t previous = 0;
-        for (std::int32_t x = span.begin; x < span.end; ++x, height += span.slope) {
-            const std::int64_t above = (height >> (Height::kBits + kQuantaBits)) + 1;
-            const auto k = static_cast<std::int32_t>(std::clamp<std::int64_t>(above, span.lowest, span.highest));
-            if (x != span.begin && k != previous) breaks |= std::uint64_t{1} << x;
-            previous = heights_[first + std::size_t(x)] = k;
+    for (const SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
+        const Level level = levels_[sloped.level];
+        const std::int64_t step = line.isAlongX ? level.slopeX : level.slopeY;
+        std::int64_t height = level.base + level.slopeX * line.i + level.slopeY * line.j;
+        std::int32_t previous = level.clamped(height);
+        for (std::int32_t n = 0; n < line.count; ++n) {
+            const std::int32_t k = level.clamped(height);
+            breaks |= std::uint64_t(k != previous) << n;
+            heights[n] = previous = k;
+            height += step;
         }
+        heights += kTile;
     }
-    if (input.width < 64) breaks &= (std::uint64_t{1} << input.width) - 1;
+    return breaks;
+}
 
-    row_.resize(width);
+// The column at a step of a line, of which there are `columns`.
+std::uint16_t TileColumns::makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns) {
+    Stack& stack = stacks_[number];
+    const std::int32_t* place = lines_.data() + line + step;
+    std::uint32_t key = number;
+    for (std::size_t s = 0; s < stack.slopedCount; ++s, place += kTile) {
+        stepHeights_[s] = *place;
+        key = (key + static_cast<std::uint32_t>(*place)) * 0x9E3779B1u;
+    }
+    KnownColumn& known = known_[key >> (32 - kKnownBits)];
+    bool isKnown = known.stack == number && known.tile == tile_;
+    for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == stepHeights_[s];
+    if (isKnown) {
+        for (const auto& shared : std::span(known.shared, known.sharedCount))
+            profiles_.addShared(shared.interval, columns * shared.length);
+        return known.column;
+    }
+    moveStack(stack, stepHeights_.data());
+    countShared(stack, columns);
+    const std::uint16_t column = makeColumn(stack);
+    if (stack.slopedCount <= KnownColumn::kMostSloped) {
+        known.stack = number;
+        known.tile = tile_;
+        known.column = column;
+        std::copy_n(stepHeights_.data(), stack.slopedCount, known.heights);
+        measureShared(stack, known);
+    }
+    return column;
+}
+
+// Columns of a cell in row y, as far as they differ from those of the row before. Rows [firstRow, endRow) have one
+// plan.
+void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow) {
+    Stack& stack = stacks_[cell.stack];
+    if (!stack.isOrdered) beginStack(stack, firstColumn_ + cell.begin, firstRow_ + y);
+    std::uint16_t* const columns = row_.data() + cell.begin;
+    const std::int32_t width = cell.end - cell.begin;
+    const std::int32_t step = y - firstRow, rows = endRow - firstRow;
+    if (!stack.slopesX && stack.slopesY) {
+        if ((cell.breaks >> step & 1) == 0) return;
+        const auto count = std::uint64_t(nextBit(cell.breaks, step, rows) - step) * std::uint64_t(width);
+        std::fill_n(columns, width, makeStep(cell.stack, cell.line, static_cast<std::size_t>(step), count));
+        return;
+    }
+    if (y != firstRow && !stack.slopesY) return;
+    const auto count = static_cast<std::uint64_t>(stack.slopesY ? 1 : rows);
+    if (!stack.slopesX) {
+        countShared(stack, count * std::uint64_t(width));
+        if (stack.tile != tile_) {
+            stack.tile = tile_;
+            stack.column = makeColumn(stack);
+        }
+        std::fill_n(columns, width, stack.column);
+        return;
+    }
+    std::uint64_t breaks = measureLine(stack, {firstColumn_ + cell.begin, firstRow_ + y, width, true}, cell.line);
     while (breaks != 0) {
         const int x = std::countr_zero(breaks);
         breaks &= breaks - 1;
-        const int next = breaks != 0 ? std::countr_zero(breaks) : input.width;
-        crossings_.clear();
-        std::size_t sloped = 0;
-        for (const Span& span : spans) {
-            const std::size_t heights = sloped;
-            if (span.slope != 0) sloped += width;
-            if (x < span.begin || x >= span.end) continue;
-            const std::int32_t k = span.slope == 0 ? span.flatK() : heights_[heights + std::size_t(x)];
-            crossings_.push_back(packCrossing(clampToDepth(k, input.depth), span.claim(), span.isEntry()));
-        }
-        sweepColumn(input, static_cast<std::uint64_t>(next - x));
-        const std::uint16_t column = builder_->addColumn(runs_);
-        std::fill(row_.begin() + x, row_.begin() + next, column);
+        const int next = breaks != 0 ? std::countr_zero(breaks) : width;
+        const std::uint16_t column =
+            makeStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
+        std::fill(columns + x, columns + next, column);
     }
-    builder_->addRow(row_);
-    shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
 }
 
-volume::ColumnTileData TileColumns::make(const TileInput& input, std::vector<SharedCount>& shared) {
-    winding_.resize(input.claims.size(), 0);  // all zero between columns
-    collectSpans(input);
-    volume::ColumnTileBuilder builder(input.width);
-    builder_ = &builder;
-    for (std::int32_t row = 0; row < input.height; ++row) {
-        mergeSpans(rows_[row]);
-        if (row > 0 && rows_[row] == rows_[row - 1]) {
-            builder.repeatRow();
-            shared.insert(shared.end(), rowShared_.begin(), rowShared_.end());
-        } else {
-            addRow(input, rows_[row], shared);
+// Rows [firstRow, endRow), which have one plan.
+void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
+    cells_.clear();
+    std::uint64_t changedRows = std::uint64_t{1} << firstRow;
+    std::uint32_t line = 0;
+    for (const PlanCell& planCell : plan_.layOut(firstRow)) {
+        Cell cell{planCell.begin, planCell.end, findStack(planCell), line, 0};
+        const Stack& stack = stacks_[cell.stack];
+        if (stack.slopesY && stack.slopesX) {
+            changedRows = ~std::uint64_t{0};
+        } else if (stack.slopesY) {
+            cell.breaks =
+                measureLine(stack, {firstColumn_ + cell.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
+            changedRows |= cell.breaks << firstRow;
+            line += static_cast<std::uint32_t>(stack.slopedCount * kTile);
         }
+        cells_.push_back(cell);
     }
-    builder_ = nullptr;
-    return builder.finish();
+    for (Cell& cell : cells_)
+        if (stacks_[cell.stack].slopesX) cell.line = line;  // one place for all lines along x
+    for (std::int32_t y = firstRow; y < endRow; ++y) {
+        if ((changedRows >> y & 1) == 0) {
+            builder_.repeatRow();
+            continue;
+        }
+        for (const Cell& cell : cells_) makeCell(cell, y, firstRow, endRow);
+        builder_.addRow(row_);
+    }
+}
+
+volume::ColumnTileData TileColumns::make(const TileInput& input) {
+    constexpr std::size_t kMostMembers = std::size_t{1} << 20;
+    if (members_.size() + profiles_.size() > kMostMembers) forget();
+    if (known_.empty()) known_.resize(std::size_t{1} << kKnownBits);
+    ++tile_;
+    firstColumn_ = input.firstColumn;
+    firstRow_ = input.firstRow;
+    plan_.build(input);
+    builder_.start(input.width);
+    row_.resize(static_cast<std::size_t>(input.width));
+    for (std::int32_t y = 0; y < input.height;) {
+        const std::int32_t next = nextBit(plan_.newRows(), y, input.height);
+        makeRows(y, next);
+        y = next;
+    }
+    return builder_.finish();
+}
+
+// Forgets all stacks and profiles; what they counted goes to counts_.
+void TileColumns::forget() {
+    std::ranges::fill(known_, KnownColumn{});
+    profiles_.takeCounts(counts_);
+    stacks_.clear();
+    stackIndex_.clear();
+    members_.clear();
+    stackLevels_.clear();
+    stackCodes_.clear();
+    order_.clear();
+    sloped_.clear();
+    heights_.clear();
+}
+
+void TileColumns::takeCounts(std::vector<SharedCount>& counts) {
+    forget();
+    counts.insert(counts.end(), counts_.begin(), counts_.end());
+    counts_.clear();
 }
 
 }  // namespace svt::voxelize

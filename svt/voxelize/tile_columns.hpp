@@ -1,81 +1,117 @@
 #pragma once
 /// \file
-/// One tile of 64 x 64 columns from the crossings of all claims: the sweep that turns signed
-/// crossings into labelled runs, settles overlaps by priority and shares equal columns and rows.
+/// One tile of 64 x 64 columns: from boundaries over its plan to columns of labelled runs. A cell of the plan has a
+/// stack of boundaries; their levels have an order and with it a profile; a column is that profile at its heights.
 
+#include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
-#include <svt/voxelize/scan.hpp>
+#include <svt/voxelize/profiles.hpp>
+#include <svt/voxelize/tile_plan.hpp>
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace svt::voxelize {
 
-/// A claim in order of priority: index 0 wins over all others.
-struct OrderedClaim {
-    volume::Scalar scalar = 0;
-    std::uint32_t object = 0;
-    bool isSolid = false;  ///< counts in overlaps; sheets and thin parts do not
-};
-
-/// Samples [begin, end) along x in row j, [low, high) along z, claimed as a whole (sheets, thin parts, winding fills).
-struct ClaimedBox {
-    std::int32_t j = 0, begin = 0, end = 0, low = 0, high = 0;
-    std::uint32_t claim = 0;
-};
-
-/// Voxels that two claims share.
-struct SharedCount {
-    std::uint32_t first = 0, second = 0;  ///< orders, first < second
-    std::uint64_t voxels = 0;
-};
-
-struct TileInput {
-    std::int32_t firstColumn = 0, firstRow = 0, width = 0, height = 0, depth = 0;  ///< samples
-    std::span<const ScanTriangle> triangles;
-    std::span<const std::uint32_t> triangleIndices;  ///< those that touch the tile
-    std::span<const ClaimedBox> boxes;  ///< those of the tile's rows, by row; may reach over the tile's sides
-    std::span<const OrderedClaim> claims;
-};
-
-/// Makes the columns of one tile; keeps its buffers between tiles. One per thread.
+/// Makes the columns of tiles; keeps its buffers between them. One per thread.
 class TileColumns {
 public:
-    /// Shared voxels are added to `shared` (unordered, pairs may repeat).
-    [[nodiscard]] volume::ColumnTileData make(const TileInput& input, std::vector<SharedCount>& shared);
+    TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels)
+        : levels_(levels), profiles_(claims), builder_(1) {}
+
+    [[nodiscard]] volume::ColumnTileData make(const TileInput& input);
+
+    /// Appends the voxels that two solids share in all tiles made so far (unordered, pairs may repeat).
+    void takeCounts(std::vector<SharedCount>& counts);
 
 private:
-    // A stretch of a row over which one claim's boundary is crossed, at one height or along one plane.
-    struct Span {
-        std::uint64_t key;             // claim, sign, flatK: what most spans are told apart by (see keyOf)
-        std::int64_t slope, base;      // Height along the row: base + slope * column; 0 where flat
-        std::int32_t lowest, highest;  // clamp of a steep face
-        std::int32_t begin, end;       // columns of the tile
-        [[nodiscard]] std::uint32_t claim() const noexcept { return static_cast<std::uint32_t>(key >> 33); }
-        [[nodiscard]] bool isEntry() const noexcept { return (key >> 32 & 1) != 0; }
-        [[nodiscard]] std::int32_t flatK() const noexcept { return static_cast<std::int32_t>(key & 0xFFFFFFFFu); }
-        friend bool operator==(const Span&, const Span&) = default;
+    static constexpr std::size_t kTile = 64;
+
+    // The boundaries over a cell, by levels, in the order in which the last column met them. Cells with the same
+    // boundaries share one, in all tiles.
+    struct Stack {
+        std::uint64_t hash = 0;
+        std::uint32_t firstMember = 0, memberCount = 0;  // of members_
+        std::uint32_t firstLevel = 0, levelCount = 0;    // of stackLevels_ and order_
+        std::uint32_t firstSloped = 0, slopedCount = 0;  // of sloped_
+        std::uint32_t firstHeight = 0;                   // of heights_: 0, those of the levels bottom up, depth
+        std::uint32_t profile = 0;
+        std::uint32_t tile = 0;    // whose column is known:
+        std::uint16_t column = 0;  // of a stack without slopes
+        bool isOrdered = false, slopesX = false, slopesY = false;
     };
-    static std::uint64_t keyOf(std::uint32_t claim, bool isEntry, std::int32_t flatK) noexcept {
-        return std::uint64_t(claim) << 33 | std::uint64_t(isEntry) << 32 | static_cast<std::uint32_t>(flatK);
-    }
+    struct StackLevel {
+        std::uint32_t level, firstCode, codeCount;  // of stackCodes_
+    };
+    struct SlopedLevel {
+        std::uint32_t level, slot, height;  // slot: number within the stack; height: its place in heights_
+    };
+    struct Cell {
+        std::int32_t begin = 0, end = 0;
+        std::uint32_t stack = 0;
+        std::uint32_t line = 0;    // of lines_: heights along y, where it slopes that way alone
+        std::uint64_t breaks = 0;  // bit i: row i of the line differs from the one before
+    };
+    // Columns side by side along x, or rows along y; samples of the grid.
+    struct Line {
+        std::int32_t i, j, count;
+        bool isAlongX;
+    };
 
-    void collectSpans(const TileInput& input);
-    void mergeSpans(std::vector<Span>& spans);
-    void addRow(const TileInput& input, const std::vector<Span>& spans, std::vector<SharedCount>& shared);
-    void sweepColumn(const TileInput& input, std::uint64_t columns);
-    void changeWinding(std::uint32_t claim, bool isEntry);
+    // Columns made lately, by their stack and the heights of its sloped levels, with what solids share in each.
+    struct KnownColumn {
+        static constexpr std::size_t kMostSloped = 6, kMostShared = 4;
+        std::uint32_t stack = kNoStack, tile = 0;
+        std::int32_t heights[kMostSloped] = {};
+        std::uint16_t column = 0;
+        std::uint8_t sharedCount = 0;
+        struct Shared {
+            std::uint32_t interval, length;
+        } shared[kMostShared] = {};
+    };
+    static constexpr std::uint32_t kNoStack = 0xFFFFFFFFu;
 
-    std::vector<Span> rows_[volume::ColumnVolume::kTileSize];
-    std::vector<std::int32_t> heights_;     // of the row's sloped spans, width each
-    std::vector<std::uint64_t> crossings_;  // of a column: sample above, claim, entry (1 bit)
-    std::vector<volume::Run> runs_;
+    std::uint32_t findStack(const PlanCell& cell);
+    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint64_t> members);
+    void beginStack(Stack& stack, std::int32_t i, std::int32_t j);
+    void orderStack(Stack& stack);
+    void moveStack(Stack& stack, const std::int32_t* slopedHeights);
+    void countShared(const Stack& stack, std::uint64_t columns);
+    void measureShared(const Stack& stack, KnownColumn& known) const;
+    void forget();
+
+    void makeRows(std::int32_t firstRow, std::int32_t endRow);
+    void makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
+    std::uint64_t measureLine(const Stack& stack, const Line& line, std::uint32_t place);
+    std::uint16_t makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
+    std::uint16_t makeColumn(const Stack& stack);
+
+    const LevelTable& levels_;
+    Profiles profiles_;
+    TilePlan plan_;
+    volume::ColumnTileBuilder builder_;
+    std::int32_t firstColumn_ = 0, firstRow_ = 0;
+    std::uint32_t tile_ = 0;  // counts the tiles
+    std::vector<SharedCount> counts_;
+
+    std::vector<Stack> stacks_;
+    HashIndex stackIndex_;
+    std::vector<std::uint64_t> members_;
+    std::vector<StackLevel> stackLevels_;
+    std::vector<std::uint32_t> stackCodes_;  // of the boundaries, level by level
+    std::vector<std::uint32_t> order_;       // slots, bottom up
+    std::vector<SlopedLevel> sloped_;
+    std::vector<std::int32_t> heights_;
+    std::vector<std::pair<std::int32_t, std::uint32_t>> sorted_;  // of one stack: height and slot
+    std::vector<std::uint32_t> codes_, places_;                   // of one stack: codes bottom up; per slot
+
+    std::vector<Cell> cells_;  // of the current row
     std::vector<std::uint16_t> row_;
-    std::vector<std::uint32_t> active_;  // orders with winding > 0, ascending
-    std::vector<std::int32_t> winding_;  // per order
-    std::vector<SharedCount> rowShared_;
-    volume::ColumnTileBuilder* builder_ = nullptr;
+    std::vector<std::int32_t> lines_;  // of a line: kTile heights for each sloped level of its stack
+    std::vector<KnownColumn> known_;
+    std::vector<std::int32_t> stepHeights_;  // of the sloped levels at one step of a line
 };
 
 }  // namespace svt::voxelize

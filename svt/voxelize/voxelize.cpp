@@ -66,24 +66,33 @@ struct TileBins {
     }
 };
 
-// `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n.
-template <class RangeOf>
-TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, RangeOf&& rangeOf) {
+// `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n, `touches(n, tx, ty)` has the last
+// word.
+template <class RangeOf, class Touches>
+TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, RangeOf&& rangeOf, Touches&& touches) {
+    struct Entry {
+        std::uint32_t tile, item;
+    };
+    std::vector<Entry> entries;
+    entries.reserve(2 * count);
     TileBins bins;
     bins.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
-    const auto forEach = [&](auto&& body) {
-        for (std::uint32_t n = 0; n < count; ++n) {
-            std::int32_t x0, x1, y0, y1;
-            rangeOf(n, x0, x1, y0, y1);
-            for (std::int32_t y = y0; y < y1; ++y)
-                for (std::int32_t x = x0; x < x1; ++x) body(n, std::size_t(x) + std::size_t(tilesX) * std::size_t(y));
-        }
-    };
-    forEach([&](std::uint32_t, std::size_t tile) { ++bins.first[tile + 1]; });
+    for (std::uint32_t n = 0; n < count; ++n) {
+        std::int32_t x0, x1, y0, y1;
+        rangeOf(n, x0, x1, y0, y1);
+        const bool isBlock = x1 - x0 > 1 && y1 - y0 > 1;
+        for (std::int32_t y = y0; y < y1; ++y)
+            for (std::int32_t x = x0; x < x1; ++x) {
+                if (isBlock && !touches(n, x, y)) continue;
+                const auto tile = static_cast<std::uint32_t>(x + tilesX * y);
+                entries.push_back({tile, n});
+                ++bins.first[tile + 1];
+            }
+    }
     std::partial_sum(bins.first.begin(), bins.first.end(), bins.first.begin());
     bins.items.resize(bins.first.back());
     std::vector<std::uint32_t> next(bins.first.begin(), bins.first.end() - 1);
-    forEach([&](std::uint32_t n, std::size_t tile) { bins.items[next[tile]++] = n; });
+    for (const Entry& entry : entries) bins.items[next[entry.tile]++] = entry.item;
     return bins;
 }
 
@@ -98,14 +107,15 @@ void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std
 // What one object brings to the sweep.
 struct Prepared {
     IndexMesh index;
-    std::vector<ScanTriangle> triangles;
+    FaceList faces;
+    LevelTable ownLevels;
     std::vector<ClaimedBox> boxes;
     std::uint64_t thinVoxels = 0;
     std::uint64_t uncertainVoxels = 0;
 };
 
-void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::span<const mesh::Plane> planes,
-                   const IndexFromLocal& indexFromLocal, const Claims& claims, const VoxelizeOptions& options,
+void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
+                   std::span<const std::uint32_t> planeLevels, const Claims& claims, const VoxelizeOptions& options,
                    std::uint32_t object, Prepared& out) {
     const mesh::ObjectMesh& mesh = scene.objects[object];
     out.index = makeIndexMesh(mesh, indexFromLocal);
@@ -116,19 +126,7 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, std::
     }
     if (!mesh.isSolid()) return;  // open: filled by winding number, all cores on one object
     const Vec3i dimension = grid.dimension();
-    out.triangles.reserve(mesh.triangles.size() / 2);
-    for (const mesh::Triangle& triangle : mesh.triangles) {
-        ScanTriangle scan;
-        const mesh::Plane* plane =
-            triangle.plane != mesh::kNoPlane && indexFromLocal.keepsVertical() ? &planes[triangle.plane] : nullptr;
-        if (!setUpScan(out.index.points[triangle.corners[0]], out.index.points[triangle.corners[1]],
-                       out.index.points[triangle.corners[2]], kScanAxes[2], plane, scan))
-            continue;
-        if (scan.endRow <= 0 || scan.endColumn <= 0 || scan.firstRow >= dimension.y || scan.firstColumn >= dimension.x)
-            continue;
-        scan.claim = claims.solidOrder[object];
-        out.triangles.push_back(scan);
-    }
+    out.faces = makeFaces(out.index, planeLevels, dimension, claims.solidOrder[object], out.ownLevels);
     if (options.keepThinParts)
         out.thinVoxels = addThinParts(out.index, indexFromLocal, dimension, claims.thinOrder[object], out.boxes);
 }
@@ -146,20 +144,6 @@ double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& i
         }
     }
     return voxels;
-}
-
-void addPairs(std::vector<SharedCount>& pairs) {
-    std::sort(pairs.begin(), pairs.end(), [](const SharedCount& p, const SharedCount& q) {
-        return std::tie(p.first, p.second) < std::tie(q.first, q.second);
-    });
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < pairs.size(); ++i) {
-        if (pairs[kept].first == pairs[i].first && pairs[kept].second == pairs[i].second)
-            pairs[kept].voxels += pairs[i].voxels;
-        else
-            pairs[++kept] = pairs[i];
-    }
-    if (!pairs.empty()) pairs.resize(kept + 1);
 }
 
 // Objects that lost every voxel get the one nearest to the middle of their first face, if no other object lives by it
@@ -208,22 +192,64 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
 
 // Everything of all objects, in object order.
 struct Geometry {
-    std::vector<ScanTriangle> triangles;
+    LevelTable levels;
+    FaceList faces;
     std::vector<ClaimedBox> boxes;
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
 };
 
+// All objects' parts, in object order; levels of their own are numbered anew.
+void join(std::vector<Prepared>& prepared, Geometry& all) {
+    std::size_t faceCount = 0, triangleCount = 0, boxCount = 0;
+    for (const Prepared& object : prepared) {
+        faceCount += object.faces.faces.size();
+        triangleCount += object.faces.triangles.size();
+        boxCount += object.boxes.size();
+    }
+    all.faces.faces.reserve(faceCount);
+    all.faces.triangles.reserve(triangleCount);
+    all.boxes.reserve(boxCount);
+    for (Prepared& object : prepared) {
+        const auto firstFace = static_cast<std::uint32_t>(all.faces.faces.size());
+        const std::uint32_t firstLevel = all.levels.next();
+        for (Boundary face : object.faces.faces) {
+            if (face.level >= object.ownLevels.first) face.level += firstLevel - object.ownLevels.first;
+            all.faces.faces.push_back(face);
+        }
+        for (FaceTriangle triangle : object.faces.triangles) {
+            triangle.face += firstFace;
+            all.faces.triangles.push_back(triangle);
+        }
+        const auto& own = object.ownLevels.sloped;
+        all.levels.sloped.insert(all.levels.sloped.end(), own.begin(), own.end());
+        all.boxes.insert(all.boxes.end(), object.boxes.begin(), object.boxes.end());
+        all.thinVoxels.push_back(object.thinVoxels);
+        all.uncertainVoxels.push_back(object.uncertainVoxels);
+        object = {};
+    }
+}
+
 Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid,
                                 const IndexFromLocal& indexFromLocal, const Claims& claims,
                                 const VoxelizeOptions& options) {
-    std::vector<mesh::Plane> planes(scene.planes.size());
-    if (indexFromLocal.keepsVertical())
-        for (std::size_t p = 0; p < planes.size(); ++p) planes[p] = indexFromLocal.plane(scene.planes[p]);
+    Geometry all;
+    all.levels.depth = grid.dimension().z;
+    all.levels.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
+    std::vector<std::uint32_t> planeLevels;
+    if (indexFromLocal.keepsVertical()) {
+        std::vector<mesh::Plane> planes;
+        planes.reserve(scene.planes.size());
+        for (const mesh::Plane& plane : scene.planes) planes.push_back(indexFromLocal.plane(plane));
+        planeLevels = addPlanes(planes, all.levels);
+    }
     std::vector<Prepared> prepared(scene.objects.size());
     parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t o = begin; o < end; ++o)
-            prepareObject(scene, grid, planes, indexFromLocal, claims, options, static_cast<std::uint32_t>(o),
+        for (std::size_t o = begin; o < end; ++o) {
+            prepared[o].ownLevels.depth = all.levels.depth;
+            prepared[o].ownLevels.first = all.levels.next();
+            prepareObject(scene, grid, indexFromLocal, planeLevels, claims, options, static_cast<std::uint32_t>(o),
                           prepared[o]);
+        }
     });
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
         if (scene.objects[o].closure != mesh::Closure::Open) continue;
@@ -231,29 +257,7 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
         prepared[o].uncertainVoxels =
             addWindingFill(prepared[o].index, scene, grid, claims.solidOrder[o], options.threads, prepared[o].boxes);
     }
-    Geometry all;
-    std::size_t triangleCount = 0, boxCount = 0;
-    for (const Prepared& object : prepared) {
-        triangleCount += object.triangles.size();
-        boxCount += object.boxes.size();
-    }
-    all.triangles.reserve(triangleCount);
-    all.boxes.reserve(boxCount);
-    // In the order of claims, so that the rows of a tile are filled nearly sorted.
-    std::vector<std::uint32_t> objects(prepared.size());
-    std::iota(objects.begin(), objects.end(), 0u);
-    std::sort(objects.begin(), objects.end(),
-              [&](std::uint32_t p, std::uint32_t q) { return claims.solidOrder[p] < claims.solidOrder[q]; });
-    all.thinVoxels.resize(prepared.size());
-    all.uncertainVoxels.resize(prepared.size());
-    for (const std::uint32_t o : objects) {
-        Prepared& object = prepared[o];
-        all.triangles.insert(all.triangles.end(), object.triangles.begin(), object.triangles.end());
-        all.boxes.insert(all.boxes.end(), object.boxes.begin(), object.boxes.end());
-        all.thinVoxels[o] = object.thinVoxels;
-        all.uncertainVoxels[o] = object.uncertainVoxels;
-        object = {};
-    }
+    join(prepared, all);
     return all;
 }
 
@@ -278,9 +282,10 @@ private:
 // Tile makers with their buffers, lent from task to task.
 class MakerPool {
 public:
+    MakerPool(std::span<const OrderedClaim> claims, const LevelTable& levels) : claims_(claims), levels_(levels) {}
     std::unique_ptr<TileColumns> take() {
         const std::lock_guard lock(mutex_);
-        if (free_.empty()) return std::make_unique<TileColumns>();
+        if (free_.empty()) return std::make_unique<TileColumns>(claims_, levels_);
         auto maker = std::move(free_.back());
         free_.pop_back();
         return maker;
@@ -289,8 +294,17 @@ public:
         const std::lock_guard lock(mutex_);
         free_.push_back(std::move(maker));
     }
+    // What all makers counted; in an order that does not depend on who made which tile.
+    std::vector<SharedCount> takeCounts() {
+        std::vector<SharedCount> counts;
+        for (const auto& maker : free_) maker->takeCounts(counts);
+        joinCounts(counts);
+        return counts;
+    }
 
 private:
+    std::span<const OrderedClaim> claims_;
+    const LevelTable& levels_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<TileColumns>> free_;
 };
@@ -303,50 +317,53 @@ struct Tiles {
 Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims, const VoxelizeOptions& options) {
     const std::int32_t tilesX = (dimension.x + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
     const std::int32_t tilesY = (dimension.y + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
-    const auto& triangles = geometry.triangles;
+    const auto& triangles = geometry.faces.triangles;
     const auto& boxes = geometry.boxes;
-    const TileBins triangleBins =
-        fillBins(triangles.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+    constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+    const TileBins triangleBins = fillBins(
+        triangles.size(), tilesX, tilesY,
+        [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
             tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
+        },
+        [&](std::uint32_t n, std::int32_t x, std::int32_t y) {
+            return touchesSamples(triangles[n], geometry.faces.faces[triangles[n].face].isEntry, x * kTile, y * kTile,
+                                  kTile, kTile);
         });
-    const TileBins boxBins =
-        fillBins(boxes.size(), tilesX, tilesY, [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
+    const TileBins boxBins = fillBins(
+        boxes.size(), tilesX, tilesY,
+        [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
-            tileRange(boxes[n].j, boxes[n].j + 1, dimension.y, y0, y1);
-        });
+            tileRange(boxes[n].firstRow, boxes[n].endRow, dimension.y, y0, y1);
+        },
+        [](std::uint32_t, std::int32_t, std::int32_t) { return true; });
 
     const std::size_t tileCount = std::size_t(tilesX) * std::size_t(tilesY);
     Tiles result;
     result.tiles.resize(tileCount);
-    std::vector<std::vector<SharedCount>> shared(tileCount);
     TileProgress progress(options.progress, tileCount);
-    MakerPool makers;
+    MakerPool makers(claims.ordered, geometry.levels);
     parallelFor(tileCount, 1, options.threads, [&](std::size_t begin, std::size_t end) {
         auto maker = makers.take();
-        std::vector<ClaimedBox> tileBoxes;
         for (std::size_t tile = begin; tile < end; ++tile) {
             if (Progress::isCancelled(options.progress)) return;
-            tileBoxes.clear();
-            for (const std::uint32_t n : boxBins.of(tile)) tileBoxes.push_back(boxes[n]);
             TileInput input;
             input.firstColumn = static_cast<std::int32_t>(tile % std::size_t(tilesX)) * ColumnVolume::kTileSize;
             input.firstRow = static_cast<std::int32_t>(tile / std::size_t(tilesX)) * ColumnVolume::kTileSize;
             input.width = std::min(ColumnVolume::kTileSize, dimension.x - input.firstColumn);
             input.height = std::min(ColumnVolume::kTileSize, dimension.y - input.firstRow);
             input.depth = dimension.z;
+            input.faces = geometry.faces.faces;
             input.triangles = triangles;
             input.triangleIndices = triangleBins.of(tile);
-            input.boxes = tileBoxes;
-            input.claims = claims.ordered;
-            result.tiles[tile] = maker->make(input, shared[tile]);
-            addPairs(shared[tile]);
+            input.boxes = boxes;
+            input.boxIndices = boxBins.of(tile);
+            result.tiles[tile] = maker->make(input);
             progress.tileDone();
         }
         makers.giveBack(std::move(maker));
     });
-    for (const auto& pairs : shared) result.shared.insert(result.shared.end(), pairs.begin(), pairs.end());
-    addPairs(result.shared);
+    result.shared = makers.takeCounts();
     return result;
 }
 

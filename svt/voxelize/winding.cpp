@@ -86,7 +86,7 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         ScanTriangle scan;
         if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], kScanAxes[2], nullptr, scan))
+                      mesh.points[triangle.corners[2]], kScanAxes[2], scan))
             triangles.push_back(scan);
     }
 
@@ -128,12 +128,12 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
                     if (w > 0.25 && w < 0.75) rowUncertain[row] += std::uint64_t(next - k);
                     if (isInside && begin < 0) begin = k;
                     if (!isInside && begin >= 0) {
-                        rowBoxes[row].push_back({j, i, i + 1, begin, k, claim});
+                        rowBoxes[row].push_back({j, j + 1, i, i + 1, begin, k, claim});
                         begin = -1;
                     }
                     k = next;
                 }
-                if (begin >= 0) rowBoxes[row].push_back({j, i, i + 1, begin, endK, claim});
+                if (begin >= 0) rowBoxes[row].push_back({j, j + 1, i, i + 1, begin, endK, claim});
                 c = cEnd;
             }
         }

@@ -2,7 +2,7 @@
 /// \file
 /// Filling open shells that have solid meaning by the generalized winding number.
 
-#include <svt/voxelize/tile_columns.hpp>
+#include <svt/voxelize/tile_plan.hpp>
 
 #include <vector>
 

@@ -1,0 +1,68 @@
+#pragma once
+/// \file
+/// Levels: the heights at which lines along z meet a plane. Faces of one level are met at the same sample everywhere,
+/// whichever object they belong to.
+
+#include <svt/voxelize/scan.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace svt::voxelize {
+
+/// First sample above (i, j): (base + slopeX i + slopeY j) >> kBits, kept within [lowest, highest].
+struct Level {
+    static constexpr int kBits = Height::kBits + kQuantaBits;
+    std::int64_t base = 0, slopeX = 0, slopeY = 0;
+    std::int32_t lowest = 0, highest = 0;  ///< within [0, depth]
+
+    Level() = default;
+    Level(const FaceHeight& face, std::int32_t depth) noexcept;
+
+    [[nodiscard]] std::int32_t clamped(std::int64_t height) const noexcept {
+        const std::int64_t k = height >> kBits;
+        return static_cast<std::int32_t>(k < lowest ? lowest : k > highest ? highest : k);
+    }
+    /// First sample above, 0 to depth.
+    [[nodiscard]] std::int32_t sampleAbove(std::int32_t i, std::int32_t j) const noexcept {
+        return clamped(base + slopeX * i + slopeY * j);
+    }
+};
+
+/// Levels of a grid by number: 0 to depth are the flat ones below these samples, sloped ones follow from `first` on.
+struct LevelTable {
+    std::int32_t depth = 0;
+    std::uint32_t first = 0;
+    std::vector<Level> sloped;
+
+    [[nodiscard]] bool isSloped(std::uint32_t number) const noexcept {
+        return number > static_cast<std::uint32_t>(depth);
+    }
+    /// Of a sloped level.
+    [[nodiscard]] const Level& operator[](std::uint32_t number) const noexcept { return sloped[number - first]; }
+    /// Number of the level of a face; a new one where it slopes.
+    std::uint32_t add(const FaceHeight& face);
+    [[nodiscard]] std::uint32_t next() const noexcept { return first + static_cast<std::uint32_t>(sloped.size()); }
+};
+
+/// The level of each plane of a scene, kNoLevel where it is too steep to be shared.
+inline constexpr std::uint32_t kNoLevel = 0xFFFFFFFFu;
+[[nodiscard]] std::vector<std::uint32_t> addPlanes(std::span<const mesh::Plane> planes, LevelTable& levels);
+
+/// What bounds a claim at a level: its winding changes by one where a line passes it upwards.
+struct Boundary {
+    std::uint32_t level = 0;
+    std::uint32_t claim = 0;  ///< below 2^30
+    bool isEntry = false;
+
+    [[nodiscard]] std::uint64_t packed() const noexcept {
+        return std::uint64_t(level) << 32 | std::uint64_t(claim) << 1 | std::uint64_t(isEntry);
+    }
+    [[nodiscard]] static Boundary unpack(std::uint64_t packed) noexcept {
+        return {static_cast<std::uint32_t>(packed >> 32), static_cast<std::uint32_t>(packed & 0xFFFFFFFFu) >> 1,
+                (packed & 1) != 0};
+    }
+};
+
+}  // namespace svt::voxelize

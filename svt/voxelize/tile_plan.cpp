@@ -1,0 +1,276 @@
+#include <svt/voxelize/tile_plan.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+namespace svt::voxelize {
+namespace {
+
+// Bits below `end`, at most 64.
+std::uint64_t bitsBelow(std::int32_t end) noexcept {
+    return end >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << end) - 1;
+}
+
+// Bits [first, end).
+std::uint64_t bits(std::int32_t first, std::int32_t end) noexcept { return bitsBelow(end) & ~bitsBelow(first); }
+
+// Bits whose value differs from that of the bit below.
+std::uint64_t changes(std::uint64_t rows) noexcept { return rows ^ rows << 1; }
+
+std::uint64_t scramble(std::uint64_t number) noexcept {
+    number = (number + 1) * 0x9E3779B97F4A7C15ull;
+    return (number ^ number >> 29) * 0xBF58476D1CE4E5B9ull;
+}
+
+}  // namespace
+
+// False where the edge makes no difference to the tile.
+bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
+                         PlacedEdge& out) noexcept {
+    const int from = edge, to = edge == 2 ? 0 : edge + 1;
+    if (t.row[from] == t.row[to]) return false;
+    // Counter-clockwise, an edge that goes south has the triangle to its east.
+    const bool goesNorth = t.row[from] < t.row[to];
+    const int south = goesNorth ? from : to, north = goesNorth ? to : from;
+    out.firstRow = std::max(t.row[south] - input.firstRow, 0);
+    out.endRow = std::min(t.row[north] - input.firstRow, input.height);
+    if (out.firstRow >= out.endRow) return false;
+    out.first = std::min(t.column[from], t.column[to]) - input.firstColumn;
+    out.last = std::max(t.column[from], t.column[to]) - input.firstColumn;
+    if (out.first >= input.width) return false;
+    out.isEntry = goesNorth == looksDown;
+    out.x0 = t.x[south];
+    out.y0 = t.y[south];
+    out.x1 = t.x[north];
+    out.y1 = t.y[north];
+    if (out.last <= 0 || (t.innerEdges >> edge & 1) == 0) return true;
+    // The triangle beyond an inner edge touches the tile too, unless all of the edge lies west of it.
+    if (out.first > 0) return false;
+    const auto isWest = [&](std::int32_t row) {
+        return EdgeWalk(out.x0, out.y0, out.x1, out.y1, input.firstRow + row).sample() <= input.firstColumn;
+    };
+    if (!isWest(out.firstRow) || !isWest(out.endRow - 1)) return false;
+    out.last = 0;
+    return true;
+}
+
+// Rows [first, end) outside of which an edge passes the tile to its west or east. A row too many does no harm.
+std::pair<std::int32_t, std::int32_t> TilePlan::rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept {
+    const double perColumn = (double(edge.y1) - edge.y0) / (double(edge.x1) - edge.x0);
+    const auto rowAt = [&](std::int32_t column) {
+        const double y = edge.y0 + (double(input.firstColumn + column) * double(kQuanta) - edge.x0) * perColumn;
+        return std::clamp(y / double(kQuanta) - input.firstRow, -4.0, 68.0);
+    };
+    const double west = rowAt(-1), east = rowAt(input.width + 1);
+    return {std::clamp(static_cast<std::int32_t>(std::min(west, east)) - 1, edge.firstRow, edge.endRow),
+            std::clamp(static_cast<std::int32_t>(std::max(west, east)) + 2, edge.firstRow, edge.endRow)};
+}
+
+// West of the tile only the sum of windings matters.
+void TilePlan::addWest(std::uint64_t rows, bool isEntry) {
+    std::uint64_t& same = isEntry ? outline_.westIn : outline_.westOut;
+    std::uint64_t& opposite = isEntry ? outline_.westOut : outline_.westIn;
+    const std::uint64_t cancelled = rows & opposite;
+    opposite ^= cancelled;
+    if ((same & (rows ^ cancelled)) != 0) outline_.isSimple = false;
+    same |= rows ^ cancelled;
+}
+
+void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
+    if (edge.last <= 0) {
+        addWest(bits(edge.firstRow, edge.endRow), edge.isEntry);
+        return;
+    }
+    std::uint8_t* columns = edge.isEntry ? outline_.cover.begin : outline_.cover.end;
+    std::uint64_t within = 0, turns = 0;  // rows in which the edge lies within the tile, and where it moves
+    if (edge.first == edge.last) {
+        within = bits(edge.firstRow, edge.endRow);
+        std::memset(columns + edge.firstRow, edge.first, static_cast<std::size_t>(edge.endRow - edge.firstRow));
+    } else {
+        const auto [firstRow, endRow] = rowsWithin(input, edge);
+        std::uint64_t west = edge.x0 < edge.x1 ? bits(edge.firstRow, firstRow) : bits(endRow, edge.endRow);
+        if (firstRow < endRow) {
+            EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + firstRow);
+            std::int64_t previous = 0;
+            for (std::int32_t row = firstRow; row < endRow; ++row, walk.nextRow()) {
+                const std::int64_t column = walk.sample() - input.firstColumn;
+                const std::uint64_t bit = std::uint64_t{1} << row;
+                turns |= column != previous ? bit : 0;
+                previous = column;
+                if (column <= 0) {
+                    west |= bit;
+                } else if (column < input.width) {
+                    within |= bit;
+                    columns[row] = static_cast<std::uint8_t>(column);
+                }
+            }
+        }
+        if (west != 0) addWest(west, edge.isEntry);
+    }
+    std::uint64_t& met = edge.isEntry ? outline_.begun : outline_.ended;
+    if ((met & within) != 0) outline_.isSimple = false;
+    met |= within;
+    outline_.turns |= (turns & within) | changes(within);
+}
+
+// The rare face of which a row meets more than one stretch: all crossings, sorted and paired.
+void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, Boundary face) {
+    crossings_.clear();
+    for (const std::uint32_t index : triangles) {
+        const FaceTriangle& t = input.triangles[index];
+        for (int e = 0; e < 3; ++e) {
+            PlacedEdge edge;
+            if (!placeEdge(input, t, e, face.isEntry, edge)) continue;
+            EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + edge.firstRow);
+            for (std::int32_t row = edge.firstRow; row < edge.endRow; ++row, walk.nextRow())
+                crossings_.push_back({static_cast<std::uint8_t>(row),
+                                      static_cast<std::uint8_t>(
+                                          std::clamp<std::int64_t>(walk.sample() - input.firstColumn, 0, input.width)),
+                                      static_cast<std::int8_t>(edge.isEntry ? 1 : -1)});
+        }
+    }
+    std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& p, const Crossing& q) {
+        return std::tie(p.row, p.column) < std::tie(q.row, q.column);
+    });
+    const std::size_t firstCover = covers_.size();
+    const auto addStretch = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
+        if (firstCover + number == covers_.size()) covers_.push_back({0, face.packed(), kNone, {}, {}});
+        Cover& cover = covers_[firstCover + number];
+        cover.rows |= std::uint64_t{1} << row;
+        cover.begin[row] = begin;
+        cover.end[row] = end;
+    };
+    for (std::size_t c = 0; c < crossings_.size();) {
+        const std::uint8_t row = crossings_[c].row;
+        begins_.clear();
+        std::size_t ended = 0;
+        while (c < crossings_.size() && crossings_[c].row == row) {
+            const std::uint8_t column = crossings_[c].column;
+            int winding = 0;
+            for (; c < crossings_.size() && crossings_[c].row == row && crossings_[c].column == column; ++c)
+                winding += crossings_[c].winding;
+            for (; winding > 0; --winding) begins_.push_back(column);
+            for (; winding < 0 && ended < begins_.size(); ++winding, ++ended)
+                addStretch(row, ended, begins_[ended], column);
+        }
+        for (; ended < begins_.size(); ++ended)
+            addStretch(row, ended, begins_[ended], static_cast<std::uint8_t>(input.width));
+    }
+    for (std::size_t n = firstCover; n < covers_.size(); ++n) {
+        const Cover& cover = covers_[n];
+        newRows_ |= changes(cover.rows);
+        for (std::uint64_t rows = cover.rows & cover.rows << 1; rows != 0; rows &= rows - 1) {
+            const int row = std::countr_zero(rows);
+            if (cover.begin[row] != cover.begin[row - 1] || cover.end[row] != cover.end[row - 1])
+                newRows_ |= std::uint64_t{1} << row;
+        }
+    }
+}
+
+void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> triangles) {
+    const Boundary face = input.faces[input.triangles[triangles.front()].face];
+    outline_.westIn = outline_.westOut = outline_.begun = outline_.ended = outline_.turns = 0;
+    outline_.isSimple = true;
+    std::memset(outline_.cover.begin, 0, kTile);
+    std::memset(outline_.cover.end, input.width, kTile);
+    for (const std::uint32_t index : triangles) {
+        const FaceTriangle& triangle = input.triangles[index];
+        for (int e = 0; e < 3; ++e) {
+            PlacedEdge edge;
+            if (placeEdge(input, triangle, e, face.isEntry, edge)) addToOutline(input, edge);
+        }
+    }
+    const std::uint64_t rows = outline_.westIn | outline_.begun;
+    if (!outline_.isSimple || outline_.westOut != 0 || (outline_.westIn & outline_.begun) != 0) {
+        addConcaveFace(input, triangles, face);
+    } else if (rows != 0) {
+        newRows_ |= changes(outline_.westIn) | outline_.turns;
+        covers_.push_back(outline_.cover);
+        covers_.back().rows = rows;
+        covers_.back().boundary = face.packed();
+    }
+}
+
+void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
+    const std::int32_t begin = std::max(box.begin - input.firstColumn, 0);
+    const std::int32_t end = std::min(box.end - input.firstColumn, input.width);
+    const std::int32_t firstRow = std::max(box.firstRow - input.firstRow, 0);
+    const std::int32_t endRow = std::min(box.endRow - input.firstRow, input.height);
+    if (begin >= end || firstRow >= endRow) return;
+    const auto boundaryAt = [&](std::int32_t k, bool isEntry) {
+        return Boundary{static_cast<std::uint32_t>(std::clamp(k, 0, input.depth)), box.claim, isEntry}.packed();
+    };
+    covers_.push_back({bits(firstRow, endRow), boundaryAt(box.low, true), boundaryAt(box.high, false), {}, {}});
+    std::memset(covers_.back().begin, begin, kTile);
+    std::memset(covers_.back().end, end, kTile);
+    newRows_ |= changes(covers_.back().rows);
+}
+
+void TilePlan::build(const TileInput& input) {
+    width_ = input.width;
+    covers_.clear();
+    newRows_ = 1;
+    const auto indices = input.triangleIndices;
+    for (std::size_t n = 0; n < indices.size();) {
+        const std::size_t first = n;
+        while (n < indices.size() && input.triangles[indices[n]].face == input.triangles[indices[first]].face) ++n;
+        addFace(input, indices.subspan(first, n - first));
+    }
+    for (const std::uint32_t index : input.boxIndices) addBox(input, input.boxes[index]);
+
+    newRows_ &= bits(0, input.height);
+    for (std::vector<Span>& row : rows_) row.clear();
+    // Ascending boundaries, so that equal cells list them in the same order.
+    order_.resize(covers_.size());
+    for (std::uint32_t c = 0; c < covers_.size(); ++c) order_[c] = {covers_[c].boundary, c};
+    for (std::uint32_t c = 0; c < covers_.size(); ++c)
+        if (covers_[c].second != kNone) order_.push_back({covers_[c].second, c});
+    std::sort(order_.begin(), order_.end());
+    for (const auto& [boundary, number] : order_) {
+        const Cover& cover = covers_[number];
+        for (std::uint64_t rows = cover.rows & newRows_; rows != 0; rows &= rows - 1) {
+            const int row = std::countr_zero(rows);
+            if (cover.begin[row] < cover.end[row]) rows_[row].push_back({boundary, cover.begin[row], cover.end[row]});
+        }
+    }
+}
+
+std::span<const PlanCell> TilePlan::layOut(std::int32_t y) {
+    const std::vector<Span>& spans = rows_[y];
+    std::uint64_t breaks = 1;  // bit x: a cell begins
+    for (const Span& span : spans) {
+        breaks |= std::uint64_t{1} << span.begin;
+        if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
+    }
+    cells_.clear();
+    std::uint8_t cellAt[kTile + 1];
+    std::uint64_t* next[kTile];  // where the next member of a cell goes
+    const auto cellCount = static_cast<std::size_t>(std::popcount(breaks));
+    if (members_.size() < cellCount * spans.size()) members_.resize(cellCount * spans.size());
+    while (breaks != 0) {
+        const int begin = std::countr_zero(breaks);
+        breaks &= breaks - 1;
+        const std::size_t cell = cells_.size();
+        cellAt[begin] = static_cast<std::uint8_t>(cell);
+        next[cell] = members_.data() + cell * spans.size();
+        cells_.push_back({begin, breaks != 0 ? std::countr_zero(breaks) : width_,
+                          static_cast<std::uint32_t>(cell * spans.size()), 0, 0});
+    }
+    cellAt[width_] = static_cast<std::uint8_t>(cellCount);
+    for (const Span& span : spans) {
+        const std::uint64_t hash = scramble(span.boundary);
+        for (std::size_t cell = cellAt[span.begin]; cell < cellAt[span.end]; ++cell) {
+            *next[cell]++ = span.boundary;
+            cells_[cell].hash += hash;
+        }
+    }
+    for (std::size_t cell = 0; cell < cellCount; ++cell)
+        cells_[cell].memberCount =
+            static_cast<std::uint32_t>(next[cell] - (members_.data() + cells_[cell].firstMember));
+    return cells_;
+}
+
+}  // namespace svt::voxelize
