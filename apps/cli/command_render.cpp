@@ -233,8 +233,7 @@ int runRender(const Arguments& arguments) {
     const int level = arguments.level ? *arguments.level : render::levelForView(spec, volume->grid);
     const auto frame = [&]() -> Result<render::Frame> {
         if (level > 0) {
-            const auto levels =
-                volume::buildLodPyramid(volume->columns, volume->grid, level, arguments.build.threads);
+            const auto levels = volume::buildLodPyramid(volume->columns, volume->grid, level, arguments.build.threads);
             if (!levels) return levels.error();
             if (!levels->empty()) return render::castRays(levels->back(), spec, options);
         }
@@ -321,7 +320,9 @@ Run addRenderCommand(CLI::App& app) {
         ->group("Style")
         ->capture_default_str();
     command->add_flag("--transparent", arguments->transparent, "leave the background transparent")->group("Style");
-    command->add_option("--level", arguments->level, "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
+    command
+        ->add_option("--level", arguments->level,
+                     "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
         ->group("Style")
         ->check(CLI::Range(0, 6));
     command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")

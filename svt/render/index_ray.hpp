@@ -180,7 +180,13 @@ template <class Visitor>
 class RunWalk {
 public:
     RunWalk(const volume::BrickVolume& volume, const IndexRay& ray, double from, double to, Visitor& visitor)
-        : volume_(volume), ray_(ray), count_(volume.dimension()), visitor_(visitor), t_(from), to_(to), runStart_(from) {}
+        : volume_(volume),
+          ray_(ray),
+          count_(volume.dimension()),
+          visitor_(visitor),
+          t_(from),
+          to_(to),
+          runStart_(from) {}
 
     void walk() {
         cell_ = ray_.cellAt(t_, count_);
@@ -345,8 +351,7 @@ void walkRunsReference(const volume::BrickVolume& volume, const IndexRay& ray, d
     };
     std::uint32_t crossed = volume::BrickVolume::kNoPlane;
     while (true) {
-        const double leave =
-            std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
+        const double leave = std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
         const volume::BrickVolume::Entry entry = volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3);
         double next = leave;
         if (planesOf(volume, entry) != kNoPlanes) {

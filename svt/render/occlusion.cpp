@@ -45,7 +45,7 @@ OcclusionField::OcclusionField(const volume::BrickVolume& volume, const std::fun
                 for (std::int32_t x = 0; x < level.count.x; ++x) {
                     const auto entry = volume.entry(x, y, z);
                     std::uint32_t voxels = entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
-                                                     : ofBox[volume.boxNumber(entry)];
+                                                           : ofBox[volume.boxNumber(entry)];
                     if (voxels > 0 && !clipper.isEmpty() && !clipper.keeps({8.0 * x + 4, 8.0 * y + 4, 8.0 * z + 4}))
                         voxels = 0;
                     level.voxels[level.at(x, y, z)] = voxels;

@@ -62,8 +62,7 @@ PacketPasses::PacketPasses(const Scene& scene) {
         packetScene.styles = styles.data();
         const auto& levels = pass.occlusion.levels();
         if (!levels.empty()) packetScene.ambientOcclusion = double(scene.spec.light.ambientOcclusion);
-        for (std::size_t n = 0; n < levels.size(); ++n)
-            packetScene.occlusion[n] = packetOcclusion(levels[n]);
+        for (std::size_t n = 0; n < levels.size(); ++n) packetScene.occlusion[n] = packetOcclusion(levels[n]);
         passes_.push_back(packetScene);
     }
 }
@@ -94,8 +93,7 @@ void PacketCaster::cast(std::span<const double> u, std::span<const double> v, bo
         const PacketScene packetScene = withColor ? passes_[pass] : passes_.labelsOnly(pass);
         castPass(pass, packetScene, count, pass == 0 ? samples : std::span<Sample>(seen));
         if (pass == 0) continue;
-        for (std::size_t n = 0; n < count; ++n)
-            samples[n] = joinPass(scene_.passes[pass].join, seen[n], samples[n]);
+        for (std::size_t n = 0; n < count; ++n) samples[n] = joinPass(scene_.passes[pass].join, seen[n], samples[n]);
     }
 }
 
@@ -151,8 +149,8 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, st
             sample.normal = toFloat({seen_.normal[0][n], seen_.normal[1][n], seen_.normal[2][n]});
             sample.isCap = seen_.isCap[n] != 0;
         }
-        finishSample({seen_.color[0][n], seen_.color[1][n], seen_.color[2][n]}, seen_.transmittance[n],
-                     scene_.options, sample);
+        finishSample({seen_.color[0][n], seen_.color[1][n], seen_.color[2][n]}, seen_.transmittance[n], scene_.options,
+                     sample);
     }
 }
 
@@ -162,8 +160,7 @@ Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
     const PacketRays& rays = caster.rays_;
     const auto of = [n](const Lanes<double>(&lanes)[3]) { return Vec3d{lanes[0][n], lanes[1][n], lanes[2][n]}; };
     const SurfaceLight light(caster.scene_, caster.pass_, caster.cache_);
-    const LinearStyle& style =
-        caster.scene_.passes[caster.pass_].table[static_cast<volume::Scalar>(surface.scalar)];
+    const LinearStyle& style = caster.scene_.passes[caster.pass_].table[static_cast<volume::Scalar>(surface.scalar)];
     const SurfaceHit hit{surface.from,
                          of(rays.origin),
                          of(rays.direction),

@@ -55,9 +55,7 @@ template <int kFirst, int kCount>
 HWY_INLINE VI bitsOf(VI v) {
     return hn::And(shiftRight<kFirst>(v), hn::Set(DI(), (std::int64_t{1} << kCount) - 1));
 }
-HWY_INLINE MI isSet(VI v, std::int64_t bit) {
-    return hn::Ne(hn::And(v, hn::Set(DI(), bit)), hn::Zero(DI()));
-}
+HWY_INLINE MI isSet(VI v, std::int64_t bit) { return hn::Ne(hn::And(v, hn::Set(DI(), bit)), hn::Zero(DI())); }
 HWY_INLINE V toDouble(VI v) { return hn::ConvertTo(D(), v); }
 HWY_INLINE VI toInt(V v) { return hn::ConvertTo(DI(), v); }
 HWY_INLINE M toDoubles(MI m) { return hn::RebindMask(D(), m); }
@@ -84,7 +82,6 @@ HWY_INLINE V expOfMinus(V x) {
     const V power = hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(di, 1023), toInt(n))));
     return hn::IfThenElseZero(isSmall, hn::Mul(hn::Mul(sum, sum), power));
 }
-
 
 HWY_INLINE V3 broadcast(Vec3d v) {
     const D d;
@@ -114,10 +111,10 @@ void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
         const V length = hn::Sqrt(dot(world, world));
         const V3 view{hn::Div(hn::Neg(world.x), length), hn::Div(hn::Neg(world.y), length),
                       hn::Div(hn::Neg(world.z), length)};
-        const V least = hn::Mul(
-            hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z)), hn::Set(d, 1e-12));
-        const V far = hn::Add(hn::Add(hn::Add(hn::Abs(origin.x), hn::Abs(origin.y)), hn::Abs(origin.z)),
-                              hn::Set(d, 65536.0));
+        const V least = hn::Mul(hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z)),
+                                hn::Set(d, 1e-12));
+        const V far =
+            hn::Add(hn::Add(hn::Add(hn::Abs(origin.x), hn::Abs(origin.y)), hn::Abs(origin.z)), hn::Set(d, 65536.0));
         store(hn::Mul(hn::Set(d, 1e-13), far), rays.slack, i);
         store(metres, rays.metresPerT, i);
         V from = zero, to = infinity;
@@ -228,11 +225,11 @@ public:
 private:
     // A stretch of one label, and how it ends.
     struct Segment {
-        VI label, plane;     // plane: the oblique plane at its end, or -1
-        V next;              // when it ends
-        V3 far, leave;       // planes of voxel faces before the ray, and when it crosses them
-        M isVoxel;           // cells beside the exit stay
-        VI planes;           // of the brick, two numbers; all ones where there is none
+        VI label, plane;  // plane: the oblique plane at its end, or -1
+        V next;           // when it ends
+        V3 far, leave;    // planes of voxel faces before the ray, and when it crosses them
+        M isVoxel;        // cells beside the exit stay
+        VI planes;        // of the brick, two numbers; all ones where there is none
     };
 
     HWY_INLINE Axis axisOf(std::size_t a) const {
@@ -323,9 +320,8 @@ private:
     }
     HWY_INLINE VI entryAt(const V3& brick, M lanes) const {
         const D d;
-        const V place =
-            hn::Add(brick.x, hn::Mul(hn::Set(d, scene_.bricksX),
-                                     hn::Add(brick.y, hn::Mul(hn::Set(d, scene_.bricksY), brick.z))));
+        const V place = hn::Add(brick.x, hn::Mul(hn::Set(d, scene_.bricksX),
+                                                 hn::Add(brick.y, hn::Mul(hn::Set(d, scene_.bricksY), brick.z))));
         const VI brick64 = toInt(hn::IfThenElseZero(lanes, place));
         if (scene_.volume.narrow.empty())
             return lowHalf(gatherBytes(scene_.volume.wide.data(), hn::ShiftLeft<2>(brick64)));
@@ -385,8 +381,8 @@ private:
     HWY_INLINE bool readCoded(M coded, Segment& segment, Side (&oblique)[2]) const {
         const DI di;
         // 24 bytes each
-        const VI offset = hn::IfThenElseZero(
-            toInts(coded), hn::Add(hn::ShiftLeft<4>(segment.label), hn::ShiftLeft<3>(segment.label)));
+        const VI offset = hn::IfThenElseZero(toInts(coded),
+                                             hn::Add(hn::ShiftLeft<4>(segment.label), hn::ShiftLeft<3>(segment.label)));
         const auto* codes = reinterpret_cast<const std::byte*>(scene_.volume.codes.data());
         const VI cuts = gatherBytes(codes, offset), planes = gatherBytes(codes + 8, offset),
                  cells = gatherBytes(codes + 16, offset);
@@ -404,9 +400,12 @@ private:
         const auto cut = [&](const Axis& axis, M isCut, VI place, V cell, V far) {
             return cutOf(axis, hn::And(coded, isCut), toDouble(place), cell, far, side);
         };
-        segment.far.z = cut(z_, toDoubles(isSet(cuts, std::int64_t{4} << 48)), bitsOf<32, 16>(cuts), cell_.z, segment.far.z);
-        segment.far.y = cut(y_, toDoubles(isSet(cuts, std::int64_t{2} << 48)), bitsOf<16, 16>(cuts), cell_.y, segment.far.y);
-        segment.far.x = cut(x_, toDoubles(isSet(cuts, std::int64_t{1} << 48)), bitsOf<0, 16>(cuts), cell_.x, segment.far.x);
+        segment.far.z =
+            cut(z_, toDoubles(isSet(cuts, std::int64_t{4} << 48)), bitsOf<32, 16>(cuts), cell_.z, segment.far.z);
+        segment.far.y =
+            cut(y_, toDoubles(isSet(cuts, std::int64_t{2} << 48)), bitsOf<16, 16>(cuts), cell_.y, segment.far.y);
+        segment.far.x =
+            cut(x_, toDoubles(isSet(cuts, std::int64_t{1} << 48)), bitsOf<0, 16>(cuts), cell_.x, segment.far.x);
         const VI at = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<2>(hn::Add(lowHalf(cells), side)));
         segment.label =
             hn::IfThenElse(toInts(coded), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
@@ -468,7 +467,8 @@ private:
         const D d;
         const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
         const auto number = [&](int n) {
-            return hn::BitCast(d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
+            return hn::BitCast(d,
+                               gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
         };
         const V3 normal{number(0), number(1), number(2)};
         const V zero = hn::Zero(d);
@@ -479,7 +479,8 @@ private:
         side.isThere = isThere;
         side.plane = plane;
         side.time = hn::IfThenElse(crosses, hn::Div(hn::Neg(height), rise), hn::Set(d, kInfinity));
-        const M isRising = hn::Or(hn::Gt(rise, zero), andNot(hn::Or(crosses, hn::Gt(height, zero)), hn::Eq(zero, zero)));
+        const M isRising =
+            hn::Or(hn::Gt(rise, zero), andNot(hn::Or(crosses, hn::Gt(height, zero)), hn::Eq(zero, zero)));
         // (t >= time) == isRising
         side.isPositive = andNot(differ(hn::Ge(t_, side.time), isRising), hn::Eq(zero, zero));
         return side;
@@ -504,16 +505,16 @@ private:
         const V light = hn::Add(one, hn::Mul(hn::Sub(light_, one), surface));
         const V weight = hn::Mul(share, light);
         const auto addColor = [&](V color, std::size_t channel) {
-            const V added = hn::Mul(
-                styleNumber(offset, offsetof(PacketStyle, color) + channel * sizeof(double)), weight);
+            const V added =
+                hn::Mul(styleNumber(offset, offsetof(PacketStyle, color) + channel * sizeof(double)), weight);
             return hn::IfThenElse(lanes, hn::Add(color, added), color);
         };
         color_ = {addColor(color_.x, 0), addColor(color_.y, 1), addColor(color_.z, 2)};
         transmittance_ = hn::IfThenElse(lanes, hn::Sub(transmittance_, share), transmittance_);
         const V opacity = hn::Sub(one, transmittance_);
         const V depth = hn::Load(d, samples_.depth.data() + first_);
-        const M isHit = hn::And(hn::And(lanes, hn::Eq(depth, hn::Set(d, kInfinity))),
-                                hn::Gt(opacity, hn::Set(d, scene_.labelAt)));
+        const M isHit =
+            hn::And(hn::And(lanes, hn::Eq(depth, hn::Set(d, kInfinity))), hn::Gt(opacity, hn::Set(d, scene_.labelAt)));
         if (any(isHit)) {
             const auto keep = [&](V value, Lanes<double>& lanesOf) {
                 store(hn::IfThenElse(isHit, value, hn::Load(d, lanesOf.data() + first_)), lanesOf, first_);
@@ -542,8 +543,7 @@ private:
         const V one = hn::Set(d, 1.0);
         const VI offset = styleOffset(runScalar_, lanes);
         const V density = styleNumber(offset, offsetof(PacketStyle, density));
-        const V stopped = hn::Sub(
-            one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
+        const V stopped = hn::Sub(one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
         add(lanes, hn::Mul(transmittance_, stopped), runStart_, offset);
         if (scene_.withColor) {
             markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, scene_.opaqueAt))));
@@ -586,13 +586,14 @@ private:
         const D d;
         const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
         if (scene_.ambientOcclusion == 0) return one;
-        const V3 point{hn::Add(x_.origin, hn::Mul(x_.direction, runStart_)), hn::Add(y_.origin, hn::Mul(y_.direction, runStart_)),
+        const V3 point{hn::Add(x_.origin, hn::Mul(x_.direction, runStart_)),
+                       hn::Add(y_.origin, hn::Mul(y_.direction, runStart_)),
                        hn::Add(z_.origin, hn::Mul(z_.direction, runStart_))};
         V occlusion = zero;
         for (const PacketOcclusion& level : scene_.occlusion)
-            occlusion = hn::Add(occlusion,
-                                hn::Mul(hn::Set(d, level.weight),
-                                        hn::Min(one, hn::Mul(sample(level, point), hn::Set(d, level.gain)))));
+            occlusion = hn::Add(
+                occlusion,
+                hn::Mul(hn::Set(d, level.weight), hn::Min(one, hn::Mul(sample(level, point), hn::Set(d, level.gain)))));
         occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, 0.35), crease_)));
         const V open = hn::Sub(one, hn::Mul(hn::Set(d, scene_.ambientOcclusion), occlusion));
         return hn::IfThenElse(isAroundEye_, one, open);
@@ -604,7 +605,8 @@ private:
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0), size = hn::Set(d, level.cellSize);
         M inside = isOpaque_;
         const auto place = [&](V from, V away, double count, V& low) {
-            const V p = hn::Add(hn::Mul(hn::Add(from, hn::Mul(away, size)), hn::Set(d, level.perVoxel)), hn::Set(d, 0.5));
+            const V p =
+                hn::Add(hn::Mul(hn::Add(from, hn::Mul(away, size)), hn::Set(d, level.perVoxel)), hn::Set(d, 0.5));
             inside = hn::And(inside, hn::And(hn::Gt(p, zero), hn::Lt(p, hn::Set(d, count + 1))));
             low = hn::Floor(p);
             return hn::Sub(p, low);
@@ -634,9 +636,8 @@ private:
         const V key = hn::Max(zero, dot(normal_, broadcast(scene_.towardsLight)));
         const V facing = hn::Max(zero, dot(normal_, view));
         const V sky = hn::Add(hn::Set(d, 0.80), hn::Mul(hn::Set(d, 0.20), normal_.z));
-        const V ambient =
-            hn::Mul(hn::Mul(hn::Set(d, scene_.ambient), open),
-                    hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
+        const V ambient = hn::Mul(hn::Mul(hn::Set(d, scene_.ambient), open),
+                                  hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
         return hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, scene_.key), key),
                                         hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
     }
@@ -702,7 +703,8 @@ private:
         isAroundEye_ = andNot(lanes, isAroundEye_);
         isUnlit_ = hn::Or(isUnlit_, hn::And(lanes, opaque));
         const M special = hn::And(
-            lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, hn::Or(andNot(opaque, hn::Eq(zero, zero)), andNot(isOblique, segment.isVoxel)))));
+            lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, hn::Or(andNot(opaque, hn::Eq(zero, zero)),
+                                                                           andNot(isOblique, segment.isVoxel)))));
         const M glass = andNot(opaque, lanes);
         if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(one), light_);
         if (any(special)) askForSurfaces(special, segment, faceAxis);
@@ -717,8 +719,8 @@ private:
             const V before = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), hn::Sub(cell, one));
             return hn::Floor(hn::Mul(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, cell), eighth));
         };
-        const VI entry = entryAt({brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)},
-                                 lanes);
+        const VI entry =
+            entryAt({brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)}, lanes);
         const M isBox = hn::And(lanes, isBelow(entry, scene_.volume.boxes.size()));
         const M coded = andNot(isBelow(entry, scene_.volume.uniformBoxes), isBox);
         if (!any(coded)) return hn::Set(di, -1);
@@ -750,8 +752,8 @@ private:
             const V distance = hn::Add(dot(normal, point), number(3));
             const V along = hn::IfThenElse(hn::Eq(faceAxis, hn::Zero(d)), normal.x,
                                            hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, 1.0)), normal.y, normal.z));
-            const M isNear = hn::And(isThere, hn::And(hn::Lt(hn::Abs(distance), hn::Set(d, 0.75)),
-                                                      hn::Gt(hn::Abs(along), hn::Set(d, 0.2))));
+            const M isNear = hn::And(
+                isThere, hn::And(hn::Lt(hn::Abs(distance), hn::Set(d, 0.75)), hn::Gt(hn::Abs(along), hn::Set(d, 0.2))));
             found = hn::IfThenElse(toInts(isNear), plane, found);
             lanes = andNot(isNear, lanes);
         };
@@ -771,7 +773,7 @@ private:
         alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], crease[kMost], normal[3][kMost],
             away[3][kMost];
         alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], voxel[kMost], cap[kMost] = {},
-                                 eye[kMost] = {};
+                                                                                           eye[kMost] = {};
         hn::Store(t_, d, t);
         hn::Store(faceAxis, d, axis);
         hn::Store(light_, d, light);
@@ -792,9 +794,8 @@ private:
             if (wanted[lane] == 0) continue;
             const Vec3i at{static_cast<std::int32_t>(cell[0][lane]), static_cast<std::int32_t>(cell[1][lane]),
                            static_cast<std::int32_t>(cell[2][lane])};
-            const Surface found =
-                scene_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
-                                          static_cast<int>(axis[lane]), voxel[lane] != 0});
+            const Surface found = scene_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
+                                                            static_cast<int>(axis[lane]), voxel[lane] != 0});
             light[lane] = found.light;
             crease[lane] = found.crease;
             for (int a = 0; a < 3; ++a) {

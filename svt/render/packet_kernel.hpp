@@ -27,9 +27,9 @@ struct PacketRays {
     Lanes<double> u, v;  ///< where in the picture, see CameraRays::at(): what setUpPacket() is given
     Lanes<double> origin[3], direction[3], inverse[3], planeOrigin[3];
     Lanes<double> slack;
-    Lanes<double> view[3];     ///< world space, unit length, towards the viewer
+    Lanes<double> view[3];  ///< world space, unit length, towards the viewer
     Lanes<double> metresPerT;
-    Lanes<double> from, to;    ///< where the ray is in the volume
+    Lanes<double> from, to;  ///< where the ray is in the volume
 };
 
 /// Bits of PacketStyle::kind; none: hidden.
@@ -49,8 +49,8 @@ struct PacketSamples {
     Lanes<std::int64_t> isDone;  ///< -1: the ray has ended
 };
 
-/// A surface whose normal is not found here: among voxels, on a cut face, or around the eye; and that of a body which is
-/// not opaque.
+/// A surface whose normal is not found here: among voxels, on a cut face, or around the eye; and that of a body which
+/// is not opaque.
 struct PacketSurface {
     std::size_t lane;
     std::int64_t scalar, plane;
@@ -70,8 +70,8 @@ struct PacketOcclusion {
 struct PacketScene {
     volume::BrickVolume::Arrays volume;
     double bricksX = 0, bricksY = 0;
-    double count[3]{};                      ///< voxels
-    const PacketStyle* styles = nullptr;    ///< by scalar; one more, hidden, for all scalars from styleCount on
+    double count[3]{};                    ///< voxels
+    const PacketStyle* styles = nullptr;  ///< by scalar; one more, hidden, for all scalars from styleCount on
     std::int64_t styleCount = 0;
     const double* planeDirections = nullptr;  ///< of volume.oblique: Surface::normal and Surface::away, 8 numbers each
     Vec3d axisNormals[3], axisAways[3];       ///< the same of voxel faces
@@ -80,7 +80,7 @@ struct PacketScene {
     Vec3d towardsLight;
     double ambient = 0, key = 0;
     double opaqueAt = 1, labelAt = 0;
-    bool withColor = true;                  ///< false: ends at the first label, without light
+    bool withColor = true;  ///< false: ends at the first label, without light
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
 };
 

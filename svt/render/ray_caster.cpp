@@ -57,8 +57,8 @@ using TableOf = std::function<PassTable(const Pass&)>;
 
 Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
                         const CastOptions& options, const TableOf& tableOf, bool isReference) {
-    Scene scene{volume, grid, spec, options, CameraRays(spec, grid), DirectionTable(volume, grid), {}, {}, isReference,
-                {}};
+    Scene scene{volume, grid, spec,        options, CameraRays(spec, grid), DirectionTable(volume, grid),
+                {},     {},   isReference, {}};
     scene.drawn = drawnPixels(scene.rays, grid, spec);
     scene.towardsLight = towardsLight(spec.light, scene.rays);
     for (const Pass& pass : spec.passes) {

@@ -51,10 +51,10 @@ public:
         const bool isNewObject = style.object != previousObject_;
         previousObject_ = style.object;
         if (withColor_ && isNewObject)
-            surface_ = surfaceLight_.at(
-                style, {from, ray_.index.origin, ray_.index.direction, normalized(-ray_.direction), start.cell,
-                        ray_.index.entryAxis(from, start.cell), start.plane, start.isVoxel,
-                        from == interval_->from ? interval_->capPlane : nullptr});
+            surface_ =
+                surfaceLight_.at(style, {from, ray_.index.origin, ray_.index.direction, normalized(-ray_.direction),
+                                         start.cell, ray_.index.entryAxis(from, start.cell), start.plane, start.isVoxel,
+                                         from == interval_->from ? interval_->capPlane : nullptr});
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);
         return true;

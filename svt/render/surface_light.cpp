@@ -63,7 +63,8 @@ Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) co
     } else if (style.isBody && hit.isVoxel) {
         const SurfaceNormal& fitted = normalAt(hit.cell, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
         found = scene_.directions.directions(toDouble(fitted.indexNormal));
-        surface.crease = std::clamp((double(fitted.coverage) - double(SurfaceNormal::kPlaneCoverage) - 0.05) * 2.5, 0.0, 1.0);
+        surface.crease =
+            std::clamp((double(fitted.coverage) - double(SurfaceNormal::kPlaneCoverage) - 0.05) * 2.5, 0.0, 1.0);
     } else {
         found = scene_.directions.axis(hit.axis);
         isAway = hit.direction[hit.axis] > 0;
@@ -81,16 +82,16 @@ const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) cons
     if (slot.key != key) {
         slot.key = key;
         const PassTable& table = pass_.table;
-        slot.normal = surfaceNormal(scene_.volume, cell, axis, sign,
-                                    [&](volume::Scalar scalar) { return table[scalar].isBody; });
+        slot.normal =
+            surfaceNormal(scene_.volume, cell, axis, sign, [&](volume::Scalar scalar) { return table[scalar].isBody; });
     }
     return slot.normal;
 }
 
 // 1 in the open, less in corners.
 double SurfaceLight::openness(const SurfaceHit& hit, const Surface& surface) const noexcept {
-    const double occlusion =
-        std::min(1.0, pass_.occlusion.occlusion(hit.origin + hit.direction * hit.from, surface.away) + 0.35 * surface.crease);
+    const double occlusion = std::min(
+        1.0, pass_.occlusion.occlusion(hit.origin + hit.direction * hit.from, surface.away) + 0.35 * surface.crease);
     return 1 - double(scene_.spec.light.ambientOcclusion) * occlusion;
 }
 
@@ -100,8 +101,7 @@ double SurfaceLight::lightOn(Vec3d normal, Vec3d view, double open) const noexce
     const double key = std::max(0.0, dot(normal, scene_.towardsLight));
     const double facing = std::max(0.0, dot(normal, view));
     const double sky = 0.80 + 0.20 * normal.z;
-    return double(light.ambient) * open * (0.82 * sky + 0.18 * facing) +
-           double(light.key) * key * (0.45 + 0.55 * open);
+    return double(light.ambient) * open * (0.82 * sky + 0.18 * facing) + double(light.key) * key * (0.45 + 0.55 * open);
 }
 
 }  // namespace svt::render

@@ -8,20 +8,20 @@ namespace svt::render {
 
 /// Where a ray meets a label, and how.
 struct SurfaceHit {
-    double from;                  ///< the ray's parameter there
-    Vec3d origin, direction;      ///< of the ray, voxel space
-    Vec3d view;                   ///< world space, unit length, towards the viewer
-    Vec3i cell;                   ///< voxel that the ray enters
-    int axis;                     ///< whose voxel face it crosses there, or -1
-    std::uint32_t plane;          ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
-    bool isVoxel;                 ///< the label is told by voxels alone
-    const HalfSpace* capPlane;    ///< clip plane on which it lies, or null
+    double from;                ///< the ray's parameter there
+    Vec3d origin, direction;    ///< of the ray, voxel space
+    Vec3d view;                 ///< world space, unit length, towards the viewer
+    Vec3i cell;                 ///< voxel that the ray enters
+    int axis;                   ///< whose voxel face it crosses there, or -1
+    std::uint32_t plane;        ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
+    bool isVoxel;               ///< the label is told by voxels alone
+    const HalfSpace* capPlane;  ///< clip plane on which it lies, or null
 };
 
 /// Where a run begins, and how it is lit there.
 struct Surface {
-    Vec3d normal{};  ///< world space, unit length
-    Vec3d away{};    ///< the same direction in index space, longest component 1
+    Vec3d normal{};     ///< world space, unit length
+    Vec3d away{};       ///< the same direction in index space, longest component 1
     double crease = 0;  ///< how deep in a corner of voxels, 0..1
     double light = 1;
     bool isCap = false;

@@ -186,13 +186,12 @@ void TileRenderer::castCenters() {
     for (std::int32_t y = 0; y < tileHeight_; ++y)
         for (std::int32_t x = 0; x < tileWidth_;) {
             if (!packets_) {
-                centers_[next++] =
-                    caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
+                centers_[next++] = caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
                 ++x;
                 continue;
             }
-            const auto count = static_cast<std::size_t>(
-                std::min(tileWidth_ - x, static_cast<std::int32_t>(kPacketRays)));
+            const auto count =
+                static_cast<std::size_t>(std::min(tileWidth_ - x, static_cast<std::int32_t>(kPacketRays)));
             for (std::size_t n = 0; n < count; ++n, ++x) {
                 u[n] = horizontal(x * side_ + middle);
                 v[n] = vertical(y * side_ + middle);
@@ -256,9 +255,9 @@ void TileRenderer::writePixels() {
         const Rgba8 background = pixelOf({}, 0, y);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
             writePixel(x, y, background);
-            const Sample& center = isOdd ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
-                                 : isAdaptive ? pixels_[pixelAt(x, y)]
-                                              : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
+            const Sample& center = isOdd        ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
+                                   : isAdaptive ? pixels_[pixelAt(x, y)]
+                                                : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
             frame_.label.at(tileX_ + x, tileY_ + y) = center.hasHit() ? center.label : 0;
             frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
         }

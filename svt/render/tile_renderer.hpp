@@ -63,11 +63,11 @@ private:
     Vec3f backgroundTop_, backgroundBottom_;                               // linear light
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
-    std::vector<double> columns_, rows_;  // places of the samples in the picture
+    std::vector<double> columns_, rows_;                                   // places of the samples in the picture
     std::vector<Sample> samples_;
     std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
     std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
-    std::vector<float> lines_;  // how dark, 0..1
+    std::vector<float> lines_;     // how dark, 0..1
 };
 
 }  // namespace svt::render

@@ -293,15 +293,14 @@ private:
                at.z < places_.count.z;
     }
     [[nodiscard]] std::size_t place(Vec3i at) const noexcept { return places_.at(at.x, at.y, at.z); }
-    [[nodiscard]] bool isMixed(Vec3i at) const noexcept {
-        return places_.patternOf[place(at)] != TilePlaces::kUniform;
-    }
+    [[nodiscard]] bool isMixed(Vec3i at) const noexcept { return places_.patternOf[place(at)] != TilePlaces::kUniform; }
     [[nodiscard]] const BrickPattern& patternAt(Vec3i at) const noexcept {
         return patterns_[places_.patternOf[place(at)]];
     }
     [[nodiscard]] bool needsCode(Vec3i at) const noexcept {
         return isMixed(at) &&
-               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Uncoded) && codeOf_[place(at)] == kNone;
+               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Uncoded) &&
+               codeOf_[place(at)] == kNone;
     }
     [[nodiscard]] const BrickCode* codeAt(Vec3i at) const noexcept {
         const std::uint32_t number = codeOf_[place(at)];
@@ -455,7 +454,8 @@ private:
             for (const std::uint32_t number : code->plane) {
                 if (number == BrickVolume::kNoPlane || sides_.size() == kMostAround) continue;
                 const BrickPlane& plane = result_.planes[number];
-                if (!cutsBox(plane, at) || std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end())
+                if (!cutsBox(plane, at) ||
+                    std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end())
                     continue;
                 addCandidate(plane, sideMask(plane, at));
             }
@@ -566,8 +566,8 @@ private:
         std::array<std::uint16_t, 512> index{};
         for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p)
             for (std::size_t v = 0; v < 512; ++v)
-                index[v] = static_cast<std::uint16_t>(index[v] |
-                                                      ((pattern.planes[8 * p + v / 64] >> (v % 64)) & 1u) << p);
+                index[v] =
+                    static_cast<std::uint16_t>(index[v] | ((pattern.planes[8 * p + v / 64] >> (v % 64)) & 1u) << p);
         for (int axis = 0; axis < 3; ++axis) {
             const std::size_t step = axis == 0 ? 1 : axis == 1 ? 8 : 64;
             const std::size_t stepP = axis == 0 ? 8 : 1, stepQ = axis == 2 ? 8 : 64;
@@ -577,8 +577,9 @@ private:
                         const std::size_t above = p * stepP + q * stepQ + h * step;
                         if (index[above] != index[above - step])
                             (*faces)[std::size_t(axis)].push_back(
-                                {static_cast<std::uint8_t>(p), static_cast<std::uint8_t>(q), static_cast<std::uint8_t>(h),
-                                 pattern.palette[index[above - step]], pattern.palette[index[above]]});
+                                {static_cast<std::uint8_t>(p), static_cast<std::uint8_t>(q),
+                                 static_cast<std::uint8_t>(h), pattern.palette[index[above - step]],
+                                 pattern.palette[index[above]]});
                     }
         }
         return *faces;
@@ -616,8 +617,7 @@ private:
     // Does the plane cut the box of the brick itself?
     [[nodiscard]] bool cutsBox(const BrickPlane& plane, Vec3i at) const noexcept {
         const double middle = valueAt(plane, corner(at) + Vec3d{4, 4, 4});
-        const double reach =
-            4 * (std::abs(plane.normal.x) + std::abs(plane.normal.y) + std::abs(plane.normal.z));
+        const double reach = 4 * (std::abs(plane.normal.x) + std::abs(plane.normal.y) + std::abs(plane.normal.z));
         return std::abs(middle) < reach - 1e-3;
     }
 
@@ -633,7 +633,8 @@ private:
             forEachNeighbor(from, [&](Vec3i at) {
                 if (isMixed(at) || codeAt(at) != nullptr || !cutsBox(plane, at)) return;
                 const auto mask = sideMask(plane, at);
-                if (mask && isTrivial(*mask) && code.cells[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
+                if (mask && isTrivial(*mask) &&
+                    code.cells[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
                     setCode(at, code);
             });
         }

@@ -45,7 +45,7 @@ struct BrickSide {
 /// \param changes  changesOf(pattern)
 /// \param first, second  may be null
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
-                                                  const BrickSide* first = nullptr, const BrickSide* second = nullptr);
+                                                   const BrickSide* first = nullptr, const BrickSide* second = nullptr);
 
 /// One tile's bricks by place, each a number of `patterns` or kUniform.
 struct TilePlaces {

@@ -75,8 +75,7 @@ Coded expectCodesHold(const BrickVolume& bricks) {
                             for (const std::uint32_t plane : coding.plane) {
                                 if (plane == BrickVolume::kNoPlane) continue;
                                 const BrickPlane& side = bricks.oblique()[plane];
-                                const double value =
-                                    dot(side.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + side.offset;
+                                const double value = dot(side.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + side.offset;
                                 cell |= std::size_t{value > 0} << bit++;
                             }
                             EXPECT_EQ(bricks.cellScalar(coding, cell), bricks.scalarAt(i, j, k))
@@ -87,8 +86,7 @@ Coded expectCodesHold(const BrickVolume& bricks) {
 }
 
 TEST(BrickCode, CornerOfABoxIsThreeCuts) {
-    const BrickPattern pattern =
-        patternOf([](auto i, auto j, auto k) { return i >= 3 && j >= 5 && k >= 1 ? 7u : 4u; });
+    const BrickPattern pattern = patternOf([](auto i, auto j, auto k) { return i >= 3 && j >= 5 && k >= 1 ? 7u : 4u; });
     const auto code = codeByCuts(pattern);
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{3, 5, 1}));
@@ -96,8 +94,7 @@ TEST(BrickCode, CornerOfABoxIsThreeCuts) {
 }
 
 TEST(BrickCode, ThreeLabelsInTwoCuts) {
-    const BrickPattern pattern =
-        patternOf([](auto i, auto, auto k) { return k < 4 ? 1u : i < 6 ? 2u : 3u; });
+    const BrickPattern pattern = patternOf([](auto i, auto, auto k) { return k < 4 ? 1u : i < 6 ? 2u : 3u; });
     const auto code = codeByCuts(pattern);
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{6, 0, 4}));
@@ -121,7 +118,8 @@ TEST(BrickCode, VoxelsInACheckerboardHaveNone) {
 }
 
 TEST(BrickCode, ObliqueHalfSpacesAreCodedAllOverWithTheirNormal) {
-    for (const Vec3d direction : {Vec3d{0.3, 0.5, 0.8}, Vec3d{0.5, 0.866, 0}, Vec3d{0, 0.5, 0.866}, Vec3d{1, 0.21, -0.4}}) {
+    for (const Vec3d direction :
+         {Vec3d{0.3, 0.5, 0.8}, Vec3d{0.5, 0.866, 0}, Vec3d{0, 0.5, 0.866}, Vec3d{1, 0.21, -0.4}}) {
         const Vec3d normal = normalized(direction);
         const Vec3i n{72, 80, 64};
         const BrickVolume bricks = bricksOf(n, [&](auto i, auto j, auto k) {

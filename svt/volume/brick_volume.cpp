@@ -244,9 +244,8 @@ public:
                         tile_.codedPatterns.push_back(
                             pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[place]));
                     } else {
-                        index.push_back(pattern != TilePlaces::kUniform
-                                            ? pattern | kVoxelsBit
-                                            : tile_.entryAt(x, y, z, places_.count.z));
+                        index.push_back(pattern != TilePlaces::kUniform ? pattern | kVoxelsBit
+                                                                        : tile_.entryAt(x, y, z, places_.count.z));
                     }
                 }
         tile_.entries = {};
@@ -261,7 +260,7 @@ private:
         bool isAllCoded = true;
         for (const BrickPattern& pattern : tile_.patterns) {
             auto code = codeBySides(pattern, changesOf(pattern));
-            const PatternKind kind = !code                   ? PatternKind::Uncoded
+            const PatternKind kind = !code                    ? PatternKind::Uncoded
                                      : code->cells.size() > 2 ? PatternKind::Step
                                                               : PatternKind::Coded;
             kinds.push_back(static_cast<std::uint8_t>(kind));
@@ -478,8 +477,7 @@ public:
         volume_.codedBricks_.resize(words);
         volume_.codedBefore_.resize(words);
         for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick)
-            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0}
-                                                << (brick % 64);
+            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0} << (brick % 64);
         std::uint32_t before = 0;
         for (std::size_t word = 0; word < words; ++word) {
             volume_.codedBefore_[word] = before;
@@ -491,8 +489,7 @@ public:
             std::size_t next = 0;
             forEachPlace(tile, [&](std::size_t brick) {
                 if ((volume_.wide_[brick] & kCodedBit) == 0) return;
-                const std::uint64_t below =
-                    volume_.codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
+                const std::uint64_t below = volume_.codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
                 volume_.codedPatterns_[volume_.codedBefore_[brick / 64] +
                                        static_cast<std::uint32_t>(std::popcount(below))] =
                     numbers.patterns[numbers.codedPatterns[next++]];
@@ -666,11 +663,12 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
 }
 
 std::size_t BrickVolume::sizeBytes() const noexcept {
-    return narrow_.size() * sizeof(std::uint16_t) + wide_.size() * sizeof(std::uint32_t) + boxes_.size() * sizeof(SameLabelBox) +
-           codes_.size() * sizeof(BoxCoding) + oblique_.size() * sizeof(BrickPlane) +
-           bricks_.size() * sizeof(PaletteBrick) + palettes_.size() * sizeof(Scalar) +
-           planes_.size() * sizeof(std::uint64_t) + codedBricks_.size() * sizeof(std::uint64_t) +
-           codedBefore_.size() * sizeof(std::uint32_t) + codedPatterns_.size() * sizeof(std::uint32_t);
+    return narrow_.size() * sizeof(std::uint16_t) + wide_.size() * sizeof(std::uint32_t) +
+           boxes_.size() * sizeof(SameLabelBox) + codes_.size() * sizeof(BoxCoding) +
+           oblique_.size() * sizeof(BrickPlane) + bricks_.size() * sizeof(PaletteBrick) +
+           palettes_.size() * sizeof(Scalar) + planes_.size() * sizeof(std::uint64_t) +
+           codedBricks_.size() * sizeof(std::uint64_t) + codedBefore_.size() * sizeof(std::uint32_t) +
+           codedPatterns_.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace svt::volume

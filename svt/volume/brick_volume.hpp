@@ -147,7 +147,9 @@ public:
         friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
     };
     /// Box of a coded brick.
-    [[nodiscard]] const SameLabelBox& codedBox(Entry coded) const noexcept { return boxes_[coded.value_ & ~Entry::kCoded]; }
+    [[nodiscard]] const SameLabelBox& codedBox(Entry coded) const noexcept {
+        return boxes_[coded.value_ & ~Entry::kCoded];
+    }
     [[nodiscard]] const BoxCoding& coding(Entry coded) const noexcept { return codes_[codedBox(coded).scalar]; }
     /// Scalar on the sides that `cell` says, see BoxCoding::cells.
     [[nodiscard]] Scalar cellScalar(const BoxCoding& coding, std::size_t cell) const noexcept {
@@ -209,10 +211,11 @@ public:
         std::uint32_t paletteSize = 0;
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
-    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of the
-    /// index is, in this order, a same-label box, a box of coded bricks, which has the number of a code for the scalar,
-    /// or a palette brick. Where 16 bits are enough for all of them the index is `narrow`, else `wide`; the other is
-    /// empty. Behind the index and `palettes` stand 8 bytes more, so that 64 bits may be read at once anywhere.
+    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of
+    /// the index is, in this order, a same-label box, a box of coded bricks, which has the number of a code for the
+    /// scalar, or a palette brick. Where 16 bits are enough for all of them the index is `narrow`, else `wide`; the
+    /// other is empty. Behind the index and `palettes` stand 8 bytes more, so that 64 bits may be read at once
+    /// anywhere.
     struct Arrays {
         std::span<const std::uint16_t> narrow;
         std::span<const std::uint32_t> wide;
@@ -261,7 +264,8 @@ private:
     [[nodiscard]] std::size_t placeOf(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
         return static_cast<std::size_t>(bx) +
                static_cast<std::size_t>(brickCount_.x) *
-                   (static_cast<std::size_t>(by) + static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz));
+                   (static_cast<std::size_t>(by) +
+                    static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz));
     }
     // Palette brick of a coded brick: found by its rank among them.
     [[nodiscard]] std::uint32_t patternOf(std::size_t brick) const noexcept {

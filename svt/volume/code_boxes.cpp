@@ -32,8 +32,8 @@ private:
     // Which of the box's sides cut a brick, and on which side of the others it lies.
     struct Sides {
         std::array<bool, 5> cuts{};
-        std::size_t cell = 0;                  // bits of the sides that do not cut
-        std::array<std::size_t, 5> bits{};     // of the sides that do, in order
+        std::size_t cell = 0;               // bits of the sides that do not cut
+        std::array<std::size_t, 5> bits{};  // of the sides that do, in order
         std::size_t count = 0;
     };
     [[nodiscard]] Sides sidesOf(Vec3i at) const noexcept {
