@@ -206,7 +206,8 @@ def main():
     parts = arguments.only or (["profile"] if arguments.profile else PARTS[:-1] if arguments.quick else PARTS)
     store = arguments.build / ("bench-quick.json" if arguments.quick else "bench.json")
     keep = arguments.no_run or arguments.only or arguments.profile
-    figures = json.loads(store.read_text()) if keep and store.exists() else {"parts": {}}
+    figures = json.loads(store.read_text()) if keep and store.exists() else {}
+    figures.setdefault("parts", {})
     if not arguments.no_run:
         run(arguments.build, parts, arguments.quick, figures)
         store.write_text(json.dumps(figures, indent=1) + "\n")
