@@ -1,7 +1,11 @@
 #include <svt/render/packet_kernel.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <utility>
 
 // This file is compiled once for each set of instructions.
 #undef HWY_TARGET_INCLUDE
@@ -152,7 +156,18 @@ struct Axis {
     HWY_INLINE V planeTime(V plane) const { return hn::Mul(hn::Sub(plane, planeOrigin), inverse); }
 };
 
-// The rays of a packet under way; as many at once as the instructions take.
+// What a scalar, or each lane's own, looks like.
+struct Looks {
+    const PacketStyle* same;  // of all lanes; or null, and
+    VI offset;                // bytes to each lane's
+};
+
+// Voxels [low, high) of a box.
+struct Bounds {
+    double low[3], high[3];
+};
+
+// Rays of a packet under way; as many as one vector takes.
 class Walk {
 public:
     HWY_INLINE Walk(const PacketScene& scene, const PacketRays& rays, std::size_t first, void* context,
@@ -188,26 +203,136 @@ public:
         isDone_ = toDoubles(hn::Ne(hn::Load(DI(), samples_.isDone.data() + first_), hn::Zero(DI())));
         active_ = started_ = andNot(isDone_, hn::Lt(t_, end_));
         isRunTranslucent_ = isOpaque_ = isUnlit_ = hn::Lt(t_, t_);
+        cell_ = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
         if (any(active_)) cellsAt(active_);
+        t_ = hn::IfThenElse(active_, t_, hn::Set(d, kInfinity));
     }
 
-    HWY_INLINE bool isActive() const { return any(active_); }
+    // Where the rays are; infinity for those that have ended.
+    HWY_INLINE V times() const { return t_; }
+    HWY_INLINE Vec3i cell(std::size_t lane) const {
+        return {static_cast<std::int32_t>(hn::ExtractLane(cell_.x, lane)),
+                static_cast<std::int32_t>(hn::ExtractLane(cell_.y, lane)),
+                static_cast<std::int32_t>(hn::ExtractLane(cell_.z, lane))};
+    }
+    HWY_INLINE M lanesIn(const Bounds& box) const {
+        const D d;
+        M lanes = active_;
+        const auto isIn = [&](V cell, int axis) {
+            lanes = hn::And(lanes,
+                            hn::And(hn::Ge(cell, hn::Set(d, box.low[axis])), hn::Lt(cell, hn::Set(d, box.high[axis]))));
+        };
+        isIn(cell_.x, 0);
+        isIn(cell_.y, 1);
+        isIn(cell_.z, 2);
+        return lanes;
+    }
 
-    // To the end of the label that each ray is in.
-    HWY_INLINE void step() {
-        const Segment segment = segmentOf(active_);
-        const M changed = hn::And(active_, toDoubles(hn::Ne(segment.label, runScalar_)));
-        if (any(changed)) {
-            const M leaving = hn::And(changed, isRunTranslucent_);
-            if (any(leaving)) leave(leaving, t_);
-            const M entering = andNot(isDone_, changed);
-            if (any(entering)) enter(entering, segment);
-            active_ = andNot(isDone_, active_);
+    // Through a box of one label.
+    HWY_INLINE void crossUniform(M lanes, const Bounds& box, std::int64_t scalar) {
+        const DI di;
+        lanes = change(lanes, hn::Set(di, scalar), looksOf(scalar), false);
+        const Faces faces = facesAhead(box);
+        crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+        moveOut(advance(lanes, faces.first()), faces);
+    }
+
+    // Through a coded box, from side to side.
+    HWY_INLINE void crossCoded(M lanes, const Bounds& box, const volume::BrickVolume::BoxCoding& code) {
+        const D d;
+        const DI di;
+        const Faces faces = facesAhead(box);
+        const V exit = faces.first();
+        // When the rays change sides, in the order of the bits; whether they are beyond from then on, or until then.
+        struct Side {
+            V time;
+            M isBeyondAfter;
+            std::int64_t plane;
+        };
+        Side sides[5];
+        std::size_t count = 0;
+        const auto addCut = [&](const Axis& axis, V cell, std::size_t number) {
+            if (((code.cutAxes >> number) & 1u) == 0) return;
+            const V place = hn::Set(d, static_cast<double>(code.cut[number]));
+            // Not along this axis: on one side for good.
+            const M rises = andNot(axis.isNegative, axis.isMoving);
+            sides[count++] = {axis.planeTime(place), hn::Or(rises, andNot(axis.isMoving, hn::Lt(cell, place))), -1};
+        };
+        addCut(x_, cell_.x, 0);
+        addCut(y_, cell_.y, 1);
+        addCut(z_, cell_.z, 2);
+        for (const std::uint32_t number : code.plane) {
+            if (number == volume::BrickVolume::kNoPlane) continue;
+            Side& side = sides[count++];
+            findCrossing(scene_.volume.oblique[number], side.time, side.isBeyondAfter);
+            side.plane = number;
         }
-        t_ = hn::IfThenElse(active_, segment.next, t_);
-        active_ = hn::And(active_, hn::Lt(t_, end_));
-        crossed_ = hn::IfThenElse(toInts(active_), segment.plane, crossed_);
-        moveCells(segment, active_);
+        const volume::Scalar* scalars = scene_.volume.palettes.data() + code.cells;
+        bool isAtFace = true;  // and the cells are known
+        while (true) {
+            VI cell = hn::Zero(di), nextPlane = hn::Set(di, -1);
+            V next = exit;
+            for (std::size_t s = 0; s < count; ++s) {
+                const M isAfter = hn::Ge(t_, sides[s].time);
+                const M isBeyond = andNot(differ(isAfter, sides[s].isBeyondAfter), lanes);
+                cell = hn::Or(cell, hn::IfThenElseZero(toInts(isBeyond), hn::Set(di, std::int64_t{1} << s)));
+                const M isNext = andNot(isAfter, hn::Lt(sides[s].time, next));
+                next = hn::IfThenElse(isNext, sides[s].time, next);
+                nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
+            }
+            const std::int64_t first = hn::ExtractLane(cell, hn::FindKnownFirstTrue(d, lanes));
+            if (any(hn::And(lanes, toDoubles(hn::Ne(cell, hn::Set(di, first)))))) {
+                const VI scalar = lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(cell)));
+                lanes = change(lanes, scalar, looksOf(scalar, lanes), false, !isAtFace);
+            } else {
+                const std::int64_t scalar = scalars[first];
+                lanes = change(lanes, hn::Set(di, scalar), looksOf(scalar), false, !isAtFace);
+            }
+            lanes = advance(lanes, next);
+            crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
+            const M leaves = hn::And(lanes, hn::Eq(t_, exit));
+            moveOut(leaves, faces);
+            lanes = andNot(leaves, lanes);
+            if (!any(lanes)) return;
+            isAtFace = false;
+        }
+    }
+
+    // Through a brick of voxels, from voxel to voxel.
+    HWY_INLINE void crossVoxels(M lanes, const Bounds& box, const volume::BrickVolume::PaletteBrick& brick) {
+        const D d;
+        const DI di;
+        const V one = hn::Set(d, 1.0);
+        const std::uint64_t* words = scene_.volume.words.data() + brick.planes;
+        const volume::Scalar* scalars = scene_.volume.palettes.data() + brick.palette;
+        while (true) {
+            const V3 local{hn::Sub(cell_.x, hn::Set(d, box.low[0])), hn::Sub(cell_.y, hn::Set(d, box.low[1])),
+                           hn::Sub(cell_.z, hn::Set(d, box.low[2]))};
+            const VI bit = toInt(hn::IfThenElseZero(lanes, hn::Add(local.x, hn::Mul(local.y, hn::Set(d, 8.0)))));
+            const VI word = hn::ShiftLeft<3>(toInt(hn::IfThenElseZero(lanes, local.z)));
+            VI index = hn::Zero(di);
+            for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
+                const VI bits = shiftRightBy(gatherBytes(words + std::size_t{8} * plane, word), bit);
+                index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
+            }
+            const VI scalar = lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(index)));
+            lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
+            Faces faces;
+            faces.far = {hn::IfThenElse(x_.isNegative, cell_.x, hn::Add(cell_.x, one)),
+                         hn::IfThenElse(y_.isNegative, cell_.y, hn::Add(cell_.y, one)),
+                         hn::IfThenElse(z_.isNegative, cell_.z, hn::Add(cell_.z, one))};
+            findTimes(faces);
+            crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+            lanes = advance(lanes, faces.first());
+            const auto moved = [&](const Axis& axis, V cell, V far, V leave) {
+                const M crosses = hn::And(lanes, hn::Eq(leave, t_));
+                return hn::IfThenElse(crosses, hn::IfThenElse(axis.isNegative, hn::Sub(far, one), far), cell);
+            };
+            cell_ = {moved(x_, cell_.x, faces.far.x, faces.leave.x), moved(y_, cell_.y, faces.far.y, faces.leave.y),
+                     moved(z_, cell_.z, faces.far.z, faces.leave.z)};
+            lanes = hn::And(lanes, lanesIn(box));
+            if (!any(lanes)) return;
+        }
     }
 
     HWY_INLINE void finish() {
@@ -223,13 +348,10 @@ public:
     }
 
 private:
-    // A stretch of one label, and how it ends.
-    struct Segment {
-        VI label, plane;  // plane: the oblique plane at its end, or -1
-        V next;           // when it ends
-        V3 far, leave;    // planes of voxel faces before the ray, and when it crosses them
-        M isVoxel;        // cells beside the exit stay
-        VI planes;        // of the brick, two numbers; all ones where there is none
+    // Faces of voxels before the rays, and when they get there.
+    struct Faces {
+        V3 far, leave;
+        HWY_INLINE V first() const { return hn::Min(hn::Min(leave.x, leave.y), leave.z); }
     };
 
     HWY_INLINE Axis axisOf(std::size_t a) const {
@@ -286,31 +408,66 @@ private:
             y = settle(y_, y, t_, unsure);
             z = settle(z_, z, t_, unsure);
         }
-        const V zero = hn::Zero(D());
-        cell_ = {hn::IfThenElse(lanes, x, zero), hn::IfThenElse(lanes, y, zero), hn::IfThenElse(lanes, z, zero)};
+        cell_ = {hn::IfThenElse(lanes, x, cell_.x), hn::IfThenElse(lanes, y, cell_.y),
+                 hn::IfThenElse(lanes, z, cell_.z)};
     }
 
-    HWY_INLINE void moveCells(const Segment& segment, M active) {
+    HWY_INLINE Faces facesAhead(const Bounds& box) const {
+        const D d;
+        const auto far = [&](const Axis& axis, std::size_t number) {
+            return hn::IfThenElse(axis.isNegative, hn::Set(d, box.low[number]), hn::Set(d, box.high[number]));
+        };
+        Faces faces;
+        faces.far = {far(x_, 0), far(y_, 1), far(z_, 2)};
+        findTimes(faces);
+        return faces;
+    }
+    HWY_INLINE void findTimes(Faces& faces) const {
+        faces.leave = {x_.planeTime(faces.far.x), y_.planeTime(faces.far.y), z_.planeTime(faces.far.z)};
+    }
+
+    // PlaneCrossing of the plain caster.
+    HWY_INLINE void findCrossing(const volume::BrickPlane& plane, V& time, M& isRising) const {
+        const D d;
+        const V zero = hn::Zero(d);
+        const V3 normal = broadcast(plane.normal);
+        const V height = hn::Add(dot(normal, {x_.origin, y_.origin, z_.origin}), hn::Set(d, plane.offset));
+        const V rise = dot(normal, {x_.direction, y_.direction, z_.direction});
+        const M crosses = hn::Ne(rise, zero);
+        time = hn::IfThenElse(crosses, hn::Div(hn::Neg(height), rise), hn::Set(d, kInfinity));
+        isRising = hn::Or(hn::Gt(rise, zero), andNot(hn::Or(crosses, hn::Gt(height, zero)), hn::Eq(zero, zero)));
+    }
+
+    // Lanes go on to `t`; returns those that have not ended.
+    HWY_INLINE M advance(M lanes, V t) {
+        const D d;
+        const M goesOn = hn::And(lanes, hn::Lt(t, end_));
+        t_ = hn::IfThenElse(lanes, hn::IfThenElse(goesOn, t, hn::Set(d, kInfinity)), t_);
+        active_ = andNot(andNot(goesOn, lanes), active_);
+        return goesOn;
+    }
+    // Lanes leave a box through its faces.
+    HWY_INLINE void moveOut(M lanes, const Faces& faces) {
         const D d;
         const V one = hn::Set(d, 1.0);
-        M unsureX = hn::Lt(t_, t_), unsureY = unsureX, unsureZ = unsureX;
-        const auto step = [&](const Axis& axis, V cell, V far, V leave, M& unsure) {
+        M unsureX = hn::Lt(slack_, slack_), unsureY = unsureX, unsureZ = unsureX;
+        const auto step = [&](const Axis& axis, V far, V leave, M& unsure) {
             const M crosses = hn::Eq(leave, t_);
             const V beyond = hn::IfThenElse(axis.isNegative, hn::Sub(far, one), far);
-            const V at = hn::IfThenElse(segment.isVoxel, cell, cellAt(axis, t_, unsure));
-            unsure = andNot(hn::Or(crosses, segment.isVoxel), unsure);
+            const V at = cellAt(axis, t_, unsure);
+            unsure = hn::And(lanes, andNot(crosses, unsure));
             return hn::IfThenElse(crosses, beyond, at);
         };
-        V x = step(x_, cell_.x, segment.far.x, segment.leave.x, unsureX);
-        V y = step(y_, cell_.y, segment.far.y, segment.leave.y, unsureY);
-        V z = step(z_, cell_.z, segment.far.z, segment.leave.z, unsureZ);
-        if (any(hn::And(active, hn::Or(hn::Or(unsureX, unsureY), unsureZ)))) {
-            x = settle(x_, x, t_, hn::And(active, unsureX));
-            y = settle(y_, y, t_, hn::And(active, unsureY));
-            z = settle(z_, z, t_, hn::And(active, unsureZ));
+        V x = step(x_, faces.far.x, faces.leave.x, unsureX);
+        V y = step(y_, faces.far.y, faces.leave.y, unsureY);
+        V z = step(z_, faces.far.z, faces.leave.z, unsureZ);
+        if (any(hn::Or(hn::Or(unsureX, unsureY), unsureZ))) {
+            x = settle(x_, x, t_, unsureX);
+            y = settle(y_, y, t_, unsureY);
+            z = settle(z_, z, t_, unsureZ);
         }
-        const V zero = hn::Zero(d);
-        cell_ = {hn::IfThenElse(active, x, zero), hn::IfThenElse(active, y, zero), hn::IfThenElse(active, z, zero)};
+        cell_ = {hn::IfThenElse(lanes, x, cell_.x), hn::IfThenElse(lanes, y, cell_.y),
+                 hn::IfThenElse(lanes, z, cell_.z)};
     }
 
     // ------------------------------------------------------------------------------------------------ what
@@ -328,188 +485,64 @@ private:
         return bitsOf<0, 16>(gatherBytes(scene_.volume.narrow.data(), hn::ShiftLeft<1>(brick64)));
     }
 
-    HWY_INLINE Segment segmentOf(M active) const {
-        const D d;
-        const DI di;
-        const V eighth = hn::Set(d, 0.125);
-        const V3 brick{hn::Floor(hn::Mul(cell_.x, eighth)), hn::Floor(hn::Mul(cell_.y, eighth)),
-                       hn::Floor(hn::Mul(cell_.z, eighth))};
-        const VI entry = entryAt(brick, active);
-        const M voxels = andNot(isBelow(entry, scene_.volume.boxes.size()), active);
-        const M boxes = andNot(voxels, active);
-        Segment segment;
-        segment.label = hn::Zero(di);
-        segment.plane = hn::Set(di, -1);
-        segment.far = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        segment.isVoxel = voxels;
-        segment.planes = hn::Set(di, -1);
-        Side oblique[2];
-        bool hasOblique = false;
-        if (any(boxes)) {
-            const VI offset = hn::IfThenElseZero(toInts(boxes), hn::ShiftLeft<4>(entry));
-            const VI low = gatherBytes(scene_.volume.boxes.data(), offset);
-            const VI high = gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, offset);
-            segment.label = shiftRight<32>(high);
-            segment.far.x = farOf(x_, bitsOf<0, 16>(low), shiftRight<48>(low));
-            segment.far.y = farOf(y_, bitsOf<16, 16>(low), bitsOf<0, 16>(high));
-            segment.far.z = farOf(z_, bitsOf<32, 16>(low), bitsOf<16, 16>(high));
-            const M coded = andNot(isBelow(entry, scene_.volume.uniformBoxes), boxes);
-            if (any(coded)) hasOblique = readCoded(coded, segment, oblique);
+    // The lanes are in `scalar` from t on; returns those that do not end there.
+    HWY_INLINE M change(M lanes, VI scalar, const Looks& looks, bool isVoxel, bool isCellOld = false) {
+        const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
+        if (!any(changed)) return lanes;
+        const M leaving = hn::And(changed, isRunTranslucent_);
+        if (any(leaving)) leave(leaving, t_);
+        const M entering = andNot(isDone_, changed);
+        if (any(entering)) {
+            if (isCellOld) cellsAt(entering);
+            enter(entering, scalar, looks, isVoxel);
         }
-        if (any(voxels)) readVoxels(entry, voxels, brick, segment);
-        segment.leave = {x_.planeTime(segment.far.x), y_.planeTime(segment.far.y), z_.planeTime(segment.far.z)};
-        segment.next = hn::Min(hn::Min(segment.leave.x, segment.leave.y), segment.leave.z);
-        if (hasOblique)
-            for (const Side& side : oblique) {
-                const M isNext = hn::And(hn::And(side.isThere, hn::Gt(side.time, t_)), hn::Lt(side.time, segment.next));
-                segment.next = hn::IfThenElse(isNext, side.time, segment.next);
-                segment.plane = hn::IfThenElse(toInts(isNext), side.plane, segment.plane);
-            }
-        return segment;
-    }
-    HWY_INLINE V farOf(const Axis& axis, VI min, VI max) const {
-        return toDouble(hn::IfThenElse(toInts(axis.isNegative), min, max));
-    }
-
-    struct Side {
-        M isThere, isPositive;
-        V time;
-        VI plane;
-    };
-
-    // Coded boxes, whose code stands in segment.label: label, faces and planes ahead. Returns whether there are planes.
-    HWY_INLINE bool readCoded(M coded, Segment& segment, Side (&oblique)[2]) const {
-        const DI di;
-        // 24 bytes each
-        const VI offset = hn::IfThenElseZero(toInts(coded),
-                                             hn::Add(hn::ShiftLeft<4>(segment.label), hn::ShiftLeft<3>(segment.label)));
-        const auto* codes = reinterpret_cast<const std::byte*>(scene_.volume.codes.data());
-        const VI cuts = gatherBytes(codes, offset), planes = gatherBytes(codes + 8, offset),
-                 cells = gatherBytes(codes + 16, offset);
-        VI side = hn::Zero(di);
-        const M hasPlanes = hn::And(coded, toDoubles(hn::Ne(lowHalf(planes), hn::Set(di, 0xFFFFFFFF))));
-        const bool hasOblique = any(hasPlanes);
-        if (hasOblique) {
-            segment.planes = hn::IfThenElse(toInts(coded), planes, segment.planes);
-            const M hasTwo = hn::And(hasPlanes, toDoubles(hn::Ne(shiftRight<32>(planes), hn::Set(di, 0xFFFFFFFF))));
-            oblique[1] = sideOf(shiftRight<32>(planes), hasTwo);
-            oblique[0] = sideOf(lowHalf(planes), hasPlanes);
-            side = addSide(side, oblique[1].isThere, oblique[1].isPositive);
-            side = addSide(side, oblique[0].isThere, oblique[0].isPositive);
-        }
-        const auto cut = [&](const Axis& axis, M isCut, VI place, V cell, V far) {
-            return cutOf(axis, hn::And(coded, isCut), toDouble(place), cell, far, side);
-        };
-        segment.far.z =
-            cut(z_, toDoubles(isSet(cuts, std::int64_t{4} << 48)), bitsOf<32, 16>(cuts), cell_.z, segment.far.z);
-        segment.far.y =
-            cut(y_, toDoubles(isSet(cuts, std::int64_t{2} << 48)), bitsOf<16, 16>(cuts), cell_.y, segment.far.y);
-        segment.far.x =
-            cut(x_, toDoubles(isSet(cuts, std::int64_t{1} << 48)), bitsOf<0, 16>(cuts), cell_.x, segment.far.x);
-        const VI at = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<2>(hn::Add(lowHalf(cells), side)));
-        segment.label =
-            hn::IfThenElse(toInts(coded), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
-        return hasOblique;
-    }
-
-    // Bricks of voxels: label and faces of the voxel.
-    HWY_INLINE void readVoxels(VI entry, M voxels, const V3& brick, Segment& segment) const {
-        const D d;
-        const DI di;
-        const V one = hn::Set(d, 1.0), eight = hn::Set(d, 8.0);
-        const auto farVoxel = [&](const Axis& axis, V cell, V known) {
-            return hn::IfThenElse(voxels, hn::IfThenElse(axis.isNegative, cell, hn::Add(cell, one)), known);
-        };
-        segment.far = {farVoxel(x_, cell_.x, segment.far.x), farVoxel(y_, cell_.y, segment.far.y),
-                       farVoxel(z_, cell_.z, segment.far.z)};
-        const VI number = hn::Sub(entry, hn::Set(di, static_cast<std::int64_t>(scene_.volume.boxes.size())));
-        const VI offset = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<4>(number));
-        const auto* bricks = reinterpret_cast<const std::byte*>(scene_.volume.bricks.data());
-        const VI first = gatherBytes(bricks, offset);
-        const VI planeCount = lowHalf(gatherBytes(bricks + 8, offset));
-        const V3 local{hn::Sub(cell_.x, hn::Mul(brick.x, eight)), hn::Sub(cell_.y, hn::Mul(brick.y, eight)),
-                       hn::Sub(cell_.z, hn::Mul(brick.z, eight))};
-        const VI bit = toInt(hn::IfThenElseZero(voxels, hn::Add(local.x, hn::Mul(local.y, eight))));
-        VI word = hn::Add(shiftRight<32>(first), toInt(local.z));
-        VI index = hn::Zero(di);
-        std::int64_t plane = 0;
-        M more = voxels;
-        do {
-            const VI bits =
-                gatherBytes(scene_.volume.words.data(), hn::IfThenElseZero(toInts(more), hn::ShiftLeft<3>(word)));
-            const VI ofPlane = hn::And(shiftRightBy(bits, bit), hn::Set(di, 1));
-            const VI shifted =
-                hn::BitCast(di, hn::Shl(hn::BitCast(DU(), ofPlane), hn::Set(DU(), static_cast<std::uint64_t>(plane))));
-            index = hn::Or(index, hn::IfThenElseZero(toInts(more), shifted));
-            word = hn::Add(word, hn::Set(di, 8));
-            ++plane;
-            more = hn::And(voxels, toDoubles(hn::Gt(planeCount, hn::Set(di, plane))));
-        } while (any(more));
-        const VI at = hn::IfThenElseZero(toInts(voxels), hn::ShiftLeft<2>(hn::Add(lowHalf(first), index)));
-        segment.label =
-            hn::IfThenElse(toInts(voxels), lowHalf(gatherBytes(scene_.volume.palettes.data(), at)), segment.label);
-    }
-
-    static HWY_INLINE VI addSide(VI side, M isThere, M isBeyond) {
-        const VI more = hn::Add(hn::Add(side, side), hn::IfThenElseZero(toInts(isBeyond), hn::Set(DI(), 1)));
-        return hn::IfThenElse(toInts(isThere), more, side);
-    }
-    // The face before the ray along an axis of a box that may be cut there: `far`, or the cut.
-    HWY_INLINE V cutOf(const Axis& axis, M isCut, V place, V cell, V far, VI& side) const {
-        const M isAfter = hn::Ge(t_, axis.planeTime(place));
-        const M isBeyond = hn::Or(hn::And(axis.isMoving, differ(isAfter, axis.isNegative)),
-                                  andNot(axis.isMoving, hn::Ge(cell, place)));
-        side = addSide(side, isCut, isBeyond);
-        const M isBefore = differ(isBeyond, andNot(axis.isNegative, isCut));
-        return hn::IfThenElse(hn::And(isCut, isBefore), place, far);
-    }
-    HWY_INLINE Side sideOf(VI plane, M isThere) const {
-        const D d;
-        const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
-        const auto number = [&](int n) {
-            return hn::BitCast(d,
-                               gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n, offset));
-        };
-        const V3 normal{number(0), number(1), number(2)};
-        const V zero = hn::Zero(d);
-        const V height = hn::Add(dot(normal, {x_.origin, y_.origin, z_.origin}), number(3));
-        const V rise = dot(normal, {x_.direction, y_.direction, z_.direction});
-        const M crosses = hn::Ne(rise, zero);
-        Side side;
-        side.isThere = isThere;
-        side.plane = plane;
-        side.time = hn::IfThenElse(crosses, hn::Div(hn::Neg(height), rise), hn::Set(d, kInfinity));
-        const M isRising =
-            hn::Or(hn::Gt(rise, zero), andNot(hn::Or(crosses, hn::Gt(height, zero)), hn::Eq(zero, zero)));
-        // (t >= time) == isRising
-        side.isPositive = andNot(differ(hn::Ge(t_, side.time), isRising), hn::Eq(zero, zero));
-        return side;
+        active_ = andNot(isDone_, active_);
+        t_ = hn::IfThenElse(isDone_, hn::Set(D(), kInfinity), t_);
+        return andNot(isDone_, lanes);
     }
 
     // ------------------------------------------------------------------------------------------------ how it looks
 
-    HWY_INLINE V styleNumber(VI offset, std::size_t member) const {
-        return hn::BitCast(D(), gatherBytes(reinterpret_cast<const std::byte*>(scene_.styles) + member, offset));
+    HWY_INLINE Looks looksOf(std::int64_t scalar) const {
+        return {scene_.styles + std::min(scalar, scene_.styleCount), hn::Zero(DI())};
     }
-    HWY_INLINE VI styleOffset(VI scalar, M lanes) const {
-        const DI di;
-        const VI known = hn::Min(scalar, hn::Set(di, scene_.styleCount));
-        return hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), known));
+    HWY_INLINE Looks looksOf(VI scalar, M lanes) const {
+        const VI known = hn::Min(scalar, hn::Set(DI(), scene_.styleCount));
+        return {nullptr, hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), known))};
+    }
+    // The same, where all lanes may well have the same scalar.
+    HWY_INLINE Looks looksOfRuns(M lanes) const {
+        const std::int64_t first = hn::ExtractLane(runScalar_, hn::FindKnownFirstTrue(D(), lanes));
+        const bool isSame = !any(hn::And(lanes, toDoubles(hn::Ne(runScalar_, hn::Set(DI(), first)))));
+        return isSame ? looksOf(first) : looksOf(runScalar_, lanes);
+    }
+    template <std::size_t kMember>
+    HWY_INLINE V number(const Looks& looks) const {
+        if (looks.same != nullptr) {
+            double value;
+            std::memcpy(&value, reinterpret_cast<const std::byte*>(looks.same) + kMember, sizeof value);
+            return hn::Set(D(), value);
+        }
+        return hn::BitCast(D(), gatherBytes(reinterpret_cast<const std::byte*>(scene_.styles) + kMember, looks.offset));
+    }
+    template <std::size_t kMember>
+    HWY_INLINE VI integer(const Looks& looks) const {
+        return hn::BitCast(DI(), number<kMember>(looks));
     }
 
     // RunShader::add(); `share` of the light is stopped.
-    HWY_INLINE void add(M lanes, V share, V from, VI offset) {
+    HWY_INLINE void add(M lanes, V share, V from, const Looks& looks) {
         const D d;
         const V one = hn::Set(d, 1.0);
-        const V surface = styleNumber(offset, offsetof(PacketStyle, surface));
+        const V surface = number<offsetof(PacketStyle, surface)>(looks);
         const V light = hn::Add(one, hn::Mul(hn::Sub(light_, one), surface));
         const V weight = hn::Mul(share, light);
-        const auto addColor = [&](V color, std::size_t channel) {
-            const V added =
-                hn::Mul(styleNumber(offset, offsetof(PacketStyle, color) + channel * sizeof(double)), weight);
-            return hn::IfThenElse(lanes, hn::Add(color, added), color);
+        constexpr std::size_t kRed = offsetof(PacketStyle, color), kNext = sizeof(double);
+        const auto addColor = [&](V color, V ofLabel) {
+            return hn::IfThenElse(lanes, hn::Add(color, hn::Mul(ofLabel, weight)), color);
         };
-        color_ = {addColor(color_.x, 0), addColor(color_.y, 1), addColor(color_.z, 2)};
+        color_ = {addColor(color_.x, number<kRed>(looks)), addColor(color_.y, number<kRed + kNext>(looks)),
+                  addColor(color_.z, number<kRed + 2 * kNext>(looks))};
         transmittance_ = hn::IfThenElse(lanes, hn::Sub(transmittance_, share), transmittance_);
         const V opacity = hn::Sub(one, transmittance_);
         const V depth = hn::Load(d, samples_.depth.data() + first_);
@@ -528,9 +561,8 @@ private:
                 hn::Store(hn::IfThenElse(toInts(isHit), value, hn::Load(di, lanesOf.data() + first_)), di,
                           lanesOf.data() + first_);
             };
-            const auto* styles = reinterpret_cast<const std::byte*>(scene_.styles);
-            keepInt(gatherBytes(styles + offsetof(PacketStyle, label), offset), samples_.label);
-            keepInt(gatherBytes(styles + offsetof(PacketStyle, object), offset), samples_.object);
+            keepInt(integer<offsetof(PacketStyle, label)>(looks), samples_.label);
+            keepInt(integer<offsetof(PacketStyle, object)>(looks), samples_.object);
             keepInt(hn::IfThenElseZero(toInts(isOnCap_), hn::Set(DI(), 1)), samples_.isCap);
         }
     }
@@ -541,10 +573,10 @@ private:
     HWY_INLINE void leave(M lanes, V to) {
         const D d;
         const V one = hn::Set(d, 1.0);
-        const VI offset = styleOffset(runScalar_, lanes);
-        const V density = styleNumber(offset, offsetof(PacketStyle, density));
+        const Looks looks = looksOfRuns(lanes);
+        const V density = number<offsetof(PacketStyle, density)>(looks);
         const V stopped = hn::Sub(one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
-        add(lanes, hn::Mul(transmittance_, stopped), runStart_, offset);
+        add(lanes, hn::Mul(transmittance_, stopped), runStart_, looks);
         if (scene_.withColor) {
             markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, scene_.opaqueAt))));
         } else {
@@ -554,21 +586,18 @@ private:
     }
 
     // RunShader::enter().
-    HWY_INLINE void enter(M lanes, const Segment& segment) {
+    HWY_INLINE void enter(M lanes, VI scalar, const Looks& looks, bool isVoxel) {
         const DI di;
-        const VI label = segment.label;
-        runScalar_ = hn::IfThenElse(toInts(lanes), label, runScalar_);
+        runScalar_ = hn::IfThenElse(toInts(lanes), scalar, runScalar_);
         runStart_ = hn::IfThenElse(lanes, t_, runStart_);
-        const VI offset = styleOffset(label, lanes);
-        const auto* styles = reinterpret_cast<const std::byte*>(scene_.styles);
-        const VI kind = gatherBytes(styles + offsetof(PacketStyle, kind), offset);
-        const VI object = gatherBytes(styles + offsetof(PacketStyle, object), offset);
+        const VI kind = integer<offsetof(PacketStyle, kind)>(looks);
+        const VI object = integer<offsetof(PacketStyle, object)>(looks);
         const M visible = hn::And(lanes, toDoubles(isSet(kind, PacketKind::kVisible)));
         const M isNew = hn::And(visible, toDoubles(hn::Ne(object, object_)));
         object_ = hn::IfThenElse(toInts(lanes), hn::IfThenElse(toInts(visible), object, hn::Set(di, -1)), object_);
         const M opaque = hn::And(visible, toDoubles(isSet(kind, PacketKind::kOpaque)));
         if (scene_.withColor && any(isNew))
-            findSurfaces(isNew, opaque, toDoubles(isSet(kind, PacketKind::kBody)), segment);
+            findSurfaces(isNew, opaque, toDoubles(isSet(kind, PacketKind::kBody)), scalar, isVoxel);
         isRunTranslucent_ = hn::Or(andNot(lanes, isRunTranslucent_), andNot(opaque, visible));
         isOpaque_ = hn::Or(isOpaque_, opaque);
         markDone(opaque);
@@ -578,7 +607,7 @@ private:
     HWY_NOINLINE void addOpaque() {
         const M unlit = hn::And(isOpaque_, isUnlit_);
         if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(openness()), light_);
-        add(isOpaque_, transmittance_, runStart_, styleOffset(runScalar_, isOpaque_));
+        add(isOpaque_, transmittance_, runStart_, looksOfRuns(isOpaque_));
     }
 
     // SurfaceLight::openness().
@@ -643,7 +672,7 @@ private:
     }
 
     // SurfaceLight::facing(), and the light on what is not opaque.
-    HWY_INLINE void findSurfaces(M lanes, M opaque, M isBody, const Segment& segment) {
+    HWY_INLINE void findSurfaces(M lanes, M opaque, M isBody, VI scalar, bool isVoxel) {
         const D d;
         const DI di;
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
@@ -676,7 +705,7 @@ private:
         const M atSide = hn::And(lanes, hn::Eq(hn::Floor(fraction), fraction));
         const M atSeam = hn::And(andNot(hn::Or(isNowhere, isOblique), atSide), hn::Gt(t_, from_));
         if (any(atSeam)) {
-            crossed_ = seamPlanes(atSeam, segment.planes, faceAxis);
+            crossed_ = seamPlanes(atSeam, faceAxis);
             isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
@@ -702,25 +731,18 @@ private:
         isOnCap_ = andNot(lanes, isOnCap_);
         isAroundEye_ = andNot(lanes, isAroundEye_);
         isUnlit_ = hn::Or(isUnlit_, hn::And(lanes, opaque));
-        const M special = hn::And(
-            lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, hn::Or(andNot(opaque, hn::Eq(zero, zero)),
-                                                                           andNot(isOblique, segment.isVoxel)))));
+        M needsNormal = andNot(opaque, lanes);
+        if (isVoxel) needsNormal = hn::Or(needsNormal, andNot(isOblique, lanes));
+        const M special = hn::And(lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, needsNormal)));
         const M glass = andNot(opaque, lanes);
         if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(one), light_);
-        if (any(special)) askForSurfaces(special, segment, faceAxis);
+        if (any(special)) askForSurfaces(special, scalar, isVoxel, faceAxis);
     }
 
-    // Segment::planes of the brick that the ray has left through a face across `faceAxis`.
-    HWY_INLINE VI planesBefore(M lanes, V faceAxis) const {
-        const D d;
+    // Two numbers of planes, of each lane's brick; all ones where there is none.
+    HWY_INLINE VI planesOf(M lanes, const V3& brick) const {
         const DI di;
-        const V eighth = hn::Set(d, 0.125), one = hn::Set(d, 1.0);
-        const auto brickBefore = [&](const Axis& axis, V cell, double number) {
-            const V before = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), hn::Sub(cell, one));
-            return hn::Floor(hn::Mul(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, cell), eighth));
-        };
-        const VI entry =
-            entryAt({brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)}, lanes);
+        const VI entry = entryAt(brick, lanes);
         const M isBox = hn::And(lanes, isBelow(entry, scene_.volume.boxes.size()));
         const M coded = andNot(isBelow(entry, scene_.volume.uniformBoxes), isBox);
         if (!any(coded)) return hn::Set(di, -1);
@@ -734,7 +756,7 @@ private:
     }
 
     // seamPlane(): the plane for each of the lanes, crossed_ for the others.
-    HWY_NOINLINE VI seamPlanes(M lanes, VI entered, V faceAxis) const {
+    HWY_NOINLINE VI seamPlanes(M lanes, V faceAxis) const {
         const D d;
         const DI di;
         const V3 point{hn::Add(x_.origin, hn::Mul(x_.direction, t_)), hn::Add(y_.origin, hn::Mul(y_.direction, t_)),
@@ -757,23 +779,30 @@ private:
             found = hn::IfThenElse(toInts(isNear), plane, found);
             lanes = andNot(isNear, lanes);
         };
+        const V eighth = hn::Set(d, 0.125), one = hn::Set(d, 1.0);
+        const auto brickOf = [&](V cell) { return hn::Floor(hn::Mul(cell, eighth)); };
+        const VI entered = planesOf(lanes, {brickOf(cell_.x), brickOf(cell_.y), brickOf(cell_.z)});
         look(lowHalf(entered));
         look(shiftRight<32>(entered));
         if (!any(lanes)) return found;
-        const VI left = planesBefore(lanes, faceAxis);
+        const auto brickBefore = [&](const Axis& axis, V cell, double number) {
+            const V before = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), hn::Sub(cell, one));
+            return brickOf(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, cell));
+        };
+        const VI left =
+            planesOf(lanes, {brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)});
         look(lowHalf(left));
         look(shiftRight<32>(left));
         return found;
     }
 
-    HWY_NOINLINE void askForSurfaces(M lanes, const Segment& segment, V faceAxis) {
+    HWY_NOINLINE void askForSurfaces(M lanes, VI scalars, bool isVoxel, V faceAxis) {
         const D d;
         const DI di;
         constexpr std::size_t kMost = kPacketRays;
         alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], crease[kMost], normal[3][kMost],
             away[3][kMost];
-        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], voxel[kMost], cap[kMost] = {},
-                                                                                           eye[kMost] = {};
+        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], cap[kMost] = {}, eye[kMost] = {};
         hn::Store(t_, d, t);
         hn::Store(faceAxis, d, axis);
         hn::Store(light_, d, light);
@@ -786,16 +815,15 @@ private:
         storeV3(cell_, cell);
         storeV3(normal_, normal);
         storeV3(away_, away);
-        hn::Store(segment.label, di, scalar);
+        hn::Store(scalars, di, scalar);
         hn::Store(crossed_, di, plane);
-        hn::Store(hn::IfThenElseZero(toInts(segment.isVoxel), hn::Set(di, 1)), di, voxel);
         hn::Store(hn::IfThenElseZero(toInts(lanes), hn::Set(di, 1)), di, wanted);
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
             if (wanted[lane] == 0) continue;
             const Vec3i at{static_cast<std::int32_t>(cell[0][lane]), static_cast<std::int32_t>(cell[1][lane]),
                            static_cast<std::int32_t>(cell[2][lane])};
             const Surface found = scene_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
-                                                            static_cast<int>(axis[lane]), voxel[lane] != 0});
+                                                            static_cast<int>(axis[lane]), isVoxel});
             light[lane] = found.light;
             crease[lane] = found.crease;
             for (int a = 0; a < 3; ++a) {
@@ -834,23 +862,87 @@ private:
     M isOpaque_, isUnlit_, isOnCap_, isAroundEye_;
 };
 
+// The rays of a packet, together. Neighbors mostly cross the same boxes, so boxes are taken one at a time: that of the
+// ray that is furthest behind, by all rays that are in it.
+class Packet {
+public:
+    HWY_INLINE Packet(const PacketScene& scene, const PacketRays& rays, void* context, PacketSamples& samples)
+        : Packet(scene, rays, context, samples, std::make_index_sequence<kWalks>()) {}
+
+    HWY_INLINE void walk(const Lanes<double>& from, const Lanes<double>& to, const Lanes<std::int64_t>& capped) {
+        for (Walk& walk : walks_) walk.begin(from, to, capped);
+        Vec3i cell;
+        while (findLast(cell)) crossAt(cell);
+        for (Walk& walk : walks_) walk.finish();
+    }
+
+private:
+    static constexpr std::size_t kWalks = kPacketRays / hn::MaxLanes(D());
+
+    template <std::size_t... kNumbers>
+    HWY_INLINE Packet(const PacketScene& scene, const PacketRays& rays, void* context, PacketSamples& samples,
+                      std::index_sequence<kNumbers...>)
+        : scene_(scene), walks_{Walk(scene, rays, kNumbers * hn::MaxLanes(D()), context, samples)...} {}
+
+    // The cell of the ray that is furthest behind; false if all have ended.
+    HWY_INLINE bool findLast(Vec3i& cell) const {
+        const D d;
+        V least = walks_[0].times();
+        for (std::size_t n = 1; n < kWalks; ++n) least = hn::Min(least, walks_[n].times());
+        least = hn::MinOfLanes(d, least);
+        for (const Walk& walk : walks_) {
+            const M isLast = hn::And(hn::Eq(walk.times(), least), hn::Lt(least, hn::Set(d, kInfinity)));
+            if (!any(isLast)) continue;
+            cell = walk.cell(hn::FindKnownFirstTrue(d, isLast));
+            return true;
+        }
+        return false;
+    }
+
+    HWY_INLINE void crossAt(Vec3i cell) {
+        const volume::BrickVolume::Arrays& volume = scene_.volume;
+        const auto bricksX = static_cast<std::size_t>(scene_.bricksX),
+                   bricksY = static_cast<std::size_t>(scene_.bricksY);
+        const std::size_t place =
+            static_cast<std::size_t>(cell.x >> 3) +
+            bricksX * (static_cast<std::size_t>(cell.y >> 3) + bricksY * static_cast<std::size_t>(cell.z >> 3));
+        const std::size_t entry = volume.narrow.empty() ? volume.wide[place] : volume.narrow[place];
+        Bounds bounds;
+        if (entry < volume.boxes.size()) {
+            const volume::SameLabelBox& box = volume.boxes[entry];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                bounds.low[axis] = box.min[axis];
+                bounds.high[axis] = box.max[axis];
+            }
+            if (entry < volume.uniformBoxes)
+                cross(bounds, [&](Walk& walk, M lanes) { walk.crossUniform(lanes, bounds, box.scalar); });
+            else
+                cross(bounds, [&](Walk& walk, M lanes) { walk.crossCoded(lanes, bounds, volume.codes[box.scalar]); });
+        } else {
+            for (int axis = 0; axis < 3; ++axis) {
+                bounds.low[axis] = cell[axis] & ~7;
+                bounds.high[axis] = bounds.low[axis] + 8;
+            }
+            const volume::BrickVolume::PaletteBrick& brick = volume.bricks[entry - volume.boxes.size()];
+            cross(bounds, [&](Walk& walk, M lanes) { walk.crossVoxels(lanes, bounds, brick); });
+        }
+    }
+    template <class Cross>
+    HWY_INLINE void cross(const Bounds& bounds, const Cross& through) {
+        for (Walk& walk : walks_) {
+            const M lanes = walk.lanesIn(bounds);
+            if (any(lanes)) through(walk, lanes);
+        }
+    }
+
+    const PacketScene& scene_;
+    std::array<Walk, kWalks> walks_;
+};
+
 void walk(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,
           const Lanes<std::int64_t>& capped, void* context, PacketSamples& samples) {
-    // Two groups of lanes take turns, so that one computes while the other waits for memory.
-    const std::size_t lanes = hn::Lanes(D());
-    for (std::size_t i = 0; i < kPacketRays; i += 2 * lanes) {
-        Walk one(scene, rays, i, context, samples), other(scene, rays, i + lanes, context, samples);
-        one.begin(from, to, capped);
-        other.begin(from, to, capped);
-        while (one.isActive() && other.isActive()) {
-            one.step();
-            other.step();
-        }
-        while (one.isActive()) one.step();
-        while (other.isActive()) other.step();
-        one.finish();
-        other.finish();
-    }
+    Packet packet(scene, rays, context, samples);
+    packet.walk(from, to, capped);
 }
 
 }  // namespace
