@@ -19,7 +19,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, kPacketRays / 2>;
+using D = hn::CappedTag<double, 8>;
 using DI = hn::RebindToSigned<D>;
 using DU = hn::RebindToUnsigned<D>;
 using V = hn::Vec<D>;
@@ -66,8 +66,6 @@ HWY_INLINE M toDoubles(MI m) { return hn::RebindMask(D(), m); }
 HWY_INLINE MI toInts(M m) { return hn::RebindMask(DI(), m); }
 HWY_INLINE bool any(M m) { return !hn::AllFalse(D(), m); }
 HWY_INLINE M andNot(M without, M m) { return hn::AndNot(without, m); }
-// a != b
-HWY_INLINE M differ(M a, M b) { return hn::Or(hn::AndNot(a, b), hn::AndNot(b, a)); }
 
 // See expOfMinus() of the plain caster.
 HWY_INLINE V expOfMinus(V x) {
@@ -154,6 +152,7 @@ struct Axis {
     M isNegative, isMoving;
 
     HWY_INLINE V planeTime(V plane) const { return hn::Mul(hn::Sub(plane, planeOrigin), inverse); }
+    HWY_INLINE V at(V t) const { return hn::Add(origin, hn::Mul(t, direction)); }
 };
 
 // What a scalar, or each lane's own, looks like.
@@ -186,6 +185,7 @@ public:
           object_(hn::Set(DI(), -1)),
           crossed_(hn::Set(DI(), -1)),
           light_(hn::Set(D(), 1.0)) {
+        areMoving_ = hn::AllTrue(D(), hn::And(hn::And(x_.isMoving, y_.isMoving), z_.isMoving));
         normal_ = away_ = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
         isOnCap_ = isAroundEye_ = hn::Lt(light_, light_);
         const D d;
@@ -203,46 +203,70 @@ public:
         isDone_ = toDoubles(hn::Ne(hn::Load(DI(), samples_.isDone.data() + first_), hn::Zero(DI())));
         active_ = started_ = andNot(isDone_, hn::Lt(t_, end_));
         isRunTranslucent_ = isOpaque_ = isUnlit_ = hn::Lt(t_, t_);
-        cell_ = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-        if (any(active_)) cellsAt(active_);
         t_ = hn::IfThenElse(active_, t_, hn::Set(d, kInfinity));
     }
 
     // Where the rays are; infinity for those that have ended.
     HWY_INLINE V times() const { return t_; }
+    // The voxel that one of them is in, see IndexRay::cellAt().
     HWY_INLINE Vec3i cell(std::size_t lane) const {
-        return {static_cast<std::int32_t>(hn::ExtractLane(cell_.x, lane)),
-                static_cast<std::int32_t>(hn::ExtractLane(cell_.y, lane)),
-                static_cast<std::int32_t>(hn::ExtractLane(cell_.z, lane))};
+        const double t = hn::ExtractLane(t_, lane);
+        const std::size_t ray = first_ + lane;
+        Vec3i cell;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double along = rays_.direction[axis][ray], position = rays_.origin[axis][ray] + t * along;
+            auto at = static_cast<std::int64_t>(position);
+            const auto plane = static_cast<std::int64_t>(position + 0.5);
+            const double aside = position - static_cast<double>(plane);
+            if (std::abs(aside) <= rays_.slack[ray] && along != 0) {
+                const double time =
+                    (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
+                at = (time <= t) == (along < 0) ? plane - 1 : plane;
+            }
+            const auto last = static_cast<std::int64_t>(scene_.count[axis]) - 1;
+            cell[static_cast<int>(axis)] = static_cast<std::int32_t>(std::clamp<std::int64_t>(at, 0, last));
+        }
+        return cell;
     }
-    HWY_INLINE M lanesIn(const Bounds& box) const {
+
+    // The box that rays are in.
+    struct Inside {
+        M lanes;
+        V3 leave;  // when they cross its faces ahead
+        V exit;    // the first of these
+    };
+    HWY_INLINE Inside findInside(const Bounds& box) const {
         const D d;
-        M lanes = active_;
-        const auto isIn = [&](V cell, int axis) {
-            lanes = hn::And(lanes,
-                            hn::And(hn::Ge(cell, hn::Set(d, box.low[axis])), hn::Lt(cell, hn::Set(d, box.high[axis]))));
+        Inside inside;
+        inside.lanes = active_;
+        const auto leaveTime = [&](const Axis& axis, std::size_t number) {
+            const V low = hn::Set(d, box.low[number]), high = hn::Set(d, box.high[number]);
+            const V leave = axis.planeTime(hn::IfThenElse(axis.isNegative, low, high));
+            const V enter = axis.planeTime(hn::IfThenElse(axis.isNegative, high, low));
+            M isIn = hn::And(hn::Le(enter, t_), hn::Lt(t_, leave));
+            if (!areMoving_)
+                isIn =
+                    hn::Or(isIn, andNot(axis.isMoving, hn::And(hn::Ge(axis.origin, low), hn::Lt(axis.origin, high))));
+            inside.lanes = hn::And(inside.lanes, isIn);
+            return leave;
         };
-        isIn(cell_.x, 0);
-        isIn(cell_.y, 1);
-        isIn(cell_.z, 2);
-        return lanes;
+        inside.leave = {leaveTime(x_, 0), leaveTime(y_, 1), leaveTime(z_, 2)};
+        inside.exit = hn::Min(hn::Min(inside.leave.x, inside.leave.y), inside.leave.z);
+        return inside;
     }
 
     // Through a box of one label.
-    HWY_INLINE void crossUniform(M lanes, const Bounds& box, std::int64_t scalar) {
+    HWY_INLINE void crossUniform(const Inside& inside, std::int64_t scalar) {
         const DI di;
-        lanes = change(lanes, hn::Set(di, scalar), looksOf(scalar), false);
-        const Faces faces = facesAhead(box);
+        const M lanes = change(inside.lanes, hn::Set(di, scalar), looksOf(scalar), false);
         crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
-        moveOut(advance(lanes, faces.first()), faces);
+        advance(lanes, inside.exit);
     }
 
     // Through a coded box, from side to side.
-    HWY_INLINE void crossCoded(M lanes, const Bounds& box, const volume::BrickVolume::BoxCoding& code) {
+    HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
         const D d;
         const DI di;
-        const Faces faces = facesAhead(box);
-        const V exit = faces.first();
         // When the rays change sides, in the order of the bits; whether they are beyond from then on, or until then.
         struct Side {
             V time;
@@ -251,16 +275,20 @@ public:
         };
         Side sides[5];
         std::size_t count = 0;
-        const auto addCut = [&](const Axis& axis, V cell, std::size_t number) {
+        const auto addCut = [&](const Axis& axis, std::size_t number) {
             if (((code.cutAxes >> number) & 1u) == 0) return;
             const V place = hn::Set(d, static_cast<double>(code.cut[number]));
+            Side& side = sides[count++];
+            side.time = axis.planeTime(place);
+            side.isBeyondAfter = hn::Not(axis.isNegative);
             // Not along this axis: on one side for good.
-            const M rises = andNot(axis.isNegative, axis.isMoving);
-            sides[count++] = {axis.planeTime(place), hn::Or(rises, andNot(axis.isMoving, hn::Lt(cell, place))), -1};
+            if (!areMoving_)
+                side.isBeyondAfter = hn::And(side.isBeyondAfter, hn::Or(axis.isMoving, hn::Lt(axis.origin, place)));
+            side.plane = -1;
         };
-        addCut(x_, cell_.x, 0);
-        addCut(y_, cell_.y, 1);
-        addCut(z_, cell_.z, 2);
+        addCut(x_, 0);
+        addCut(y_, 1);
+        addCut(z_, 2);
         for (const std::uint32_t number : code.plane) {
             if (number == volume::BrickVolume::kNoPlane) continue;
             Side& side = sides[count++];
@@ -268,14 +296,14 @@ public:
             side.plane = number;
         }
         const volume::Scalar* scalars = scene_.volume.palettes.data() + code.cells;
-        bool isAtFace = true;  // and the cells are known
+        M lanes = inside.lanes;
         while (true) {
             VI cell = hn::Zero(di), nextPlane = hn::Set(di, -1);
-            V next = exit;
+            V next = inside.exit;
             for (std::size_t s = 0; s < count; ++s) {
                 const M isAfter = hn::Ge(t_, sides[s].time);
-                const M isBeyond = andNot(differ(isAfter, sides[s].isBeyondAfter), lanes);
-                cell = hn::Or(cell, hn::IfThenElseZero(toInts(isBeyond), hn::Set(di, std::int64_t{1} << s)));
+                const M isNotBeyond = hn::Xor(isAfter, sides[s].isBeyondAfter);
+                cell = hn::Or(cell, hn::IfThenZeroElse(toInts(isNotBeyond), hn::Set(di, std::int64_t{1} << s)));
                 const M isNext = andNot(isAfter, hn::Lt(sides[s].time, next));
                 next = hn::IfThenElse(isNext, sides[s].time, next);
                 nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
@@ -283,31 +311,30 @@ public:
             const std::int64_t first = hn::ExtractLane(cell, hn::FindKnownFirstTrue(d, lanes));
             if (any(hn::And(lanes, toDoubles(hn::Ne(cell, hn::Set(di, first)))))) {
                 const VI scalar = lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(cell)));
-                lanes = change(lanes, scalar, looksOf(scalar, lanes), false, !isAtFace);
+                lanes = change(lanes, scalar, looksOf(scalar, lanes), false);
             } else {
                 const std::int64_t scalar = scalars[first];
-                lanes = change(lanes, hn::Set(di, scalar), looksOf(scalar), false, !isAtFace);
+                lanes = change(lanes, hn::Set(di, scalar), looksOf(scalar), false);
             }
-            lanes = advance(lanes, next);
             crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
-            const M leaves = hn::And(lanes, hn::Eq(t_, exit));
-            moveOut(leaves, faces);
-            lanes = andNot(leaves, lanes);
+            lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
             if (!any(lanes)) return;
-            isAtFace = false;
         }
     }
 
     // Through a brick of voxels, from voxel to voxel.
-    HWY_INLINE void crossVoxels(M lanes, const Bounds& box, const volume::BrickVolume::PaletteBrick& brick) {
+    HWY_INLINE void crossVoxels(const Inside& inside, const Bounds& box,
+                                const volume::BrickVolume::PaletteBrick& brick) {
         const D d;
         const DI di;
         const V one = hn::Set(d, 1.0);
         const std::uint64_t* words = scene_.volume.words.data() + brick.planes;
         const volume::Scalar* scalars = scene_.volume.palettes.data() + brick.palette;
+        M lanes = inside.lanes;
+        V3 cell = cells();
         while (true) {
-            const V3 local{hn::Sub(cell_.x, hn::Set(d, box.low[0])), hn::Sub(cell_.y, hn::Set(d, box.low[1])),
-                           hn::Sub(cell_.z, hn::Set(d, box.low[2]))};
+            const V3 local{hn::Sub(cell.x, hn::Set(d, box.low[0])), hn::Sub(cell.y, hn::Set(d, box.low[1])),
+                           hn::Sub(cell.z, hn::Set(d, box.low[2]))};
             const VI bit = toInt(hn::IfThenElseZero(lanes, hn::Add(local.x, hn::Mul(local.y, hn::Set(d, 8.0)))));
             const VI word = hn::ShiftLeft<3>(toInt(hn::IfThenElseZero(lanes, local.z)));
             VI index = hn::Zero(di);
@@ -317,21 +344,19 @@ public:
             }
             const VI scalar = lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(index)));
             lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
-            Faces faces;
-            faces.far = {hn::IfThenElse(x_.isNegative, cell_.x, hn::Add(cell_.x, one)),
-                         hn::IfThenElse(y_.isNegative, cell_.y, hn::Add(cell_.y, one)),
-                         hn::IfThenElse(z_.isNegative, cell_.z, hn::Add(cell_.z, one))};
-            findTimes(faces);
-            crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
-            lanes = advance(lanes, faces.first());
-            const auto moved = [&](const Axis& axis, V cell, V far, V leave) {
-                const M crosses = hn::And(lanes, hn::Eq(leave, t_));
-                return hn::IfThenElse(crosses, hn::IfThenElse(axis.isNegative, hn::Sub(far, one), far), cell);
+            const auto far = [&](const Axis& axis, V at) {
+                return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one));
             };
-            cell_ = {moved(x_, cell_.x, faces.far.x, faces.leave.x), moved(y_, cell_.y, faces.far.y, faces.leave.y),
-                     moved(z_, cell_.z, faces.far.z, faces.leave.z)};
-            lanes = hn::And(lanes, lanesIn(box));
+            const V3 leave{x_.planeTime(far(x_, cell.x)), y_.planeTime(far(y_, cell.y)), z_.planeTime(far(z_, cell.z))};
+            const V next = hn::Min(hn::Min(leave.x, leave.y), leave.z);
+            crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+            lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
             if (!any(lanes)) return;
+            const auto moved = [&](const Axis& axis, V at, V time) {
+                const V beyond = hn::IfThenElse(axis.isNegative, hn::Sub(at, one), hn::Add(at, one));
+                return hn::IfThenElse(hn::Eq(time, next), beyond, at);
+            };
+            cell = {moved(x_, cell.x, leave.x), moved(y_, cell.y, leave.y), moved(z_, cell.z, leave.z)};
         }
     }
 
@@ -348,12 +373,6 @@ public:
     }
 
 private:
-    // Faces of voxels before the rays, and when they get there.
-    struct Faces {
-        V3 far, leave;
-        HWY_INLINE V first() const { return hn::Min(hn::Min(leave.x, leave.y), leave.z); }
-    };
-
     HWY_INLINE Axis axisOf(std::size_t a) const {
         const D d;
         Axis axis;
@@ -369,61 +388,28 @@ private:
 
     // ------------------------------------------------------------------------------------------------ where
 
-    // IndexRay::cellAt(); lanes where rounding may matter are added to `unsure`.
-    HWY_INLINE V cellAt(const Axis& axis, V t, M& unsure) const {
-        const D d;
-        const V position = hn::Add(axis.origin, hn::Mul(t, axis.direction));
-        const V guess = hn::Min(hn::Max(position, hn::Zero(d)), hn::Sub(axis.count, hn::Set(d, 1.0)));
-        const V cell = hn::Floor(guess);
-        const V inCell = hn::Sub(guess, cell);
-        const M isSure = hn::And(hn::Gt(inCell, slack_), hn::Lt(inCell, hn::Sub(hn::Set(d, 1.0), slack_)));
-        unsure = hn::Or(unsure, andNot(isSure, axis.isMoving));
-        return cell;
+    // The plane between voxels that a ray is nearest to at t, and when it crosses it.
+    struct NearPlane {
+        V position, plane, time;
+    };
+    HWY_INLINE NearPlane nearPlane(const Axis& axis) const {
+        const V position = axis.at(t_), plane = hn::Round(position);
+        return {position, plane, axis.planeTime(plane)};
     }
-    // The rest of IndexRay::cellAt(), one step at a time.
-    HWY_NOINLINE V settle(const Axis& axis, V cell, V t, M lanes) const {
-        const D d;
-        const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
-        const V last = hn::Sub(axis.count, one);
-        lanes = hn::And(lanes, axis.isMoving);
-        while (true) {
-            // Upwards the ray is in the cell from its lower plane on, downwards from its upper plane on.
-            const V below = axis.planeTime(cell), above = axis.planeTime(hn::Add(cell, one));
-            const auto either = [&](M downwards, M upwards) {
-                return hn::Or(hn::And(axis.isNegative, downwards), andNot(axis.isNegative, upwards));
-            };
-            const M up = hn::And(hn::And(lanes, hn::Lt(cell, last)), either(hn::Gt(above, t), hn::Le(above, t)));
-            const M down = hn::And(hn::And(lanes, hn::Gt(cell, zero)), either(hn::Le(below, t), hn::Gt(below, t)));
-            if (!any(hn::Or(up, down))) return cell;
-            cell = hn::IfThenElse(up, hn::Add(cell, one), hn::IfThenElse(down, hn::Sub(cell, one), cell));
-        }
-    }
-
-    HWY_INLINE void cellsAt(M lanes) {
-        M unsure = hn::Lt(t_, t_);
-        V x = cellAt(x_, t_, unsure), y = cellAt(y_, t_, unsure), z = cellAt(z_, t_, unsure);
-        unsure = hn::And(unsure, lanes);
-        if (any(unsure)) {
-            x = settle(x_, x, t_, unsure);
-            y = settle(y_, y, t_, unsure);
-            z = settle(z_, z, t_, unsure);
-        }
-        cell_ = {hn::IfThenElse(lanes, x, cell_.x), hn::IfThenElse(lanes, y, cell_.y),
-                 hn::IfThenElse(lanes, z, cell_.z)};
-    }
-
-    HWY_INLINE Faces facesAhead(const Bounds& box) const {
-        const D d;
-        const auto far = [&](const Axis& axis, std::size_t number) {
-            return hn::IfThenElse(axis.isNegative, hn::Set(d, box.low[number]), hn::Set(d, box.high[number]));
+    // The voxels that the rays are in, see IndexRay::cellAt(). Any for those that have ended.
+    HWY_INLINE V3 cells() const {
+        const auto cellOf = [&](const Axis& axis) {
+            const D d;
+            const V one = hn::Set(d, 1.0);
+            const NearPlane near = nearPlane(axis);
+            // Beside a plane rounding must not decide.
+            const M isBeside = hn::And(axis.isMoving, hn::Le(hn::Abs(hn::Sub(near.position, near.plane)), slack_));
+            const M isBelow = hn::Not(hn::Xor(hn::Le(near.time, t_), axis.isNegative));
+            const V decided = hn::IfThenElse(isBelow, hn::Sub(near.plane, one), near.plane);
+            const V cell = hn::IfThenElse(isBeside, decided, hn::Floor(near.position));
+            return hn::Min(hn::Max(cell, hn::Zero(d)), hn::Sub(axis.count, one));
         };
-        Faces faces;
-        faces.far = {far(x_, 0), far(y_, 1), far(z_, 2)};
-        findTimes(faces);
-        return faces;
-    }
-    HWY_INLINE void findTimes(Faces& faces) const {
-        faces.leave = {x_.planeTime(faces.far.x), y_.planeTime(faces.far.y), z_.planeTime(faces.far.z)};
+        return {cellOf(x_), cellOf(y_), cellOf(z_)};
     }
 
     // PlaneCrossing of the plain caster.
@@ -435,7 +421,7 @@ private:
         const V rise = dot(normal, {x_.direction, y_.direction, z_.direction});
         const M crosses = hn::Ne(rise, zero);
         time = hn::IfThenElse(crosses, hn::Div(hn::Neg(height), rise), hn::Set(d, kInfinity));
-        isRising = hn::Or(hn::Gt(rise, zero), andNot(hn::Or(crosses, hn::Gt(height, zero)), hn::Eq(zero, zero)));
+        isRising = hn::Or(hn::Gt(rise, zero), hn::Not(hn::Or(crosses, hn::Gt(height, zero))));
     }
 
     // Lanes go on to `t`; returns those that have not ended.
@@ -446,30 +432,6 @@ private:
         active_ = andNot(andNot(goesOn, lanes), active_);
         return goesOn;
     }
-    // Lanes leave a box through its faces.
-    HWY_INLINE void moveOut(M lanes, const Faces& faces) {
-        const D d;
-        const V one = hn::Set(d, 1.0);
-        M unsureX = hn::Lt(slack_, slack_), unsureY = unsureX, unsureZ = unsureX;
-        const auto step = [&](const Axis& axis, V far, V leave, M& unsure) {
-            const M crosses = hn::Eq(leave, t_);
-            const V beyond = hn::IfThenElse(axis.isNegative, hn::Sub(far, one), far);
-            const V at = cellAt(axis, t_, unsure);
-            unsure = hn::And(lanes, andNot(crosses, unsure));
-            return hn::IfThenElse(crosses, beyond, at);
-        };
-        V x = step(x_, faces.far.x, faces.leave.x, unsureX);
-        V y = step(y_, faces.far.y, faces.leave.y, unsureY);
-        V z = step(z_, faces.far.z, faces.leave.z, unsureZ);
-        if (any(hn::Or(hn::Or(unsureX, unsureY), unsureZ))) {
-            x = settle(x_, x, t_, unsureX);
-            y = settle(y_, y, t_, unsureY);
-            z = settle(z_, z, t_, unsureZ);
-        }
-        cell_ = {hn::IfThenElse(lanes, x, cell_.x), hn::IfThenElse(lanes, y, cell_.y),
-                 hn::IfThenElse(lanes, z, cell_.z)};
-    }
-
     // ------------------------------------------------------------------------------------------------ what
 
     static HWY_INLINE M isBelow(VI entry, std::size_t end) {
@@ -486,16 +448,13 @@ private:
     }
 
     // The lanes are in `scalar` from t on; returns those that do not end there.
-    HWY_INLINE M change(M lanes, VI scalar, const Looks& looks, bool isVoxel, bool isCellOld = false) {
+    HWY_INLINE M change(M lanes, VI scalar, const Looks& looks, bool isVoxel) {
         const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
         if (!any(changed)) return lanes;
         const M leaving = hn::And(changed, isRunTranslucent_);
         if (any(leaving)) leave(leaving, t_);
         const M entering = andNot(isDone_, changed);
-        if (any(entering)) {
-            if (isCellOld) cellsAt(entering);
-            enter(entering, scalar, looks, isVoxel);
-        }
+        if (any(entering)) enter(entering, scalar, looks, isVoxel);
         active_ = andNot(isDone_, active_);
         t_ = hn::IfThenElse(isDone_, hn::Set(D(), kInfinity), t_);
         return andNot(isDone_, lanes);
@@ -678,17 +637,16 @@ private:
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
         const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
         M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
-        M isNowhere = andNot(isOblique, hn::Eq(zero, zero));
+        M isNowhere = hn::Not(isOblique);
         V faceAxis = hn::Set(d, -1.0), faceAt = zero;
         V3 normal{zero, zero, zero}, away = normal;
         // The first axis whose plane the ray crosses at t.
-        const auto face = [&](const Axis& axis, V cell, std::size_t number) {
-            const V plane = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), cell);
-            const V entered = axis.planeTime(plane);
-            const M isHere = hn::And(hn::And(isNowhere, axis.isMoving), hn::Eq(entered, t_));
+        const auto face = [&](const Axis& axis, std::size_t number) {
+            const NearPlane near = nearPlane(axis);
+            const M isHere = hn::And(hn::And(isNowhere, axis.isMoving), hn::Eq(near.time, t_));
             isNowhere = andNot(isHere, isNowhere);
             faceAxis = hn::IfThenElse(isHere, hn::Set(d, static_cast<double>(number)), faceAxis);
-            faceAt = hn::IfThenElse(isHere, plane, faceAt);
+            faceAt = hn::IfThenElse(isHere, near.plane, faceAt);
             const auto part = [&](V known, double value) {
                 const V up = hn::Set(d, value);
                 return hn::IfThenElse(isHere, hn::IfThenElse(axis.isNegative, up, hn::Neg(up)), known);
@@ -697,9 +655,9 @@ private:
             normal = {part(normal.x, n.x), part(normal.y, n.y), part(normal.z, n.z)};
             away = {part(away.x, a.x), part(away.y, a.y), part(away.z, a.z)};
         };
-        face(x_, cell_.x, 0);
-        face(y_, cell_.y, 1);
-        face(z_, cell_.z, 2);
+        face(x_, 0);
+        face(y_, 1);
+        face(z_, 2);
         // On the side of a brick?
         const V fraction = hn::Mul(faceAt, hn::Set(d, 0.125));
         const M atSide = hn::And(lanes, hn::Eq(hn::Floor(fraction), fraction));
@@ -780,17 +738,18 @@ private:
             lanes = andNot(isNear, lanes);
         };
         const V eighth = hn::Set(d, 0.125), one = hn::Set(d, 1.0);
-        const auto brickOf = [&](V cell) { return hn::Floor(hn::Mul(cell, eighth)); };
-        const VI entered = planesOf(lanes, {brickOf(cell_.x), brickOf(cell_.y), brickOf(cell_.z)});
+        const auto brickOf = [&](V voxel) { return hn::Floor(hn::Mul(voxel, eighth)); };
+        const V3 cell = cells();
+        const VI entered = planesOf(lanes, {brickOf(cell.x), brickOf(cell.y), brickOf(cell.z)});
         look(lowHalf(entered));
         look(shiftRight<32>(entered));
         if (!any(lanes)) return found;
-        const auto brickBefore = [&](const Axis& axis, V cell, double number) {
-            const V before = hn::IfThenElse(axis.isNegative, hn::Add(cell, one), hn::Sub(cell, one));
-            return brickOf(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, cell));
+        const auto brickBefore = [&](const Axis& axis, V voxel, double number) {
+            const V before = hn::IfThenElse(axis.isNegative, hn::Add(voxel, one), hn::Sub(voxel, one));
+            return brickOf(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, voxel));
         };
         const VI left =
-            planesOf(lanes, {brickBefore(x_, cell_.x, 0), brickBefore(y_, cell_.y, 1), brickBefore(z_, cell_.z, 2)});
+            planesOf(lanes, {brickBefore(x_, cell.x, 0), brickBefore(y_, cell.y, 1), brickBefore(z_, cell.z, 2)});
         look(lowHalf(left));
         look(shiftRight<32>(left));
         return found;
@@ -799,7 +758,7 @@ private:
     HWY_NOINLINE void askForSurfaces(M lanes, VI scalars, bool isVoxel, V faceAxis) {
         const D d;
         const DI di;
-        constexpr std::size_t kMost = kPacketRays;
+        constexpr std::size_t kMost = hn::MaxLanes(D());
         alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], crease[kMost], normal[3][kMost],
             away[3][kMost];
         alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], cap[kMost] = {}, eye[kMost] = {};
@@ -812,7 +771,7 @@ private:
             hn::Store(v.y, d, to[1]);
             hn::Store(v.z, d, to[2]);
         };
-        storeV3(cell_, cell);
+        storeV3(cells(), cell);
         storeV3(normal_, normal);
         storeV3(away_, away);
         hn::Store(scalars, di, scalar);
@@ -852,12 +811,12 @@ private:
     Axis x_, y_, z_;
     V metresPerT_, slack_;
     V t_, from_, end_, runStart_;
-    V3 cell_;
     VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
     V light_, crease_ = hn::Zero(D());
     V3 normal_, away_;
     V3 color_;
     V transmittance_;
+    bool areMoving_;  // all rays along all axes
     M active_, started_, isDone_, isCapped_, isRunTranslucent_;
     M isOpaque_, isUnlit_, isOnCap_, isAroundEye_;
 };
@@ -915,23 +874,25 @@ private:
                 bounds.high[axis] = box.max[axis];
             }
             if (entry < volume.uniformBoxes)
-                cross(bounds, [&](Walk& walk, M lanes) { walk.crossUniform(lanes, bounds, box.scalar); });
+                cross(bounds, [&](Walk& walk, const Walk::Inside& inside) { walk.crossUniform(inside, box.scalar); });
             else
-                cross(bounds, [&](Walk& walk, M lanes) { walk.crossCoded(lanes, bounds, volume.codes[box.scalar]); });
+                cross(bounds, [&](Walk& walk, const Walk::Inside& inside) {
+                    walk.crossCoded(inside, volume.codes[box.scalar]);
+                });
         } else {
             for (int axis = 0; axis < 3; ++axis) {
                 bounds.low[axis] = cell[axis] & ~7;
                 bounds.high[axis] = bounds.low[axis] + 8;
             }
             const volume::BrickVolume::PaletteBrick& brick = volume.bricks[entry - volume.boxes.size()];
-            cross(bounds, [&](Walk& walk, M lanes) { walk.crossVoxels(lanes, bounds, brick); });
+            cross(bounds, [&](Walk& walk, const Walk::Inside& inside) { walk.crossVoxels(inside, bounds, brick); });
         }
     }
     template <class Cross>
     HWY_INLINE void cross(const Bounds& bounds, const Cross& through) {
         for (Walk& walk : walks_) {
-            const M lanes = walk.lanesIn(bounds);
-            if (any(lanes)) through(walk, lanes);
+            const Walk::Inside inside = walk.findInside(bounds);
+            if (any(inside.lanes)) through(walk, inside);
         }
     }
 

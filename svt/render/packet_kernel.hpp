@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Sixteen rays at once: set up, and walked through a volume. Compiled for several instruction sets, of which the best
+/// Rays of neighbouring pixels at once: set up, and walked through a volume. Compiled for several instruction sets, of which the best
 /// that the machine has is taken when the program runs. Internal to render.
 ///
 /// The same arithmetic in the same order as IndexRay, RunWalk and RunShader, in doubles and without fused operations,
@@ -17,7 +17,9 @@
 
 namespace svt::render {
 
-inline constexpr std::size_t kPacketRays = 16;
+/// A packet has the rays of so many pixels, in blocks of 4 x 2 that lie beside each other and are read one by one.
+inline constexpr std::int32_t kPacketWidth = 8, kPacketHeight = 4;
+inline constexpr std::size_t kPacketRays = kPacketWidth * kPacketHeight;
 
 template <class T>
 struct alignas(64) Lanes : std::array<T, kPacketRays> {};

@@ -72,30 +72,38 @@ void TileRenderer::castSamples() {
             samples_[at(x, y)] = caster_.cast(horizontal(x + 0.5), vertical(y + 0.5), true);
 }
 
-// Packets of 4 x 4 samples, which mostly see the same.
-void TileRenderer::castPackets() {
-    constexpr std::int32_t kWidth = 4, kHeight = 4;
-    static_assert(kWidth * kHeight == kPacketRays);
-    const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
+// A packet's block of samples from (x0, y0) on, those before the end.
+// \param place  of (x, y): horizontal and vertical place in samples, and index of `samples`
+template <class Place>
+void TileRenderer::castBlock(std::int32_t x0, std::int32_t y0, std::int32_t endX, std::int32_t endY,
+                             const Place& place, std::vector<Sample>& samples) {
+    constexpr std::int32_t kWidth = 4, kHeight = 2;
     std::array<double, kPacketRays> u, v;
     std::array<std::size_t, kPacketRays> places;
     std::array<Sample, kPacketRays> seen;
-    columns_.clear();
-    rows_.clear();
-    for (std::int32_t x = -margin_; x < endX; ++x) columns_.push_back(horizontal(x + 0.5));
-    for (std::int32_t y = -margin_; y < endY; ++y) rows_.push_back(vertical(y + 0.5));
-    for (std::int32_t y0 = -margin_; y0 < endY; y0 += kHeight)
-        for (std::int32_t x0 = -margin_; x0 < endX; x0 += kWidth) {
-            std::size_t count = 0;
-            for (std::int32_t y = y0; y < std::min(y0 + kHeight, endY); ++y)
-                for (std::int32_t x = x0; x < std::min(x0 + kWidth, endX); ++x) {
-                    u[count] = columns_[static_cast<std::size_t>(x + margin_)];
-                    v[count] = rows_[static_cast<std::size_t>(y + margin_)];
-                    places[count++] = at(x, y);
+    std::size_t count = 0;
+    for (std::int32_t top = y0; top < std::min(y0 + kPacketHeight, endY); top += kHeight)
+        for (std::int32_t left = x0; left < std::min(x0 + kPacketWidth, endX); left += kWidth)
+            for (std::int32_t y = top; y < std::min(top + kHeight, endY); ++y)
+                for (std::int32_t x = left; x < std::min(left + kWidth, endX); ++x) {
+                    u[count] = horizontal(place.sample(x));
+                    v[count] = vertical(place.sample(y));
+                    places[count++] = place.index(x, y);
                 }
-            packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
-            for (std::size_t n = 0; n < count; ++n) samples_[places[n]] = seen[n];
-        }
+    packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
+    for (std::size_t n = 0; n < count; ++n) samples[places[n]] = seen[n];
+}
+
+void TileRenderer::castPackets() {
+    struct Place {
+        const TileRenderer& tile;
+        [[nodiscard]] double sample(std::int32_t n) const noexcept { return n + 0.5; }
+        [[nodiscard]] std::size_t index(std::int32_t x, std::int32_t y) const noexcept { return tile.at(x, y); }
+    };
+    const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
+    for (std::int32_t y = -margin_; y < endY; y += kPacketHeight)
+        for (std::int32_t x = -margin_; x < endX; x += kPacketWidth)
+            castBlock(x, y, endX, endY, Place{*this}, samples_);
 }
 
 // Several samples only for pixels that differ from a neighbor; the others are filled with what their middle sees.
@@ -131,26 +139,18 @@ void TileRenderer::castAdaptively() {
     cast();
 }
 
-// pixels_, in packets of 4 x 4.
+// Through the middles of pixels.
 void TileRenderer::castPixels() {
+    struct Place {
+        std::int32_t side;
+        [[nodiscard]] double sample(std::int32_t n) const noexcept { return n * side + side / 2.0; }
+        [[nodiscard]] std::size_t index(std::int32_t x, std::int32_t y) const noexcept { return pixelAt(x, y); }
+    };
     pixels_.resize(static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(kPixelStride));
-    const double middle = side_ / 2.0;
     const std::int32_t endX = tileWidth_ + kPixelMargin, endY = tileHeight_ + kPixelMargin;
-    std::array<double, kPacketRays> u, v;
-    std::array<std::size_t, kPacketRays> places;
-    std::array<Sample, kPacketRays> seen;
-    for (std::int32_t y0 = -kPixelMargin; y0 < endY; y0 += 4)
-        for (std::int32_t x0 = -kPixelMargin; x0 < endX; x0 += 4) {
-            std::size_t count = 0;
-            for (std::int32_t y = y0; y < std::min(y0 + 4, endY); ++y)
-                for (std::int32_t x = x0; x < std::min(x0 + 4, endX); ++x) {
-                    u[count] = horizontal(x * side_ + middle);
-                    v[count] = vertical(y * side_ + middle);
-                    places[count++] = pixelAt(x, y);
-                }
-            packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
-            for (std::size_t n = 0; n < count; ++n) pixels_[places[n]] = seen[n];
-        }
+    for (std::int32_t y = -kPixelMargin; y < endY; y += kPacketHeight)
+        for (std::int32_t x = -kPixelMargin; x < endX; x += kPacketWidth)
+            castBlock(x, y, endX, endY, Place{side_}, pixels_);
 }
 
 bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {

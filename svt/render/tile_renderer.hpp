@@ -29,6 +29,9 @@ private:
     void castPackets();
     void castAdaptively();
     void castPixels();
+    template <class Place>
+    void castBlock(std::int32_t x0, std::int32_t y0, std::int32_t endX, std::int32_t endY, const Place& place,
+                   std::vector<Sample>& samples);
     [[nodiscard]] bool needsSamples(std::int32_t x, std::int32_t y) const;
     [[nodiscard]] bool looksOther(const Sample& sample, const Sample& other, Vec3d aside) const;
     void castCenters();
@@ -63,7 +66,6 @@ private:
     Vec3f backgroundTop_, backgroundBottom_;                               // linear light
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
-    std::vector<double> columns_, rows_;                                   // places of the samples in the picture
     std::vector<Sample> samples_;
     std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
     std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
