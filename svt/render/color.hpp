@@ -4,6 +4,9 @@
 
 #include <svt/core/vec.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace svt::render {
@@ -17,6 +20,22 @@ namespace svt::render {
 [[nodiscard]] Vec3f srgbFromLinear(Vec3f color) noexcept;
 
 /// srgbFromLinear() * 255, rounded, from a table. Within one step of the exact value.
-[[nodiscard]] std::uint8_t srgbByteFromLinear(float channel) noexcept;
+class SrgbBytes {
+public:
+    /// The one table.
+    [[nodiscard]] static const SrgbBytes& table();
+
+    [[nodiscard]] std::uint8_t fromLinear(float channel) const noexcept {
+        const float c = std::clamp(channel, 0.0f, 1.0f);
+        return bytes_[static_cast<std::size_t>(c * static_cast<float>(kLast) + 0.5f)];
+    }
+
+private:
+    SrgbBytes();
+
+    // Fine enough for the steep foot of the curve: 12.92 * 255 / 16384 = 0.2 of a byte's step.
+    static constexpr std::size_t kLast = 16384;
+    std::array<std::uint8_t, kLast + 1> bytes_{};
+};
 
 }  // namespace svt::render

@@ -73,32 +73,30 @@ PacketScene PacketPasses::labelsOnly(std::size_t pass) const noexcept {
     return scene;
 }
 
-void PacketCaster::cast(std::span<const double> u, std::span<const double> v, bool withColor,
-                        std::span<Sample> samples) {
-    const std::size_t count = u.size();
+void PacketCaster::cast(const Rays& rays, bool withColor, std::span<Sample> samples) {
+    if (rays.count == 0) return;
     for (std::size_t n = 0; n < kPacketRays; ++n) {
-        rays_.u[n] = u[std::min(n, count - 1)];
-        rays_.v[n] = v[std::min(n, count - 1)];
+        rays_.u[n] = rays.u[std::min(n, rays.count - 1)];
+        rays_.v[n] = rays.v[std::min(n, rays.count - 1)];
     }
     setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
-    for (std::size_t n = count; n < kPacketRays; ++n) rays_.to[n] = 0;
+    for (std::size_t n = rays.count; n < kPacketRays; ++n) rays_.to[n] = 0;
     bool isAnyInside = false;
-    for (std::size_t n = 0; n < count; ++n) isAnyInside = isAnyInside || rays_.from[n] < rays_.to[n];
+    for (std::size_t n = 0; n < rays.count; ++n) isAnyInside = isAnyInside || rays_.from[n] < rays_.to[n];
     if (!isAnyInside) {
-        std::fill(samples.begin(), samples.end(), Sample());
+        for (std::size_t n = 0; n < rays.count; ++n) samples[rays.place[n]] = Sample();
         return;
     }
-    std::array<Sample, kPacketRays> seen;
     for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
-        const PacketScene packetScene = withColor ? passes_[pass] : passes_.labelsOnly(pass);
-        castPass(pass, packetScene, count, pass == 0 ? samples : std::span<Sample>(seen));
-        if (pass == 0) continue;
-        for (std::size_t n = 0; n < count; ++n) samples[n] = joinPass(scene_.passes[pass].join, seen[n], samples[n]);
+        castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass), rays.count);
+        for (std::size_t n = 0; n < rays.count; ++n) {
+            Sample& sample = samples[rays.place[n]];
+            sample = pass == 0 ? sampleOf(n) : joinPass(scene_.passes[pass].join, sampleOf(n), sample);
+        }
     }
 }
 
-void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count,
-                            std::span<Sample> samples) {
+void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count) {
     pass_ = pass;
     PacketScene scene = packetScene;
     scene.surface = &PacketCaster::surfaceOf;
@@ -139,19 +137,20 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, st
             walkPacket(scene, rays_, from_, to, capped, this, seen_);
         }
     }
-    for (std::size_t n = 0; n < count; ++n) {
-        Sample& sample = samples[n];
-        sample = Sample();
-        sample.depth = static_cast<float>(seen_.depth[n]);
-        if (sample.hasHit()) {
-            sample.label = static_cast<volume::Scalar>(seen_.label[n]);
-            sample.object = static_cast<std::uint32_t>(seen_.object[n]);
-            sample.normal = toFloat({seen_.normal[0][n], seen_.normal[1][n], seen_.normal[2][n]});
-            sample.isCap = seen_.isCap[n] != 0;
-        }
-        finishSample({seen_.color[0][n], seen_.color[1][n], seen_.color[2][n]}, seen_.transmittance[n], scene_.options,
-                     sample);
+}
+
+Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
+    Sample sample;
+    sample.depth = static_cast<float>(seen_.depth[ray]);
+    if (sample.hasHit()) {
+        sample.label = static_cast<volume::Scalar>(seen_.label[ray]);
+        sample.object = static_cast<std::uint32_t>(seen_.object[ray]);
+        sample.normal = toFloat({seen_.normal[0][ray], seen_.normal[1][ray], seen_.normal[2][ray]});
+        sample.isCap = seen_.isCap[ray] != 0;
     }
+    finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]}, seen_.transmittance[ray],
+                 scene_.options, sample);
+    return sample;
 }
 
 Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {

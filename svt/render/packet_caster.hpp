@@ -30,11 +30,25 @@ class PacketCaster {
 public:
     PacketCaster(const Scene& scene, const PacketPasses& passes) : scene_(scene), passes_(passes) {}
 
-    /// Rays through (u[n], v[n]); see CameraRays::at(). All three have 1 to kPacketRays elements.
-    void cast(std::span<const double> u, std::span<const double> v, bool withColor, std::span<Sample> samples);
+    /// Rays to cast together.
+    struct Rays {
+        std::array<double, kPacketRays> u, v;        ///< see CameraRays::at()
+        std::array<std::size_t, kPacketRays> place;  ///< which sample each makes
+        std::size_t count = 0;
+
+        void add(double atU, double atV, std::size_t atPlace) noexcept {
+            u[count] = atU;
+            v[count] = atV;
+            place[count++] = atPlace;
+        }
+        [[nodiscard]] bool isFull() const noexcept { return count == kPacketRays; }
+    };
+    /// Casts the rays, if there are any, to `samples`.
+    void cast(const Rays& rays, bool withColor, std::span<Sample> samples);
 
 private:
-    void castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count, std::span<Sample> samples);
+    void castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count);
+    [[nodiscard]] Sample sampleOf(std::size_t ray) const noexcept;
     [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
 
     const Scene& scene_;

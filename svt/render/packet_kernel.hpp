@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Rays of neighbouring pixels at once: set up, and walked through a volume. Compiled for several instruction sets, of which the best
-/// that the machine has is taken when the program runs. Internal to render.
+/// Rays of neighbouring pixels at once: set up, and walked through a volume. Compiled for several instruction sets, of
+/// which the best that the machine has is taken when the program runs. Internal to render.
 ///
 /// The same arithmetic in the same order as IndexRay, RunWalk and RunShader, in doubles and without fused operations,
 /// so every set of instructions gives the very runs, labels, depths and colors of the plain caster.

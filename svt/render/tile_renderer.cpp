@@ -1,4 +1,3 @@
-#include <svt/render/color.hpp>
 #include <svt/render/tile_renderer.hpp>
 
 #include <algorithm>
@@ -72,52 +71,39 @@ void TileRenderer::castSamples() {
             samples_[at(x, y)] = caster_.cast(horizontal(x + 0.5), vertical(y + 0.5), true);
 }
 
-// A packet's block of samples from (x0, y0) on, those before the end.
-// \param place  of (x, y): horizontal and vertical place in samples, and index of `samples`
-template <class Place>
-void TileRenderer::castBlock(std::int32_t x0, std::int32_t y0, std::int32_t endX, std::int32_t endY,
-                             const Place& place, std::vector<Sample>& samples) {
+void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
     constexpr std::int32_t kWidth = 4, kHeight = 2;
-    std::array<double, kPacketRays> u, v;
-    std::array<std::size_t, kPacketRays> places;
-    std::array<Sample, kPacketRays> seen;
-    std::size_t count = 0;
-    for (std::int32_t top = y0; top < std::min(y0 + kPacketHeight, endY); top += kHeight)
-        for (std::int32_t left = x0; left < std::min(x0 + kPacketWidth, endX); left += kWidth)
-            for (std::int32_t y = top; y < std::min(top + kHeight, endY); ++y)
-                for (std::int32_t x = left; x < std::min(left + kWidth, endX); ++x) {
-                    u[count] = horizontal(place.sample(x));
-                    v[count] = vertical(place.sample(y));
-                    places[count++] = place.index(x, y);
-                }
-    packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
-    for (std::size_t n = 0; n < count; ++n) samples[places[n]] = seen[n];
+    columns_.clear();
+    for (std::int32_t x = 0; x < grid.width; ++x) columns_.push_back(horizontal(grid.first + x * grid.step));
+    PacketCaster::Rays rays;
+    const auto castBlock = [&](std::int32_t x0, std::int32_t y0) {
+        const std::int32_t endX = std::min(x0 + kPacketWidth, grid.width);
+        const std::int32_t endY = std::min(y0 + kPacketHeight, grid.height);
+        rays.count = 0;
+        for (std::int32_t top = y0; top < endY; top += kHeight)
+            for (std::int32_t left = x0; left < endX; left += kWidth)
+                for (std::int32_t y = top; y < std::min(top + kHeight, endY); ++y)
+                    for (std::int32_t x = left; x < std::min(left + kWidth, endX); ++x)
+                        rays.add(columns_[static_cast<std::size_t>(x)], vertical(grid.first + y * grid.step),
+                                 static_cast<std::size_t>(x + y * grid.stride));
+        packets_->cast(rays, true, samples);
+    };
+    for (std::int32_t y = 0; y < grid.height; y += kPacketHeight)
+        for (std::int32_t x = 0; x < grid.width; x += kPacketWidth) castBlock(x, y);
 }
 
 void TileRenderer::castPackets() {
-    struct Place {
-        const TileRenderer& tile;
-        [[nodiscard]] double sample(std::int32_t n) const noexcept { return n + 0.5; }
-        [[nodiscard]] std::size_t index(std::int32_t x, std::int32_t y) const noexcept { return tile.at(x, y); }
-    };
-    const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
-    for (std::int32_t y = -margin_; y < endY; y += kPacketHeight)
-        for (std::int32_t x = -margin_; x < endX; x += kPacketWidth)
-            castBlock(x, y, endX, endY, Place{*this}, samples_);
+    castGrid({0.5 - margin_, 1, tileWidth_ * side_ + 2 * margin_, tileHeight_ * side_ + 2 * margin_, stride_},
+             samples_);
 }
 
 // Several samples only for pixels that differ from a neighbor; the others are filled with what their middle sees.
 void TileRenderer::castAdaptively() {
     castPixels();
-    std::array<double, kPacketRays> u, v;
-    std::array<std::size_t, kPacketRays> places;
-    std::array<Sample, kPacketRays> seen;
-    std::size_t count = 0;
+    PacketCaster::Rays rays;
     const auto cast = [&] {
-        if (count == 0) return;
-        packets_->cast(std::span(u).first(count), std::span(v).first(count), true, std::span(seen).first(count));
-        for (std::size_t n = 0; n < count; ++n) samples_[places[n]] = seen[n];
-        count = 0;
+        packets_->cast(rays, true, samples_);
+        rays.count = 0;
     };
     const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
     const std::int32_t around = margin_ > 0 ? 1 : 0;  // pixels beside the tile that have samples of its margin
@@ -127,13 +113,11 @@ void TileRenderer::castAdaptively() {
             for (std::int32_t sy = std::max(y * side_, -margin_); sy < std::min((y + 1) * side_, endY); ++sy)
                 for (std::int32_t sx = std::max(x * side_, -margin_); sx < std::min((x + 1) * side_, endX); ++sx) {
                     if (isSmooth) {
-                        samples_[at(sx, sy)] = pixels_[pixelAt(x, y)];
+                        samples_[at(sx, sy)] = pixels_[middleOf(x, y)];
                         continue;
                     }
-                    u[count] = horizontal(sx + 0.5);
-                    v[count] = vertical(sy + 0.5);
-                    places[count++] = at(sx, sy);
-                    if (count == kPacketRays) cast();
+                    rays.add(horizontal(sx + 0.5), vertical(sy + 0.5), at(sx, sy));
+                    if (rays.isFull()) cast();
                 }
         }
     cast();
@@ -141,26 +125,20 @@ void TileRenderer::castAdaptively() {
 
 // Through the middles of pixels.
 void TileRenderer::castPixels() {
-    struct Place {
-        std::int32_t side;
-        [[nodiscard]] double sample(std::int32_t n) const noexcept { return n * side + side / 2.0; }
-        [[nodiscard]] std::size_t index(std::int32_t x, std::int32_t y) const noexcept { return pixelAt(x, y); }
-    };
     pixels_.resize(static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(kPixelStride));
-    const std::int32_t endX = tileWidth_ + kPixelMargin, endY = tileHeight_ + kPixelMargin;
-    for (std::int32_t y = -kPixelMargin; y < endY; y += kPacketHeight)
-        for (std::int32_t x = -kPixelMargin; x < endX; x += kPacketWidth)
-            castBlock(x, y, endX, endY, Place{side_}, pixels_);
+    castGrid({side_ / 2.0 - kPixelMargin * side_, double(side_), tileWidth_ + 2 * kPixelMargin,
+              tileHeight_ + 2 * kPixelMargin, kPixelStride},
+             pixels_);
 }
 
 bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {
-    const Sample& sample = pixels_[pixelAt(x, y)];
+    const Sample& sample = pixels_[middleOf(x, y)];
     const double step = sample.hasHit() ? scene_.rays.pixelSize(static_cast<double>(sample.depth)) : 0;
     for (std::int32_t dy = -1; dy <= 1; ++dy)
         for (std::int32_t dx = -1; dx <= 1; ++dx) {
             if (dx == 0 && dy == 0) continue;
             const Vec3d aside = scene_.rays.right() * (step * dx) - scene_.rays.up() * (step * dy);
-            if (looksOther(sample, pixels_[pixelAt(x + dx, y + dy)], aside)) return true;
+            if (looksOther(sample, pixels_[middleOf(x + dx, y + dy)], aside)) return true;
         }
     return false;
 }
@@ -181,25 +159,23 @@ bool TileRenderer::looksOther(const Sample& sample, const Sample& other, Vec3d a
 void TileRenderer::castCenters() {
     const double middle = side_ / 2.0;
     centers_.resize(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_));
-    std::array<double, kPacketRays> u, v;
-    std::size_t next = 0;
+    if (packets_) {
+        PacketCaster::Rays rays;
+        for (std::int32_t y = 0; y < tileHeight_; ++y)
+            for (std::int32_t x = 0; x < tileWidth_; ++x) {
+                rays.add(horizontal(x * side_ + middle), vertical(y * side_ + middle),
+                         static_cast<std::size_t>(x + y * tileWidth_));
+                if (!rays.isFull()) continue;
+                packets_->cast(rays, false, centers_);
+                rays.count = 0;
+            }
+        packets_->cast(rays, false, centers_);
+        return;
+    }
     for (std::int32_t y = 0; y < tileHeight_; ++y)
-        for (std::int32_t x = 0; x < tileWidth_;) {
-            if (!packets_) {
-                centers_[next++] = caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
-                ++x;
-                continue;
-            }
-            const auto count =
-                static_cast<std::size_t>(std::min(tileWidth_ - x, static_cast<std::int32_t>(kPacketRays)));
-            for (std::size_t n = 0; n < count; ++n, ++x) {
-                u[n] = horizontal(x * side_ + middle);
-                v[n] = vertical(y * side_ + middle);
-            }
-            packets_->cast(std::span(u).first(count), std::span(v).first(count), false,
-                           std::span(centers_).subspan(next, count));
-            next += count;
-        }
+        for (std::int32_t x = 0; x < tileWidth_; ++x)
+            centers_[static_cast<std::size_t>(x + y * tileWidth_)] =
+                caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
 }
 
 void TileRenderer::findLines() {
@@ -242,7 +218,7 @@ float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d
 
 void TileRenderer::fillBackground() {
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
-        const Rgba8 pixel = pixelOf({}, 0, y);
+        const Rgba8 pixel = pixelOf({}, 0, backgroundOf(y));
         for (std::int32_t x = 0; x < tileWidth_; ++x) frame_.color.at(tileX_ + x, tileY_ + y) = pixel;
     }
 }
@@ -252,19 +228,19 @@ void TileRenderer::writePixels() {
     const bool isAdaptive = packets_ && scene_.options.isAdaptive;
     if (!isOdd && !isAdaptive) castCenters();
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
-        const Rgba8 background = pixelOf({}, 0, y);
+        const Vec3f background = backgroundOf(y);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
-            writePixel(x, y, background);
             const Sample& center = isOdd        ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
-                                   : isAdaptive ? pixels_[pixelAt(x, y)]
+                                   : isAdaptive ? pixels_[middleOf(x, y)]
                                                 : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
-            frame_.label.at(tileX_ + x, tileY_ + y) = center.hasHit() ? center.label : 0;
+            frame_.color.at(tileX_ + x, tileY_ + y) = pixelAt(x, y, background);
+            frame_.label.at(tileX_ + x, tileY_ + y) = center.label;
             frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
         }
     }
 }
 
-void TileRenderer::writePixel(std::int32_t x, std::int32_t y, Rgba8 background) {
+Rgba8 TileRenderer::pixelAt(std::int32_t x, std::int32_t y, Vec3f background) const noexcept {
     Vec3f color{};
     float alpha = 0;
     for (std::int32_t sy = y * side_; sy < (y + 1) * side_; ++sy)
@@ -279,24 +255,24 @@ void TileRenderer::writePixel(std::int32_t x, std::int32_t y, Rgba8 background) 
             // A line is seen, however thin the glass it borders.
             alpha += sample.alpha + (1 - sample.alpha) * line * kGlassLine;
         }
-    if (alpha <= 0) {
-        frame_.color.at(tileX_ + x, tileY_ + y) = background;
-        return;
-    }
     const float share = 1.0f / static_cast<float>(side_ * side_);
-    frame_.color.at(tileX_ + x, tileY_ + y) = pixelOf(color * share, alpha * share, y);
+    return pixelOf(color * share, alpha * share, background);
 }
 
-Rgba8 TileRenderer::pixelOf(Vec3f color, float alpha, std::int32_t y) const noexcept {
+Vec3f TileRenderer::backgroundOf(std::int32_t y) const noexcept {
     const float down = (static_cast<float>(tileY_ + y) + 0.5f) / static_cast<float>(scene_.spec.height);
+    return backgroundTop_ + (backgroundBottom_ - backgroundTop_) * down;
+}
+
+Rgba8 TileRenderer::pixelOf(Vec3f color, float alpha, Vec3f background) const noexcept {
     const float rest = (1 - alpha) * scene_.spec.background.alpha;
-    color = color + (backgroundTop_ + (backgroundBottom_ - backgroundTop_) * down) * rest;
+    color = color + background * rest;
     alpha += rest;
     Rgba8 pixel;
     if (alpha <= 0) return pixel;
-    pixel.r = srgbByteFromLinear(color.x / alpha);
-    pixel.g = srgbByteFromLinear(color.y / alpha);
-    pixel.b = srgbByteFromLinear(color.z / alpha);
+    pixel.r = bytes_.fromLinear(color.x / alpha);
+    pixel.g = bytes_.fromLinear(color.y / alpha);
+    pixel.b = bytes_.fromLinear(color.z / alpha);
     pixel.a = static_cast<std::uint8_t>(std::min(alpha, 1.0f) * 255 + 0.5f);
     return pixel;
 }

@@ -2,6 +2,7 @@
 /// \file
 /// Renders one tile of the picture: samples, border lines, pixels. Internal to render.
 
+#include <svt/render/color.hpp>
 #include <svt/render/packet_caster.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/sample_caster.hpp>
@@ -29,9 +30,12 @@ private:
     void castPackets();
     void castAdaptively();
     void castPixels();
-    template <class Place>
-    void castBlock(std::int32_t x0, std::int32_t y0, std::int32_t endX, std::int32_t endY, const Place& place,
-                   std::vector<Sample>& samples);
+    // Rays in rows and columns; places in samples of the tile.
+    struct RayGrid {
+        double first, step;  // along both axes
+        std::int32_t width, height, stride;
+    };
+    void castGrid(const RayGrid& grid, std::vector<Sample>& samples);
     [[nodiscard]] bool needsSamples(std::int32_t x, std::int32_t y) const;
     [[nodiscard]] bool looksOther(const Sample& sample, const Sample& other, Vec3d aside) const;
     void castCenters();
@@ -39,16 +43,18 @@ private:
     [[nodiscard]] float lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const;
     void writePixels();
     void fillBackground();
-    /// Pixel of row y of the tile: premultiplied linear light over the background.
-    [[nodiscard]] Rgba8 pixelOf(Vec3f color, float alpha, std::int32_t y) const noexcept;
-    void writePixel(std::int32_t x, std::int32_t y, Rgba8 background);
+    /// The background in row y of the tile, linear light.
+    [[nodiscard]] Vec3f backgroundOf(std::int32_t y) const noexcept;
+    /// Premultiplied linear light over the background.
+    [[nodiscard]] Rgba8 pixelOf(Vec3f color, float alpha, Vec3f background) const noexcept;
+    [[nodiscard]] Rgba8 pixelAt(std::int32_t x, std::int32_t y, Vec3f background) const noexcept;
 
     [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y) const noexcept {
         return static_cast<std::size_t>(x + margin_) +
                static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y + margin_);
     }
     static constexpr std::int32_t kPixelMargin = 2, kPixelStride = kTilePixels + 2 * kPixelMargin;
-    [[nodiscard]] static std::size_t pixelAt(std::int32_t x, std::int32_t y) noexcept {
+    [[nodiscard]] static std::size_t middleOf(std::int32_t x, std::int32_t y) noexcept {
         return static_cast<std::size_t>(x + kPixelMargin) +
                static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(y + kPixelMargin);
     }
@@ -63,9 +69,11 @@ private:
     std::int32_t lineReach_;  // samples from a border that its line covers, on either side
     std::int32_t margin_;     // samples around the tile
     std::int32_t stride_;
-    Vec3f backgroundTop_, backgroundBottom_;                               // linear light
+    Vec3f backgroundTop_, backgroundBottom_;  // linear light
+    const SrgbBytes& bytes_ = SrgbBytes::table();
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
+    std::vector<double> columns_;  // where columns of samples lie in the picture, -1..1
     std::vector<Sample> samples_;
     std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
     std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
