@@ -73,30 +73,27 @@ PacketScene PacketPasses::labelsOnly(std::size_t pass) const noexcept {
     return scene;
 }
 
-void PacketCaster::cast(const Rays& rays, bool withColor, std::span<Sample> samples) {
-    if (rays.count == 0) return;
-    for (std::size_t n = 0; n < kPacketRays; ++n) {
-        rays_.u[n] = rays.u[std::min(n, rays.count - 1)];
-        rays_.v[n] = rays.v[std::min(n, rays.count - 1)];
+void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
+    if (count_ == 0) return;
+    for (std::size_t n = count_; n < kPacketRays; ++n) {
+        rays_.u[n] = rays_.u[0];
+        rays_.v[n] = rays_.v[0];
     }
-    setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
-    for (std::size_t n = rays.count; n < kPacketRays; ++n) rays_.to[n] = 0;
-    bool isAnyInside = false;
-    for (std::size_t n = 0; n < rays.count; ++n) isAnyInside = isAnyInside || rays_.from[n] < rays_.to[n];
-    if (!isAnyInside) {
-        for (std::size_t n = 0; n < rays.count; ++n) samples[rays.place[n]] = Sample();
-        return;
-    }
-    for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
-        castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass), rays.count);
-        for (std::size_t n = 0; n < rays.count; ++n) {
-            Sample& sample = samples[rays.place[n]];
+    const bool isAnyInside = setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
+    for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
+    if (!isAnyInside)
+        for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
+    for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyInside; ++pass) {
+        castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
+        for (std::size_t n = 0; n < count_; ++n) {
+            Sample& sample = samples[places_[n]];
             sample = pass == 0 ? sampleOf(n) : joinPass(scene_.passes[pass].join, sampleOf(n), sample);
         }
     }
+    count_ = 0;
 }
 
-void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count) {
+void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     pass_ = pass;
     PacketScene scene = packetScene;
     scene.surface = &PacketCaster::surfaceOf;
@@ -117,7 +114,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, st
     } else {
         std::array<DrawnIntervals, kPacketRays> drawn;
         std::size_t most = 0;
-        for (std::size_t n = 0; n < count; ++n) {
+        for (std::size_t n = 0; n < count_; ++n) {
             const RaySpan span{rays_.from[n], rays_.to[n]};
             if (!(span.from < span.to)) continue;
             drawn[n] = clipper.cut(scene_.rays.at(rays_.u[n], rays_.v[n]).index, span);
@@ -126,7 +123,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene, st
         for (std::size_t part = 0; part < most; ++part) {
             Lanes<double> to{};
             from_.fill(0);
-            for (std::size_t n = 0; n < count; ++n) {
+            for (std::size_t n = 0; n < count_; ++n) {
                 if (part >= static_cast<std::size_t>(drawn[n].end() - drawn[n].begin())) continue;
                 const DrawnInterval& interval = drawn[n].begin()[part];
                 from_[n] = interval.from;

@@ -30,30 +30,26 @@ class PacketCaster {
 public:
     PacketCaster(const Scene& scene, const PacketPasses& passes) : scene_(scene), passes_(passes) {}
 
-    /// Rays to cast together.
-    struct Rays {
-        std::array<double, kPacketRays> u, v;        ///< see CameraRays::at()
-        std::array<std::size_t, kPacketRays> place;  ///< which sample each makes
-        std::size_t count = 0;
-
-        void add(double atU, double atV, std::size_t atPlace) noexcept {
-            u[count] = atU;
-            v[count] = atV;
-            place[count++] = atPlace;
-        }
-        [[nodiscard]] bool isFull() const noexcept { return count == kPacketRays; }
-    };
-    /// Casts the rays, if there are any, to `samples`.
-    void cast(const Rays& rays, bool withColor, std::span<Sample> samples);
+    /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if isFull().
+    void add(double u, double v, std::size_t place) noexcept {
+        rays_.u[count_] = u;
+        rays_.v[count_] = v;
+        places_[count_++] = place;
+    }
+    [[nodiscard]] bool isFull() const noexcept { return count_ == kPacketRays; }
+    /// Casts the rays that there are, if any.
+    void cast(bool withColor, std::span<Sample> samples);
 
 private:
-    void castPass(std::size_t pass, const PacketScene& packetScene, std::size_t count);
+    void castPass(std::size_t pass, const PacketScene& packetScene);
     [[nodiscard]] Sample sampleOf(std::size_t ray) const noexcept;
     [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
 
     const Scene& scene_;
     const PacketPasses& passes_;
     NormalCache cache_;
+    std::size_t count_ = 0;
+    std::array<std::size_t, kPacketRays> places_;
     PacketRays rays_;
     PacketSamples seen_;
     std::size_t pass_ = 0;

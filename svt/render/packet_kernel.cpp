@@ -75,12 +75,12 @@ HWY_INLINE V expOfMinus(V x) {
     const auto isSmall = hn::Lt(x, hn::Set(d, 80.0));
     const V safe = hn::IfThenElseZero(isSmall, x);
     const V halvings = hn::Mul(safe, hn::Set(d, 1.4426950408889634));
-    const V n = hn::Floor(halvings);
+    const V n = hn::Floor(hn::Add(halvings, hn::Set(d, 0.5)));
     const V r = hn::Mul(hn::Sub(halvings, n), hn::Set(d, 0.34657359027997264));
-    V sum = hn::Sub(one, hn::Mul(r, hn::Set(d, 1.0 / 7)));
-    for (const double factor : {1.0 / 6, 1.0 / 5, 1.0 / 4, 1.0 / 3, 1.0 / 2})
-        sum = hn::Sub(one, hn::Mul(hn::Mul(sum, r), hn::Set(d, factor)));
-    sum = hn::Sub(one, hn::Mul(sum, r));
+    const V square = hn::Mul(r, r);
+    const auto pair = [&](double c0, double c1) { return hn::Sub(hn::Set(d, c0), hn::Mul(r, hn::Set(d, c1))); };
+    const V high = hn::Add(pair(0.5, 1.0 / 6), hn::Mul(square, pair(1.0 / 24, 1.0 / 120)));
+    const V sum = hn::Add(hn::Sub(one, r), hn::Mul(square, high));
     const V power = hn::BitCast(d, hn::ShiftLeft<52>(hn::Sub(hn::Set(di, 1023), toInt(n))));
     return hn::IfThenElseZero(isSmall, hn::Mul(hn::Mul(sum, sum), power));
 }
@@ -92,7 +92,8 @@ HWY_INLINE V3 broadcast(Vec3d v) {
 HWY_INLINE V3 sum(const V3& a, const V3& b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
 HWY_INLINE V3 times(const V3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 
-void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
+bool setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
+    bool isAnyInside = false;
     const D d;
     const CameraRays::Basis basis = camera.basis();
     const V one = hn::Set(d, 1.0), zero = hn::Zero(d), infinity = hn::Set(d, kInfinity);
@@ -110,9 +111,6 @@ void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
         } else {
             origin = sum(origin, aside);
         }
-        const V length = hn::Sqrt(dot(world, world));
-        const V3 view{hn::Div(hn::Neg(world.x), length), hn::Div(hn::Neg(world.y), length),
-                      hn::Div(hn::Neg(world.z), length)};
         const V least = hn::Mul(hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z)),
                                 hn::Set(d, 1e-12));
         const V far =
@@ -120,7 +118,7 @@ void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
         store(hn::Mul(hn::Set(d, 1e-13), far), rays.slack, i);
         store(metres, rays.metresPerT, i);
         V from = zero, to = infinity;
-        const auto axis = [&](int a, V o, V along, V toViewer) {
+        const auto axis = [&](int a, V o, V along) {
             const auto n = static_cast<std::size_t>(a);
             const M moves = hn::Gt(hn::Abs(along), least);
             const V inverse = hn::IfThenElse(moves, hn::Div(one, along), infinity);
@@ -136,14 +134,20 @@ void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
             store(hn::IfThenElseZero(moves, along), rays.direction[n], i);
             store(inverse, rays.inverse[n], i);
             store(planeOrigin, rays.planeOrigin[n], i);
-            store(toViewer, rays.view[n], i);
         };
-        axis(0, origin.x, direction.x, view.x);
-        axis(1, origin.y, direction.y, view.y);
-        axis(2, origin.z, direction.z, view.z);
+        axis(0, origin.x, direction.x);
+        axis(1, origin.y, direction.y);
+        axis(2, origin.z, direction.z);
         store(from, rays.from, i);
         store(to, rays.to, i);
+        if (!any(hn::Lt(from, to))) continue;
+        isAnyInside = true;
+        const V length = hn::Sqrt(dot(world, world));
+        store(hn::Div(hn::Neg(world.x), length), rays.view[0], i);
+        store(hn::Div(hn::Neg(world.y), length), rays.view[1], i);
+        store(hn::Div(hn::Neg(world.z), length), rays.view[2], i);
     }
+    return isAnyInside;
 }
 
 // One axis of the rays.
@@ -215,14 +219,15 @@ public:
         Vec3i cell;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double along = rays_.direction[axis][ray], position = rays_.origin[axis][ray] + t * along;
-            auto at = static_cast<std::int64_t>(position);
             const auto plane = static_cast<std::int64_t>(position + 0.5);
+            const auto inner = static_cast<std::int64_t>(position);
             const double aside = position - static_cast<double>(plane);
-            if (std::abs(aside) <= rays_.slack[ray] && along != 0) {
-                const double time =
-                    (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
-                at = (time <= t) == (along < 0) ? plane - 1 : plane;
-            }
+            const double time =
+                (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
+            // Beside a plane rounding must not decide. Without branches: nobody foretells them.
+            const bool isBeside = (std::abs(aside) <= rays_.slack[ray]) & (along != 0);
+            const std::int64_t decided = plane - std::int64_t{(time <= t) == (along < 0)};
+            const std::int64_t at = isBeside ? decided : inner;
             const auto last = static_cast<std::int64_t>(scene_.count[axis]) - 1;
             cell[static_cast<int>(axis)] = static_cast<std::int32_t>(std::clamp<std::int64_t>(at, 0, last));
         }
@@ -342,7 +347,10 @@ public:
                 const VI bits = shiftRightBy(gatherBytes(words + std::size_t{8} * plane, word), bit);
                 index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
             }
-            const VI scalar = lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(index)));
+            const VI scalar = brick.planeCount == 1
+                                  ? hn::IfThenElse(hn::Ne(index, hn::Zero(di)), hn::Set(di, std::int64_t{scalars[1]}),
+                                                   hn::Set(di, std::int64_t{scalars[0]}))
+                                  : lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(index)));
             lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
             const auto far = [&](const Axis& axis, V at) {
                 return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one));
@@ -916,8 +924,8 @@ namespace svt::render {
 HWY_EXPORT(setUp);
 HWY_EXPORT(walk);
 
-void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays) {
-    HWY_DYNAMIC_DISPATCH(setUp)(camera, count, rays);
+bool setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays) {
+    return HWY_DYNAMIC_DISPATCH(setUp)(camera, count, rays);
 }
 
 void walkPacket(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,

@@ -18,7 +18,7 @@
 namespace svt::render {
 
 /// A packet has the rays of so many pixels, in blocks of 4 x 2 that lie beside each other and are read one by one.
-inline constexpr std::int32_t kPacketWidth = 8, kPacketHeight = 4;
+inline constexpr std::int32_t kPacketWidth = 8, kPacketHeight = 8;
 inline constexpr std::size_t kPacketRays = kPacketWidth * kPacketHeight;
 
 template <class T>
@@ -29,7 +29,7 @@ struct PacketRays {
     Lanes<double> u, v;  ///< where in the picture, see CameraRays::at(): what setUpPacket() is given
     Lanes<double> origin[3], direction[3], inverse[3], planeOrigin[3];
     Lanes<double> slack;
-    Lanes<double> view[3];  ///< world space, unit length, towards the viewer
+    Lanes<double> view[3];  ///< world space, unit length, towards the viewer; not set where no ray beside is inside
     Lanes<double> metresPerT;
     Lanes<double> from, to;  ///< where the ray is in the volume
 };
@@ -87,7 +87,8 @@ struct PacketScene {
 };
 
 /// Rays through the places `rays.u`, `rays.v`, and where they are in a volume of `count` voxels.
-void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
+/// \return whether any is
+bool setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
 
 /// Walks the rays over [from, to) each, which must lie in rays.from and rays.to, and adds to `samples`.
 /// \param capped   not 0 where a clip plane made the start of the stretch

@@ -74,19 +74,19 @@ void TileRenderer::castSamples() {
 void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
     constexpr std::int32_t kWidth = 4, kHeight = 2;
     columns_.clear();
+    rows_.clear();
     for (std::int32_t x = 0; x < grid.width; ++x) columns_.push_back(horizontal(grid.first + x * grid.step));
-    PacketCaster::Rays rays;
+    for (std::int32_t y = 0; y < grid.height; ++y) rows_.push_back(vertical(grid.first + y * grid.step));
     const auto castBlock = [&](std::int32_t x0, std::int32_t y0) {
         const std::int32_t endX = std::min(x0 + kPacketWidth, grid.width);
         const std::int32_t endY = std::min(y0 + kPacketHeight, grid.height);
-        rays.count = 0;
         for (std::int32_t top = y0; top < endY; top += kHeight)
             for (std::int32_t left = x0; left < endX; left += kWidth)
                 for (std::int32_t y = top; y < std::min(top + kHeight, endY); ++y)
                     for (std::int32_t x = left; x < std::min(left + kWidth, endX); ++x)
-                        rays.add(columns_[static_cast<std::size_t>(x)], vertical(grid.first + y * grid.step),
+                        packets_->add(columns_[static_cast<std::size_t>(x)], rows_[static_cast<std::size_t>(y)],
                                  static_cast<std::size_t>(x + y * grid.stride));
-        packets_->cast(rays, true, samples);
+        packets_->cast(true, samples);
     };
     for (std::int32_t y = 0; y < grid.height; y += kPacketHeight)
         for (std::int32_t x = 0; x < grid.width; x += kPacketWidth) castBlock(x, y);
@@ -100,11 +100,6 @@ void TileRenderer::castPackets() {
 // Several samples only for pixels that differ from a neighbor; the others are filled with what their middle sees.
 void TileRenderer::castAdaptively() {
     castPixels();
-    PacketCaster::Rays rays;
-    const auto cast = [&] {
-        packets_->cast(rays, true, samples_);
-        rays.count = 0;
-    };
     const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
     const std::int32_t around = margin_ > 0 ? 1 : 0;  // pixels beside the tile that have samples of its margin
     for (std::int32_t y = -around; y < tileHeight_ + around; ++y)
@@ -116,11 +111,11 @@ void TileRenderer::castAdaptively() {
                         samples_[at(sx, sy)] = pixels_[middleOf(x, y)];
                         continue;
                     }
-                    rays.add(horizontal(sx + 0.5), vertical(sy + 0.5), at(sx, sy));
-                    if (rays.isFull()) cast();
+                    packets_->add(horizontal(sx + 0.5), vertical(sy + 0.5), at(sx, sy));
+                    if (packets_->isFull()) packets_->cast(true, samples_);
                 }
         }
-    cast();
+    packets_->cast(true, samples_);
 }
 
 // Through the middles of pixels.
@@ -160,16 +155,13 @@ void TileRenderer::castCenters() {
     const double middle = side_ / 2.0;
     centers_.resize(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_));
     if (packets_) {
-        PacketCaster::Rays rays;
         for (std::int32_t y = 0; y < tileHeight_; ++y)
             for (std::int32_t x = 0; x < tileWidth_; ++x) {
-                rays.add(horizontal(x * side_ + middle), vertical(y * side_ + middle),
-                         static_cast<std::size_t>(x + y * tileWidth_));
-                if (!rays.isFull()) continue;
-                packets_->cast(rays, false, centers_);
-                rays.count = 0;
+                packets_->add(horizontal(x * side_ + middle), vertical(y * side_ + middle),
+                              static_cast<std::size_t>(x + y * tileWidth_));
+                if (packets_->isFull()) packets_->cast(false, centers_);
             }
-        packets_->cast(rays, false, centers_);
+        packets_->cast(false, centers_);
         return;
     }
     for (std::int32_t y = 0; y < tileHeight_; ++y)
@@ -229,18 +221,20 @@ void TileRenderer::writePixels() {
     if (!isOdd && !isAdaptive) castCenters();
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
         const Vec3f background = backgroundOf(y);
+        const Rgba8 backgroundPixel = pixelOf({}, 0, background);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
             const Sample& center = isOdd        ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
                                    : isAdaptive ? pixels_[middleOf(x, y)]
                                                 : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
-            frame_.color.at(tileX_ + x, tileY_ + y) = pixelAt(x, y, background);
+            const auto [color, alpha] = lightOf(x, y);
+            frame_.color.at(tileX_ + x, tileY_ + y) = alpha > 0 ? pixelOf(color, alpha, background) : backgroundPixel;
             frame_.label.at(tileX_ + x, tileY_ + y) = center.label;
             frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
         }
     }
 }
 
-Rgba8 TileRenderer::pixelAt(std::int32_t x, std::int32_t y, Vec3f background) const noexcept {
+TileRenderer::PixelLight TileRenderer::lightOf(std::int32_t x, std::int32_t y) const noexcept {
     Vec3f color{};
     float alpha = 0;
     for (std::int32_t sy = y * side_; sy < (y + 1) * side_; ++sy)
@@ -256,7 +250,7 @@ Rgba8 TileRenderer::pixelAt(std::int32_t x, std::int32_t y, Vec3f background) co
             alpha += sample.alpha + (1 - sample.alpha) * line * kGlassLine;
         }
     const float share = 1.0f / static_cast<float>(side_ * side_);
-    return pixelOf(color * share, alpha * share, background);
+    return {color * share, alpha * share};
 }
 
 Vec3f TileRenderer::backgroundOf(std::int32_t y) const noexcept {

@@ -47,7 +47,11 @@ private:
     [[nodiscard]] Vec3f backgroundOf(std::int32_t y) const noexcept;
     /// Premultiplied linear light over the background.
     [[nodiscard]] Rgba8 pixelOf(Vec3f color, float alpha, Vec3f background) const noexcept;
-    [[nodiscard]] Rgba8 pixelAt(std::int32_t x, std::int32_t y, Vec3f background) const noexcept;
+    struct PixelLight {
+        Vec3f color;  ///< premultiplied
+        float alpha;
+    };
+    [[nodiscard]] PixelLight lightOf(std::int32_t x, std::int32_t y) const noexcept;
 
     [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y) const noexcept {
         return static_cast<std::size_t>(x + margin_) +
@@ -73,7 +77,7 @@ private:
     const SrgbBytes& bytes_ = SrgbBytes::table();
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
-    std::vector<double> columns_;  // where columns of samples lie in the picture, -1..1
+    std::vector<double> columns_, rows_;  // where they lie in the picture, -1..1
     std::vector<Sample> samples_;
     std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
     std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
