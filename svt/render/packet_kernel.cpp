@@ -336,12 +336,21 @@ public:
         const std::uint64_t* words = scene_.volume.words.data() + brick.planes;
         const volume::Scalar* scalars = scene_.volume.palettes.data() + brick.palette;
         M lanes = inside.lanes;
-        V3 cell = cells();
+        const V3 cell = cells();
+        const auto local = [&](V at, int axis) {
+            return hn::IfThenElseZero(lanes, hn::Sub(at, hn::Set(d, box.low[axis])));
+        };
+        // Which bit, and bytes to which word.
+        VI bit = toInt(hn::Add(local(cell.x, 0), hn::Mul(local(cell.y, 1), hn::Set(d, 8.0))));
+        VI word = hn::ShiftLeft<3>(toInt(local(cell.z, 2)));
+        // Faces of the voxel before the rays; they move by a voxel.
+        const auto sign = [&](const Axis& axis) { return hn::IfThenElse(axis.isNegative, hn::Neg(one), one); };
+        const V3 step{sign(x_), sign(y_), sign(z_)};
+        const auto faceAhead = [&](const Axis& axis, V at) { return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one)); };
+        V3 far{faceAhead(x_, cell.x), faceAhead(y_, cell.y), faceAhead(z_, cell.z)};
+        const VI stepX = toInt(step.x), stepY = hn::ShiftLeft<3>(toInt(step.y)), stepZ = hn::ShiftLeft<3>(toInt(step.z));
+        crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
         while (true) {
-            const V3 local{hn::Sub(cell.x, hn::Set(d, box.low[0])), hn::Sub(cell.y, hn::Set(d, box.low[1])),
-                           hn::Sub(cell.z, hn::Set(d, box.low[2]))};
-            const VI bit = toInt(hn::IfThenElseZero(lanes, hn::Add(local.x, hn::Mul(local.y, hn::Set(d, 8.0)))));
-            const VI word = hn::ShiftLeft<3>(toInt(hn::IfThenElseZero(lanes, local.z)));
             VI index = hn::Zero(di);
             for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
                 const VI bits = shiftRightBy(gatherBytes(words + std::size_t{8} * plane, word), bit);
@@ -351,20 +360,22 @@ public:
                                   ? hn::IfThenElse(hn::Ne(index, hn::Zero(di)), hn::Set(di, std::int64_t{scalars[1]}),
                                                    hn::Set(di, std::int64_t{scalars[0]}))
                                   : lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(index)));
-            lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
-            const auto far = [&](const Axis& axis, V at) {
-                return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one));
-            };
-            const V3 leave{x_.planeTime(far(x_, cell.x)), y_.planeTime(far(y_, cell.y)), z_.planeTime(far(z_, cell.z))};
+            if (any(hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_))))) {
+                lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
+                crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+            }
+            const V3 leave{x_.planeTime(far.x), y_.planeTime(far.y), z_.planeTime(far.z)};
             const V next = hn::Min(hn::Min(leave.x, leave.y), leave.z);
-            crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
             lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
             if (!any(lanes)) return;
-            const auto moved = [&](const Axis& axis, V at, V time) {
-                const V beyond = hn::IfThenElse(axis.isNegative, hn::Sub(at, one), hn::Add(at, one));
-                return hn::IfThenElse(hn::Eq(time, next), beyond, at);
+            const auto move = [&](V time, V by, VI bits, V& face, VI& place) {
+                const M crosses = hn::And(lanes, hn::Eq(time, next));
+                face = hn::IfThenElse(crosses, hn::Add(face, by), face);
+                place = hn::IfThenElse(toInts(crosses), hn::Add(place, bits), place);
             };
-            cell = {moved(x_, cell.x, leave.x), moved(y_, cell.y, leave.y), moved(z_, cell.z, leave.z)};
+            move(leave.x, step.x, stepX, far.x, bit);
+            move(leave.y, step.y, stepY, far.y, bit);
+            move(leave.z, step.z, stepZ, far.z, word);
         }
     }
 
