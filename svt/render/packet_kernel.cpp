@@ -47,7 +47,28 @@ HWY_INLINE void store(V v, Lanes<double>& lanes, std::size_t first) { hn::Store(
 HWY_INLINE VI gatherBytes(const void* array, VI offset) {
     return hn::GatherOffset(DI(), static_cast<const std::int64_t*>(array), offset);
 }
+// Element `index`, 0..7, of a table of 8 in each lane.
+HWY_INLINE VI lookUp(const std::uint64_t* table, VI index) {
+    const DI di;
+    if constexpr (hn::MaxLanes(D()) == 8) {
+        const VI all = hn::BitCast(di, hn::LoadU(DU(), table));
+        return hn::TableLookupLanes(all, hn::IndicesFromVec(di, index));
+    } else {
+        return gatherBytes(table, hn::ShiftLeft<3>(index));
+    }
+}
 HWY_INLINE VI lowHalf(VI v) { return hn::And(v, hn::Set(DI(), 0xFFFFFFFF)); }
+// The same for 32 bits; `count` is of the table, which has 7 more behind it.
+HWY_INLINE VI lookUp(const volume::Scalar* table, std::size_t count, VI index) {
+    const DI di;
+    if constexpr (hn::MaxLanes(D()) == 8) {
+        if (count <= 8) {
+            const VI all = hn::BitCast(di, hn::PromoteTo(DU(), hn::LoadU(hn::Rebind<std::uint32_t, D>(), table)));
+            return hn::TableLookupLanes(all, hn::IndicesFromVec(di, index));
+        }
+    }
+    return lowHalf(gatherBytes(table, hn::ShiftLeft<2>(index)));
+}
 template <int kBits>
 HWY_INLINE VI shiftRight(VI v) {
     return hn::BitCast(DI(), hn::ShiftRight<kBits>(hn::BitCast(DU(), v)));
@@ -222,8 +243,7 @@ public:
             const auto plane = static_cast<std::int64_t>(position + 0.5);
             const auto inner = static_cast<std::int64_t>(position);
             const double aside = position - static_cast<double>(plane);
-            const double time =
-                (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
+            const double time = (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
             // Beside a plane rounding must not decide. Without branches: nobody foretells them.
             const bool isBeside = (std::abs(aside) <= rays_.slack[ray]) & (along != 0);
             const std::int64_t decided = plane - std::int64_t{(time <= t) == (along < 0)};
@@ -315,7 +335,7 @@ public:
             }
             const std::int64_t first = hn::ExtractLane(cell, hn::FindKnownFirstTrue(d, lanes));
             if (any(hn::And(lanes, toDoubles(hn::Ne(cell, hn::Set(di, first)))))) {
-                const VI scalar = lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(cell)));
+                const VI scalar = lookUp(scalars, std::size_t{1} << count, cell);
                 lanes = change(lanes, scalar, looksOf(scalar, lanes), false);
             } else {
                 const std::int64_t scalar = scalars[first];
@@ -340,26 +360,25 @@ public:
         const auto local = [&](V at, int axis) {
             return hn::IfThenElseZero(lanes, hn::Sub(at, hn::Set(d, box.low[axis])));
         };
-        // Which bit, and bytes to which word.
+        // Which bit of which word.
         VI bit = toInt(hn::Add(local(cell.x, 0), hn::Mul(local(cell.y, 1), hn::Set(d, 8.0))));
-        VI word = hn::ShiftLeft<3>(toInt(local(cell.z, 2)));
+        VI word = toInt(local(cell.z, 2));
         // Faces of the voxel before the rays; they move by a voxel.
         const auto sign = [&](const Axis& axis) { return hn::IfThenElse(axis.isNegative, hn::Neg(one), one); };
         const V3 step{sign(x_), sign(y_), sign(z_)};
-        const auto faceAhead = [&](const Axis& axis, V at) { return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one)); };
+        const auto faceAhead = [&](const Axis& axis, V at) {
+            return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one));
+        };
         V3 far{faceAhead(x_, cell.x), faceAhead(y_, cell.y), faceAhead(z_, cell.z)};
-        const VI stepX = toInt(step.x), stepY = hn::ShiftLeft<3>(toInt(step.y)), stepZ = hn::ShiftLeft<3>(toInt(step.z));
+        const VI stepX = toInt(step.x), stepY = hn::ShiftLeft<3>(toInt(step.y)), stepZ = toInt(step.z);
         crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
         while (true) {
             VI index = hn::Zero(di);
             for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
-                const VI bits = shiftRightBy(gatherBytes(words + std::size_t{8} * plane, word), bit);
+                const VI bits = shiftRightBy(lookUp(words + std::size_t{8} * plane, word), bit);
                 index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
             }
-            const VI scalar = brick.planeCount == 1
-                                  ? hn::IfThenElse(hn::Ne(index, hn::Zero(di)), hn::Set(di, std::int64_t{scalars[1]}),
-                                                   hn::Set(di, std::int64_t{scalars[0]}))
-                                  : lowHalf(gatherBytes(scalars, hn::ShiftLeft<2>(index)));
+            const VI scalar = lookUp(scalars, brick.paletteSize, index);
             if (any(hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_))))) {
                 lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
                 crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);

@@ -468,7 +468,7 @@ public:
             for (std::uint32_t& entry : volume_.wide_) entry = finished(entry);
             volume_.wide_.insert(volume_.wide_.end(), 2, 0);
         }
-        volume_.palettes_.insert(volume_.palettes_.end(), 2, 0);
+        volume_.palettes_.insert(volume_.palettes_.end(), 7, 0);
     }
 
     // Palette bricks of the coded bricks, by rank.

@@ -214,8 +214,8 @@ public:
     /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of
     /// the index is, in this order, a same-label box, a box of coded bricks, which has the number of a code for the
     /// scalar, or a palette brick. Where 16 bits are enough for all of them the index is `narrow`, else `wide`; the
-    /// other is empty. Behind the index and `palettes` stand 8 bytes more, so that 64 bits may be read at once
-    /// anywhere.
+    /// other is empty. Behind the index stand 8 bytes more and behind `palettes` 7 elements, so that 64 bits and 8
+    /// elements may be read at once anywhere.
     struct Arrays {
         std::span<const std::uint16_t> narrow;
         std::span<const std::uint32_t> wide;
