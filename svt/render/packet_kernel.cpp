@@ -180,6 +180,12 @@ struct Axis {
     HWY_INLINE V at(V t) const { return hn::Add(origin, hn::Mul(t, direction)); }
 };
 
+// Whether the lanes, of which there must be one, have the same number: `first`. Neighbors mostly have.
+HWY_INLINE bool isSame(VI numbers, M lanes, std::int64_t& first) {
+    first = hn::ExtractLane(numbers, hn::FindKnownFirstTrue(D(), lanes));
+    return !any(hn::And(lanes, toDoubles(hn::Ne(numbers, hn::Set(DI(), first)))));
+}
+
 // What a scalar, or each lane's own, looks like.
 struct Looks {
     const PacketStyle* same;  // of all lanes; or null, and
@@ -283,7 +289,7 @@ public:
     // Through a box of one label.
     HWY_INLINE void crossUniform(const Inside& inside, std::int64_t scalar) {
         const DI di;
-        const M lanes = change(inside.lanes, hn::Set(di, scalar), looksOf(scalar), false);
+        const M lanes = change(inside.lanes, hn::Set(di, scalar), false);
         crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
         advance(lanes, inside.exit);
     }
@@ -333,14 +339,7 @@ public:
                 next = hn::IfThenElse(isNext, sides[s].time, next);
                 nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
             }
-            const std::int64_t first = hn::ExtractLane(cell, hn::FindKnownFirstTrue(d, lanes));
-            if (any(hn::And(lanes, toDoubles(hn::Ne(cell, hn::Set(di, first)))))) {
-                const VI scalar = lookUp(scalars, std::size_t{1} << count, cell);
-                lanes = change(lanes, scalar, looksOf(scalar, lanes), false);
-            } else {
-                const std::int64_t scalar = scalars[first];
-                lanes = change(lanes, hn::Set(di, scalar), looksOf(scalar), false);
-            }
+            lanes = change(lanes, lookUp(scalars, std::size_t{1} << count, cell), false);
             crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
             lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
             if (!any(lanes)) return;
@@ -380,7 +379,7 @@ public:
             }
             const VI scalar = lookUp(scalars, brick.paletteSize, index);
             if (any(hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_))))) {
-                lanes = change(lanes, scalar, looksOf(scalar, lanes), true);
+                lanes = change(lanes, scalar, true);
                 crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
             }
             const V3 leave{x_.planeTime(far.x), y_.planeTime(far.y), z_.planeTime(far.z)};
@@ -486,13 +485,13 @@ private:
     }
 
     // The lanes are in `scalar` from t on; returns those that do not end there.
-    HWY_INLINE M change(M lanes, VI scalar, const Looks& looks, bool isVoxel) {
+    HWY_INLINE M change(M lanes, VI scalar, bool isVoxel) {
         const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
         if (!any(changed)) return lanes;
         const M leaving = hn::And(changed, isRunTranslucent_);
         if (any(leaving)) leave(leaving, t_);
         const M entering = andNot(isDone_, changed);
-        if (any(entering)) enter(entering, scalar, looks, isVoxel);
+        if (any(entering)) enter(entering, scalar, isVoxel);
         active_ = andNot(isDone_, active_);
         t_ = hn::IfThenElse(isDone_, hn::Set(D(), kInfinity), t_);
         return andNot(isDone_, lanes);
@@ -500,18 +499,12 @@ private:
 
     // ------------------------------------------------------------------------------------------------ how it looks
 
-    HWY_INLINE Looks looksOf(std::int64_t scalar) const {
-        return {scene_.styles + std::min(scalar, scene_.styleCount), hn::Zero(DI())};
-    }
     HWY_INLINE Looks looksOf(VI scalar, M lanes) const {
-        const VI known = hn::Min(scalar, hn::Set(DI(), scene_.styleCount));
+        const DI di;
+        std::int64_t first = 0;
+        if (isSame(scalar, lanes, first)) return {scene_.styles + std::min(first, scene_.styleCount), hn::Zero(di)};
+        const VI known = hn::Min(scalar, hn::Set(di, scene_.styleCount));
         return {nullptr, hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), known))};
-    }
-    // The same, where all lanes may well have the same scalar.
-    HWY_INLINE Looks looksOfRuns(M lanes) const {
-        const std::int64_t first = hn::ExtractLane(runScalar_, hn::FindKnownFirstTrue(D(), lanes));
-        const bool isSame = !any(hn::And(lanes, toDoubles(hn::Ne(runScalar_, hn::Set(DI(), first)))));
-        return isSame ? looksOf(first) : looksOf(runScalar_, lanes);
     }
     template <std::size_t kMember>
     HWY_INLINE V number(const Looks& looks) const {
@@ -570,7 +563,7 @@ private:
     HWY_INLINE void leave(M lanes, V to) {
         const D d;
         const V one = hn::Set(d, 1.0);
-        const Looks looks = looksOfRuns(lanes);
+        const Looks looks = looksOf(runScalar_, lanes);
         const V density = number<offsetof(PacketStyle, density)>(looks);
         const V stopped = hn::Sub(one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
         add(lanes, hn::Mul(transmittance_, stopped), runStart_, looks);
@@ -583,8 +576,9 @@ private:
     }
 
     // RunShader::enter().
-    HWY_INLINE void enter(M lanes, VI scalar, const Looks& looks, bool isVoxel) {
+    HWY_INLINE void enter(M lanes, VI scalar, bool isVoxel) {
         const DI di;
+        const Looks looks = looksOf(scalar, lanes);
         runScalar_ = hn::IfThenElse(toInts(lanes), scalar, runScalar_);
         runStart_ = hn::IfThenElse(lanes, t_, runStart_);
         const VI kind = integer<offsetof(PacketStyle, kind)>(looks);
@@ -604,7 +598,7 @@ private:
     HWY_NOINLINE void addOpaque() {
         const M unlit = hn::And(isOpaque_, isUnlit_);
         if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(openness()), light_);
-        add(isOpaque_, transmittance_, runStart_, looksOfRuns(isOpaque_));
+        add(isOpaque_, transmittance_, runStart_, looksOf(runScalar_, isOpaque_));
     }
 
     // SurfaceLight::openness().
@@ -706,19 +700,34 @@ private:
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {
-            const VI number = hn::IfThenElseZero(toInts(onPlane), crossed_);
-            const auto index = [&](int n) {
-                return hn::BitCast(d, gatherBytes(reinterpret_cast<const double*>(scene_.volume.oblique.data()) + n,
-                                                  hn::ShiftLeft<5>(number)));
-            };
-            const M isAway =
-                hn::Gt(dot({index(0), index(1), index(2)}, {x_.direction, y_.direction, z_.direction}), zero);
-            const auto part = [&](V known, int n) {
-                const V value = hn::BitCast(d, gatherBytes(scene_.planeDirections + n, hn::ShiftLeft<6>(number)));
+            const auto& oblique = scene_.volume.oblique;
+            // Of planes: normals in voxel space, and Surface::normal and Surface::away.
+            V3 index, ofNormal, ofAway;
+            std::int64_t first = 0;
+            if (isSame(crossed_, onPlane, first)) {
+                const double* directions = scene_.planeDirections + 8 * first;
+                index = broadcast(oblique[static_cast<std::size_t>(first)].normal);
+                ofNormal = broadcast({directions[0], directions[1], directions[2]});
+                ofAway = broadcast({directions[3], directions[4], directions[5]});
+            } else {
+                const VI number = hn::IfThenElseZero(toInts(onPlane), crossed_);
+                const VI plane = hn::ShiftLeft<5>(number), direction = hn::ShiftLeft<6>(number);
+                const auto indexPart = [&](int n) {
+                    return hn::BitCast(d, gatherBytes(reinterpret_cast<const double*>(oblique.data()) + n, plane));
+                };
+                const auto part = [&](int n) {
+                    return hn::BitCast(d, gatherBytes(scene_.planeDirections + n, direction));
+                };
+                index = {indexPart(0), indexPart(1), indexPart(2)};
+                ofNormal = {part(0), part(1), part(2)};
+                ofAway = {part(3), part(4), part(5)};
+            }
+            const M isAway = hn::Gt(dot(index, {x_.direction, y_.direction, z_.direction}), zero);
+            const auto turned = [&](V value, V known) {
                 return hn::IfThenElse(onPlane, hn::IfThenElse(isAway, hn::Neg(value), value), known);
             };
-            normal = {part(normal.x, 0), part(normal.y, 1), part(normal.z, 2)};
-            if (any(hn::And(onPlane, opaque))) away = {part(away.x, 3), part(away.y, 4), part(away.z, 5)};
+            normal = {turned(ofNormal.x, normal.x), turned(ofNormal.y, normal.y), turned(ofNormal.z, normal.z)};
+            away = {turned(ofAway.x, away.x), turned(ofAway.y, away.y), turned(ofAway.z, away.z)};
         }
         const auto keep = [&](V value, V known) { return hn::IfThenElse(lanes, value, known); };
         normal_ = {keep(normal.x, normal_.x), keep(normal.y, normal_.y), keep(normal.z, normal_.z)};
