@@ -1,3 +1,4 @@
+#include <svt/voxelize/line_heights.hpp>
 #include <svt/voxelize/tile_columns.hpp>
 
 #include <algorithm>
@@ -168,21 +169,14 @@ std::uint16_t TileColumns::makeColumn(const Stack& stack) {
 // Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
 // step before, or n is 0.
 std::uint64_t TileColumns::measureLine(const Stack& stack, const Line& line, std::uint32_t place) {
-    const std::size_t needed = place + std::size_t(stack.slopedCount) * kTile;
+    const std::size_t needed = place + std::size_t(stack.slopedCount) * kTile + kLineSpace;
     if (lines_.size() < needed) lines_.resize(needed);
     std::int32_t* heights = lines_.data() + place;
     std::uint64_t breaks = 1;
     for (const SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
-        const Level level = levels_[sloped.level];
-        const std::int64_t step = line.isAlongX ? level.slopeX : level.slopeY;
-        std::int64_t height = level.base + level.slopeX * line.i + level.slopeY * line.j;
-        std::int32_t previous = level.clamped(height);
-        for (std::int32_t n = 0; n < line.count; ++n) {
-            const std::int32_t k = level.clamped(height);
-            breaks |= std::uint64_t(k != previous) << n;
-            heights[n] = previous = k;
-            height += step;
-        }
+        const Level& level = levels_[sloped.level];
+        breaks |= heightsAlong(level, level.base + level.slopeX * line.i + level.slopeY * line.j,
+                               line.isAlongX ? level.slopeX : level.slopeY, line.count, heights);
         heights += kTile;
     }
     return breaks;
