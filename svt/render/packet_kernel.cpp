@@ -297,13 +297,6 @@ public:
     // Through a coded box, from side to side.
     HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
         const D d;
-        const DI di;
-        // When the rays change sides, in the order of the bits; whether they are beyond from then on, or until then.
-        struct Side {
-            V time;
-            M isBeyondAfter;
-            std::int64_t plane;
-        };
         Side sides[5];
         std::size_t count = 0;
         const auto addCut = [&](const Axis& axis, std::size_t number) {
@@ -327,22 +320,12 @@ public:
             side.plane = number;
         }
         const volume::Scalar* scalars = scene_.volume.palettes.data() + code.cells;
-        M lanes = inside.lanes;
-        while (true) {
-            VI cell = hn::Zero(di), nextPlane = hn::Set(di, -1);
-            V next = inside.exit;
-            for (std::size_t s = 0; s < count; ++s) {
-                const M isAfter = hn::Ge(t_, sides[s].time);
-                const M isNotBeyond = hn::Xor(isAfter, sides[s].isBeyondAfter);
-                cell = hn::Or(cell, hn::IfThenZeroElse(toInts(isNotBeyond), hn::Set(di, std::int64_t{1} << s)));
-                const M isNext = andNot(isAfter, hn::Lt(sides[s].time, next));
-                next = hn::IfThenElse(isNext, sides[s].time, next);
-                nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
-            }
-            lanes = change(lanes, lookUp(scalars, std::size_t{1} << count, cell), false);
-            crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
-            lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
-            if (!any(lanes)) return;
+        switch (count) {
+            case 1: return crossSides<1>(inside, sides, scalars);
+            case 2: return crossSides<2>(inside, sides, scalars);
+            case 3: return crossSides<3>(inside, sides, scalars);
+            case 4: return crossSides<4>(inside, sides, scalars);
+            default: return crossSides<5>(inside, sides, scalars);
         }
     }
 
@@ -410,6 +393,36 @@ public:
     }
 
 private:
+    // When the rays change sides of a cut or plane; whether they are beyond from then on, or until then.
+    struct Side {
+        V time;
+        M isBeyondAfter;
+        std::int64_t plane;  // its number, or -1
+    };
+
+    // From side to side, which stand in the order of the bits of a cell's number.
+    template <std::size_t kCount>
+    HWY_INLINE void crossSides(const Inside& inside, const Side* sides, const volume::Scalar* scalars) {
+        const DI di;
+        M lanes = inside.lanes;
+        while (true) {
+            VI cell = hn::Zero(di), nextPlane = hn::Set(di, -1);
+            V next = inside.exit;
+            for (std::size_t s = 0; s < kCount; ++s) {
+                const M isAfter = hn::Ge(t_, sides[s].time);
+                const M isNotBeyond = hn::Xor(isAfter, sides[s].isBeyondAfter);
+                cell = hn::Or(cell, hn::IfThenZeroElse(toInts(isNotBeyond), hn::Set(di, std::int64_t{1} << s)));
+                const M isNext = andNot(isAfter, hn::Lt(sides[s].time, next));
+                next = hn::IfThenElse(isNext, sides[s].time, next);
+                nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
+            }
+            lanes = change(lanes, lookUp(scalars, std::size_t{1} << kCount, cell), false);
+            crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
+            lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
+            if (!any(lanes)) return;
+        }
+    }
+
     HWY_INLINE Axis axisOf(std::size_t a) const {
         const D d;
         Axis axis;
@@ -488,13 +501,16 @@ private:
     HWY_INLINE M change(M lanes, VI scalar, bool isVoxel) {
         const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
         if (!any(changed)) return lanes;
+        changeTo(changed, scalar, isVoxel);
+        return andNot(isDone_, lanes);
+    }
+    HWY_NOINLINE void changeTo(M changed, VI scalar, bool isVoxel) {
         const M leaving = hn::And(changed, isRunTranslucent_);
         if (any(leaving)) leave(leaving, t_);
         const M entering = andNot(isDone_, changed);
         if (any(entering)) enter(entering, scalar, isVoxel);
         active_ = andNot(isDone_, active_);
         t_ = hn::IfThenElse(isDone_, hn::Set(D(), kInfinity), t_);
-        return andNot(isDone_, lanes);
     }
 
     // ------------------------------------------------------------------------------------------------ how it looks
