@@ -239,9 +239,8 @@ public:
 
     // Where the rays are; infinity for those that have ended.
     HWY_INLINE V times() const { return t_; }
-    // The voxel that one of them is in, see IndexRay::cellAt().
-    HWY_INLINE Vec3i cell(std::size_t lane) const {
-        const double t = hn::ExtractLane(t_, lane);
+    // The voxel that one of them is in at t, see IndexRay::cellAt().
+    HWY_INLINE Vec3i cell(std::size_t lane, double t) const {
         const std::size_t ray = first_ + lane;
         Vec3i cell;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -912,13 +911,15 @@ private:
         V least = walks_[0].times();
         for (std::size_t n = 1; n < kWalks; ++n) least = hn::Min(least, walks_[n].times());
         least = hn::MinOfLanes(d, least);
+        const double t = hn::GetLane(least);
+        if (!(t < kInfinity)) return false;
         for (const Walk& walk : walks_) {
-            const M isLast = hn::And(hn::Eq(walk.times(), least), hn::Lt(least, hn::Set(d, kInfinity)));
+            const M isLast = hn::Eq(walk.times(), least);
             if (!any(isLast)) continue;
-            cell = walk.cell(hn::FindKnownFirstTrue(d, isLast));
-            return true;
+            cell = walk.cell(hn::FindKnownFirstTrue(d, isLast), t);
+            break;
         }
-        return false;
+        return true;
     }
 
     HWY_INLINE void crossAt(Vec3i cell) {
