@@ -19,11 +19,10 @@ std::uint32_t LevelTable::add(const FaceHeight& face) {
     return next() - 1;
 }
 
-std::vector<std::uint32_t> addPlanes(std::span<const mesh::Plane> planes, LevelTable& levels) {
+std::vector<std::uint32_t> addPlanes(std::span<const std::optional<FaceHeight>> planes, LevelTable& levels) {
     std::vector<std::uint32_t> numbers;
     numbers.reserve(planes.size());
-    for (const mesh::Plane& plane : planes)
-        numbers.push_back(isScanPlane(plane) ? levels.add(planeHeight(plane)) : kNoLevel);
+    for (const auto& plane : planes) numbers.push_back(plane ? levels.add(*plane) : kNoLevel);
     return numbers;
 }
 

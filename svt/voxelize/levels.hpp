@@ -6,6 +6,7 @@
 #include <svt/voxelize/scan.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,9 +47,10 @@ struct LevelTable {
     [[nodiscard]] std::uint32_t next() const noexcept { return first + static_cast<std::uint32_t>(sloped.size()); }
 };
 
-/// The level of each plane of a scene, kNoLevel where it is too steep to be shared.
+/// The level of each plane of a scene; kNoLevel where it has no height because it is too steep to be shared.
 inline constexpr std::uint32_t kNoLevel = 0xFFFFFFFFu;
-[[nodiscard]] std::vector<std::uint32_t> addPlanes(std::span<const mesh::Plane> planes, LevelTable& levels);
+[[nodiscard]] std::vector<std::uint32_t> addPlanes(std::span<const std::optional<FaceHeight>> planes,
+                                                   LevelTable& levels);
 
 /// What bounds a claim at a level: its winding changes by one where a line passes it upwards.
 struct Boundary {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <numeric>
 
 namespace svt::voxelize {
@@ -237,10 +238,14 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
     all.levels.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
     std::vector<std::uint32_t> planeLevels;
     if (indexFromLocal.keepsVertical()) {
-        std::vector<mesh::Plane> planes;
-        planes.reserve(scene.planes.size());
-        for (const mesh::Plane& plane : scene.planes) planes.push_back(indexFromLocal.plane(plane));
-        planeLevels = addPlanes(planes, all.levels);
+        std::vector<std::optional<FaceHeight>> heights(scene.planes.size());
+        parallelFor(heights.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t n = begin; n < end; ++n) {
+                const mesh::Plane plane = indexFromLocal.plane(scene.planes[n]);
+                if (isScanPlane(plane)) heights[n] = planeHeight(plane);
+            }
+        });
+        planeLevels = addPlanes(heights, all.levels);
     }
     std::vector<Prepared> prepared(scene.objects.size());
     parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -295,9 +300,16 @@ public:
         free_.push_back(std::move(maker));
     }
     // What all makers counted; in an order that does not depend on who made which tile.
-    std::vector<SharedCount> takeCounts() {
+    std::vector<SharedCount> takeCounts(int threads) {
+        std::vector<std::vector<SharedCount>> taken(free_.size());
+        parallelFor(free_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t maker = begin; maker < end; ++maker) {
+                free_[maker]->takeCounts(taken[maker]);
+                joinCounts(taken[maker]);
+            }
+        });
         std::vector<SharedCount> counts;
-        for (const auto& maker : free_) maker->takeCounts(counts);
+        for (const auto& ofMaker : taken) counts.insert(counts.end(), ofMaker.begin(), ofMaker.end());
         joinCounts(counts);
         return counts;
     }
@@ -363,7 +375,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
         }
         makers.giveBack(std::move(maker));
     });
-    result.shared = makers.takeCounts();
+    result.shared = makers.takeCounts(options.threads);
     return result;
 }
 
