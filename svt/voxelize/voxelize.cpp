@@ -14,8 +14,8 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <numeric>
+#include <optional>
 
 namespace svt::voxelize {
 namespace {
@@ -70,30 +70,36 @@ struct TileBins {
 // `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n, `touches(n, tx, ty)` has the last
 // word.
 template <class RangeOf, class Touches>
-TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, RangeOf&& rangeOf, Touches&& touches) {
+TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, int threads, RangeOf&& rangeOf,
+                  Touches&& touches) {
     struct Entry {
         std::uint32_t tile, item;
     };
-    std::vector<Entry> entries;
-    entries.reserve(2 * count);
+    constexpr std::size_t kPart = 1024;
+    std::vector<std::vector<Entry>> parts((count + kPart - 1) / kPart);
+    parallelFor(parts.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t part = begin; part < end; ++part) {
+            const std::size_t last = std::min(count, (part + 1) * kPart);
+            for (auto n = static_cast<std::uint32_t>(part * kPart); n < last; ++n) {
+                std::int32_t x0, x1, y0, y1;
+                rangeOf(n, x0, x1, y0, y1);
+                const bool isBlock = x1 - x0 > 1 && y1 - y0 > 1;
+                for (std::int32_t y = y0; y < y1; ++y)
+                    for (std::int32_t x = x0; x < x1; ++x)
+                        if (!isBlock || touches(n, x, y))
+                            parts[part].push_back({static_cast<std::uint32_t>(x + tilesX * y), n});
+            }
+        }
+    });
     TileBins bins;
     bins.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
-    for (std::uint32_t n = 0; n < count; ++n) {
-        std::int32_t x0, x1, y0, y1;
-        rangeOf(n, x0, x1, y0, y1);
-        const bool isBlock = x1 - x0 > 1 && y1 - y0 > 1;
-        for (std::int32_t y = y0; y < y1; ++y)
-            for (std::int32_t x = x0; x < x1; ++x) {
-                if (isBlock && !touches(n, x, y)) continue;
-                const auto tile = static_cast<std::uint32_t>(x + tilesX * y);
-                entries.push_back({tile, n});
-                ++bins.first[tile + 1];
-            }
-    }
+    for (const auto& part : parts)
+        for (const Entry& entry : part) ++bins.first[entry.tile + 1];
     std::partial_sum(bins.first.begin(), bins.first.end(), bins.first.begin());
     bins.items.resize(bins.first.back());
     std::vector<std::uint32_t> next(bins.first.begin(), bins.first.end() - 1);
-    for (const Entry& entry : entries) bins.items[next[entry.tile]++] = entry.item;
+    for (const auto& part : parts)
+        for (const Entry& entry : part) bins.items[next[entry.tile]++] = entry.item;
     return bins;
 }
 
@@ -333,7 +339,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
     const auto& boxes = geometry.boxes;
     constexpr std::int32_t kTile = ColumnVolume::kTileSize;
     const TileBins triangleBins = fillBins(
-        triangles.size(), tilesX, tilesY,
+        triangles.size(), tilesX, tilesY, options.threads,
         [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
             tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
@@ -343,7 +349,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
                                   kTile, kTile);
         });
     const TileBins boxBins = fillBins(
-        boxes.size(), tilesX, tilesY,
+        boxes.size(), tilesX, tilesY, options.threads,
         [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
             tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
             tileRange(boxes[n].firstRow, boxes[n].endRow, dimension.y, y0, y1);
