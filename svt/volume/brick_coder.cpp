@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace svt::volume {
 namespace {
@@ -505,19 +507,12 @@ private:
         };
         std::vector<Pair> pairs;
         for (int axis = 0; axis < 3; ++axis)
-            for (const Face& face : facesAt(at)[std::size_t(axis)]) {
-                const auto known = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& pair) {
-                    return pair.axis == axis && pair.low == face.low && pair.high == face.high;
-                });
-                if (known != pairs.end())
-                    ++known->faces;
-                else
-                    pairs.push_back({axis, face.low, face.high, 1});
-            }
+            for (const FaceGroup& group : facesAt(at)[std::size_t(axis)].groups)
+                if (group.size() >= kFewest) pairs.push_back({axis, group.low, group.high, group.size()});
         std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.faces > q.faces; });
         std::size_t added = 0;
         for (const Pair& pair : pairs) {
-            if (pair.faces < kFewest || added == kMost) break;
+            if (added == kMost) break;
             const auto slope = fitFaces(at, pair.axis, pair.low, pair.high);
             // A plane that is steeper over this axis is found over another.
             if (!slope || std::max(std::abs(slope->a), std::abs(slope->b)) > 1.3) continue;
@@ -533,8 +528,7 @@ private:
             const auto add = [&](Vec3i other) {
                 const Vec3i away = (other - at) * 8;
                 const int p0 = away[kAcross[std::size_t(axis)][0]], q0 = away[kAcross[std::size_t(axis)][1]];
-                for (const Face& face : facesAt(other)[std::size_t(axis)]) {
-                    if (face.low != low || face.high != high) continue;
+                for (const Face& face : facesAt(other)[std::size_t(axis)].between(low, high)) {
                     const double x = p0 + face.p + 0.5, y = q0 + face.q + 0.5, z = away[axis] + face.height;
                     if (!slope || std::abs(z - slope->at(x, y)) <= tolerance) sums.add(x, y, z);
                 }
@@ -552,35 +546,71 @@ private:
         return slope;
     }
 
-    // A face between two voxels: over (p, q), `height` voxels up, `low` below and `high` above.
+    // A face between two voxels: over (p, q), `height` voxels up.
     struct Face {
         std::uint8_t p, q, height;
-        Scalar low, high;
     };
-    using Faces = std::array<std::vector<Face>, 3>;  // by axis
+    // Those with `low` below and `high` above.
+    struct FaceGroup {
+        Scalar low, high;
+        std::uint32_t begin, end;  // of AxisFaces::faces
+        [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
+    };
+    struct AxisFaces {
+        std::vector<Face> faces;
+        std::vector<FaceGroup> groups;
+
+        [[nodiscard]] std::span<const Face> between(Scalar low, Scalar high) const noexcept {
+            for (const FaceGroup& group : groups)
+                if (group.low == low && group.high == high) return std::span(faces).subspan(group.begin, group.size());
+            return {};
+        }
+    };
+    using Faces = std::array<AxisFaces, 3>;
     const Faces& facesAt(Vec3i at) {
         auto& faces = faces_[places_.patternOf[place(at)]];
         if (faces) return *faces;
         faces.emplace();
         const BrickPattern& pattern = patternAt(at);
-        std::array<std::uint16_t, 512> index{};
-        for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p)
-            for (std::size_t v = 0; v < 512; ++v)
-                index[v] =
-                    static_cast<std::uint16_t>(index[v] | ((pattern.planes[8 * p + v / 64] >> (v % 64)) & 1u) << p);
-        for (int axis = 0; axis < 3; ++axis) {
-            const std::size_t step = axis == 0 ? 1 : axis == 1 ? 8 : 64;
-            const std::size_t stepP = axis == 0 ? 8 : 1, stepQ = axis == 2 ? 8 : 64;
-            for (std::size_t q = 0; q < 8; ++q)
-                for (std::size_t p = 0; p < 8; ++p)
-                    for (std::size_t h = 1; h < 8; ++h) {
-                        const std::size_t above = p * stepP + q * stepQ + h * step;
-                        if (index[above] != index[above - step])
-                            (*faces)[std::size_t(axis)].push_back(
-                                {static_cast<std::uint8_t>(p), static_cast<std::uint8_t>(q),
-                                 static_cast<std::uint8_t>(h), pattern.palette[index[above - step]],
-                                 pattern.palette[index[above]]});
-                    }
+        const Changes changes = changesOf(pattern);
+        const auto scalarAt = [&](std::size_t word, std::size_t bit) {
+            std::size_t index = 0;
+            for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p)
+                index |= static_cast<std::size_t>((pattern.planes[8 * p + word] >> bit) & 1u) << p;
+            return pattern.palette[index];
+        };
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            AxisFaces& ofAxis = (*faces)[axis];
+            newFaces_.clear();
+            const auto add = [&](std::size_t word, std::size_t bit) {
+                const std::size_t x = bit % 8, y = bit / 8, z = word;
+                const Scalar low = scalarAt(word, bit);
+                const Scalar high = axis == 2 ? scalarAt(word + 1, bit) : scalarAt(word, bit + (axis == 0 ? 1 : 8));
+                const auto known =
+                    std::find_if(ofAxis.groups.begin(), ofAxis.groups.end(),
+                                 [&](const FaceGroup& group) { return group.low == low && group.high == high; });
+                const auto group = static_cast<std::uint32_t>(known - ofAxis.groups.begin());
+                if (known == ofAxis.groups.end()) ofAxis.groups.push_back({low, high, 0, 0});
+                ++ofAxis.groups[group].end;
+                newFaces_.push_back(
+                    {group,
+                     {static_cast<std::uint8_t>(axis == 0 ? y : x), static_cast<std::uint8_t>(axis == 2 ? y : z),
+                      static_cast<std::uint8_t>((axis == 0   ? x
+                                                 : axis == 1 ? y
+                                                             : z) +
+                                                1)}});
+            };
+            for (std::size_t word = 0; word < 8; ++word)
+                for (std::uint64_t bits = changes[axis][word]; bits != 0; bits &= bits - 1)
+                    add(word, static_cast<std::size_t>(std::countr_zero(bits)));
+            std::uint32_t begin = 0;
+            for (FaceGroup& group : ofAxis.groups) {
+                const std::uint32_t size = group.end;
+                group.begin = group.end = begin;
+                begin += size;
+            }
+            ofAxis.faces.resize(newFaces_.size());
+            for (const auto& [group, face] : newFaces_) ofAxis.faces[ofAxis.groups[group].end++] = face;
         }
         return *faces;
     }
@@ -644,7 +674,8 @@ private:
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& isCoded_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
-    std::vector<std::optional<Faces>> faces_;  // by pattern
+    std::vector<std::optional<Faces>> faces_;               // by pattern
+    std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // of one axis, with the number of their group
     std::vector<std::uint32_t> codeOf_;
     std::vector<BrickPlane> candidates_;
     std::vector<BrickSide> sides_;  // of the candidates
