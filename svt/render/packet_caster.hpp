@@ -30,7 +30,8 @@ class PacketCaster {
 public:
     PacketCaster(const Scene& scene, const PacketPasses& passes) : scene_(scene), passes_(passes) {}
 
-    /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if isFull().
+    /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if
+    /// isFull().
     void add(double u, double v, std::size_t place) noexcept {
         rays_.u[count_] = u;
         rays_.v[count_] = v;

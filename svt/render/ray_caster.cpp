@@ -53,13 +53,31 @@ PixelRect drawnPixels(const CameraRays& rays, const volume::Grid& grid, const Fr
     return rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest)) ? whole : rect;
 }
 
+// Is each voxel at least a pixel wide, wherever the volume is seen?
+bool arePixelsFine(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
+    double farthest = 0;
+    const Vec3i n = grid.dimension();
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        farthest = std::max(farthest, dot(grid.worldFromIndex(index) - spec.camera.eye, rays.forward()));
+    }
+    const Vec3d spacing = grid.spacing();
+    return rays.pixelSize(farthest) <= std::min({spacing.x, spacing.y, spacing.z});
+}
+
 using TableOf = std::function<PassTable(const Pass&)>;
 
 Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
                         const CastOptions& options, const TableOf& tableOf, bool isReference) {
-    Scene scene{volume, grid, spec,        options, CameraRays(spec, grid), DirectionTable(volume, grid),
-                {},     {},   isReference, {}};
+    Scene scene{.volume = volume,
+                .grid = grid,
+                .spec = spec,
+                .options = options,
+                .rays = CameraRays(spec, grid),
+                .directions = DirectionTable(volume, grid),
+                .isReference = isReference};
     scene.drawn = drawnPixels(scene.rays, grid, spec);
+    scene.isAdaptive = options.isAdaptive && arePixelsFine(scene.rays, grid, spec);
     scene.towardsLight = towardsLight(spec.light, scene.rays);
     for (const Pass& pass : spec.passes) {
         PreparedPass prepared{tableOf(pass), Clipper(pass.clips, grid), {}, pass.join};

@@ -19,8 +19,8 @@ struct CastOptions {
     float labelAt = 0;        ///< label and depth are of the first run after which the ray's opacity is above this, in
                               ///< [0, 1): 0 = the first visible label, 0.5 = looks through ghosts
     /// With several samples per pixel: whether a pixel gets them only where it differs from one of its eight neighbours
-    /// in label, depth, normal or colour. What is smaller than a pixel and lies between the middles of pixels that see
-    /// the same is missed then.
+    /// in label, depth, normal or colour. Not where voxels of the far side are smaller than a pixel: what is thin would
+    /// be missed between the middles of pixels that see the same. So only the tips of what is seen edge-on may be.
     bool isAdaptive = false;
     const Progress* progress = nullptr;  ///< may cancel; told nothing
 };

@@ -93,10 +93,11 @@ struct Scene {
     const CastOptions& options;
     CameraRays rays;
     DirectionTable directions;
-    std::vector<PreparedPass> passes;
+    std::vector<PreparedPass> passes{};
     Vec3d towardsLight{};  ///< world space, unit length
     bool isReference = false;
-    PixelRect drawn;  ///< outside of it no ray meets the volume
+    bool isAdaptive = false;  ///< more samples only where pixels differ
+    PixelRect drawn{};        ///< outside of it no ray meets the volume
 };
 
 /// Normals of hit voxels, kept per tile: neighbouring rays often hit the same voxel.

@@ -60,7 +60,7 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
 
 void TileRenderer::castSamples() {
     if (packets_) {
-        if (side_ > 1 && scene_.options.isAdaptive)
+        if (side_ > 1 && scene_.isAdaptive)
             castAdaptively();
         else
             castPackets();
@@ -85,7 +85,7 @@ void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
                 for (std::int32_t y = top; y < std::min(top + kHeight, endY); ++y)
                     for (std::int32_t x = left; x < std::min(left + kWidth, endX); ++x)
                         packets_->add(columns_[static_cast<std::size_t>(x)], rows_[static_cast<std::size_t>(y)],
-                                 static_cast<std::size_t>(x + y * grid.stride));
+                                      static_cast<std::size_t>(x + y * grid.stride));
         packets_->cast(true, samples);
     };
     for (std::int32_t y = 0; y < grid.height; y += kPacketHeight)
@@ -217,7 +217,7 @@ void TileRenderer::fillBackground() {
 
 void TileRenderer::writePixels() {
     const bool isOdd = side_ % 2 == 1;
-    const bool isAdaptive = packets_ && scene_.options.isAdaptive;
+    const bool isAdaptive = packets_ && scene_.isAdaptive;
     if (!isOdd && !isAdaptive) castCenters();
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
         const Vec3f background = backgroundOf(y);

@@ -77,7 +77,7 @@ private:
     const SrgbBytes& bytes_ = SrgbBytes::table();
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
-    std::vector<double> columns_, rows_;  // where they lie in the picture, -1..1
+    std::vector<double> columns_, rows_;                                   // where they lie in the picture, -1..1
     std::vector<Sample> samples_;
     std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
     std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
