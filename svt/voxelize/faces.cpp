@@ -11,20 +11,16 @@ namespace {
 bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Vec3i dimension, FaceTriangle& out,
                bool& looksDown) noexcept {
     const QuantaPoint* corners[3] = {&a, &b, &c};
-    for (int i = 0; i < 3; ++i) out.row[i] = static_cast<std::int32_t>(firstSampleAbove((*corners[i])[1]));
-    std::tie(out.firstRow, out.endRow) = std::minmax({out.row[0], out.row[1], out.row[2]});
+    for (int i = 0; i < 3; ++i) out.y[i] = (*corners[i])[1];
+    std::tie(out.firstRow, out.endRow) = std::minmax({out.row(0), out.row(1), out.row(2)});
     if (out.firstRow >= out.endRow || out.endRow <= 0 || out.firstRow >= dimension.y) return false;
-    for (int i = 0; i < 3; ++i) out.column[i] = static_cast<std::int32_t>(firstSampleAbove((*corners[i])[0]));
-    std::tie(out.firstColumn, out.endColumn) = std::minmax({out.column[0], out.column[1], out.column[2]});
+    for (int i = 0; i < 3; ++i) out.x[i] = (*corners[i])[0];
+    std::tie(out.firstColumn, out.endColumn) = std::minmax({out.column(0), out.column(1), out.column(2)});
     if (out.firstColumn >= out.endColumn || out.endColumn <= 0 || out.firstColumn >= dimension.x) return false;
     const std::int64_t area = (std::int64_t(b[0]) - a[0]) * (std::int64_t(c[1]) - a[1]) -
                               (std::int64_t(b[1]) - a[1]) * (std::int64_t(c[0]) - a[0]);
     if (area == 0) return false;
     looksDown = area < 0;
-    for (int i = 0; i < 3; ++i) {
-        out.x[i] = (*corners[i])[0];
-        out.y[i] = (*corners[i])[1];
-    }
     return true;
 }
 

@@ -14,12 +14,19 @@ namespace svt::voxelize {
 
 /// A triangle of a face in plan: corners counter-clockwise where the face looks up, else clockwise.
 struct FaceTriangle {
-    std::int32_t x[3], y[3];         ///< quanta
-    std::int32_t column[3], row[3];  ///< first sample above each
-    std::int32_t firstRow, endRow;   ///< samples with firstRow <= j < endRow
+    std::int32_t x[3], y[3];        ///< quanta
+    std::int32_t firstRow, endRow;  ///< samples with firstRow <= j < endRow
     std::int32_t firstColumn, endColumn;
     std::uint32_t face = 0;       ///< triangles of a face stand side by side
     std::uint8_t innerEdges = 0;  ///< bit e: another triangle of the face lies beyond the edge from corner e to e + 1
+
+    /// First sample above a corner.
+    [[nodiscard]] std::int32_t column(int corner) const noexcept {
+        return static_cast<std::int32_t>(firstSampleAbove(x[corner]));
+    }
+    [[nodiscard]] std::int32_t row(int corner) const noexcept {
+        return static_cast<std::int32_t>(firstSampleAbove(y[corner]));
+    }
 };
 
 /// True where the triangle meets the rectangle of samples [firstColumn, firstColumn + width) x [firstRow, firstRow +

@@ -61,8 +61,8 @@ private:
     };
 
     // Columns made lately, by their stack and the heights of its sloped levels, with what solids share in each.
-    struct KnownColumn {
-        static constexpr std::size_t kMostSloped = 6, kMostShared = 4;
+    struct alignas(64) KnownColumn {
+        static constexpr std::size_t kMostSloped = 6, kMostShared = 3;
         std::uint32_t stack = kNoStack, tile = 0;
         std::int32_t heights[kMostSloped] = {};
         std::uint16_t column = 0;

@@ -31,15 +31,15 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
 bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
                          PlacedEdge& out) noexcept {
     const int from = edge, to = edge == 2 ? 0 : edge + 1;
-    if (t.row[from] == t.row[to]) return false;
+    if (t.row(from) == t.row(to)) return false;
     // Counter-clockwise, an edge that goes south has the triangle to its east.
-    const bool goesNorth = t.row[from] < t.row[to];
+    const bool goesNorth = t.row(from) < t.row(to);
     const int south = goesNorth ? from : to, north = goesNorth ? to : from;
-    out.firstRow = std::max(t.row[south] - input.firstRow, 0);
-    out.endRow = std::min(t.row[north] - input.firstRow, input.height);
+    out.firstRow = std::max(t.row(south) - input.firstRow, 0);
+    out.endRow = std::min(t.row(north) - input.firstRow, input.height);
     if (out.firstRow >= out.endRow) return false;
-    out.first = std::min(t.column[from], t.column[to]) - input.firstColumn;
-    out.last = std::max(t.column[from], t.column[to]) - input.firstColumn;
+    out.first = std::min(t.column(from), t.column(to)) - input.firstColumn;
+    out.last = std::max(t.column(from), t.column(to)) - input.firstColumn;
     if (out.first >= input.width) return false;
     out.isEntry = goesNorth == looksDown;
     out.x0 = t.x[south];

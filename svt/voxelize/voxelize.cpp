@@ -136,6 +136,7 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const
     out.faces = makeFaces(out.index, planeLevels, dimension, claims.solidOrder[object], out.ownLevels);
     if (options.keepThinParts)
         out.thinVoxels = addThinParts(out.index, indexFromLocal, dimension, claims.thinOrder[object], out.boxes);
+    out.index = {};
 }
 
 // Voxels of all sheets, estimated by their area: what the pass for them keeps in memory grows with it.
