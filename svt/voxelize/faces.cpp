@@ -136,7 +136,8 @@ FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLe
         Boundary face{kNoLevel, claim, false};
         if (!setUpPlan(a, b, c, dimension, plan, face.isEntry)) continue;
         if (triangle.plane != mesh::kNoPlane && !planeLevels.empty()) face.level = planeLevels[triangle.plane];
-        if (face.level == kNoLevel) face.level = ownLevels.add(triangleHeight(a, b, c, kScanAxes[2]));
+        if (face.level == kNoLevel)
+            face.level = ownLevels.add(Level(triangleHeight(a, b, c, kScanAxes[2]), ownLevels.depth));
         if (builder.numbers.empty() || face.packed() != list.faces.back().packed()) {
             builder.closeLevel();
             list.faces.push_back(face);

@@ -12,18 +12,10 @@ Level::Level(const FaceHeight& face, std::int32_t depth) noexcept
       lowest(std::clamp(face.lowest, 0, depth)),
       highest(std::clamp(face.highest, 0, depth)) {}
 
-std::uint32_t LevelTable::add(const FaceHeight& face) {
-    const Level level(face, depth);
-    if (face.height.isFlat()) return static_cast<std::uint32_t>(level.sampleAbove(0, 0));
+std::uint32_t LevelTable::add(const Level& level) {
+    if (level.isFlat()) return static_cast<std::uint32_t>(level.sampleAbove(0, 0));
     sloped.push_back(level);
     return next() - 1;
-}
-
-std::vector<std::uint32_t> addPlanes(std::span<const std::optional<FaceHeight>> planes, LevelTable& levels) {
-    std::vector<std::uint32_t> numbers;
-    numbers.reserve(planes.size());
-    for (const auto& plane : planes) numbers.push_back(plane ? levels.add(*plane) : kNoLevel);
-    return numbers;
 }
 
 }  // namespace svt::voxelize

@@ -6,8 +6,6 @@
 #include <svt/voxelize/scan.hpp>
 
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 namespace svt::voxelize {
@@ -25,6 +23,7 @@ struct Level {
         const std::int64_t k = height >> kBits;
         return static_cast<std::int32_t>(k < lowest ? lowest : k > highest ? highest : k);
     }
+    [[nodiscard]] bool isFlat() const noexcept { return slopeX == 0 && slopeY == 0; }
     /// First sample above, 0 to depth.
     [[nodiscard]] std::int32_t sampleAbove(std::int32_t i, std::int32_t j) const noexcept {
         return clamped(base + slopeX * i + slopeY * j);
@@ -42,15 +41,13 @@ struct LevelTable {
     }
     /// Of a sloped level.
     [[nodiscard]] const Level& operator[](std::uint32_t number) const noexcept { return sloped[number - first]; }
-    /// Number of the level of a face; a new one where it slopes.
-    std::uint32_t add(const FaceHeight& face);
+    /// Number of a level; a new one where it slopes.
+    std::uint32_t add(const Level& level);
     [[nodiscard]] std::uint32_t next() const noexcept { return first + static_cast<std::uint32_t>(sloped.size()); }
 };
 
-/// The level of each plane of a scene; kNoLevel where it has no height because it is too steep to be shared.
+/// Stands for a level of planes that are too steep for one.
 inline constexpr std::uint32_t kNoLevel = 0xFFFFFFFFu;
-[[nodiscard]] std::vector<std::uint32_t> addPlanes(std::span<const std::optional<FaceHeight>> planes,
-                                                   LevelTable& levels);
 
 /// What bounds a claim at a level: its winding changes by one where a line passes it upwards.
 struct Boundary {

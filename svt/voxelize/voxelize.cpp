@@ -80,6 +80,7 @@ TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, i
     parallelFor(parts.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t part = begin; part < end; ++part) {
             const std::size_t last = std::min(count, (part + 1) * kPart);
+            parts[part].reserve(2 * kPart);
             for (auto n = static_cast<std::uint32_t>(part * kPart); n < last; ++n) {
                 std::int32_t x0, x1, y0, y1;
                 rangeOf(n, x0, x1, y0, y1);
@@ -245,14 +246,15 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
     all.levels.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
     std::vector<std::uint32_t> planeLevels;
     if (indexFromLocal.keepsVertical()) {
-        std::vector<std::optional<FaceHeight>> heights(scene.planes.size());
-        parallelFor(heights.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::optional<Level>> levels(scene.planes.size());
+        parallelFor(levels.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) {
                 const mesh::Plane plane = indexFromLocal.plane(scene.planes[n]);
-                if (isScanPlane(plane)) heights[n] = planeHeight(plane);
+                if (isScanPlane(plane)) levels[n].emplace(planeHeight(plane), grid.dimension().z);
             }
         });
-        planeLevels = addPlanes(heights, all.levels);
+        planeLevels.reserve(levels.size());
+        for (const auto& level : levels) planeLevels.push_back(level ? all.levels.add(*level) : kNoLevel);
     }
     std::vector<Prepared> prepared(scene.objects.size());
     parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
