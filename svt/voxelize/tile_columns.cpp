@@ -195,10 +195,10 @@ std::uint16_t TileColumns::makeStep(std::uint32_t number, std::uint32_t line, st
     bool isKnown = known.stack == number && known.tile == tile_;
     for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == stepHeights_[s];
     if (isKnown) {
-        for (const auto& shared : std::span(known.shared, known.sharedCount))
-            profiles_.addShared(shared.interval, columns * shared.length);
+        known.columns += static_cast<std::uint32_t>(columns);
         return known.column;
     }
+    countKnown(known);
     moveStack(stack, stepHeights_.data());
     countShared(stack, columns);
     const std::uint16_t column = makeColumn(stack);
@@ -296,8 +296,16 @@ volume::ColumnTileData TileColumns::make(const TileInput& input) {
     return builder_.finish();
 }
 
+// What solids share in the columns that were found again.
+void TileColumns::countKnown(KnownColumn& known) {
+    for (const auto& shared : std::span(known.shared, known.sharedCount))
+        profiles_.addShared(shared.interval, std::uint64_t{known.columns} * shared.length);
+    known.columns = 0;
+}
+
 // Forgets all stacks and profiles; what they counted goes to counts_.
 void TileColumns::forget() {
+    for (KnownColumn& known : known_) countKnown(known);
     std::ranges::fill(known_, KnownColumn{});
     profiles_.takeCounts(counts_);
     stacks_.clear();

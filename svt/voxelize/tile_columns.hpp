@@ -65,6 +65,7 @@ private:
         static constexpr std::size_t kMostSloped = 6, kMostShared = 3;
         std::uint32_t stack = kNoStack, tile = 0;
         std::int32_t heights[kMostSloped] = {};
+        std::uint32_t columns = 0;  // found again and not counted yet, at most a tile's
         std::uint16_t column = 0;
         std::uint8_t sharedCount = 0;
         struct Shared {
@@ -80,6 +81,7 @@ private:
     void moveStack(Stack& stack, const std::int32_t* slopedHeights);
     void countShared(const Stack& stack, std::uint64_t columns);
     void measureShared(const Stack& stack, KnownColumn& known) const;
+    void countKnown(KnownColumn& known);
     void forget();
 
     void makeRows(std::int32_t firstRow, std::int32_t endRow);
