@@ -262,8 +262,7 @@ public:
     // The box that rays are in.
     struct Inside {
         M lanes;
-        V3 leave;  // when they cross its faces ahead
-        V exit;    // the first of these
+        V exit;  // when they leave it
     };
     HWY_INLINE Inside findInside(const Bounds& box) const {
         const D d;
@@ -280,8 +279,8 @@ public:
             inside.lanes = hn::And(inside.lanes, isIn);
             return leave;
         };
-        inside.leave = {leaveTime(x_, 0), leaveTime(y_, 1), leaveTime(z_, 2)};
-        inside.exit = hn::Min(hn::Min(inside.leave.x, inside.leave.y), inside.leave.z);
+        const V x = leaveTime(x_, 0), y = leaveTime(y_, 1), z = leaveTime(z_, 2);
+        inside.exit = hn::Min(hn::Min(x, y), z);
         return inside;
     }
 
