@@ -67,7 +67,7 @@ Result<void> runAll(const Arguments& arguments, Report& report) {
 
 int run(Arguments arguments) {
     BenchOptions& options = arguments.options;
-    if (options.isQuick) options.measure = {3, 9, 2, 3};
+    if (options.isQuick) options.measure = {0.05, 3, 9, 2, 3};
     options.scratch = std::filesystem::temp_directory_path() / fmt::format("svt_bench_{}", getpid());
     std::filesystem::create_directories(options.scratch);
     if (!options.pictures.empty()) std::filesystem::create_directories(options.pictures);

@@ -38,6 +38,16 @@ double medianOf(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
+// Seconds of a run: the median of as many as fit into a turn, one at least.
+double secondsOfTurn(const std::function<void()>& run, double secondsATurn) {
+    std::vector<double> seconds;
+    const auto start = Clock::now();
+    do {
+        seconds.push_back(secondsOf(run));
+    } while (std::chrono::duration<double>(Clock::now() - start).count() + seconds.back() < secondsATurn);
+    return medianOf(std::move(seconds));
+}
+
 }  // namespace
 
 std::uint64_t peakMemoryOf(const std::function<void()>& run) {
@@ -55,6 +65,7 @@ std::uint64_t peakMemoryOf(const std::function<void()>& run) {
 std::vector<Measurement> measureInTurns(const std::vector<Contestant>& contestants, const MeasureOptions& options) {
     std::vector<Measurement> measurements(contestants.size());
     std::vector<std::vector<double>> seconds(contestants.size());
+    std::vector<double> own(contestants.size(), 0);
     for (std::size_t c = 0; c < contestants.size(); ++c) {
         measurements[c].name = contestants[c].name;
         measurements[c].peakBytes = peakMemoryOf(contestants[c].run);
@@ -64,9 +75,10 @@ std::vector<Measurement> measureInTurns(const std::vector<Contestant>& contestan
         const double spent = std::chrono::duration<double>(Clock::now() - start).count();
         if (round >= options.leastRuns && spent > options.secondsInAll) break;
         for (std::size_t c = 0; c < contestants.size(); ++c) {
-            const double own = std::accumulate(seconds[c].begin(), seconds[c].end(), 0.0);
-            if (own > (round >= 3 ? options.secondsEach : 4 * options.secondsEach)) continue;
-            seconds[c].push_back(secondsOf(contestants[c].run));
+            if (own[c] > (round >= 3 ? options.secondsEach : 4 * options.secondsEach)) continue;
+            const auto turn = Clock::now();
+            seconds[c].push_back(secondsOfTurn(contestants[c].run, options.secondsATurn));
+            own[c] += std::chrono::duration<double>(Clock::now() - turn).count();
         }
     }
     for (std::size_t c = 0; c < contestants.size(); ++c) {

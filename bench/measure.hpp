@@ -1,6 +1,8 @@
 #pragma once
 /// \file
-/// Timing in turns: A B C A B C ..., so that what else the machine does hits all alike. Medians, not means.
+/// Timing in turns: A B C A B C ..., so that what else the machine does hits all alike. Medians, not means. A short
+/// contestant runs several times in each of its turns, so that it is seen at steady work and not just after another one
+/// has let a core fall asleep and filled the caches.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,11 +23,12 @@ struct Measurement {
     std::string name;
     double median = 0;            ///< seconds, wall clock
     double least = 0, most = 0;   ///< seconds
-    int runs = 0;                 ///< timed runs, the warm-up not counted
+    int runs = 0;                 ///< timed turns, the warm-up not counted
     std::uint64_t peakBytes = 0;  ///< most memory over what was there before, in the warm-up run; 0: not known
 };
 
 struct MeasureOptions {
+    double secondsATurn = 0.15;  ///< a turn repeats what takes less, and counts as the median of its runs
     int leastRuns = 5;
     int mostRuns = 15;
     double secondsInAll = 12;  ///< no new round begins after this, once all had `leastRuns`
