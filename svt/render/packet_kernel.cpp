@@ -701,16 +701,18 @@ private:
             normal = {part(normal.x, n.x), part(normal.y, n.y), part(normal.z, n.z)};
             away = {part(away.x, a.x), part(away.y, a.y), part(away.z, a.z)};
         };
-        face(x_, 0);
-        face(y_, 1);
-        face(z_, 2);
-        // On the side of a brick?
-        const V fraction = hn::Mul(faceAt, hn::Set(d, 0.125));
-        const M atSide = hn::And(lanes, hn::Eq(hn::Floor(fraction), fraction));
-        const M atSeam = hn::And(andNot(hn::Or(isNowhere, isOblique), atSide), hn::Gt(t_, from_));
-        if (any(atSeam)) {
-            crossed_ = seamPlanes(atSeam, faceAxis);
-            isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+        if (any(hn::And(lanes, isNowhere))) {
+            face(x_, 0);
+            face(y_, 1);
+            face(z_, 2);
+            // On the side of a brick?
+            const V fraction = hn::Mul(faceAt, hn::Set(d, 0.125));
+            const M atSide = hn::And(lanes, hn::Eq(hn::Floor(fraction), fraction));
+            const M atSeam = hn::And(andNot(hn::Or(isNowhere, isOblique), atSide), hn::Gt(t_, from_));
+            if (any(atSeam)) {
+                crossed_ = seamPlanes(atSeam, faceAxis);
+                isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+            }
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {

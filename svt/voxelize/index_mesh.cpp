@@ -15,12 +15,6 @@ IndexFromLocal::IndexFromLocal(const mesh::MeshScene& scene, const volume::Grid&
     keepsVertical_ = grid.axes()[2] == Vec3d{0, 0, 1};
 }
 
-Vec3d IndexFromLocal::direction(Vec3d local) const noexcept {
-    return {dot(rows_[0], local), dot(rows_[1], local), dot(rows_[2], local)};
-}
-
-Vec3d IndexFromLocal::point(Vec3d local) const noexcept { return direction(local) + offset_; }
-
 QuantaPoint IndexFromLocal::quanta(Vec3d local) const noexcept {
     constexpr double kFarthest = double(1 << 28);
     const Vec3d index = point(local);

@@ -32,8 +32,10 @@ struct IndexMesh {
 class IndexFromLocal {
 public:
     IndexFromLocal(const mesh::MeshScene& scene, const volume::Grid& grid);
-    [[nodiscard]] Vec3d point(Vec3d local) const noexcept;
-    [[nodiscard]] Vec3d direction(Vec3d local) const noexcept;
+    [[nodiscard]] Vec3d point(Vec3d local) const noexcept { return direction(local) + offset_; }
+    [[nodiscard]] Vec3d direction(Vec3d local) const noexcept {
+        return {dot(rows_[0], local), dot(rows_[1], local), dot(rows_[2], local)};
+    }
     /// Snapped; coordinates far outside the grid are clamped to +-2^28 quanta.
     [[nodiscard]] QuantaPoint quanta(Vec3d local) const noexcept;
     /// True where z of index space depends on z of local space alone, so that planes over (x, y) carry over.

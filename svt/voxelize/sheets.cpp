@@ -1,12 +1,12 @@
 #include <svt/voxelize/sheets.hpp>
 
+#include <svt/core/hash_index.hpp>
 #include <svt/voxelize/disjoint_boxes.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 #include <tuple>
 
 namespace svt::voxelize {
@@ -50,6 +50,35 @@ void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<C
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= dimension.x || v.y >= dimension.y || v.z >= dimension.z) return;
     boxes.push_back({v.y, v.y + 1, v.x, v.x + 1, v.z, v.z + 1, claim});
 }
+
+// Lines between samples, each once, whichever end comes first.
+class SampleLines {
+public:
+    // False where the line is there already.
+    bool add(Vec3i from, Vec3i to) {
+        const std::pair<Vec3i, Vec3i> line = std::minmax(from, to);
+        const auto count = static_cast<std::uint32_t>(lines_.size());
+        const std::uint32_t number = index_.findOrAdd(
+            hashOf(line), [&](std::uint32_t known) { return lines_[known] == line; },
+            [&] {
+                lines_.push_back(line);
+                return count;
+            });
+        return number == count;
+    }
+
+private:
+    static std::uint64_t hashOf(const std::pair<Vec3i, Vec3i>& line) noexcept {
+        std::uint64_t hash = 0;
+        for (const Vec3i& end : {line.first, line.second})
+            for (int axis = 0; axis < 3; ++axis)
+                hash = (hash ^ hash >> 29 ^ static_cast<std::uint32_t>(end[axis])) * 0x9E3779B97F4A7C15ull;
+        return hash;
+    }
+
+    std::vector<std::pair<Vec3i, Vec3i>> lines_;
+    HashIndex index_;
+};
 
 // Separating axis test of a triangle against the box [-h, h]^3 around `center`.
 bool touchesBox(const std::array<Vec3d, 3>& triangle, Vec3d center, double h) {
@@ -148,7 +177,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
                            std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     const double widest = indexFromLocal.largestSpacing();
     std::vector<ClaimedBox> raw;
-    std::set<std::pair<Vec3i, Vec3i>> rodLines;
+    SampleLines rodLines;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         if (!(triangle.thickness < widest)) continue;  // no chord through it can be shorter than a voxel
@@ -203,7 +232,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         if (!(longestLength > 0) || length(normal) / longestLength >= 1) continue;
         const Vec3d from = indexFromLocal.point(points[longest]) + inward * 0.5;
         const Vec3d way = indexFromLocal.direction(points[(longest + 1) % 3] - points[longest]);
-        if (!rodLines.insert(std::minmax(nearestSample(from), nearestSample(from + way))).second) continue;
+        if (!rodLines.add(nearestSample(from), nearestSample(from + way))) continue;
         const double reach = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
         const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
         for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, raw);
