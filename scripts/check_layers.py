@@ -13,9 +13,10 @@ ALLOWED = {
     "volume": {"core"},
     "voxelize": {"core", "mesh", "volume"},
     "render": {"core", "volume"},
-    "writers": {"core", "model", "volume"},
+    "illustrate": {"core", "model", "volume", "render"},
+    "writers": {"core", "model", "volume", "illustrate"},
     "samples": {"core"},
-    "pipeline": {"core", "model", "readers", "mesh", "volume", "voxelize", "render", "writers"},
+    "pipeline": {"core", "model", "readers", "mesh", "volume", "voxelize", "render", "illustrate", "writers"},
 }
 # Tests may reach one layer further where they compare whole chains.
 ALLOWED_IN_TESTS = {"pipeline": {"samples"}}

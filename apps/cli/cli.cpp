@@ -34,6 +34,7 @@ int exitCodeOf(Code code) noexcept {
         case Code::BadDimension:
         case Code::BadCamera:
         case Code::BadFrame:
+        case Code::BadSection:
         case Code::BadQuery:
         case Code::NothingSelected:
         case Code::BadArgument: return kUsage;

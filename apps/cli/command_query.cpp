@@ -1,7 +1,7 @@
 #include "cli.hpp"
 #include "json_output.hpp"
 
-#include <svt/pipeline/rows.hpp>
+#include <svt/illustrate/selection.hpp>
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ int runQuery(const Arguments& arguments) {
     }();
     printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
-    const auto selected = pipeline::selectLabels(volume->labels, arguments.query);
+    const auto selected = illustrate::selectLabels(volume->labels, arguments.query);
     if (!selected) return fail(selected.error());
     if (arguments.json) {
         Json rows = Json::array();

@@ -1,6 +1,7 @@
 #include "cli.hpp"
 
-#include <svt/pipeline/rows.hpp>
+#include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/selection.hpp>
 #include <svt/pipeline/style_sheet.hpp>
 #include <svt/render/camera_presets.hpp>
 #include <svt/render/png.hpp>
@@ -55,45 +56,6 @@ Result<Vec3i> parseSize(const std::string& text) {
     return Vec3i{static_cast<std::int32_t>(triple->x), static_cast<std::int32_t>(triple->y), 1};
 }
 
-// All of `text` as `count` finite numbers separated by commas, or nothing.
-std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::size_t count) {
-    std::array<double, 4> numbers{};
-    const char* at = text.c_str();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i > 0 && *at++ != ',') return std::nullopt;
-        char* rest = nullptr;
-        numbers[i] = std::strtod(at, &rest);
-        if (rest == at || !std::isfinite(numbers[i])) return std::nullopt;
-        at = rest;
-    }
-    if (*at != '\0') return std::nullopt;
-    return numbers;
-}
-
-// "z=1.2", "y<3" or "A,B,C,D" -> region cut away. Axis values are metres from the lower corner of the grid.
-Result<render::ClipRegion> parseSection(const std::string& text, const volume::Grid& grid) {
-    const auto badSection = [&] {
-        return Error(
-            Code::BadFrame,
-            fmt::format("--section '{}': expected z=1.2, y<3, x>4 (metres from the lower corner) or A,B,C,D with "
-                        "A x + B y + C z + D > 0 cut away",
-                        text));
-    };
-    const std::size_t at = text.find_first_of("=<>");
-    if (at == 1 && std::string_view("xyz").find(text[0]) != std::string_view::npos) {
-        const auto value = parseNumbers(text.substr(2), 1);
-        if (!value) return badSection();
-        const Vec3d axis = grid.axes()[static_cast<std::size_t>(text[0] - 'x')];
-        return render::ClipRegion::plane(axis * (text[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value)[0]);
-    }
-    const auto plane = parseNumbers(text, 4);
-    if (!plane) return badSection();
-    const Vec3d normal{(*plane)[0], (*plane)[1], (*plane)[2]};
-    if (!(length(normal) > 0)) return Error(Code::BadFrame, fmt::format("--section '{}': the normal is zero", text));
-    // D is measured from the lower corner too, so that numbers stay small in any CRS.
-    return render::ClipRegion::plane(normal, grid.origin() + normal * (-(*plane)[3] / dot(normal, normal)));
-}
-
 Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, const Arguments& arguments) {
     std::vector<Vec3f> colors(table.labels.size());
     std::vector<float> opacities(table.labels.size());
@@ -105,7 +67,7 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
     if (!arguments.show.empty()) {
         std::vector<std::uint8_t> isShown(table.labels.size(), 0);
         for (const std::string& query : arguments.show) {
-            const auto selected = pipeline::selectLabels(table, query);
+            const auto selected = illustrate::selectLabels(table, query);
             if (!selected) return selected.error();
             for (const std::uint32_t l : *selected) isShown[l] = 1;
         }
@@ -113,7 +75,7 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
             if (!isShown[l]) opacities[l] = 0;
     }
     for (const std::string& query : arguments.hide) {
-        const auto selected = pipeline::selectLabels(table, query);
+        const auto selected = illustrate::selectLabels(table, query);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) opacities[l] = 0;
     }
@@ -122,7 +84,7 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
         if (!parts) return parts.error();
         const auto color = pipeline::parseColor(parts->second);
         if (!color) return Error(Code::BadArgument, "--color: " + color.error().message());
-        const auto selected = pipeline::selectLabels(table, parts->first);
+        const auto selected = illustrate::selectLabels(table, parts->first);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) {
             colors[l] = *color;
@@ -138,7 +100,7 @@ Result<std::vector<render::Style>> makeStyles(const volume::LabelTable& table, c
             return Error(Code::BadArgument,
                          fmt::format("--opacity '{}': {} is out of range; 0 to 1 (share of light stopped by 1 m)", text,
                                      parts->second));
-        const auto selected = pipeline::selectLabels(table, parts->first);
+        const auto selected = illustrate::selectLabels(table, parts->first);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) opacities[l] = static_cast<float>(value);
     }
@@ -217,9 +179,9 @@ int runRender(const Arguments& arguments) {
     render::Pass pass;
     pass.styles = std::move(*styles);
     for (const std::string& text : arguments.section) {
-        auto region = parseSection(text, volume->grid);
-        if (!region) return fail(region.error());
-        pass.clips.push_back(std::move(*region));
+        const auto plane = illustrate::parseSectionPlane(text, *volume);
+        if (!plane) return fail(plane.error());
+        pass.clips.push_back(render::ClipRegion::plane(plane->normal, plane->point));
     }
     spec.passes.push_back(std::move(pass));
     // Lines are drawn between objects, not between the phases of one object's pattern.
@@ -283,9 +245,9 @@ Run addRenderCommand(CLI::App& app) {
         ->check(CLI::IsMember({1, 4, 9, 16}))
         ->capture_default_str();
     command
-        ->add_option(
-            "--section", arguments->section,
-            "cut away: z=1.2 or z>1.2 (above), y<3 (before), or A,B,C,D; metres from the lower corner; may be repeated")
+        ->add_option("--section", arguments->section,
+                     "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=EG+1.1, or A,B,C,D; metres from the lower "
+                     "corner; may be repeated")
         ->group("View")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -57,6 +57,8 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(BadNrrd);
         SVT_CASE(BadCamera);
         SVT_CASE(BadFrame);
+        SVT_CASE(BadSection);
+        SVT_CASE(BadScene);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

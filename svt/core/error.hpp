@@ -64,8 +64,10 @@ enum class Code : std::uint16_t {
     BadImage = 406,       ///< an image or raw file that cannot be read
     BadNrrd = 407,        ///< not an NRRD that can be read
     // 5xx: pictures
-    BadCamera = 501,  ///< up parallel to view, or field of view out of range
-    BadFrame = 502,   ///< picture size or plane out of range
+    BadCamera = 501,   ///< up parallel to view, or field of view out of range
+    BadFrame = 502,    ///< picture size or plane out of range
+    BadSection = 503,  ///< a plane, region or lens that cannot be used
+    BadScene = 504,    ///< a scene file that does not follow its schema
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

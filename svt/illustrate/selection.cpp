@@ -1,8 +1,8 @@
-#include <svt/pipeline/rows.hpp>
+#include <svt/illustrate/selection.hpp>
 
 #include <fmt/format.h>
 
-namespace svt::pipeline {
+namespace svt::illustrate {
 
 std::vector<model::QueryRow> rowsOf(const volume::LabelTable& table) {
     std::vector<model::QueryRow> rows;
@@ -24,4 +24,4 @@ Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& table,
                  fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
 }
 
-}  // namespace svt::pipeline
+}  // namespace svt::illustrate

@@ -1,0 +1,42 @@
+#include <svt/illustrate/hatches.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::illustrate {
+namespace {
+
+using render::Hatch;
+
+volume::Label label(const char* className, const char* name, const char* material = nullptr) {
+    volume::Label label;
+    label.id = name;
+    label.className = className;
+    label.name = name;
+    if (material != nullptr) label.attributes.push_back({"material", std::string(material), ""});
+    return label;
+}
+
+TEST(Hatches, MaterialWinsOverNameAndNameOverClass) {
+    volume::LabelTable table;
+    table.labels = {label("WallSurface", "w"),
+                    label("WallSurface", "w2", "concrete"),
+                    label("BuildingConstructiveElement", "Slab-033"),
+                    label("BuildingConstructiveElement", "Unterzug-1"),
+                    label("BuildingConstructiveElement", "Sparren-2"),
+                    label("BuildingConstructiveElement", "Sparren-3", "steel"),
+                    label("BuildingConstructiveElement", "something"),
+                    label("BuildingRoom", "room"),
+                    label("BuildingConstructiveElement", "layer", "insulation")};
+    EXPECT_EQ(hatchesOf(table), (std::vector<Hatch>{Hatch::Masonry, Hatch::ReinforcedConcrete,
+                                                    Hatch::ReinforcedConcrete, Hatch::ReinforcedConcrete, Hatch::Timber,
+                                                    Hatch::Steel, Hatch::General, Hatch::None, Hatch::Insulation}));
+}
+
+TEST(Hatches, HaveNames) {
+    for (const std::string_view name : render::hatchNames())
+        EXPECT_EQ(render::hatchName(*render::hatchFromName(name)), name);
+    EXPECT_FALSE(render::hatchFromName("bricks"));
+}
+
+}  // namespace
+}  // namespace svt::illustrate

@@ -1,0 +1,118 @@
+#include <svt/illustrate/section_plane.hpp>
+
+#include <svt/illustrate/selection.hpp>
+#include <svt/model/classes.hpp>
+#include <svt/volume/scalar_boxes.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace svt::illustrate {
+namespace {
+
+// All of `text` as `count` finite numbers separated by commas, or nothing.
+std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::size_t count) {
+    std::array<double, 4> numbers{};
+    const char* at = text.c_str();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0 && *at++ != ',') return std::nullopt;
+        char* rest = nullptr;
+        numbers[i] = std::strtod(at, &rest);
+        if (rest == at || !std::isfinite(numbers[i])) return std::nullopt;
+        at = rest;
+    }
+    if (*at != '\0') return std::nullopt;
+    return numbers;
+}
+
+// Lower and upper end of the volume along `normal`, metres from the grid's lower corner.
+std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
+    std::pair<double, double> extent{0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double along = dot(normal, grid.axes()[static_cast<std::size_t>(axis)]) * grid.spacing()[axis];
+        const double low = -0.5 * along, high = (grid.dimension()[axis] - 0.5) * along;
+        extent.first += std::min(low, high);
+        extent.second += std::max(low, high);
+    }
+    return extent;
+}
+
+// Height of a storey's floor over the grid's lower corner: where its rooms begin, or what it has of voxels.
+Result<double> floorOf(const std::string& storey, const volume::SemanticVolume& volume) {
+    std::string quoted;
+    for (const char c : storey) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
+    }
+    const auto selected = selectLabels(volume.labels, fmt::format("storey=\"{}\"", quoted));
+    if (!selected) return selected.error();
+    const auto boxes = volume::scalarBoxes(volume.columns, volume.labels.scalarCount());
+    std::int32_t lowestRoom = volume.grid.dimension().z, lowest = lowestRoom;
+    for (const std::uint32_t l : *selected) {
+        const volume::Label& label = volume.labels.labels[l];
+        for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
+            if (boxes[s].isEmpty()) continue;
+            lowest = std::min(lowest, boxes[s].min.z);
+            if (model::isSpace(label.className)) lowestRoom = std::min(lowestRoom, boxes[s].min.z);
+        }
+    }
+    if (lowest == volume.grid.dimension().z)
+        return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
+    return (std::min(lowestRoom, volume.grid.dimension().z) == volume.grid.dimension().z ? lowest : lowestRoom) *
+               volume.grid.spacing().z -
+           0.5 * volume.grid.spacing().z;
+}
+
+}  // namespace
+
+bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {
+    const auto [low, high] = extentAlong(plane.normal, grid);
+    const double at = dot(plane.normal, plane.point - grid.origin());
+    return low <= at && at <= high;
+}
+
+Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume) {
+    const volume::Grid& grid = volume.grid;
+    const auto badSection = [&](const std::string& reason) {
+        return Error(Code::BadSection, fmt::format("the section '{}': {}", text, reason));
+    };
+    const std::string expected =
+        "expected z=1.2, y<3 or x>4 (metres from the lower corner), storey=NAME+1.1, or A,B,C,D with "
+        "A x + B y + C z + D > 0 cut away";
+    SectionPlane plane;
+    const std::string copy(text);
+    const std::size_t at = copy.find_first_of("=<>");
+    if (at == 1 && std::string_view("xyz").find(copy[0]) != std::string_view::npos) {
+        const auto value = parseNumbers(copy.substr(2), 1);
+        if (!value) return badSection(expected);
+        const Vec3d axis = grid.axes()[static_cast<std::size_t>(copy[0] - 'x')];
+        plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value)[0]};
+    } else if (copy.rfind("storey=", 0) == 0) {
+        // The last sign that a number follows; names may have signs too.
+        const std::size_t sign = copy.find_last_of("+-");
+        std::optional<std::array<double, 4>> above;
+        if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);
+        const auto floor = floorOf(copy.substr(7, above ? sign - 7 : std::string::npos), volume);
+        if (!floor) return floor.error();
+        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (*floor + (above ? (*above)[0] : 1.0))};
+    } else {
+        const auto numbers = parseNumbers(copy, 4);
+        if (!numbers) return badSection(expected);
+        const Vec3d normal{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+        if (!(length(normal) > 0)) return badSection("the normal is zero; give a direction that is cut away");
+        plane = {normalized(normal), grid.origin() + normal * (-(*numbers)[3] / dot(normal, normal))};
+    }
+    if (meetsGrid(plane, grid)) return plane;
+    const auto [low, high] = extentAlong(plane.normal, grid);
+    return badSection(fmt::format(
+        "passes the whole volume by: along its normal it lies at {:.3f} m from the lower corner, the volume from "
+        "{:.3f} to {:.3f} m",
+        dot(plane.normal, plane.point - grid.origin()), low, high));
+}
+
+}  // namespace svt::illustrate

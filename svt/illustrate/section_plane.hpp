@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// Planes that cut a volume, as people write them.
+
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <string_view>
+
+namespace svt::illustrate {
+
+/// World space; what lies on the side to which `normal` points is cut away.
+struct SectionPlane {
+    Vec3d normal{0, 0, 1};  ///< length 1
+    Vec3d point{};          ///< on the plane
+    friend bool operator==(const SectionPlane&, const SectionPlane&) = default;
+};
+
+/// A plane of `volume` from one of
+///     z=1.2  z>1.2      cut away above 1.2 m, measured along the grid's z axis from its lower corner; x and y likewise
+///     z<1.2             cut away below
+///     storey=EG+1.1     cut away above 1.1 m over the floor of that storey (by name or id; see Query for what is one)
+///     A,B,C,D           cut away where A x + B y + C z + D > 0; world axes, metres from the grid's lower corner
+/// \return the plane, or
+///         - BadSection       the text is none of these, a number is not finite, the normal is zero, or the plane
+///                            passes the whole volume by (the message names the possible range)
+///         - NothingSelected  no such storey, or none with voxels (names the nearest)
+[[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume);
+
+/// Whether the plane meets the voxels of `grid`.
+[[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);
+
+}  // namespace svt::illustrate

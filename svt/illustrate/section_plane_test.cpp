@@ -1,0 +1,83 @@
+#include <svt/illustrate/section_plane.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::illustrate {
+namespace {
+
+// Two storeys with a room each, 2 m high with a slab of 0.5 m below; samples every 0.25 m from 100, 200, 30 on.
+volume::SemanticVolume twoStoreys() {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({5, 5, 21}, {0.25, 0.25, 0.25}, {100, 200, 30},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    const auto add = [&](const char* id, const char* className, const char* name, std::uint32_t parent, bool isObject) {
+        volume::Label label;
+        label.id = id;
+        label.className = className;
+        label.name = name;
+        label.parent = parent;
+        if (isObject) {
+            label.first = volume.labels.scalarCount();
+            label.count = 1;
+        }
+        volume.labels.labels.push_back(label);
+    };
+    add("b", "Building", "", volume::kNoLabel, false);
+    add("s0", "Storey", "EG", 0, false);
+    add("r0", "BuildingRoom", "", 1, true);
+    add("f0", "BuildingConstructiveElement", "", 1, true);
+    add("s1", "Storey", "1-OG", 0, false);
+    add("r1", "BuildingRoom", "", 4, true);
+    const std::uint32_t ends[] = {6, 4, 3, 4, 6, 6};
+    for (std::size_t l = 0; l < 6; ++l) volume.labels.labels[l].subtreeEnd = ends[l];
+    std::vector<volume::Scalar> dense(5 * 5 * 21, 0);
+    for (std::size_t n = 0; n < dense.size(); ++n) {
+        const std::size_t k = n / 25;
+        dense[n] = k < 2 ? 2 : k < 10 ? 1 : k < 12 ? 0 : 3;
+    }
+    volume.columns = volume::ColumnVolume::fromDense({5, 5, 21}, dense);
+    return volume;
+}
+
+double heightOf(const Result<SectionPlane>& plane) { return plane ? dot(plane->normal, plane->point) : -1; }
+
+TEST(SectionPlane, AxesCountFromTheLowerCorner) {
+    const auto volume = twoStoreys();
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("z=1.2", volume)), 31.2);
+    EXPECT_EQ(parseSectionPlane("z>1.2", volume)->normal, (Vec3d{0, 0, 1}));
+    EXPECT_EQ(parseSectionPlane("y<0.5", volume)->normal, (Vec3d{0, -1, 0}));
+    EXPECT_DOUBLE_EQ(parseSectionPlane("x=0.5", volume)->point.x, 100.5);
+}
+
+TEST(SectionPlane, StoreysCountFromTheFloorOfTheirRooms) {
+    const auto volume = twoStoreys();
+    // The room's lowest sample is k = 2, its voxel begins half a spacing lower.
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=EG+1.1", volume)), 30 + 0.375 + 1.1);
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=EG", volume)), 30 + 0.375 + 1);
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=1-OG+0.5", volume)), 30 + 2.875 + 0.5);
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=s1-0.25", volume)), 30 + 2.875 - 0.25);
+}
+
+TEST(SectionPlane, FourNumbersAreAHalfSpace) {
+    const auto volume = twoStoreys();
+    const auto plane = parseSectionPlane("0,0,2,-2.4", volume);
+    ASSERT_TRUE(plane);
+    EXPECT_DOUBLE_EQ(heightOf(plane), 31.2);
+    EXPECT_DOUBLE_EQ(length(parseSectionPlane("1,1,0,-1", volume)->normal), 1);
+}
+
+TEST(SectionPlane, SaysWhatIsWrong) {
+    const auto volume = twoStoreys();
+    const auto codeOf = [&](const char* text) {
+        const auto plane = parseSectionPlane(text, volume);
+        return plane ? Code::Internal : plane.error().code();
+    };
+    for (const char* text : {"", "z", "z=", "z=1m", "w=1", "z=nan", "1,2,3", "1,2,3,4,5", "0,0,0,1", "inf,0,0,0"})
+        EXPECT_EQ(codeOf(text), Code::BadSection) << text;
+    for (const char* text : {"z=9", "z=-1", "1,0,0,5"}) EXPECT_EQ(codeOf(text), Code::BadSection) << text;
+    EXPECT_NE(parseSectionPlane("z=9", volume).error().message().find("5.125"), std::string::npos);
+    EXPECT_EQ(codeOf("storey=Attic+1"), Code::NothingSelected);
+}
+
+}  // namespace
+}  // namespace svt::illustrate

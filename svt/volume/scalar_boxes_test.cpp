@@ -1,0 +1,26 @@
+#include <svt/volume/scalar_boxes.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::volume {
+namespace {
+
+TEST(ScalarBoxes, AreThoseOfEverySample) {
+    const Vec3i dimension{130, 70, 23};
+    std::vector<Scalar> dense(std::size_t(130) * 70 * 23, 0);
+    std::vector<SampleBox> expected(6);
+    std::uint32_t state = 1;
+    for (std::size_t n = 0; n < dense.size(); ++n) {
+        state = state * 1664525u + 1013904223u;
+        // Sparse, so that boxes do not reach everywhere; scalar 5 stays without samples.
+        if ((state >> 16) % 20000 == 0) dense[n] = 1 + (state >> 8) % 4;
+        const Vec3i at{static_cast<std::int32_t>(n % 130), static_cast<std::int32_t>(n / 130 % 70),
+                       static_cast<std::int32_t>(n / (130 * 70))};
+        expected[dense[n]].add({at, at});
+    }
+    EXPECT_EQ(scalarBoxes(ColumnVolume::fromDense(dimension, dense), 6), expected);
+    EXPECT_TRUE(expected[5].isEmpty());
+}
+
+}  // namespace
+}  // namespace svt::volume
