@@ -163,7 +163,7 @@ int runRender(const Arguments& arguments) {
     spec.width = size->x;
     spec.height = size->y;
     spec.samplesPerPixel = arguments.samples;
-    spec.edges = static_cast<float>(arguments.edges);
+    spec.borders.strength = static_cast<float>(arguments.edges);
     if (arguments.transparent) {
         spec.background.alpha = 0;
     } else {

@@ -24,6 +24,7 @@ public:
     CameraRays(const FrameSpec& spec, const volume::Grid& grid)
         : isPerspective_(spec.camera.projection == Camera::Projection::Perspective) {
         const Camera& camera = spec.camera;
+        eye_ = camera.eye;
         forward_ = normalized(camera.target - camera.eye);
         right_ = normalized(cross(forward_, normalized(camera.up)));
         up_ = cross(right_, forward_);
@@ -46,6 +47,11 @@ public:
                 std::sqrt(1 + x * x + y * y)};
     }
 
+    /// The point (world space) seen at (u, v) in a depth.
+    [[nodiscard]] Vec3d worldAt(double u, double v, double depth) const noexcept {
+        const Vec3d aside = right_ * (u * halfWidth_) + up_ * (v * halfHeight_);
+        return eye_ + forward_ * depth + (isPerspective_ ? aside * depth : aside);
+    }
     /// Where a point (world space, relative to the eye) is seen: u, v and depth. Only where depth > 0 for perspective.
     [[nodiscard]] Vec3d seenAt(Vec3d fromEye) const noexcept {
         const double depth = dot(fromEye, forward_), scale = isPerspective_ ? depth : 1;
@@ -73,7 +79,7 @@ public:
 
 private:
     bool isPerspective_;
-    Vec3d forward_, right_, up_;
+    Vec3d eye_, forward_, right_, up_;
     double halfWidth_, halfHeight_, metresPerRow_;
     Vec3d eyeIndex_, forwardIndex_, rightIndex_, upIndex_;
 };

@@ -12,13 +12,25 @@
 
 namespace svt::render {
 
-/// A stretch of a ray that is drawn, and the plane that cut it open.
-struct DrawnInterval {
-    double from, to;
-    const HalfSpace* capPlane;  ///< plane at `from`; null where no clip made this start
+/// The plane or round surface that cuts something open; neither: nothing does.
+struct CapFace {
+    const HalfSpace* plane = nullptr;
+    const RoundBody* round = nullptr;
+
+    [[nodiscard]] explicit operator bool() const noexcept { return plane != nullptr || round != nullptr; }
+    /// At a point of world space, length 1, to either side.
+    [[nodiscard]] Vec3d normalAt(Vec3d point) const noexcept {
+        return plane != nullptr ? normalized(plane->normal) : round->normalAt(point);
+    }
 };
 
-/// The intervals of one ray, ascending. Each clip region adds one at most.
+/// A stretch of a ray that is drawn.
+struct DrawnInterval {
+    double from, to;
+    CapFace cap;  ///< at `from`; none where no clip made this start
+};
+
+/// The intervals of one ray, ascending. Each part of a clip adds one at most.
 class DrawnIntervals {
 public:
     [[nodiscard]] const DrawnInterval* begin() const noexcept { return items_.data(); }
@@ -28,11 +40,11 @@ public:
     }
 
 private:
-    std::array<DrawnInterval, 2 * (Pass::kMaxClips + 1)> items_;
+    std::array<DrawnInterval, Pass::kMaxClipParts + 1> items_;
     std::size_t count_ = 0;
 };
 
-/// The clip regions of a pass in voxel space. Keeps a pointer to `clips`.
+/// The clip regions of a pass in voxel space. Keeps pointers into `clips`.
 class Clipper {
 public:
     Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid);
@@ -49,10 +61,29 @@ private:
         double offset;
         const HalfSpace* source;
     };
-    struct Region {
+    struct Round {
+        RoundBody body;  // voxel space
+        const RoundBody* source;
+    };
+    struct Part {
         std::vector<Plane> planes;
+        std::vector<Round> rounds;
+    };
+    struct Region {
+        std::vector<Part> parts;
         ClipRegion::Mode mode;
     };
+    // A stretch of a ray within a region, and the faces at its two ends.
+    struct Stretch {
+        double enter, exit;
+        CapFace enterFace, exitFace;
+        void meet(double from, double to, CapFace face) noexcept;
+    };
+    using Stretches = std::array<Stretch, Pass::kMaxClipParts>;
+
+    static Stretch within(const Part& part, const IndexRay& ray) noexcept;
+    static void meetRound(const Round& round, const IndexRay& ray, Stretch& stretch) noexcept;
+    static std::size_t within(const Region& region, const IndexRay& ray, Stretches& stretches) noexcept;
 
     std::vector<Region> regions_;
 };

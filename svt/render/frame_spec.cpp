@@ -45,8 +45,18 @@ Result<void> checkLook(const FrameSpec& spec) {
         return Error(Code::BadFrame, "key and ambient light must be 0 to 100, ambient occlusion 0 to 1");
     if (!isColor(spec.background.top) || !isColor(spec.background.bottom) || !isShare(spec.background.alpha))
         return Error(Code::BadFrame, "colours and alpha of the background must be 0 to 1");
-    if (!isShare(spec.edges))
-        return Error(Code::BadFrame, fmt::format("edges of {} are out of range; 0 to 1 is possible", spec.edges));
+    const auto isWidth = [](float width) { return width >= 0 && width <= BorderLines::kMaxWidth; };
+    const BorderLines& borders = spec.borders;
+    if (!isShare(borders.strength) || !isColor(borders.color))
+        return Error(Code::BadFrame, "strength and colour of border lines must be 0 to 1");
+    const HatchLook& hatches = spec.hatches;
+    if (!isShare(hatches.strength) || !isColor(hatches.color))
+        return Error(Code::BadFrame, "strength and colour of hatches must be 0 to 1");
+    if (!isWidth(borders.width) || !isWidth(borders.cutWidth) || !isWidth(hatches.width))
+        return Error(Code::BadFrame, fmt::format("widths of lines must be 0 to {} pixels", BorderLines::kMaxWidth));
+    if (!(hatches.spacing > 0 && std::isfinite(hatches.spacing)))
+        return Error(Code::BadFrame, fmt::format("a hatch spacing of {} m is out of range; it must be greater than 0",
+                                                 hatches.spacing));
     return {};
 }
 
@@ -57,35 +67,17 @@ Result<void> checkPass(const Pass& pass, std::size_t number) {
     for (std::size_t scalar = 0; scalar < pass.styles.size(); ++scalar)
         if (!isColor(pass.styles[scalar].color) || !isShare(pass.styles[scalar].opacity))
             return bad(fmt::format("colour and opacity of scalar {} must be 0 to 1", scalar));
-    if (pass.clips.size() > Pass::kMaxClips)
-        return bad(fmt::format("{} clips are over the limit of {}", pass.clips.size(), Pass::kMaxClips));
+    std::size_t parts = 0;
     for (const ClipRegion& clip : pass.clips) {
-        if (clip.halfSpaces.empty() || clip.halfSpaces.size() > ClipRegion::kMaxHalfSpaces)
-            return bad(fmt::format("a clip of {} planes is out of range; 1 to {} are possible", clip.halfSpaces.size(),
-                                   ClipRegion::kMaxHalfSpaces));
-        for (const HalfSpace& half : clip.halfSpaces)
-            if (!isFinite(half.normal) || !(length(half.normal) > 0) || !std::isfinite(half.offset))
-                return bad("a clip plane has a zero normal or is not finite");
+        if (auto checked = checkClip(clip, fmt::format("pass {}", number)); !checked) return checked;
+        parts += clip.parts.size();
     }
+    if (parts > Pass::kMaxClipParts)
+        return bad(fmt::format("clips of {} parts are over the limit of {}", parts, Pass::kMaxClipParts));
     return {};
 }
 
 }  // namespace
-
-ClipRegion ClipRegion::plane(Vec3d normal, Vec3d point) {
-    const Vec3d unit = normalized(normal);
-    return {{HalfSpace{unit, -dot(unit, point)}}, Mode::CutAway};
-}
-
-ClipRegion ClipRegion::box(const Box3d& box, Mode mode) {
-    return {{{{1, 0, 0}, -box.min.x},
-             {{-1, 0, 0}, box.max.x},
-             {{0, 1, 0}, -box.min.y},
-             {{0, -1, 0}, box.max.y},
-             {{0, 0, 1}, -box.min.z},
-             {{0, 0, -1}, box.max.z}},
-            mode};
-}
 
 Result<void> checkFrameSpec(const FrameSpec& spec) {
     if (spec.width < 1 || spec.height < 1 || spec.width > FrameSpec::kMaxSize || spec.height > FrameSpec::kMaxSize)

@@ -5,6 +5,8 @@
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/render/clip_region.hpp>
+#include <svt/render/hatch.hpp>
 #include <svt/volume/column_volume.hpp>
 
 #include <cstdint>
@@ -51,34 +53,28 @@ struct Light {
 struct Style {
     Vec3f color{0.8f, 0.8f, 0.8f};  ///< sRGB, 0..1
     float opacity = 1;              ///< fraction of light stopped by one metre, 0..1; 0 = hidden, 1 = an opaque surface
+    Hatch hatch = Hatch::None;      ///< on its cut faces
     friend bool operator==(const Style&, const Style&) = default;
 };
 
-/// The points p with dot(normal, p) + offset > 0. World space, metres; the normal need not have length 1.
-struct HalfSpace {
-    Vec3d normal{0, 0, 1};
-    double offset = 0;
-    friend bool operator==(const HalfSpace&, const HalfSpace&) = default;
+/// Lines where the label changes, and where the depth jumps.
+struct BorderLines {
+    float strength = 0;  ///< 0..1; 0: none
+    float width = 1;     ///< pixels, up to kMaxWidth; at least the distance of two samples
+    float cutWidth = 1;  ///< the same around what is cut
+    Vec3f color{};       ///< sRGB, 0..1
+
+    static constexpr float kMaxWidth = 16;
+    friend bool operator==(const BorderLines&, const BorderLines&) = default;
 };
 
-/// A convex part of space: the points that lie in all its half-spaces.
-struct ClipRegion {
-    enum class Mode : std::uint8_t {
-        CutAway,  ///< what lies in the region is not drawn
-        KeepOnly  ///< only what lies in the region is drawn
-    };
-
-    std::vector<HalfSpace> halfSpaces;  ///< 1 to kMaxHalfSpaces
-    Mode mode = Mode::CutAway;
-
-    static constexpr std::size_t kMaxHalfSpaces = 16;
-
-    /// Cuts away what lies on the side of the plane to which `normal` points. A section.
-    [[nodiscard]] static ClipRegion plane(Vec3d normal, Vec3d point);
-    /// Cuts away, or keeps only, an axis-parallel box.
-    [[nodiscard]] static ClipRegion box(const Box3d& box, Mode mode);
-
-    friend bool operator==(const ClipRegion&, const ClipRegion&) = default;
+/// Hatches lie on the cut face, in metres from the grid's origin, whatever the view.
+struct HatchLook {
+    double spacing = 0.1;              ///< metres between the lines of Hatch::Masonry, > 0; others are multiples of it
+    float width = 1;                   ///< pixels, 0..kMaxWidth of BorderLines
+    float strength = 0.75f;            ///< 0..1
+    Vec3f color{0.08f, 0.08f, 0.08f};  ///< sRGB, 0..1
+    friend bool operator==(const HatchLook&, const HatchLook&) = default;
 };
 
 /// Which part of the volume is drawn, and how.
@@ -91,10 +87,11 @@ struct Pass {
     };
 
     std::vector<Style> styles;      ///< by scalar; scalars beyond the end are hidden. The transfer function
-    std::vector<ClipRegion> clips;  ///< drawn is what no region cuts away and every KeepOnly region holds; at most 16
+    std::vector<ClipRegion> clips;  ///< drawn is what no region cuts away and every KeepOnly region holds; at most
+                                    ///< kMaxClipParts parts in all
     Join join = Join::Over;
 
-    static constexpr std::size_t kMaxClips = 16;
+    static constexpr std::size_t kMaxClipParts = 32;
     friend bool operator==(const Pass&, const Pass&) = default;
 };
 
@@ -106,8 +103,8 @@ struct FrameSpec {
     Light light;
     Background background;
     std::vector<Pass> passes;
-    /// How strongly border lines darken, 0..1: where the label changes, and where the depth jumps. About a pixel wide.
-    float edges = 0;
+    BorderLines borders;
+    HatchLook hatches;
     /// By scalar: which scalars belong together, so that no border line and no surface stands between them (the phases
     /// of one object's pattern). Scalars beyond the end belong to themselves alone.
     std::vector<std::uint32_t> objectOfScalar;

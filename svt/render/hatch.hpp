@@ -29,4 +29,14 @@ enum class Hatch : std::uint8_t {
 [[nodiscard]] std::span<const std::string_view> hatchNames() noexcept;
 [[nodiscard]] std::optional<Hatch> hatchFromName(std::string_view name) noexcept;
 
+/// How a hatch is drawn. All in metres.
+struct HatchPen {
+    double spacing;    ///< between the lines of Hatch::Masonry
+    double lineWidth;  ///< >= 0
+    double pixel;      ///< width over which edges of lines are softened, > 0
+};
+
+/// How much ink lies at (u, v) of a cut face, 0..1. Where lines come closer than two pixels, their mean.
+[[nodiscard]] double hatchInk(Hatch hatch, double u, double v, const HatchPen& pen) noexcept;
+
 }  // namespace svt::render

@@ -1,3 +1,4 @@
+#include <svt/render/cap_hatch.hpp>
 #include <svt/render/packet_caster.hpp>
 
 #include <algorithm>
@@ -86,8 +87,10 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyInside; ++pass) {
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
-            Sample& sample = samples[places_[n]];
-            sample = pass == 0 ? sampleOf(n) : joinPass(scene_.passes[pass].join, sampleOf(n), sample);
+            Sample& joined = samples[places_[n]];
+            Sample sample = sampleOf(n);
+            hatchCap(scene_, pass, rays_.u[n], rays_.v[n], sample);
+            joined = pass == 0 ? sample : joinPass(scene_.passes[pass].join, sample, joined);
         }
     }
     count_ = 0;
@@ -108,7 +111,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     Lanes<std::int64_t> capped{};
     const Clipper& clipper = scene_.passes[pass].clipper;
     if (clipper.isEmpty()) {
-        capPlanes_.fill(nullptr);
+        caps_.fill({});
         from_ = rays_.from;
         walkPacket(scene, rays_, rays_.from, rays_.to, capped, this, seen_);
     } else {
@@ -128,8 +131,8 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
                 const DrawnInterval& interval = drawn[n].begin()[part];
                 from_[n] = interval.from;
                 to[n] = interval.to;
-                capPlanes_[n] = interval.capPlane;
-                capped[n] = interval.capPlane != nullptr ? 1 : 0;
+                caps_[n] = interval.cap;
+                capped[n] = interval.cap ? 1 : 0;
             }
             walkPacket(scene, rays_, from_, to, capped, this, seen_);
         }
@@ -165,7 +168,7 @@ Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
                          surface.axis,
                          static_cast<std::uint32_t>(surface.plane),
                          surface.isVoxel,
-                         surface.from == caster.from_[n] ? caster.capPlanes_[n] : nullptr};
+                         surface.from == caster.from_[n] ? caster.caps_[n] : CapFace{}};
     // The kernel lights what is opaque.
     return style.kind == Kind::Opaque ? light.facing(style, hit) : light.at(style, hit);
 }

@@ -54,7 +54,7 @@ private:
     PacketRays rays_;
     PacketSamples seen_;
     std::size_t pass_ = 0;
-    std::array<const HalfSpace*, kPacketRays> capPlanes_{};
+    std::array<CapFace, kPacketRays> caps_{};
     Lanes<double> from_{};
 };
 

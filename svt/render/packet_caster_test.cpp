@@ -71,7 +71,7 @@ TEST(PacketCaster, GivesTheVeryPictureOfThePlainCaster) {
             expectSame(volume, spec);
             spec.passes.push_back({styles(0.1f), {}, Pass::Join::Depth});
             spec.samplesPerPixel = 4;
-            spec.edges = 0.7f;
+            spec.borders.strength = 0.7f;
             expectSame(volume, spec);
         }
     }
@@ -156,7 +156,7 @@ TEST(PacketCaster, AdaptiveSamplesAreThoseOfAllPixelsButForWhatIsSmallerThanAPix
     spec.width = 400;
     spec.height = 266;
     spec.samplesPerPixel = 9;
-    spec.edges = 0.6f;
+    spec.borders.strength = 0.6f;
     CastOptions adaptive;
     adaptive.isAdaptive = true;
     const Frame all = cast(volume, spec), some = cast(volume, spec, adaptive);

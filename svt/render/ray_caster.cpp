@@ -1,4 +1,5 @@
 #include <svt/core/parallel.hpp>
+#include <svt/render/color.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/tile_renderer.hpp>
 
@@ -79,6 +80,7 @@ Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& g
     scene.drawn = drawnPixels(scene.rays, grid, spec);
     scene.isAdaptive = options.isAdaptive && arePixelsFine(scene.rays, grid, spec);
     scene.towardsLight = towardsLight(spec.light, scene.rays);
+    scene.hatchColor = linearFromSrgb(spec.hatches.color);
     for (const Pass& pass : spec.passes) {
         PreparedPass prepared{tableOf(pass), Clipper(pass.clips, grid), {}, pass.join};
         if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {

@@ -93,7 +93,7 @@ TEST(RayCaster, EqualsTheReferenceFromInsideAndOnVoxelBorders) {
         spec.camera.target = {pick(6.1, 0.1), pick(6.36, 0.12), pick(7.05, 0.15) + 1e-3};
         spec.camera.up = {0.1, 0.2, 1};
         spec.samplesPerPixel = 4;
-        spec.edges = 0.5f;
+        spec.borders.strength = 0.5f;
         spec.passes.push_back({houseStyles(round % 3 != 0), {}, Pass::Join::Over});
         if (round % 4 == 1) spec.passes[0].clips.push_back(ClipRegion::plane({0.3, -1, 0.2}, {3, 3, 3}));
         CastOptions options;
@@ -328,7 +328,7 @@ TEST(RayCaster, DoesNotDependOnTheThreads) {
     spec.width = 211;
     spec.height = 133;
     spec.samplesPerPixel = 4;
-    spec.edges = 0.7f;
+    spec.borders.strength = 0.7f;
     spec.camera = *cameraPreset("iso-nw", volume.grid);
     spec.passes.push_back({houseStyles(true), {ClipRegion::plane({1, 1, 0}, {3, 3, 3})}, Pass::Join::Over});
     CastOptions one, many;
@@ -344,7 +344,7 @@ TEST(RayCaster, TilesLeaveNoSeams) {
     // With border lines and samples across tiles: a picture is the same as the middle of a larger one.
     const TestVolume volume = house();
     FrameSpec small = frontFrame(64, 64, {3, 3, 3}, 8, houseStyles(true));
-    small.edges = 0.8f;
+    small.borders.strength = 0.8f;
     small.samplesPerPixel = 4;
     FrameSpec large = small;
     large.width = large.height = 96;  // 16 pixels more on each side
@@ -363,7 +363,7 @@ TEST(RayCaster, EdgesDarkenBordersOnly) {
         makeVolume({40, 40, 40}, {0.25, 0.25, 0.25}, [](auto i, auto, auto) { return i < 20 ? 1u : 2u; });
     FrameSpec spec = frontFrame(40, 40, {5, 5, 5}, 8, stylesOf({kOpaque, kOpaque}));
     const Frame plain = cast(volume, spec);
-    spec.edges = 1;
+    spec.borders.strength = 1;
     const Frame lined = cast(volume, spec);
     for (int x = 0; x < 40; ++x) {
         const bool isBorder = x == 19;
@@ -435,14 +435,14 @@ TEST(RayCaster, SizesAndValuesOutOfRangeAreBadFrames) {
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.width = 0; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.height = 16385; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.samplesPerPixel = 2; }), Code::BadFrame);
-    EXPECT_EQ(codeOf([](FrameSpec& s) { s.edges = 1.5f; }), Code::BadFrame);
+    EXPECT_EQ(codeOf([](FrameSpec& s) { s.borders.strength = 1.5f; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.light.direction = {}; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.background.alpha = -1; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].styles[1].opacity = 1.1f; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].clips = {ClipRegion{}}; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.passes[0].clips = {ClipRegion::plane({}, {})}; }), Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) {
-                  s.passes[0].clips.assign(17, ClipRegion::plane({1, 0, 0}, {}));
+                  s.passes[0].clips.assign(Pass::kMaxClipParts + 1, ClipRegion::plane({1, 0, 0}, {}));
               }),
               Code::BadFrame);
     EXPECT_EQ(codeOf([](FrameSpec& s) { s.camera.up = {}; }), Code::BadCamera);

@@ -1,3 +1,4 @@
+#include <svt/render/cap_hatch.hpp>
 #include <svt/render/sample_caster.hpp>
 #include <svt/render/surface_light.hpp>
 
@@ -51,7 +52,7 @@ public:
             surface_ =
                 surfaceLight_.at(style, {from, ray_.index.origin, ray_.index.direction, normalized(-ray_.direction),
                                          start.cell, ray_.index.entryAxis(from, start.cell), start.plane, start.isVoxel,
-                                         from == interval_->from ? interval_->capPlane : nullptr});
+                                         from == interval_->from ? interval_->cap : CapFace{}});
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);
         return true;
@@ -139,7 +140,9 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
                 walkRuns(scene_.volume, ray.index, interval.from, interval.to, shader);
             if (shader.isDone()) break;
         }
-        joined = n == 0 ? shader.result() : joinPass(pass.join, shader.result(), joined);
+        Sample sample = shader.result();
+        hatchCap(scene_, n, u, v, sample);
+        joined = n == 0 ? sample : joinPass(pass.join, sample, joined);
     }
     return joined;
 }

@@ -95,6 +95,7 @@ struct Scene {
     DirectionTable directions;
     std::vector<PreparedPass> passes{};
     Vec3d towardsLight{};  ///< world space, unit length
+    Vec3f hatchColor{};    ///< linear light
     bool isReference = false;
     bool isAdaptive = false;  ///< more samples only where pixels differ
     PixelRect drawn{};        ///< outside of it no ray meets the volume

@@ -49,8 +49,9 @@ Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) co
     Surface surface;
     DirectionTable::Directions found;
     bool isAway = false;
-    if (hit.capPlane != nullptr) {
-        found.normal = normalized(hit.capPlane->normal);
+    if (hit.cap) {
+        found.normal =
+            hit.cap.normalAt(scene_.grid.worldFromIndex(hit.origin + hit.direction * hit.from - Vec3d{0.5, 0.5, 0.5}));
         found.away = scene_.directions.away(found.normal);
         isAway = dot(found.normal, hit.view) < 0;
         surface.isCap = true;

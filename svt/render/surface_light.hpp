@@ -8,14 +8,14 @@ namespace svt::render {
 
 /// Where a ray meets a label, and how.
 struct SurfaceHit {
-    double from;                ///< the ray's parameter there
-    Vec3d origin, direction;    ///< of the ray, voxel space
-    Vec3d view;                 ///< world space, unit length, towards the viewer
-    Vec3i cell;                 ///< voxel that the ray enters
-    int axis;                   ///< whose voxel face it crosses there, or -1
-    std::uint32_t plane;        ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
-    bool isVoxel;               ///< the label is told by voxels alone
-    const HalfSpace* capPlane;  ///< clip plane on which it lies, or null
+    double from;              ///< the ray's parameter there
+    Vec3d origin, direction;  ///< of the ray, voxel space
+    Vec3d view;               ///< world space, unit length, towards the viewer
+    Vec3i cell;               ///< voxel that the ray enters
+    int axis;                 ///< whose voxel face it crosses there, or -1
+    std::uint32_t plane;      ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
+    bool isVoxel;             ///< the label is told by voxels alone
+    CapFace cap;              ///< the clip on which it lies, or none
 };
 
 /// Where a run begins, and how it is lit there.

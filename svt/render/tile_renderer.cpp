@@ -11,6 +11,15 @@ constexpr float kGlassLine = 0.5f;
 
 Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
 
+std::int32_t reachOf(float width, std::int32_t side) noexcept {
+    return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
+}
+
+// Is a line between the two one of a cut face?
+bool isCutLine(const Sample& sample, const Sample& other) noexcept {
+    return sample.isCap && (!other.hasHit() || !other.isCap || sample.object != other.object);
+}
+
 }  // namespace
 
 TileRenderer::TileRenderer(const Scene& scene, const PacketPasses* packets, Frame& frame)
@@ -18,11 +27,15 @@ TileRenderer::TileRenderer(const Scene& scene, const PacketPasses* packets, Fram
       frame_(frame),
       caster_(scene),
       side_(static_cast<std::int32_t>(std::lround(std::sqrt(scene.spec.samplesPerPixel)))),
-      lineReach_(std::max(1, side_ / 2)),
-      margin_(scene.spec.edges > 0 ? lineReach_ : 0),
+      lineReach_(reachOf(scene.spec.borders.width, side_)),
+      cutReach_(reachOf(scene.spec.borders.cutWidth, side_)),
+      // Against what is not cut, the cut face carries all of its line.
+      margin_(scene.spec.borders.strength > 0 ? std::max(lineReach_, cutReach_ > 1 ? 2 * cutReach_ : 1) : 0),
+      pixelMargin_((margin_ + side_ - 1) / side_ + 1),
       stride_(kTilePixels * side_ + 2 * margin_),
       backgroundTop_(linearFromSrgb(scene.spec.background.top)),
       backgroundBottom_(linearFromSrgb(scene.spec.background.bottom)),
+      lineColor_(linearFromSrgb(scene.spec.borders.color)),
       voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
       samples_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_)),
       lines_(samples_.size()) {
@@ -101,7 +114,7 @@ void TileRenderer::castPackets() {
 void TileRenderer::castAdaptively() {
     castPixels();
     const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
-    const std::int32_t around = margin_ > 0 ? 1 : 0;  // pixels beside the tile that have samples of its margin
+    const std::int32_t around = (margin_ + side_ - 1) / side_;  // pixels beside the tile with samples of its margin
     for (std::int32_t y = -around; y < tileHeight_ + around; ++y)
         for (std::int32_t x = -around; x < tileWidth_ + around; ++x) {
             const bool isSmooth = !needsSamples(x, y);
@@ -120,9 +133,10 @@ void TileRenderer::castAdaptively() {
 
 // Through the middles of pixels.
 void TileRenderer::castPixels() {
-    pixels_.resize(static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(kPixelStride));
-    castGrid({side_ / 2.0 - kPixelMargin * side_, double(side_), tileWidth_ + 2 * kPixelMargin,
-              tileHeight_ + 2 * kPixelMargin, kPixelStride},
+    const std::int32_t stride = kTilePixels + 2 * pixelMargin_;
+    pixels_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
+    castGrid({side_ / 2.0 - pixelMargin_ * side_, double(side_), tileWidth_ + 2 * pixelMargin_,
+              tileHeight_ + 2 * pixelMargin_, stride},
              pixels_);
 }
 
@@ -174,19 +188,33 @@ void TileRenderer::findLines() {
     for (std::int32_t y = 0; y < tileHeight_ * side_; ++y)
         for (std::int32_t x = 0; x < tileWidth_ * side_; ++x) {
             const Sample& sample = samples_[at(x, y)];
-            float line = 0;
-            if (sample.hasHit()) {
-                const double step = scene_.rays.pixelSize(static_cast<double>(sample.depth)) / side_;
-                for (std::int32_t reach = 1; reach <= lineReach_; ++reach) {
-                    const Vec3d right = scene_.rays.right() * (step * reach), up = scene_.rays.up() * (step * reach);
-                    line = std::max({line, lineBetween(sample, samples_[at(x + reach, y)], right, true),
-                                     lineBetween(sample, samples_[at(x - reach, y)], -right, false),
-                                     lineBetween(sample, samples_[at(x, y - reach)], up, false),
-                                     lineBetween(sample, samples_[at(x, y + reach)], -up, true)});
-                }
-            }
-            lines_[at(x, y)] = line;
+            lines_[at(x, y)] = sample.hasHit() ? lineOn(sample, x, y) : 0;
         }
+}
+
+// How dark the line on a sample is; it stands at (x, y).
+float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y) const {
+    const double step = scene_.rays.pixelSize(static_cast<double>(sample.depth)) / side_;
+    const std::int32_t most = sample.isCap ? margin_ : lineReach_;
+    float line = 0;
+    for (std::int32_t reach = 1; reach <= most && line < 1; ++reach) {
+        const Vec3d right = scene_.rays.right() * (step * reach), up = scene_.rays.up() * (step * reach);
+        const auto look = [&](std::int32_t dx, std::int32_t dy, Vec3d aside, bool isFirst) {
+            const Sample& other = samples_[at(x + dx * reach, y + dy * reach)];
+            if (most > 1 && reach > reachBetween(sample, other)) return;
+            line = std::max(line, lineBetween(sample, other, aside, isFirst || most > 1));
+        };
+        look(1, 0, right, true);
+        look(-1, 0, -right, false);
+        look(0, -1, up, false);
+        look(0, 1, -up, true);
+    }
+    return line;
+}
+
+std::int32_t TileRenderer::reachBetween(const Sample& sample, const Sample& other) const noexcept {
+    if (!isCutLine(sample, other)) return lineReach_;
+    return other.hasHit() && other.isCap ? cutReach_ : std::max(lineReach_, margin_);
 }
 
 // How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space)
@@ -241,13 +269,16 @@ TileRenderer::PixelLight TileRenderer::lightOf(std::int32_t x, std::int32_t y) c
         for (std::int32_t sx = x * side_; sx < (x + 1) * side_; ++sx) {
             const Sample& sample = samples_[at(sx, sy)];
             if (sample.alpha <= 0) continue;
-            const float line = margin_ > 0 ? scene_.spec.edges * lines_[at(sx, sy)] : 0;
-            // Light above 1 must not spill into the neighbours of a pixel.
-            color = color + Vec3f{std::min(sample.color.x, 1.0f), std::min(sample.color.y, 1.0f),
-                                  std::min(sample.color.z, 1.0f)} *
-                                (1 - line);
+            const float line = margin_ > 0 ? scene_.spec.borders.strength * lines_[at(sx, sy)] : 0;
             // A line is seen, however thin the glass it borders.
-            alpha += sample.alpha + (1 - sample.alpha) * line * kGlassLine;
+            const float covered = sample.alpha + (1 - sample.alpha) * line * kGlassLine;
+            // Light above 1 must not spill into the neighbours of a pixel.
+            color =
+                color +
+                Vec3f{std::min(sample.color.x, 1.0f), std::min(sample.color.y, 1.0f), std::min(sample.color.z, 1.0f)} *
+                    (1 - line) +
+                lineColor_ * (line * covered);
+            alpha += covered;
         }
     const float share = 1.0f / static_cast<float>(side_ * side_);
     return {color * share, alpha * share};

@@ -40,6 +40,8 @@ private:
     [[nodiscard]] bool looksOther(const Sample& sample, const Sample& other, Vec3d aside) const;
     void castCenters();
     void findLines();
+    [[nodiscard]] float lineOn(const Sample& sample, std::int32_t x, std::int32_t y) const;
+    [[nodiscard]] std::int32_t reachBetween(const Sample& sample, const Sample& other) const noexcept;
     [[nodiscard]] float lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const;
     void writePixels();
     void fillBackground();
@@ -57,10 +59,9 @@ private:
         return static_cast<std::size_t>(x + margin_) +
                static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y + margin_);
     }
-    static constexpr std::int32_t kPixelMargin = 2, kPixelStride = kTilePixels + 2 * kPixelMargin;
-    [[nodiscard]] static std::size_t middleOf(std::int32_t x, std::int32_t y) noexcept {
-        return static_cast<std::size_t>(x + kPixelMargin) +
-               static_cast<std::size_t>(kPixelStride) * static_cast<std::size_t>(y + kPixelMargin);
+    [[nodiscard]] std::size_t middleOf(std::int32_t x, std::int32_t y) const noexcept {
+        return static_cast<std::size_t>(x + pixelMargin_) +
+               static_cast<std::size_t>(kTilePixels + 2 * pixelMargin_) * static_cast<std::size_t>(y + pixelMargin_);
     }
     [[nodiscard]] double horizontal(double sampleX) const noexcept;
     [[nodiscard]] double vertical(double sampleY) const noexcept;
@@ -69,18 +70,19 @@ private:
     Frame& frame_;
     SampleCaster caster_;
     std::optional<PacketCaster> packets_;
-    std::int32_t side_;       // samples per pixel along one axis
-    std::int32_t lineReach_;  // samples from a border that its line covers, on either side
-    std::int32_t margin_;     // samples around the tile
+    std::int32_t side_;                  // samples per pixel along one axis
+    std::int32_t lineReach_, cutReach_;  // samples from a border that its line covers, on either side
+    std::int32_t margin_;                // samples around the tile
+    std::int32_t pixelMargin_;           // pixels around the tile whose middles tell which need more samples
     std::int32_t stride_;
-    Vec3f backgroundTop_, backgroundBottom_;  // linear light
+    Vec3f backgroundTop_, backgroundBottom_, lineColor_;  // linear light
     const SrgbBytes& bytes_ = SrgbBytes::table();
     double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
     std::vector<double> columns_, rows_;                                   // where they lie in the picture, -1..1
     std::vector<Sample> samples_;
     std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
-    std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of two more to each side
+    std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of those around it
     std::vector<float> lines_;     // how dark, 0..1
 };
 

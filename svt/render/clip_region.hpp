@@ -1,0 +1,80 @@
+#pragma once
+/// \file
+/// Parts of space that are cut away or kept, as plain data. World space, metres.
+
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace svt::render {
+
+/// The points p with dot(normal, p) + offset > 0. The normal need not have length 1.
+struct HalfSpace {
+    Vec3d normal{0, 0, 1};
+    double offset = 0;
+    friend bool operator==(const HalfSpace&, const HalfSpace&) = default;
+};
+
+/// A convex body bounded by one round surface. With d[i] = dot(frame[i], p - center), 1 / metres, it holds the points p
+/// with
+///     Ball      d0^2 + d1^2 + d2^2 < 1            ellipsoids too
+///     Cylinder  d0^2 + d1^2 < 1                   without ends
+///     Cone      d0^2 + d1^2 < d2^2 and d2 > 0     from its tip at `center` without end
+struct RoundBody {
+    enum class Kind : std::uint8_t { Ball, Cylinder, Cone };
+
+    Kind kind = Kind::Ball;
+    Vec3d center{};
+    std::array<Vec3d, 3> frame{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+
+    [[nodiscard]] static RoundBody ball(Vec3d center, double radius);
+    /// \param axis  need not have length 1
+    [[nodiscard]] static RoundBody cylinder(Vec3d point, Vec3d axis, double radius);
+    /// With half-axes across the cone's axis: `u` and `v` from the axis to the surface, one metre along `axis` from
+    /// the tip; u, v and axis must be at right angles.
+    [[nodiscard]] static RoundBody cone(Vec3d tip, Vec3d axis, Vec3d u, Vec3d v);
+
+    [[nodiscard]] bool contains(Vec3d p) const noexcept;
+    /// Of its surface at p, outwards, length 1.
+    [[nodiscard]] Vec3d normalAt(Vec3d p) const noexcept;
+    friend bool operator==(const RoundBody&, const RoundBody&) = default;
+};
+
+/// What lies in all half-spaces and all round bodies; 1 to kMaxFaces of them.
+struct ConvexPart {
+    std::vector<HalfSpace> halfSpaces;
+    std::vector<RoundBody> rounds;
+
+    static constexpr std::size_t kMaxFaces = 16;
+    friend bool operator==(const ConvexPart&, const ConvexPart&) = default;
+};
+
+/// What lies in any of its parts.
+struct ClipRegion {
+    enum class Mode : std::uint8_t {
+        CutAway,  ///< what lies in the region is not drawn
+        KeepOnly  ///< only what lies in the region is drawn
+    };
+
+    std::vector<ConvexPart> parts;  ///< at least one
+    Mode mode = Mode::CutAway;
+
+    /// Cuts away what lies on the side of the plane to which `normal` points. A section.
+    [[nodiscard]] static ClipRegion plane(Vec3d normal, Vec3d point);
+    /// Cuts away, or keeps only, an axis-parallel box.
+    [[nodiscard]] static ClipRegion box(const Box3d& box, Mode mode);
+
+    friend bool operator==(const ClipRegion&, const ClipRegion&) = default;
+};
+
+/// The six half-spaces of a box along `axes` (unit vectors), between `low` and `high` metres from `origin`.
+[[nodiscard]] ConvexPart boxPart(Vec3d origin, const std::array<Vec3d, 3>& axes, Vec3d low, Vec3d high);
+
+/// \return BadFrame where a part has no face or too many, or a face is not finite or without direction; the message
+///         says which, after `place`
+[[nodiscard]] Result<void> checkClip(const ClipRegion& clip, const std::string& place);
+
+}  // namespace svt::render
