@@ -42,8 +42,9 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
     return extent;
 }
 
-// Height of a storey's floor over the grid's lower corner: where its rooms begin, or what it has of voxels.
-Result<double> floorOf(const std::string& storey, const volume::SemanticVolume& volume) {
+}  // namespace
+
+Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
     std::string quoted;
     for (const char c : storey) {
         if (c == '"' || c == '\\') quoted += '\\';
@@ -52,23 +53,20 @@ Result<double> floorOf(const std::string& storey, const volume::SemanticVolume& 
     const auto selected = selectLabels(volume.labels, fmt::format("storey=\"{}\"", quoted));
     if (!selected) return selected.error();
     const auto boxes = volume::scalarBoxes(volume.columns, volume.labels.scalarCount());
-    std::int32_t lowestRoom = volume.grid.dimension().z, lowest = lowestRoom;
+    volume::SampleBox rooms, all;
     for (const std::uint32_t l : *selected) {
         const volume::Label& label = volume.labels.labels[l];
         for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
             if (boxes[s].isEmpty()) continue;
-            lowest = std::min(lowest, boxes[s].min.z);
-            if (model::isSpace(label.className)) lowestRoom = std::min(lowestRoom, boxes[s].min.z);
+            all.add(boxes[s]);
+            if (model::isSpace(label.className)) rooms.add(boxes[s]);
         }
     }
-    if (lowest == volume.grid.dimension().z)
-        return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
-    return (std::min(lowestRoom, volume.grid.dimension().z) == volume.grid.dimension().z ? lowest : lowestRoom) *
-               volume.grid.spacing().z -
-           0.5 * volume.grid.spacing().z;
+    if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
+    const volume::SampleBox& box = rooms.isEmpty() ? all : rooms;
+    const double spacing = volume.grid.spacing().z;
+    return std::pair((box.min.z - 0.5) * spacing, (box.max.z + 0.5) * spacing);
 }
-
-}  // namespace
 
 bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {
     const auto [low, high] = extentAlong(plane.normal, grid);
@@ -97,9 +95,9 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
         const std::size_t sign = copy.find_last_of("+-");
         std::optional<std::array<double, 4>> above;
         if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);
-        const auto floor = floorOf(copy.substr(7, above ? sign - 7 : std::string::npos), volume);
-        if (!floor) return floor.error();
-        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (*floor + (above ? (*above)[0] : 1.0))};
+        const auto heights = storeyHeights(copy.substr(7, above ? sign - 7 : std::string::npos), volume);
+        if (!heights) return heights.error();
+        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + (above ? (*above)[0] : 1.0))};
     } else {
         const auto numbers = parseNumbers(copy, 4);
         if (!numbers) return badSection(expected);

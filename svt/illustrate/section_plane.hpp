@@ -6,7 +6,9 @@
 #include <svt/core/vec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace svt::illustrate {
 
@@ -27,6 +29,12 @@ struct SectionPlane {
 ///                            passes the whole volume by (the message names the possible range)
 ///         - NothingSelected  no such storey, or none with voxels (names the nearest)
 [[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume);
+
+/// Floor and ceiling of a storey (by name or id), metres over the grid's lower corner: of its rooms, or of what it has
+/// of voxels.
+/// \return NothingSelected where there is no such storey, or none with voxels
+[[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
+                                                              const volume::SemanticVolume& volume);
 
 /// Whether the plane meets the voxels of `grid`.
 [[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);

@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// Parts of space as people write them: planes, boxes, balls, ..., joined by and, or, not (Diepstraten 2003 cuts by
+/// such booleans of half-spaces). Lens, section and cutaway are all regions.
+///
+///     z>1.2 and not box(2,2,0,4,4,3)         storey(EG)         cutaway(name="Unterzug-1")
+///
+/// Grammar (keywords without regard to case):
+///     region    := and ('or' and)*
+///     and       := not ('and' not)*
+///     not       := 'not' not | '(' region ')' | primitive
+///     primitive := a plane as parseSectionPlane() takes it: the side that it cuts away
+///                | box(x0,y0,z0, x1,y1,z1) | ball(x,y,z, r) | cylinder(x,y,z, dx,dy,dz, r)
+///                | prism(x1,y1, x2,y2, ...; z0,z1)   upright over a simple polygon
+///                | storey(NAME)                      from its floor to its ceiling
+///                | around(QUERY[; margin])           box around what the query selects
+///                | view(x,y, r)                      what is seen in a circle of the picture: x and y from its upper
+///                left
+///                                                    corner, as shares of its width and height; r of its height
+///                | cutaway(QUERY[; margin])          what must go so that the selected is seen: a cone that opens
+///                                                    towards the viewer, smooth, and closed behind the target
+/// Lengths are metres, coordinates metres from the grid's lower corner along its axes.
+
+#include <svt/core/result.hpp>
+#include <svt/render/frame_spec.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <string_view>
+#include <vector>
+
+namespace svt::illustrate {
+
+/// What a region may refer to.
+struct RegionContext {
+    const volume::SemanticVolume& volume;
+    render::Camera camera;
+    double aspect = 1;  ///< width of the picture by its height
+};
+
+/// A region as a union of convex parts.
+/// \return the parts, or
+///         - BadSection                 the text cannot be parsed (names column, what was found and expected), a size
+///         is
+///                                      not positive, a plane passes the volume by, `not` of something round, or more
+///                                      than Pass::kMaxClipParts parts or ConvexPart::kMaxFaces faces come out
+///         - BadQuery, NothingSelected  of a query in it
+[[nodiscard]] Result<std::vector<render::ConvexPart>> parseRegion(std::string_view text, const RegionContext& context);
+
+}  // namespace svt::illustrate
