@@ -215,7 +215,7 @@ TEST(BuildVolume, StyleOfTheCallerIsStrongerThanTheBuiltInOne) {
     const BuildOutput output = build(thematicHouse(), options);
     EXPECT_EQ(labelOf(output, "room").color, (Vec3f{1, 0, 0}));
     EXPECT_EQ(labelOf(output, "room").opacity, 0.75f);
-    EXPECT_EQ(labelOf(output, "outer-1").color, *parseColor("#a8483a"));
+    EXPECT_EQ(labelOf(output, "outer-1").color, *render::parseColor("#a8483a"));
 }
 
 TEST(BuildVolume, SameForAnyNumberOfThreads) {

@@ -39,9 +39,6 @@ struct StyleSheet {
 [[nodiscard]] Result<StyleSheet> readStyleSheet(const std::filesystem::path& file);
 [[nodiscard]] Result<StyleSheet> parseStyleSheet(std::string_view json, const std::filesystem::path& folder);
 
-/// "#c8b49b", "#fff" or a basic CSS colour name ("tomato", "steelblue") -> sRGB, or BadStyle that lists the names.
-[[nodiscard]] Result<Vec3f> parseColor(std::string_view text);
-
 /// What one row ends up with.
 struct ResolvedStyle {
     Vec3f color{0.8f, 0.8f, 0.8f};

@@ -56,6 +56,7 @@ struct Pixels {
     const void* data;
     std::size_t rowBytes;
     int bits, colorType;
+    int dpi;  // 0: none
 };
 
 bool write(Stream& stream, const Pixels& pixels) {
@@ -72,6 +73,8 @@ bool write(Stream& stream, const Pixels& pixels) {
                  pixels.bits, pixels.colorType, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
     if (pixels.bits == 8) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    const auto perMetre = static_cast<png_uint_32>(pixels.dpi / 0.0254 + 0.5);
+    if (pixels.dpi > 0) png_set_pHYs(png, info, perMetre, perMetre, PNG_RESOLUTION_METER);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
     png_write_info(png, info);
     if (pixels.bits == 16 && std::endian::native == std::endian::little) png_set_swap(png);
@@ -174,19 +177,19 @@ Result<void> readFile(const std::filesystem::path& path, Target& target) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> encodePng(const Image<Rgba8>& image) {
+Result<std::vector<std::byte>> encodePng(const Image<Rgba8>& image, int dpi) {
     static_assert(sizeof(Rgba8) == 4);
     return encode({image.width(), image.height(), image.pixels().data(), 4 * static_cast<std::size_t>(image.width()), 8,
-                   PNG_COLOR_TYPE_RGB_ALPHA});
+                   PNG_COLOR_TYPE_RGB_ALPHA, dpi});
 }
 
 Result<std::vector<std::byte>> encodePng(const Image<std::uint16_t>& image) {
     return encode({image.width(), image.height(), image.pixels().data(), 2 * static_cast<std::size_t>(image.width()),
-                   16, PNG_COLOR_TYPE_GRAY});
+                   16, PNG_COLOR_TYPE_GRAY, 0});
 }
 
-Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image) {
-    return writeBytes(path, encodePng(image));
+Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image, int dpi) {
+    return writeBytes(path, encodePng(image, dpi));
 }
 
 Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16_t>& image) {

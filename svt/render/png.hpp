@@ -15,14 +15,15 @@
 namespace svt::render {
 
 /// The file's bytes: 8 bits RGBA, sRGB.
+/// \param dpi  pixels an inch, for print; 0: none is said
 /// \return the bytes, or BadImage where the picture is empty or wider or higher than kMaxPngSize
-[[nodiscard]] Result<std::vector<std::byte>> encodePng(const Image<Rgba8>& image);
+[[nodiscard]] Result<std::vector<std::byte>> encodePng(const Image<Rgba8>& image, int dpi = 0);
 /// The file's bytes: 16 bits gray.
 [[nodiscard]] Result<std::vector<std::byte>> encodePng(const Image<std::uint16_t>& image);
 
 /// Writes a file, all or nothing: a failure leaves an old file as it was.
 /// \return nothing, or BadImage, CannotWrite or DiskFull
-Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image);
+Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image, int dpi = 0);
 Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16_t>& image);
 
 /// Reads a PNG of any kind as 8 bits RGBA; 16 bits keep their upper half, gray becomes three equal channels.

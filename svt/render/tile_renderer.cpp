@@ -228,7 +228,10 @@ float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d
     const Vec3d normal = toDouble(sample.normal);
     const double facing = std::max(-dot(normal, scene_.rays.forward()), 0.02);
     const double predicted = dot(normal, aside) / facing;
-    const double tolerance = (1 + 2 / facing) * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
+    // A step of a voxel in one object's face is no border, though its riser faces the viewer.
+    const double otherFacing = std::max(-dot(toDouble(other.normal), scene_.rays.forward()), 0.02);
+    const double grazing = sample.object == other.object ? std::min(facing, otherFacing) : facing;
+    const double tolerance = (1 + 2 / grazing) * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
     const bool isJump = std::abs(difference - predicted) > tolerance;
     const bool isOtherLabel = sample.object != other.object || sample.isCap != other.isCap;
     if (!isJump && !isOtherLabel) return 0;
