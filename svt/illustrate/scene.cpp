@@ -97,8 +97,9 @@ volume::Grid gridOf(const volume::SampleBox& box, const volume::Grid& grid) {
     Vec3i dimension;
     Vec3d first;
     for (int axis = 0; axis < 3; ++axis) {
-        dimension[axis] = std::max(2, box.max[axis] - box.min[axis] + 1);
-        first[axis] = box.min[axis];
+        const std::int32_t count = box.max[axis] - box.min[axis] + 1;
+        dimension[axis] = std::max(2, count);
+        first[axis] = box.min[axis] - (dimension[axis] - count) / 2.0;
     }
     const auto part = volume::Grid::fromParts(dimension, grid.spacing(), grid.worldFromIndex(first), grid.axes());
     return part ? *part : grid;

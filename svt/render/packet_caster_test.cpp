@@ -73,6 +73,16 @@ TEST(PacketCaster, GivesTheVeryPictureOfThePlainCaster) {
             spec.samplesPerPixel = 4;
             spec.borders.strength = 0.7f;
             expectSame(volume, spec);
+            spec.passes[0].clips.push_back(
+                {{{{}, {RoundBody::ball({5, 4, 3}, 2.5)}},
+                  {{}, {RoundBody::cone({5, 5, 1}, {-1, -1, 1}, {0.5, -0.5, 0}, {1, 1, 2})}}},
+                 ClipRegion::Mode::CutAway});
+            for (std::size_t s = 1; s < 5; ++s) spec.passes[0].styles[s].hatch = static_cast<Hatch>(s);
+            spec.hatches.spacing = 0.3;
+            spec.borders.width = 2;
+            spec.borders.cutWidth = 5;
+            spec.borders.color = {0.1f, 0.2f, 0.6f};
+            expectSame(volume, spec);
         }
     }
 }

@@ -1,0 +1,218 @@
+#include <svt/illustrate/scene.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::illustrate {
+namespace {
+
+// A room (1) in a house of walls (2) with a beam (3).
+volume::SemanticVolume house() {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({20, 20, 20}, {0.5, 0.5, 0.5}, {10, 20, 30},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    const auto add = [&](const char* id, const char* className, float opacity) {
+        volume::Label label;
+        label.id = id;
+        label.className = className;
+        label.first = volume.labels.scalarCount();
+        label.count = 1;
+        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
+        label.opacity = opacity;
+        volume.labels.labels.push_back(label);
+    };
+    add("room", "BuildingRoom", 0.1f);
+    add("wall", "WallSurface", 1);
+    add("beam", "BuildingConstructiveElement", 1);
+    std::vector<volume::Scalar> dense(8000, 2);
+    for (int k = 2; k < 18; ++k)
+        for (int j = 2; j < 18; ++j)
+            for (int i = 2; i < 18; ++i) dense[static_cast<std::size_t>(i + 20 * (j + 20 * k))] = k == 10 ? 3 : 1;
+    volume.columns = volume::ColumnVolume::fromDense({20, 20, 20}, dense);
+    return volume;
+}
+
+render::FrameSpec frame(const Scene& scene) {
+    const auto spec = frameOf(scene, house());
+    EXPECT_TRUE(spec) << (spec ? "" : spec.error().toString());
+    return spec ? *spec : render::FrameSpec{};
+}
+
+TEST(Scene, AsItIsShowsAllLabels) {
+    const render::FrameSpec spec = frame({});
+    ASSERT_EQ(spec.passes.size(), 1u);
+    ASSERT_EQ(spec.passes[0].styles.size(), 4u);
+    EXPECT_EQ(spec.passes[0].styles[0].opacity, 0);
+    EXPECT_EQ(spec.passes[0].styles[1].opacity, 0.1f);
+    EXPECT_EQ(spec.passes[0].styles[2].opacity, 1);
+    EXPECT_TRUE(spec.passes[0].clips.empty());
+    EXPECT_EQ(spec.passes[0].styles[2].hatch, render::Hatch::None);
+    EXPECT_EQ(spec.objectOfScalar, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+TEST(Scene, ShowHideAndStylesAreApplied) {
+    Scene scene;
+    ScenePass& pass = scene.passes[0];
+    pass.show = {"class=BuildingRoom", "id=beam"};
+    pass.hide = {"id=beam"};
+    pass.styles = {{"all", Vec3f{1, 0, 0}, {}, {}, false}, {"id=room", {}, 0.5f, render::Hatch::Earth, false}};
+    const render::FrameSpec spec = frame(scene);
+    EXPECT_EQ(spec.passes[0].styles[1].opacity, 0.5f);
+    EXPECT_EQ(spec.passes[0].styles[1].hatch, render::Hatch::Earth);
+    EXPECT_EQ(spec.passes[0].styles[1].color, (Vec3f{1, 0, 0}));
+    EXPECT_EQ(spec.passes[0].styles[2].opacity, 0);
+    EXPECT_EQ(spec.passes[0].styles[3].opacity, 0);
+}
+
+TEST(Scene, PaperHatchesWhatIsCut) {
+    Scene scene;
+    scene.look = Look::Paper;
+    scene.passes[0].cut = "z>5";
+    const render::FrameSpec spec = frame(scene);
+    EXPECT_EQ(spec.passes[0].styles[2].hatch, render::Hatch::Masonry);
+    EXPECT_EQ(spec.passes[0].styles[1].hatch, render::Hatch::None);
+    ASSERT_EQ(spec.passes[0].clips.size(), 1u);
+    EXPECT_EQ(spec.passes[0].clips[0], render::ClipRegion::plane({0, 0, 1}, {10, 20, 35}));
+    EXPECT_GT(spec.borders.cutWidth, spec.borders.width);
+    scene.hasHatches = false;
+    EXPECT_EQ(frame(scene).passes[0].styles[2].hatch, render::Hatch::None);
+}
+
+TEST(Scene, ALensCutsWithinItsRegionAlone) {
+    Scene scene;
+    scene.passes[0].cut = "x>9";
+    addLens(scene, "ball(5,5,5,2)", "y<4", Context::Ghost);
+    const render::FrameSpec spec = frame(scene);
+    ASSERT_EQ(spec.passes.size(), 2u);
+    const auto& [around, detail] = std::tie(spec.passes[0], spec.passes[1]);
+    EXPECT_EQ(around.clips.size(), 1u);
+    EXPECT_LT(around.styles[2].opacity, 0.5f);
+    EXPECT_GT(around.styles[2].opacity, 0);
+    EXPECT_EQ(around.styles[1].opacity, 0);
+    ASSERT_EQ(detail.clips.size(), 2u);
+    EXPECT_EQ(detail.clips[0].mode, render::ClipRegion::Mode::KeepOnly);
+    EXPECT_EQ(detail.clips[1].parts.size(), 2u);
+    EXPECT_EQ(detail.styles[2].opacity, 1);
+    EXPECT_EQ(detail.join, render::Pass::Join::Replace);
+    Scene alone;
+    addLens(alone, "ball(5,5,5,2)", "", Context::None);
+    EXPECT_EQ(frame(alone).passes.size(), 1u);
+}
+
+TEST(Scene, AHighlightIsSolidBeforeItsContext) {
+    Scene scene;
+    addHighlight(scene, {"id=room", "id=beam"}, Context::Solid);
+    const render::FrameSpec spec = frame(scene);
+    ASSERT_EQ(spec.passes.size(), 2u);
+    EXPECT_EQ(spec.passes[0].styles[1].opacity, 0);
+    EXPECT_EQ(spec.passes[0].styles[2].opacity, 1);
+    EXPECT_EQ(spec.passes[0].styles[3].opacity, 0);
+    EXPECT_EQ(spec.passes[1].styles[1].opacity, 1);
+    EXPECT_EQ(spec.passes[1].styles[2].opacity, 0);
+    EXPECT_EQ(spec.passes[1].join, render::Pass::Join::Over);
+}
+
+TEST(Scene, ACutawayLeavesItsTargetWhole) {
+    Scene scene;
+    addCutaway(scene, "id=beam", 0.1);
+    const render::FrameSpec spec = frame(scene);
+    ASSERT_EQ(spec.passes.size(), 2u);
+    ASSERT_EQ(spec.passes[0].clips.size(), 1u);
+    EXPECT_EQ(spec.passes[0].clips[0].parts[0].rounds.size(), 1u);
+    EXPECT_TRUE(spec.passes[1].clips.empty());
+    EXPECT_EQ(spec.passes[1].styles[2].opacity, 0);
+}
+
+TEST(Scene, TheViewMayShowAPart) {
+    Scene scene;
+    scene.camera.around = "id=beam";
+    scene.camera.isParallel = true;
+    scene.camera.preset = "front";
+    const render::FrameSpec spec = frame(scene);
+    // The beam is 8 m wide and half a metre high around z = 35.
+    EXPECT_NEAR(spec.camera.target.z, 35, 1e-9);
+    EXPECT_LT(spec.camera.orthographicHeight, 6);
+}
+
+Scene everything() {
+    Scene scene;
+    scene.width = 640;
+    scene.height = 480;
+    scene.samples = 9;
+    scene.look = Look::Blueprint;
+    scene.camera = {"front", "id=beam", true, 40, 1.5, Vec3d{1, -2.5, 3}, Vec3d{0.1, 0, 0}};
+    scene.background = Vec3f{1, 0, 0.2f};
+    scene.isTransparent = true;
+    scene.lineStrength = 0.4f;
+    scene.lineWidth = 1.5f;
+    scene.cutWidth = 3;
+    scene.lineColor = Vec3f{0, 0.2f, 0};
+    scene.hasHatches = true;
+    scene.hatchSpacing = 0.05;
+    scene.ambientOcclusion = 0.3f;
+    ScenePass pass;
+    pass.show = {"class=WallSurface"};
+    pass.hide = {"id=\"a \\\"b\\\"\""};
+    pass.styles = {{"all", {}, {}, {}, true}, {"id=x", Vec3f{0, 0, 1}, 0.1f, render::Hatch::Timber, false}};
+    pass.cut = "z>1.2";
+    pass.keep = "storey(EG)";
+    pass.join = render::Pass::Join::Replace;
+    scene.passes = {ScenePass{}, pass};
+    return scene;
+}
+
+TEST(Scene, GoesThroughJsonUnchanged) {
+    const Scene scene = everything();
+    const std::string json = writeScene(scene);
+    const auto read = parseScene(json);
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_EQ(*read, scene);
+    EXPECT_EQ(writeScene(*read), json);
+    EXPECT_EQ(*parseScene(writeScene({})), Scene{});
+    EXPECT_EQ(*parseScene("{}"), Scene{});
+}
+
+TEST(Scene, JsonErrorsNameTheMember) {
+    const auto errorOf = [](const char* json) {
+        const auto scene = parseScene(json, "s.json");
+        return scene ? std::string() : scene.error().toString();
+    };
+    EXPECT_NE(errorOf("{").find("E105 BadJson"), std::string::npos);
+    EXPECT_NE(errorOf("[]").find("E504 BadScene: s.json: /: expected an object"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"pases": []})").find("unknown member 'pases'; possible are"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"version": 2})").find("/version: expected 1, found 2"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"size": [0, 9]})").find("/size/0: expected a number from 1 to 16384"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"size": [1.5, 9]})").find("whole number"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"look": "nice"})").find("/look: 'nice' is no look"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"camera": {"eye": [1, 2]}})").find("/camera/eye"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": []})").find("/passes: expected an array of 1 to 64"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": [{"cut": 4}]})").find("/passes/0/cut: expected a text, found 4"),
+              std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": [{"styles": [{"color": "red"}]}]})").find("/passes/0/styles/0: needs \"select\""),
+              std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": [{"styles": [{"select": "all", "hatch": "bricks"}]}]})").find("is no hatch"),
+              std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": [{"join": "under"}]})").find("/passes/0/join"), std::string::npos);
+}
+
+TEST(Scene, WhatCannotBeShownSaysWhy) {
+    const auto codeOf = [](auto&& change) {
+        Scene scene;
+        change(scene);
+        const auto spec = frameOf(scene, house());
+        return spec ? Code::Internal : spec.error().code();
+    };
+    EXPECT_EQ(codeOf([](Scene& s) { s.width = 0; }), Code::BadFrame);
+    EXPECT_EQ(codeOf([](Scene& s) { s.height = 100000; }), Code::BadFrame);
+    EXPECT_EQ(codeOf([](Scene& s) { s.samples = 3; }), Code::BadFrame);
+    EXPECT_EQ(codeOf([](Scene& s) { s.camera.preset = "up"; }), Code::BadCamera);
+    EXPECT_EQ(codeOf([](Scene& s) { s.camera.zoom = 0; }), Code::BadCamera);
+    EXPECT_EQ(codeOf([](Scene& s) { s.camera.around = "id=x"; }), Code::NothingSelected);
+    EXPECT_EQ(codeOf([](Scene& s) { s.passes[0].cut = "z>99"; }), Code::BadSection);
+    EXPECT_EQ(codeOf([](Scene& s) { s.passes[0].hide = {"clas=Door"}; }), Code::NothingSelected);
+    EXPECT_EQ(codeOf([](Scene& s) { s.passes[0].hide = {"(("}; }), Code::BadQuery);
+    EXPECT_EQ(codeOf([](Scene& s) { addHighlight(s, {"id=y"}, Context::Ghost); }), Code::NothingSelected);
+    EXPECT_EQ(codeOf([](Scene& s) { addCutaway(s, "id=y", 0); }), Code::NothingSelected);
+}
+
+}  // namespace
+}  // namespace svt::illustrate
