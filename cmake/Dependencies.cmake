@@ -9,6 +9,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(hwy REQUIRED)
+find_package(Freetype REQUIRED)
 
 find_path(CLI11_INCLUDE_DIR CLI/CLI.hpp REQUIRED)
 find_path(GLU_INCLUDE_DIR GL/glu.h REQUIRED)
@@ -26,3 +27,6 @@ if(NOT TARGET ZSTD::ZSTD)
   target_include_directories(ZSTD::ZSTD SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
   target_link_libraries(ZSTD::ZSTD INTERFACE ${ZSTD_LIBRARY})
 endif()
+
+find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
+  /usr/share/fonts/dejavu-sans-fonts REQUIRED)

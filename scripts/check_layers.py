@@ -20,7 +20,7 @@ ALLOWED = {
 }
 # Tests may reach one layer further where they compare whole chains.
 ALLOWED_IN_TESTS = {"pipeline": {"samples"}}
-THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd")
+THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd", "ft2build", "polyclipping")
 
 
 def main() -> int:

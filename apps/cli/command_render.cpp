@@ -2,6 +2,7 @@
 #include "scene_options.hpp"
 
 #include <svt/core/file.hpp>
+#include <svt/illustrate/name_tags.hpp>
 #include <svt/render/png.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -77,6 +78,18 @@ Result<void> writeBuffers(const render::Frame& frame, const Arguments& arguments
     return {};
 }
 
+Result<void> addNames(const illustrate::Scene& scene, const volume::SemanticVolume& volume,
+                      const render::FrameSpec& spec, render::Frame& frame) {
+    if (scene.names.empty()) return {};
+    const auto tags = illustrate::findNameTags(scene.names, volume, spec, frame);
+    if (!tags) return tags.error();
+    const Vec3f paper = (spec.background.top + spec.background.bottom) * 0.5f;
+    const bool isDark = paper.x + paper.y + paper.z < 1.5f && spec.background.alpha > 0;
+    const Vec3f dark{0.05f, 0.05f, 0.06f}, light{1, 1, 1};
+    drawNameTags(*tags, 0, isDark ? light : dark, isDark ? paper : light, frame.color);
+    return {};
+}
+
 int runRender(const Arguments& arguments) {
     // Before anything long: does what is asked for make sense?
     const auto first = arguments.scene.toScene(0, arguments.frames);
@@ -102,8 +115,9 @@ int runRender(const Arguments& arguments) {
         const auto spec = illustrate::frameOf(*scene, *volume);
         if (!spec) return fail(spec.error());
         const int level = arguments.level ? *arguments.level : render::levelForView(*spec, volume->grid);
-        const auto picture = drawn.cast(*spec, level, options);
+        auto picture = drawn.cast(*spec, level, options);
         if (!picture) return fail(picture.error());
+        if (auto named = addNames(*scene, *volume, *spec, *picture); !named) return fail(named.error());
         if (auto written = writeBuffers(*picture, arguments, frame); !written) return fail(written.error());
         Progress::tell(progress.get(), "render", double(frame + 1) / arguments.frames);
     }

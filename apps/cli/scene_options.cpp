@@ -179,6 +179,7 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (cutWidth) scene.cutWidth = narrow(*cutWidth);
     if (hasHatches) scene.hasHatches = true;
     if (hatchSpacing) scene.hatchSpacing = hatchSpacing;
+    scene.names.insert(scene.names.end(), names.begin(), names.end());
     if (auto added = addPass(*this, frame, frames, scene); !added) return added.error();
     return scene;
 }
@@ -192,10 +193,8 @@ void SceneArguments::addTo(CLI::App& command) {
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
             ->type_name(type);
     };
-    std::string names;
-    for (const std::string_view name : render::cameraPresetNames())
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", name);
-    command.add_option("--camera", camera, "one of " + names + "; default: iso")->group("View");
+    const std::string presets = fmt::format("{}", fmt::join(render::cameraPresetNames(), ", "));
+    command.add_option("--camera", camera, "one of " + presets + "; default: iso")->group("View");
     command.add_option("--around", around, "the view shows what the query selects, as large as it fits")
         ->group("View")
         ->type_name("QUERY");
@@ -249,6 +248,8 @@ void SceneArguments::addTo(CLI::App& command) {
         ->group("Illustrate")
         ->check(CLI::IsMember({"ghost", "solid", "none"}))
         ->capture_default_str();
+    list("--names", names, "name the selected at the sides of the picture, with leader lines; may be repeated",
+         "Illustrate", "QUERY");
     list("--hide", hide, "hide what the query selects; may be repeated", "Style", "QUERY");
     list("--show", show, "show only what the query selects; may be repeated", "Style", "QUERY");
     list("--color", color, "colour by query, such as 'name=\"Unterzug-1\":red'; may be repeated", "Style",

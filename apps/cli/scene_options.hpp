@@ -17,7 +17,7 @@ namespace svt::cli {
 struct SceneArguments {
     std::filesystem::path sceneFile;
     std::optional<std::string> camera, size, background, look;
-    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights;
+    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names;
     std::string cut, keep, lens, cutaway, around, context = "ghost";
     std::vector<double> eye, target;
     std::optional<int> samples, dpi;

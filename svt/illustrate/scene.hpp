@@ -69,6 +69,7 @@ struct Scene {
     std::optional<bool> hasHatches;
     std::optional<double> hatchSpacing;  ///< metres; else about 9 pixels
     std::optional<float> ambientOcclusion;
+    std::vector<std::string> names;  ///< queries: what is named beside the picture, see name_tags.hpp
     std::vector<ScenePass> passes{ScenePass{}};
 
     friend bool operator==(const Scene&, const Scene&) = default;

@@ -174,7 +174,7 @@ void readHatches(Reader& read, const Json& json, Scene& scene) {
 void readScene(Reader& read, const Json& json, Scene& scene) {
     if (!read.object(json, "",
                      {"format", "version", "size", "samples", "look", "camera", "background", "transparent", "lines",
-                      "hatches", "ambientOcclusion", "passes"}))
+                      "hatches", "ambientOcclusion", "names", "passes"}))
         return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = "/" + key;
@@ -204,6 +204,7 @@ void readScene(Reader& read, const Json& json, Scene& scene) {
         if (key == "lines") readLines(read, value, scene);
         if (key == "hatches") readHatches(read, value, scene);
         if (key == "ambientOcclusion") read.number(value, at, 0, 1, scene.ambientOcclusion.emplace());
+        if (key == "names") read.texts(value, at, scene.names);
         if (key == "passes") {
             if (!value.is_array() || value.empty() || value.size() > kMaxPasses)
                 return read.fail(at, fmt::format("expected an array of 1 to {} passes", kMaxPasses));
@@ -280,6 +281,7 @@ std::string writeScene(const Scene& scene) {
     if (scene.hasHatches) json["hatches"]["show"] = *scene.hasHatches;
     if (scene.hatchSpacing) json["hatches"]["spacing"] = *scene.hatchSpacing;
     if (scene.ambientOcclusion) json["ambientOcclusion"] = shortest(*scene.ambientOcclusion);
+    if (!scene.names.empty()) json["names"] = scene.names;
     json["passes"] = Json::array();
     for (const ScenePass& pass : scene.passes) json["passes"].push_back(jsonOf(pass));
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -149,6 +149,7 @@ Scene everything() {
     scene.hasHatches = true;
     scene.hatchSpacing = 0.05;
     scene.ambientOcclusion = 0.3f;
+    scene.names = {"class=WallSurface"};
     ScenePass pass;
     pass.show = {"class=WallSurface"};
     pass.hide = {"id=\"a \\\"b\\\"\""};
