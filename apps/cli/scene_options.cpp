@@ -111,7 +111,9 @@ std::string either(const std::string& a, const std::string& b) {
 
 // A plane of a region, whatever blanks its storey has.
 std::string quoted(const std::string& plane) {
-    return plane.find_first_of(" ()") == std::string::npos ? plane : fmt::format("'{}'", plane);
+    const bool needsQuotes =
+        plane.find_first_of(" ()") != std::string::npos && plane.find_first_of("\"'") == std::string::npos;
+    return needsQuotes ? fmt::format("'{}'", plane) : plane;
 }
 
 Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Scene& scene) {

@@ -55,6 +55,19 @@ std::vector<std::pair<int, std::int32_t>> innermostPixels(const Image<volume::Sc
     return best;
 }
 
+// First and last column with anything in it.
+std::pair<double, double> columnsOf(const Image<volume::Scalar>& seen) {
+    std::int32_t left = seen.width(), right = 0;
+    for (std::int32_t y = 0; y < seen.height(); ++y)
+        for (std::int32_t x = 0; x < seen.width(); ++x) {
+            if (seen.at(x, y) == 0) continue;
+            left = std::min(left, x);
+            right = std::max(right, x + 1);
+        }
+    if (left < right) return {left, right};
+    return {0, seen.width()};
+}
+
 // Where a point of world space is seen, pixels; nothing where it is behind the viewer or beside the picture.
 std::optional<std::pair<double, double>> seenAt(Vec3d point, const render::FrameSpec& spec) {
     const render::Camera& camera = spec.camera;
@@ -87,8 +100,8 @@ std::vector<double> heightsOf(const std::vector<NameTag>& tags, double line, dou
 
 }  // namespace
 
-Result<std::vector<NameTag>> findNameTags(const std::vector<std::string>& queries, const volume::SemanticVolume& volume,
-                                          const render::FrameSpec& spec, const render::Frame& frame) {
+Result<NameTags> findNameTags(const std::vector<std::string>& queries, const volume::SemanticVolume& volume,
+                              const render::FrameSpec& spec, const render::Frame& frame) {
     const auto& labels = volume.labels.labels;
     std::vector<bool> isSelected(labels.size(), false);
     for (const std::string& query : queries) {
@@ -99,7 +112,8 @@ Result<std::vector<NameTag>> findNameTags(const std::vector<std::string>& querie
     std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
     const auto best = innermostPixels(frame.label, labelOf, labels.size());
     const auto boxes = volume::scalarBoxes(volume.columns, volume.labels.scalarCount());
-    std::vector<NameTag> tags;
+    NameTags result;
+    std::tie(result.left, result.right) = columnsOf(frame.label);
     for (std::size_t l = 0; l < labels.size(); ++l) {
         if (!isSelected[l]) continue;
         NameTag tag{labels[l].name.empty() ? labels[l].id : labels[l].name, 0, 0, best[l].second < 0};
@@ -117,17 +131,17 @@ Result<std::vector<NameTag>> findNameTags(const std::vector<std::string>& querie
             if (!seen) continue;
             std::tie(tag.x, tag.y) = *seen;
         }
-        tags.push_back(std::move(tag));
+        result.tags.push_back(std::move(tag));
     }
-    return tags;
+    return result;
 }
 
-std::size_t drawNameTags(const std::vector<NameTag>& tags, double textHeight, Vec3f color, Vec3f halo,
+std::size_t drawNameTags(const NameTags& tags, double textHeight, Vec3f color, Vec3f halo,
                          Image<render::Rgba8>& image) {
     const double height = textHeight > 0 ? textHeight : std::max(11.0, image.height() / 50.0);
     const double line = 1.35 * height, margin = height, stroke = std::max(1.0, height / 14);
     std::vector<NameTag> sides[2];
-    for (const NameTag& tag : tags) sides[tag.x < image.width() / 2.0 ? 0 : 1].push_back(tag);
+    for (const NameTag& tag : tags.tags) sides[tag.x < (tags.left + tags.right) / 2 ? 0 : 1].push_back(tag);
     const auto most = static_cast<std::size_t>(std::max(0.0, image.height() / line - 1));
     std::size_t drawn = 0;
     for (int side = 0; side < 2; ++side) {
@@ -138,7 +152,8 @@ std::size_t drawNameTags(const std::vector<NameTag>& tags, double textHeight, Ve
         for (std::size_t n = 0; n < ofSide.size(); ++n, ++drawn) {
             const NameTag& tag = ofSide[n];
             const double width = render::textWidth(tag.text, height);
-            const double left = side == 0 ? margin : image.width() - margin - width;
+            const double left = side == 0 ? std::max(margin, tags.left - 2.5 * height - width)
+                                          : std::min(image.width() - margin - width, tags.right + 2.5 * height);
             const double end = side == 0 ? left + width + 0.35 * height : left - 0.35 * height;
             const double knee = end + (side == 0 ? height : -height);
             for (const auto& [extra, tone] : {std::pair(2.4 * stroke, halo), std::pair(stroke, color)}) {

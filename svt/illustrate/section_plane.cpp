@@ -30,6 +30,12 @@ std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::
     return numbers;
 }
 
+std::string unquoted(const std::string& text) {
+    const bool isQuoted =
+        text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+    return isQuoted ? text.substr(1, text.size() - 2) : text;
+}
+
 // Lower and upper end of the volume along `normal`, metres from the grid's lower corner.
 std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
     std::pair<double, double> extent{0, 0};
@@ -95,7 +101,7 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
         const std::size_t sign = copy.find_last_of("+-");
         std::optional<std::array<double, 4>> above;
         if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);
-        const auto heights = storeyHeights(copy.substr(7, above ? sign - 7 : std::string::npos), volume);
+        const auto heights = storeyHeights(unquoted(copy.substr(7, above ? sign - 7 : std::string::npos)), volume);
         if (!heights) return heights.error();
         plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + (above ? (*above)[0] : 1.0))};
     } else {

@@ -56,6 +56,7 @@ TEST(SectionPlane, StoreysCountFromTheFloorOfTheirRooms) {
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=EG", volume)), 30 + 0.375 + 1);
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=1-OG+0.5", volume)), 30 + 2.875 + 0.5);
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=s1-0.25", volume)), 30 + 2.875 - 0.25);
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=\"1-OG\"+0.5", volume)), 30 + 2.875 + 0.5);
 }
 
 TEST(SectionPlane, FourNumbersAreAHalfSpace) {

@@ -67,8 +67,12 @@ std::vector<char32_t> lettersOf(std::string_view text) {
     return letters;
 }
 
+bool isIn(const Image<Rgba8>& image, std::int32_t x, std::int32_t y) {
+    return x >= 0 && y >= 0 && x < image.width() && y < image.height();
+}
+
 void blend(Image<Rgba8>& image, std::int32_t x, std::int32_t y, Vec3f color, double share) {
-    if (x < 0 || y < 0 || x >= image.width() || y >= image.height() || !(share > 0)) return;
+    if (!isIn(image, x, y) || !(share > 0)) return;
     Rgba8& pixel = image.at(x, y);
     const double under = pixel.a / 255.0 * (1 - share), alpha = share + under;
     const auto channel = [&](std::uint8_t old, float drawn) {
@@ -140,6 +144,7 @@ void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, co
     if (look.haloWidth > 0)
         for (std::int32_t j = 0; j < coverage.height; ++j)
             for (std::int32_t i = 0; i < coverage.width; ++i) {
+                if (!isIn(image, coverage.x + i, coverage.y + j)) continue;
                 double halo = 0;
                 for (std::int32_t dy = -reach; dy <= reach; ++dy)
                     for (std::int32_t dx = -reach; dx <= reach; ++dx) {
