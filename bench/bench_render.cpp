@@ -79,6 +79,7 @@ public:
         if (!drawable) return drawable.error();
         if (auto done = frames(*drawable, nullptr); !done) return done;
         if (auto done = edits(*drawable); !done) return done;
+        if (auto done = illustrations(*drawable); !done) return done;
         if (options_.isQuick || (scene_.name != kHouse && scene_.name != kTurnedHouse)) return {};
         const auto larger = makeDrawable(scene_, kLargeGrid);
         return larger ? frames(*larger, &*drawable) : larger.error();
@@ -247,6 +248,61 @@ private:
         row.beside.push_back({measured[1], "nothing is rebuilt", Json::object(), false});
         row.beside.push_back({measured[2], "nothing is rebuilt", Json::object(), false});
         report_.rows.push_back(std::move(row));
+        return {};
+    }
+
+    // A lens over the solid model and a highlight in its ghost; the same with the lens in another place and another
+    // object lit before each frame; and the plain frame of as many pixels.
+    Result<void> illustrations(const Drawable& drawable) {
+        const auto plain = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
+        if (!plain) return plain.error();
+        const Vec3d spacing = drawable.grid.spacing();
+        const Vec3i dimension = drawable.grid.dimension();
+        const auto pointAt = [&](double x, double y, double z) {
+            return drawable.grid.origin() +
+                   Vec3d{x * spacing.x * dimension.x, y * spacing.y * dimension.y, z * spacing.z * dimension.z};
+        };
+        const auto lensAt = [&](double share) {
+            const double radius = 0.3 * spacing.x * dimension.x;
+            return render::ClipRegion{{{{}, {render::RoundBody::ball(pointAt(share, 0.4, 0.5), radius)}}},
+                                      render::ClipRegion::Mode::KeepOnly};
+        };
+        render::FrameSpec lens = *plain;
+        lens.passes.push_back(lens.passes.front());
+        lens.passes[1].clips = {lensAt(0.5), render::ClipRegion::plane({0, -1, 0}, pointAt(0, 0.4, 0))};
+        lens.passes[1].join = render::Pass::Join::Replace;
+        render::FrameSpec highlight = *plain;
+        highlight.passes.push_back(highlight.passes.front());
+        for (render::Style& style : highlight.passes[0].styles) style.opacity = std::min(style.opacity, 0.2f);
+        const auto light = [&](render::FrameSpec& spec, std::size_t scalar) {
+            for (render::Style& style : spec.passes[1].styles) style.opacity = 0;
+            spec.passes[1].styles[1 + scalar % (spec.passes[1].styles.size() - 1)].opacity = 1;
+        };
+        light(highlight, 0);
+        render::FrameSpec movedLens = lens, movedHighlight = highlight;
+        int turn = 0;
+        const std::vector<Contestant> contestants{{"SVT, plain frame", [&] { cast(drawable, *plain); }},
+                                                  {"SVT, lens", [&] { cast(drawable, lens); }},
+                                                  {"SVT, lens moved before each frame",
+                                                   [&] {
+                                                       movedLens.passes[1].clips[0] =
+                                                           lensAt(0.5 + 0.005 * (++turn % 8 - 4));
+                                                       cast(drawable, movedLens);
+                                                   }},
+                                                  {"SVT, highlight", [&] { cast(drawable, highlight); }},
+                                                  {"SVT, another object lit before each frame", [&] {
+                                                       light(movedHighlight, static_cast<std::size_t>(++turn % 4));
+                                                       cast(drawable, movedHighlight);
+                                                   }}};
+        const auto measured = measureInTurns(contestants, options_.measure);
+        const std::string size = fmt::format("{}, 1280 x 720 pixels", sizeText(dimension));
+        for (const std::size_t first : {std::size_t{1}, std::size_t{3}}) {
+            Row row = newRow(first == 1 ? "lens frame" : "highlight frame", size);
+            row.ours = measured[first];
+            row.beside.push_back({measured[first + 1], "nothing is rebuilt", Json::object(), false});
+            row.beside.push_back({measured[0], "one pass, the model as it is", Json::object(), false});
+            report_.rows.push_back(std::move(row));
+        }
         return {};
     }
 

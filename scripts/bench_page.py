@@ -43,6 +43,12 @@ GOALS = [
      lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, plane moved"), "{:.2f}", 1.1, 1.0, False),
     ("a style changed before each frame: times as long a frame (1: nothing is rebuilt)",
      lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, a style"), "{:.2f}", 1.1, 1.0, False),
+    ("an S-Lens moved before each frame: times as long a frame (1: nothing is rebuilt)",
+     lambda r, h: ratio(r, f"lens-frame/{h}/{GRID}-{OPAQUE}", "SVT, lens moved"), "{:.2f}", 1.1, 1.0, False),
+    ("another object highlighted before each frame: times as long a frame (1: nothing is rebuilt)",
+     lambda r, h: ratio(r, f"highlight-frame/{h}/{GRID}-{OPAQUE}", "SVT, another object"), "{:.2f}", 1.1, 1.0, False),
+    ("a frame with an S-Lens: times as long as the plain frame",
+     lambda r, h: 1 / ratio(r, f"lens-frame/{h}/{GRID}-{OPAQUE}", "SVT, plain"), "{:.2f}", 1.1, 1.0, False),
 ]
 
 
@@ -168,6 +174,12 @@ def edits(rows):
                   "a style changed before each frame"], lines)
 
 
+def illustrations(rows):
+    lines = [[row["stage"].split()[0], row["input"], row["size"].split(",")[0], seconds(row["ours"]["median_s"])] +
+             [seconds(row["beside"][n]["median_s"]) for n in (0, 1)] for row in rows]
+    return table(["frame", "input", "samples", "time", "changed before each frame", "plain frame"], lines)
+
+
 def stages(rows):
     inputs = list(dict.fromkeys(row["input"] for row in rows))
     names = list(dict.fromkeys(row["stage"] for row in rows))
@@ -241,6 +253,7 @@ SECTIONS = [
     ("Voxelizing", {"voxelize"}, voxels),
     ("Frames", {"opaque frame", "translucent frame"}, frames),
     ("Edits", {"section frame"}, edits),
+    ("Illustrations", {"lens frame", "highlight frame"}, illustrations),
     ("Stages", None, stages),
     ("Scaling", {"scaling", "district"}, scaling),
     ("Counted", {"profile"}, profile),

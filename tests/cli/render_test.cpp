@@ -4,6 +4,7 @@
 // SVT_UPDATE_GOLDEN=1 writes the pictures anew; look at each before it is committed.
 #include "run_command.hpp"
 
+#include <svt/core/test_data_test.hpp>
 #include <svt/render/image.hpp>
 #include <svt/render/png.hpp>
 
@@ -16,7 +17,7 @@ namespace {
 constexpr double kInvisible = 0.005;
 
 struct Picture {
-    const char* name;
+    std::string name;
     std::vector<std::string> options;  ///< of `svt render`
     std::vector<std::string> build;    ///< of `svt build`, besides the spacing
     const char* size = "320x180";
@@ -38,23 +39,15 @@ render::Image<render::Rgba8> differenceOf(const render::Image<render::Rgba8>& a,
     return result;
 }
 
-class PictureTest : public ::testing::TestWithParam<Picture> {};
-
-TEST_P(PictureTest, LooksAsItsReference) {
-    const Picture& picture = GetParam();
-    const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    std::vector<std::string> buildArguments{"build", "house.gml", "-o", "house.svt", "--spacing", "0.06"};
-    buildArguments.insert(buildArguments.end(), picture.build.begin(), picture.build.end());
-    runSvtWell(folder.path(), buildArguments);
+// Draws `picture` of house.svt in `folder` and holds it against its reference.
+void expectAsReference(const std::filesystem::path& folder, const Picture& picture) {
     std::vector<std::string> arguments{"render", "house.svt", "-o", "actual.png", "--size", picture.size};
     arguments.insert(arguments.end(), picture.options.begin(), picture.options.end());
-    runSvtWell(folder.path(), arguments);
+    runSvtWell(folder, arguments);
     const auto actual = render::readPng(folder / "actual.png");
     ASSERT_TRUE(actual) << actual.error().toString();
 
-    const std::filesystem::path reference =
-        std::filesystem::path(SVT_GOLDEN_DIR) / (std::string(picture.name) + ".png");
+    const std::filesystem::path reference = std::filesystem::path(SVT_GOLDEN_DIR) / (picture.name + ".png");
     if (const char* update = std::getenv("SVT_UPDATE_GOLDEN"); update != nullptr && std::string(update) == "1") {
         std::filesystem::create_directories(reference.parent_path());
         std::filesystem::copy_file(folder / "actual.png", reference, std::filesystem::copy_options::overwrite_existing);
@@ -66,13 +59,24 @@ TEST_P(PictureTest, LooksAsItsReference) {
     if (difference.error < kInvisible) return;
     const std::filesystem::path kept = SVT_PICTURE_DIR;
     std::filesystem::create_directories(kept);
-    (void)render::writePng(kept / (std::string(picture.name) + ".actual.png"), *actual);
+    (void)render::writePng(kept / (picture.name + ".actual.png"), *actual);
     if (actual->width() == expected->width() && actual->height() == expected->height())
-        (void)render::writePng(kept / (std::string(picture.name) + ".difference.png"),
-                               differenceOf(*actual, *expected));
+        (void)render::writePng(kept / (picture.name + ".difference.png"), differenceOf(*actual, *expected));
     ADD_FAILURE() << picture.name << ": error " << difference.error << " (mean " << difference.mean << ", worst block "
                   << difference.worstBlock << ", " << difference.differing << " pixels); actual and difference are in "
                   << kept;
+}
+
+class PictureTest : public ::testing::TestWithParam<Picture> {};
+
+TEST_P(PictureTest, LooksAsItsReference) {
+    const Picture& picture = GetParam();
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    std::vector<std::string> buildArguments{"build", "house.gml", "-o", "house.svt", "--spacing", "0.06"};
+    buildArguments.insert(buildArguments.end(), picture.build.begin(), picture.build.end());
+    runSvtWell(folder.path(), buildArguments);
+    expectAsReference(folder.path(), picture);
 }
 
 const std::vector<Picture> kPictures{
@@ -119,7 +123,36 @@ const std::vector<Picture> kPictures{
      {}},
 };
 INSTANTIATE_TEST_SUITE_P(House, PictureTest, ::testing::ValuesIn(kPictures),
-                         [](const auto& test) { return std::string(test.param.name); });
+                         [](const auto& test) { return test.param.name; });
+
+// The scenes of the examples: counterparts of the paper's figures.
+class SceneTest : public ::testing::TestWithParam<const char*> {
+protected:
+    Picture picture() const {
+        const std::string scene = std::string(SVT_SOURCE_DIR) + "/examples/scenes/" + GetParam() + ".scene.json";
+        return {std::string("scene_") + GetParam(), {"--scene", scene}, {}, "256x144"};
+    }
+    TemporaryFolder folder;
+};
+std::string nameOfScene(const ::testing::TestParamInfo<const char*>& info) { return info.param; }
+
+class HouseSceneTest : public SceneTest {};
+TEST_P(HouseSceneTest, LooksAsItsReference) {
+    SVT_NEEDS_DATA(model, "fzk_haus_citygml3.gml");
+    runSvtWell(folder.path(), {"build", model.string(), "-o", "house.svt", "--spacing", "0.04"});
+    expectAsReference(folder.path(), picture());
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, HouseSceneTest,
+                         ::testing::Values("slab_and_beam", "oblique_section", "lens", "beam_cutaway"), nameOfScene);
+
+class TowerSceneTest : public SceneTest {};
+TEST_P(TowerSceneTest, LooksAsItsReference) {
+    runSvtWell(folder.path(), {"sample", "tower", "-o", "tower.gml"});
+    runSvtWell(folder.path(), {"build", "tower.gml", "-o", "house.svt", "--spacing", "0.1"});
+    expectAsReference(folder.path(), picture());
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest, ::testing::Values("two_flats", "two_flats_in_their_tower"),
+                         nameOfScene);
 
 class SmallHouse : public ::testing::Test {
 protected:
