@@ -22,13 +22,15 @@ using volume::Run;
 using volume::Scalar;
 
 constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+constexpr double kDefaultReach = 2;  // voxels
 
 // Voxels of the box around a voxel on each side; nothing where the box is wider than the grid, so that no voxel is
 // deep inside.
 std::optional<Vec3i> reachOf(double thickness, const volume::Grid& grid) {
     Vec3i reach;
     for (int axis = 0; axis < 3; ++axis) {
-        const double steps = std::max(1.0, std::ceil(thickness / grid.spacing()[axis] - 1e-6));
+        const double steps =
+            thickness == 0 ? kDefaultReach : std::max(1.0, std::ceil(thickness / grid.spacing()[axis] - 1e-6));
         if (!(2 * steps + 1 <= grid.dimension()[axis])) return std::nullopt;
         reach[axis] = static_cast<std::int32_t>(steps);
     }
@@ -261,7 +263,7 @@ Result<void> checkInput(const volume::SemanticVolume& volume, std::span<const st
     const std::size_t count = volume.labels.labels.size();
     if (!(options.thickness >= 0) || !std::isfinite(options.thickness))
         return Error(Code::BadArgument,
-                     fmt::format("thickness {}: expected metres, 0 or more; 0 gives one voxel", options.thickness));
+                     fmt::format("thickness {}: expected metres, 0 or more; 0 gives two voxels", options.thickness));
     if (groupOf.size() != count)
         return Error(Code::BadArgument,
                      fmt::format("groups for {} labels, but the volume has {}", groupOf.size(), count));

@@ -28,7 +28,7 @@ enum class ShellLabels : std::uint8_t {
 };
 
 struct ShellOptions {
-    double thickness = 0;           ///< metres, >= 0; along each axis at least one voxel, and whole voxels
+    double thickness = 0;           ///< metres; rounded up to voxels along each axis. 0: two voxels, see extractShell
     std::vector<std::uint32_t> of;  ///< labels; only the groups that have one of them are kept. Empty: all groups
     ShellLabels labels = ShellLabels::Components;
     int threads = 0;                     ///< at most this many; 0: all cores. The result does not depend on it
@@ -36,9 +36,10 @@ struct ShellOptions {
 };
 
 /// The hulls of groups of labels. A voxel of a group stays where the box of +-r voxels around it, r = thickness /
-/// spacing along each axis, rounded up and at least 1, reaches something that is not its group: another group, a label
-/// without group, background, or what lies beyond the grid. All else becomes background. So a hull has no holes, not
-/// even where voxels meet by an edge alone, and all voxels of a group that see another one stay.
+/// spacing along each axis, rounded up, reaches something that is not its group: another group, a label without group,
+/// background, or what lies beyond the grid. All else becomes background. So a hull has no holes, not even where voxels
+/// meet by an edge alone, and all voxels of a group that see another one stay. Of a hull of one voxel the two sides of
+/// an oblique face are often too near for the bricks' planes, and its steps show in pictures; two voxels are enough.
 ///
 /// Background that a group alone encloses (it touches nothing else and does not reach the volume's border) counts as
 /// part of the group, so the walls of its cavities vanish as well.

@@ -53,6 +53,13 @@ SemanticVolume painted(Vec3i n, const Paint& paint, std::vector<volume::Label> l
     return result;
 }
 
+// A hull of one voxel, which is 0.1 m wide.
+ShellOptions thin() {
+    ShellOptions options;
+    options.thickness = 0.1;
+    return options;
+}
+
 // The definition, voxel by voxel: background by flood fill, boxes by looking at each of their voxels.
 std::vector<Scalar> bruteForce(const SemanticVolume& volume, const std::vector<std::uint32_t>& groupOf, Vec3i reach,
                                const std::set<std::uint32_t>& keptGroups) {
@@ -138,11 +145,11 @@ TEST(Shell, IsThatOfVoxelByVoxel) {
         for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
             groupOf.push_back(l % 9 == 8 ? kNoLabel : l % 4);
         ShellOptions options;
-        options.thickness = seed % 2 == 0 ? 0 : 0.2;
+        options.thickness = seed % 3 == 0 ? 0.1 : seed % 3 == 1 ? 0 : 0.25;
         if (seed % 5 == 4) options.of = {2, 5};
         const std::set<std::uint32_t> kept =
             seed % 5 == 4 ? std::set<std::uint32_t>{1, 2} : std::set<std::uint32_t>{0, 1, 2, 3};
-        const std::int32_t reach = seed % 2 == 0 ? 1 : 2;
+        const std::int32_t reach = 1 + static_cast<std::int32_t>(seed % 3);
         const auto shell = extractShell(volume, groupOf, options);
         const auto expected = ColumnVolume::fromDense(n, bruteForce(volume, groupOf, {reach, reach, reach}, kept));
         if (!shell) {
@@ -202,12 +209,12 @@ TEST(Shell, NestedBoxesLeaveTheirHulls) {
                                     return isIn(10, 20) ? 2u : isIn(5, 25) ? 1u : 0u;
                                 },
                                 {label("house", "Building", kNoLabel, 1), label("room", "BuildingRoom", 0, 2)});
-    const auto apart = extractShell(volume, ShellLevel::Component);
+    const auto apart = extractShell(volume, ShellLevel::Component, thin());
     ASSERT_TRUE(apart);
     // The outer box: its outer layer, and the layer around the inner box, edges and corners included.
     EXPECT_EQ(apart->labels.labels[0].voxels, 8000u - 18 * 18 * 18 + 12 * 12 * 12 - 1000);
     EXPECT_EQ(apart->labels.labels[1].voxels, 1000u - 512);
-    const auto together = extractShell(volume, ShellLevel::Building);
+    const auto together = extractShell(volume, ShellLevel::Building, thin());
     ASSERT_TRUE(together);
     EXPECT_EQ(together->labels.labels[0].voxels, 8000u - 18 * 18 * 18);
     EXPECT_EQ(together->labels.labels[1].voxels, 0u);
@@ -225,10 +232,10 @@ TEST(Shell, CavityOfOneGroupHasNoInnerWalls) {
     };
     const auto volume =
         painted({20, 20, 20}, paint, {label("a", "Building", kNoLabel, 1), label("b", "Building", kNoLabel, 2)});
-    const auto whole = extractShell(volume, std::vector<std::uint32_t>{0, 0});
+    const auto whole = extractShell(volume, std::vector<std::uint32_t>{0, 0}, thin());
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->labels.labels[0].voxels, 16u * 16 * 16 - 14 * 14 * 14);
-    const auto apart = extractShell(volume, std::vector<std::uint32_t>{0, 1});
+    const auto apart = extractShell(volume, std::vector<std::uint32_t>{0, 1}, thin());
     ASSERT_TRUE(apart);
     EXPECT_GT(apart->labels.labels[0].voxels, 16u * 16 * 16 - 14 * 14 * 14 + 8 * 8 * 8 - 6 * 6 * 6 - 10);
 }
@@ -284,7 +291,7 @@ TEST(Shell, HouseOfEightRoomsHasItsSteps) {
 TEST(Shell, HouseOfEightRoomsHasKnownHulls) {
     const auto volume = house();
     const auto sum = [&](ShellLevel level, std::uint32_t from, std::uint32_t to) {
-        const auto shell = extractShell(volume, level);
+        const auto shell = extractShell(volume, level, thin());
         EXPECT_TRUE(shell);
         std::uint64_t voxels = 0;
         for (std::uint32_t l = from; l < to; ++l) voxels += shell->labels.labels[l].voxels;
@@ -361,7 +368,7 @@ TEST(Shell, CyclesOfGroupsAndParentsEnd) {
 
 TEST(Shell, OfSelectsGroups) {
     const auto volume = house();
-    ShellOptions options;
+    ShellOptions options = thin();
     options.of = {8};  // a room; its flat stays
     const auto shell = extractShell(volume, ShellLevel::Unit, options);
     ASSERT_TRUE(shell);
@@ -372,7 +379,7 @@ TEST(Shell, OfSelectsGroups) {
 
 TEST(Shell, GroupsHaveOneScalarEach) {
     const auto volume = house();
-    ShellOptions options;
+    ShellOptions options = thin();
     options.labels = ShellLabels::Groups;
     const auto shell = extractShell(volume, ShellLevel::Storey, options);
     ASSERT_TRUE(shell);
