@@ -11,7 +11,7 @@ namespace {
 
 struct Arguments {
     std::filesystem::path input, output;
-    std::string encoding = "gzip";
+    std::string encoding = "gzip", faces = "planes";
     BuildArguments build;
 };
 
@@ -27,6 +27,7 @@ int runConvert(const Arguments& arguments) {
     if (!volume) return fail(volume.error());
     if (extension == ".glb") {
         writers::GlbOptions options;
+        options.faces = arguments.faces == "voxels" ? writers::GlbFaces::Voxels : writers::GlbFaces::Planes;
         options.threads = arguments.build.threads;
         options.progress = progress.get();
         const auto report = writers::writeGlb(*volume, arguments.output, options);
@@ -51,6 +52,11 @@ Run addConvertCommand(CLI::App& app) {
         ->required();
     command->add_option("--encoding", arguments->encoding, "NRRD samples: gzip or raw")
         ->check(CLI::IsMember({"gzip", "raw"}))
+        ->capture_default_str();
+    command
+        ->add_option("--faces", arguments->faces,
+                     "slopes of a .glb: planes (flat, as far as the volume knows them) or voxels (stairs)")
+        ->check(CLI::IsMember({"planes", "voxels"}))
         ->capture_default_str();
     arguments->build.addTo(*command);
     return [arguments] { return runConvert(*arguments); };

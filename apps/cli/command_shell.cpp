@@ -15,7 +15,7 @@ namespace {
 
 struct Arguments {
     std::filesystem::path input, output;
-    std::string level = "building", labels = "components", of;
+    std::string level = "building", labels = "components", faces = "planes", of;
     double thickness = 0;
     BuildArguments build;
     bool levels = false, json = false;
@@ -43,7 +43,8 @@ std::uint64_t filledVoxels(const volume::SemanticVolume& volume) {
     return voxels;
 }
 
-Result<Json> writeShell(const volume::SemanticVolume& shell, const Arguments& arguments, const Progress* progress) {
+Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::SemanticVolume& volume,
+                        const Arguments& arguments, const Progress* progress) {
     Json json;
     if (arguments.output.extension() == ".svt") {
         const auto bytes = volume::writeSvt(shell, arguments.output);
@@ -52,6 +53,8 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const Arguments& ar
         return json;
     }
     writers::GlbOptions options;
+    options.faces = arguments.faces == "voxels" ? writers::GlbFaces::Voxels : writers::GlbFaces::Planes;
+    options.planesOf = &volume;
     options.threads = arguments.build.threads;
     options.progress = progress;
     const auto report = writers::writeGlb(shell, arguments.output, options);
@@ -77,7 +80,7 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const Arguments& ar
     }
     const auto shell = illustrate::extractShell(volume, *illustrate::shellLevelFromName(arguments.level), options);
     if (!shell) return shell.error();
-    auto written = writeShell(*shell, arguments, progress);
+    auto written = writeShell(*shell, volume, arguments, progress);
     if (!written) return written.error();
     Json json;
     json["level"] = arguments.level;
@@ -156,6 +159,12 @@ Run addShellCommand(CLI::App& app) {
                      "whose label the voxels keep: that of their component, or one per group")
         ->group("Shell")
         ->check(CLI::IsMember({"components", "groups"}))
+        ->capture_default_str();
+    command
+        ->add_option("--faces", arguments->faces,
+                     "slopes of a .glb: planes (flat, as far as the volume knows them) or voxels (stairs)")
+        ->group("Output")
+        ->check(CLI::IsMember({"planes", "voxels"}))
         ->capture_default_str();
     command->add_flag("--levels", arguments->levels, "list the levels of the model and write nothing")->group("Output");
     command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");

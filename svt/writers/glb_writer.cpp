@@ -1,7 +1,9 @@
 #include <svt/writers/glb_writer.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/parallel.hpp>
 #include <svt/writers/label_surface.hpp>
+#include <svt/writers/slope_vertices.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,9 +37,31 @@ std::uint64_t indexBytes(const LabelSurface& surface) {
     return (bytes + 3) / 4 * 4;
 }
 
-Vec3f positionOf(Vec3i vertex, Vec3d spacing) {
-    return {static_cast<float>(0.5 * vertex.x * spacing.x), static_cast<float>(0.5 * vertex.y * spacing.y),
-            static_cast<float>(0.5 * vertex.z * spacing.z)};
+using Positions = std::vector<Vec3f>;
+
+// Metres from the grid's lower corner along its axes.
+Positions positionsOf(const LabelSurface& surface, Vec3d spacing, const SlopeVertices* slopes) {
+    std::vector<Vec3d> places;
+    places.reserve(surface.vertices.size());
+    for (const Vec3i vertex : surface.vertices) places.push_back({0.5 * vertex.x, 0.5 * vertex.y, 0.5 * vertex.z});
+    if (slopes != nullptr) {
+        for (std::uint32_t c = 0; c < surface.cornerCount; ++c) {
+            const Vec3i vertex = surface.vertices[c];
+            places[c] = slopes->place({vertex.x / 2, vertex.y / 2, vertex.z / 2});
+        }
+        for (std::size_t m = 0; m < surface.middles.size(); ++m) {
+            Vec3d sum{};
+            for (const std::uint32_t corner : surface.middles[m]) sum = sum + places[corner];
+            places[surface.cornerCount + m] = sum * 0.25;
+        }
+    }
+    Positions positions;
+    positions.reserve(places.size());
+    for (const Vec3d place : places) {
+        const Vec3d metres = scaled(place, spacing);
+        positions.push_back({static_cast<float>(metres.x), static_cast<float>(metres.y), static_cast<float>(metres.z)});
+    }
+    return positions;
 }
 
 // sRGB to linear, to four digits, so that libraries which differ in the last bit give the same file.
@@ -102,17 +127,17 @@ Json nodesOf(const volume::SemanticVolume& volume, std::span<const LabelSurface>
 }
 
 // Accessors 2 m (positions) and 2 m + 1 (indices) of mesh m.
-Json accessorsOf(std::span<const LabelSurface> surfaces, Vec3d spacing) {
+Json accessorsOf(std::span<const LabelSurface> surfaces, std::span<const Positions> positions) {
     Json accessors = Json::array();
     std::uint64_t positionOffset = 0, indexOffset = 0;
-    for (const LabelSurface& surface : surfaces) {
-        Vec3i low = surface.vertices.front(), high = low;
-        for (const Vec3i vertex : surface.vertices)
+    for (std::size_t m = 0; m < surfaces.size(); ++m) {
+        const LabelSurface& surface = surfaces[m];
+        Vec3f min = positions[m].front(), max = min;
+        for (const Vec3f position : positions[m])
             for (int axis = 0; axis < 3; ++axis) {
-                low[axis] = std::min(low[axis], vertex[axis]);
-                high[axis] = std::max(high[axis], vertex[axis]);
+                min[axis] = std::min(min[axis], position[axis]);
+                max[axis] = std::max(max[axis], position[axis]);
             }
-        const Vec3f min = positionOf(low, spacing), max = positionOf(high, spacing);
         accessors.push_back({{"bufferView", 0},
                              {"byteOffset", positionOffset},
                              {"componentType", kFloat},
@@ -141,7 +166,7 @@ Json assetOf(const volume::SemanticVolume& volume) {
 }
 
 std::string sceneText(const volume::SemanticVolume& volume, std::span<const LabelSurface> surfaces,
-                      std::uint64_t positionBytes, std::uint64_t binBytes) {
+                      std::span<const Positions> positions, std::uint64_t positionBytes, std::uint64_t binBytes) {
     Json json;
     json["asset"] = assetOf(volume);
     json["scene"] = 0;
@@ -157,7 +182,7 @@ std::string sceneText(const volume::SemanticVolume& volume, std::span<const Labe
     }
     json["meshes"] = std::move(meshes);
     json["materials"] = std::move(materials);
-    json["accessors"] = accessorsOf(surfaces, volume.grid.spacing());
+    json["accessors"] = accessorsOf(surfaces, positions);
     json["bufferViews"] = Json::array({{{"buffer", 0},
                                         {"byteOffset", 0},
                                         {"byteLength", positionBytes},
@@ -179,13 +204,6 @@ Result<void> writeWords(AtomicFile& file, std::initializer_list<std::uint64_t> w
     return file.write(std::as_bytes(std::span(values)));
 }
 
-Result<void> writePositions(AtomicFile& file, const LabelSurface& surface, Vec3d spacing) {
-    std::vector<Vec3f> positions;
-    positions.reserve(surface.vertices.size());
-    for (const Vec3i vertex : surface.vertices) positions.push_back(positionOf(vertex, spacing));
-    return file.write(std::as_bytes(std::span(positions)));
-}
-
 Result<void> writeIndices(AtomicFile& file, const LabelSurface& surface) {
     if (!isShort(surface)) return file.write(std::as_bytes(std::span(surface.triangles)));
     std::vector<std::uint16_t> indices;
@@ -196,19 +214,48 @@ Result<void> writeIndices(AtomicFile& file, const LabelSurface& surface) {
     return file.write(std::as_bytes(std::span(indices)));
 }
 
+// Positions of all surfaces.
+Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volume,
+                                             std::span<const LabelSurface> surfaces, const GlbOptions& options) {
+    const volume::SemanticVolume& source = options.planesOf != nullptr ? *options.planesOf : volume;
+    const std::vector<std::uint32_t> labelOfScalar = source.labels.labelOfScalar();
+    volume::BrickVolume bricks;
+    std::optional<SlopeVertices> slopes;
+    if (options.faces == GlbFaces::Planes) {
+        auto made = volume::BrickVolume::fromColumns(source.columns, options.threads);
+        if (!made) return made.error();
+        bricks = std::move(*made);
+        slopes.emplace(bricks, labelOfScalar);
+    }
+    std::vector<Positions> positions(surfaces.size());
+    parallelFor(surfaces.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            positions[m] = positionsOf(surfaces[m], volume.grid.spacing(), slopes ? &*slopes : nullptr);
+    });
+    return positions;
+}
+
+Result<void> checkDimension(Vec3i expected, Vec3i found) {
+    if (expected == found) return {};
+    return Error(Code::BadArgument, fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}",
+                                                expected.x, expected.y, expected.z, found.x, found.y, found.z));
+}
+
 }  // namespace
 
 Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                            const GlbOptions& options) {
-    const Vec3i dimension = volume.grid.dimension(), columns = volume.columns.dimension();
-    if (dimension != columns)
-        return Error(Code::BadArgument,
-                     fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}", dimension.x,
-                                 dimension.y, dimension.z, columns.x, columns.y, columns.z));
+    for (const volume::SemanticVolume* v : {&volume, options.planesOf})
+        if (v != nullptr)
+            if (auto checked = checkDimension(volume.grid.dimension(), v->columns.dimension()); !checked)
+                return checked.error();
     const auto surfaces = labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
                                         {options.maxTriangles, options.threads, options.progress});
     if (!surfaces) return surfaces.error();
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
+
+    const auto positions = placeVertices(volume, *surfaces, options);
+    if (!positions) return positions.error();
 
     GlbReport report;
     std::uint64_t positionBytes = 0, binBytes = 0;
@@ -220,7 +267,7 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
     }
     binBytes += positionBytes;
     report.meshes = surfaces->size();
-    const std::string text = sceneText(volume, *surfaces, positionBytes, binBytes);
+    const std::string text = sceneText(volume, *surfaces, *positions, positionBytes, binBytes);
     const std::uint64_t length = 12 + 8 + text.size() + 8 + binBytes;
     if (length > 0xFFFFFFFFu)
         return Error(
@@ -234,7 +281,7 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
     if (done) done = file->write(text);
     if (done) done = writeWords(*file, {binBytes, kBinChunk});
     for (std::size_t m = 0; done && m < surfaces->size(); ++m)
-        done = writePositions(*file, (*surfaces)[m], volume.grid.spacing());
+        done = file->write(std::as_bytes(std::span((*positions)[m])));
     for (std::size_t m = 0; done && m < surfaces->size(); ++m) done = writeIndices(*file, (*surfaces)[m]);
     if (!done) return done.error();
     const auto bytes = file->commit();

@@ -25,7 +25,17 @@
 
 namespace svt::writers {
 
+/// Where the corners of surfaces are.
+enum class GlbFaces : std::uint8_t {
+    Planes,  ///< on the oblique planes that the voxels came from, where these are known; see SlopeVertices
+    Voxels   ///< where the voxels' are: slopes are stairs
+};
+
 struct GlbOptions {
+    GlbFaces faces = GlbFaces::Planes;
+    /// The volume that the one to write was cut out of, such as that of a shell, on the same grid: its planes count,
+    /// since a thin hull has few of its own. Null: those of the volume itself.
+    const volume::SemanticVolume* planesOf = nullptr;
     std::uint64_t maxTriangles = std::uint64_t{1} << 27;  ///< a larger surface is refused
     int threads = 0;                     ///< at most this many; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;  ///< stage "surface"
@@ -40,11 +50,11 @@ struct GlbReport {
 };
 
 /// Writes the surfaces of all labels with voxels (see labelSurfaces: voxel faces merged into rectangles, closed per
-/// label) as one .glb, all or nothing. Equal volumes give equal bytes.
-/// Cost and memory: those of labelSurfaces; the file itself is not held.
-/// \return figures, or CannotWrite, DiskFull, Cancelled; NothingSelected where no label has voxels; GridTooLarge where
-///         there are too many triangles or the file would reach 4 GiB, which a .glb cannot; BadArgument where grid and
-///         columns differ in dimension
+/// label; then the corners on slopes are moved by at most a voxel) as one .glb, all or nothing. Equal volumes give
+/// equal bytes. Cost and memory: those of labelSurfaces; the file itself is not held. \return figures, or CannotWrite,
+/// DiskFull, Cancelled; NothingSelected where no label has voxels; GridTooLarge where
+///         there are too many triangles or the file would reach 4 GiB, which a .glb cannot; BadArgument where grid,
+///         columns or `planesOf` differ in dimension
 [[nodiscard]] Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                          const GlbOptions& options = {});
 

@@ -303,6 +303,84 @@ TEST_F(GlbWriter, CoordinatesLeadBackToTheWorld) {
     EXPECT_EQ(glb.indices(1).size(), 36u);
 }
 
+// A slab under a slope: its oblique faces get flat, and its area that of the slope; stairs have that of two sides.
+TEST_F(GlbWriter, SlopesAreFlat) {
+    const Vec3i n{40, 64, 60};
+    SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    volume.labels.labels.resize(1);
+    volume.labels.labels[0].id = "slab";
+    volume.labels.labels[0].first = volume.labels.labels[0].count = 1;
+    // Between two planes that rise by 0.6 along y and 0.1 along x, cut off at the sides.
+    std::vector<Scalar> dense;
+    for (std::int32_t k = 0; k < n.z; ++k)
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
+                const double height = k + 0.5 - 0.6 * (j + 0.5) - 0.1 * (i + 0.5);
+                const bool isIn = i >= 4 && i < 36 && j >= 4 && j < 60 && height > 3.3 && height < 12.3;
+                dense.push_back(isIn ? 1 : 0);
+            }
+    volume.columns = ColumnVolume::fromDense(n, dense);
+    std::array<double, 2> area{}, cubic{};
+    for (const bool hasPlanes : {false, true}) {
+        GlbOptions options;
+        options.faces = hasPlanes ? GlbFaces::Planes : GlbFaces::Voxels;
+        ASSERT_TRUE(writeGlb(volume, folder / "v.glb", options));
+        const Glb glb = Glb::read(folder / "v.glb");
+        const auto p = glb.numbers<float>(0, "VEC3", 5126, 34962);
+        const auto indices = glb.indices(1);
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (std::size_t t = 0; t < indices.size(); t += 3) {
+            triangles.push_back({indices[t], indices[t + 1], indices[t + 2]});
+            std::array<Vec3d, 3> c;
+            for (std::size_t v = 0; v < 3; ++v)
+                c[v] = {p[3 * indices[t + v]], p[3 * indices[t + v] + 1], p[3 * indices[t + v] + 2]};
+            area[hasPlanes] += length(cross(c[1] - c[0], c[2] - c[0])) / 2;
+            cubic[hasPlanes] += dot(c[0], cross(c[1], c[2])) / 6;
+        }
+        EXPECT_TRUE(isClosed(triangles));
+    }
+    // Two slopes of 3.2 x 5.6 m in plan, and four upright sides 0.9 m high.
+    const double exact = 2 * 3.2 * 5.6 * std::sqrt(1 + 0.36 + 0.01) + 0.9 * 2 * (3.2 + 5.6);
+    EXPECT_GT(area[0], 1.25 * exact);
+    EXPECT_NEAR(area[1], exact, 0.02 * exact);
+    EXPECT_NEAR(cubic[1], 3.2 * 5.6 * 0.9, 0.01 * 3.2 * 5.6 * 0.9);
+}
+
+// A thin layer of a volume has the volume's planes: its corners are where those of the volume are.
+TEST_F(GlbWriter, PlanesOfAnotherVolume) {
+    const Vec3i n{24, 24, 24};
+    SemanticVolume whole = volume::test::sampleVolume(n), layer = whole;
+    std::vector<Scalar> dense, thin;
+    for (std::int32_t k = 0; k < n.z; ++k)
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
+                const double height = k - 0.7 * j - 0.2;
+                dense.push_back(height < 0 ? 1 : 0);
+                thin.push_back(height < 0 && height > -1.5 ? 1 : 0);
+            }
+    whole.columns = ColumnVolume::fromDense(n, dense);
+    layer.columns = ColumnVolume::fromDense(n, thin);
+    GlbOptions options;
+    options.planesOf = &whole;
+    ASSERT_TRUE(writeGlb(layer, folder / "v.glb", options));
+    const Glb glb = Glb::read(folder / "v.glb");
+    const auto p = glb.numbers<float>(0, "VEC3", 5126, 34962);
+    const Vec3d spacing = layer.grid.spacing();
+    std::size_t onPlane = 0, between = 0;
+    for (std::size_t v = 0; v < p.size(); v += 3) {
+        // From the plane through the upper side, in voxels.
+        const double height = p[v + 2] / spacing.z - 0.5 - 0.7 * (p[v + 1] / spacing.y - 0.5) - 0.2;
+        onPlane += std::abs(height) < 0.2 ? 1 : 0;
+        between += height > 0.25 ? 1 : 0;
+    }
+    EXPECT_EQ(between, 0u);
+    EXPECT_GT(onPlane, 2 * std::size_t(n.y) - 10);
+    whole.columns = ColumnVolume::fromDense({2, 2, 2}, std::vector<Scalar>(8, 1));
+    EXPECT_EQ(writeGlb(layer, folder / "v.glb", options).error().code(), Code::BadArgument);
+}
+
 TEST_F(GlbWriter, ManyVerticesGetWideIndices) {
     // A chequered block: every second voxel by itself.
     const Vec3i n{40, 40, 40};

@@ -267,6 +267,7 @@ public:
         LabelSurface surface;
         surface.label = rectangles_.front().label;
         for (const std::uint64_t packed : corners_[2]) surface.vertices.push_back(kOrders[2].unpack(packed) * 2);
+        surface.cornerCount = static_cast<std::uint32_t>(surface.vertices.size());
         for (const Rectangle& r : rectangles_) {
             border_.clear();
             const auto corners = cornersOf(r);
@@ -278,6 +279,8 @@ public:
             }
             const auto middle = static_cast<std::uint32_t>(surface.vertices.size());
             surface.vertices.push_back(corners[0] + corners[2]);
+            surface.middles.push_back(
+                {vertexAt(corners[0]), vertexAt(corners[1]), vertexAt(corners[2]), vertexAt(corners[3])});
             for (std::size_t b = 0; b < border_.size(); ++b)
                 surface.triangles.push_back({middle, border_[b], border_[(b + 1) % border_.size()]});
         }

@@ -25,6 +25,8 @@ struct LabelSurface {
     /// Twice the place in voxels from the volume's lower corner: the corner (i, j, k) of voxel (i, j, k) is at
     /// (2 i, 2 j, 2 k), its middle at (2 i + 1, ...).
     std::vector<Vec3i> vertices;
+    std::uint32_t cornerCount = 0;  ///< the first so many vertices are corners of voxels, the others middles of fans
+    std::vector<std::array<std::uint32_t, 4>> middles;  ///< of each middle: the corners of its rectangle
     /// Counter-clockwise from outside.
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
