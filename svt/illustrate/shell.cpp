@@ -346,7 +346,9 @@ Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume
     Progress::tell(options.progress, "shell", 1);
     if (std::none_of(shell.labels.labels.begin(), shell.labels.labels.end(),
                      [](const volume::Label& label) { return label.voxels > 0; }))
-        return Error(Code::NothingSelected, "the shell has no voxels; select features that have some");
+        return Error(
+            Code::NothingSelected,
+            "the shell has no voxels: no group holds what was selected; select what is in a group, such as 'under ID'");
     return shell;
 }
 

@@ -17,20 +17,20 @@ using Holders = std::array<std::uint32_t, kShellLevels.size()>;
 constexpr std::array<std::string_view, kShellLevels.size()> kNames{"component", "room", "unit", "storey", "building"};
 constexpr std::array<std::string_view, kShellLevels.size()> kPlurals{"components", "rooms", "units", "storeys",
                                                                      "buildings"};
-constexpr std::size_t kComponent = 0, kRoom = 1, kUnit = 2, kBuilding = 4, kLevels = kShellLevels.size();
+constexpr std::size_t kComponent = 0, kRoom = 1, kUnit = 2, kStorey = 3, kBuilding = 4, kLevels = kShellLevels.size();
 
 // Level of a feature that holds others; kComponent for all others.
 std::size_t levelOf(const model::QueryRow& row, std::span<const model::QueryRow> rows) {
     switch (model::classRank(row.className)) {
         case model::ClassRank::Room: return kRoom;
         case model::ClassRank::Unit: return kUnit;
-        case model::ClassRank::Storey: return 3;
+        case model::ClassRank::Storey: return kStorey;
         case model::ClassRank::Building: {
             const bool isPart = row.className == "BuildingPart" && row.parent < rows.size() &&
                                 model::classRank(rows[row.parent].className) == model::ClassRank::Building;
             return isPart ? kUnit : kBuilding;
         }
-        default: return model::query::isStorey(row) ? 3 : kComponent;
+        default: return model::query::isStorey(row) ? kStorey : kComponent;
     }
 }
 
@@ -54,7 +54,7 @@ public:
 private:
     enum class State : std::uint8_t { New, Open, Done };
 
-    // Above 0: the parent, 1...: the groups.
+    // The parent is number 0, the groups follow.
     [[nodiscard]] std::uint32_t above(std::uint32_t l, std::size_t number) const {
         return number == 0 ? rows_[l].parent : rows_[l].groups[number - 1];
     }
