@@ -52,6 +52,12 @@ struct QueryRow {
     std::uint64_t voxels = 0;
 };
 
+namespace query {
+/// True for a Storey and for a group whose function, class or usage speaks of a storey or Geschoss.
+[[nodiscard]] bool isStorey(const QueryRow& row);
+
+}  // namespace query
+
 /// A parsed query. Copyable, immutable, safe to use from several threads.
 class Query {
 public:

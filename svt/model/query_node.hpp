@@ -36,8 +36,5 @@ using Node = Query::Node;
 [[nodiscard]] bool isSameWord(std::string_view a, std::string_view b) noexcept;
 [[nodiscard]] bool containsWord(std::string_view text, std::string_view word) noexcept;
 
-/// True for a Storey and for a group whose function, class or usage speaks of a storey or Geschoss.
-[[nodiscard]] bool isStorey(const QueryRow& row);
-
 }  // namespace query
 }  // namespace svt::model
