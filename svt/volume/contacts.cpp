@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
+#include <tuple>
 
 namespace svt::volume {
 namespace {
@@ -21,6 +21,26 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
 std::uint64_t pairOf(std::uint32_t a, std::uint32_t b) noexcept {
     return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
 }
+
+// Contacts by pair, in order of first mention.
+class ContactSum {
+public:
+    Contact& of(std::uint64_t pair) {
+        const auto a = static_cast<std::uint32_t>(pair >> 32), b = static_cast<std::uint32_t>(pair & 0xFFFFFFFFu);
+        const std::uint32_t number = index_.findOrAdd(
+            mix(0, pair), [&](std::uint32_t n) { return list_[n].a == a && list_[n].b == b; },
+            [&] {
+                list_.push_back({a, b, 0, {}});
+                return static_cast<std::uint32_t>(list_.size() - 1);
+            });
+        return list_[number];
+    }
+    [[nodiscard]] std::vector<Contact> take() { return std::move(list_); }
+
+private:
+    HashIndex index_;
+    std::vector<Contact> list_;
+};
 
 // Faces of one pair in a cell that look the same way.
 struct Side {
@@ -103,7 +123,7 @@ public:
 
     using Columns = std::array<std::span<const Run>, kFootprint * kFootprint>;
 
-    void measure(const Columns& columns, std::uint64_t times, std::map<std::uint64_t, Contact>& contacts) {
+    void measure(const Columns& columns, std::uint64_t times, ContactSum& contacts) {
         index_.clear();
         pairs_.clear();
         for (std::int32_t y = 1; y < kFootprint; ++y)
@@ -115,7 +135,7 @@ public:
                 addBetween(columns[std::size_t(x + kFootprint * (y - 1))], own, 1, at);
             }
         for (const CellPair& pair : pairs_) {
-            Contact& contact = contacts[pair.pair];
+            Contact& contact = contacts.of(pair.pair);
             for (std::size_t axis = 0; axis < 3; ++axis)
                 contact.faces[axis] += times * (pair.sides[2 * axis].count + pair.sides[2 * axis + 1].count);
             contact.area += double(times) * CellShape(pair, faceArea_).area();
@@ -216,15 +236,9 @@ std::vector<Contact> contactsOfRegion(const ColumnVolume& columns, Vec3i corner,
                 });
             ++times[number];
         }
-    std::map<std::uint64_t, Contact> contacts;
+    ContactSum contacts;
     for (std::size_t n = 0; n < footprints.size(); ++n) meter.measure(footprints[n], times[n], contacts);
-    std::vector<Contact> list;
-    for (auto& [pair, contact] : contacts) {
-        contact.a = static_cast<std::uint32_t>(pair >> 32);
-        contact.b = static_cast<std::uint32_t>(pair & 0xFFFFFFFFu);
-        list.push_back(contact);
-    }
-    return list;
+    return contacts.take();
 }
 
 }  // namespace
@@ -241,18 +255,18 @@ std::vector<Contact> contactsOf(const ColumnVolume& columns, const Grid& grid, c
             regions[r] = contactsOfRegion(columns, corner, meter);
         }
     });
-    std::map<std::uint64_t, Contact> all;
-    for (const std::vector<Contact>& region : regions)
+    ContactSum all;
+    for (std::vector<Contact>& region : regions) {
         for (const Contact& part : region) {
-            Contact& contact = all[pairOf(part.a, part.b)];
-            contact.a = part.a;
-            contact.b = part.b;
+            Contact& contact = all.of(pairOf(part.a, part.b));
             contact.area += part.area;
             for (std::size_t axis = 0; axis < 3; ++axis) contact.faces[axis] += part.faces[axis];
         }
-    std::vector<Contact> contacts;
-    contacts.reserve(all.size());
-    for (const auto& [pair, contact] : all) contacts.push_back(contact);
+        region = {};
+    }
+    std::vector<Contact> contacts = all.take();
+    std::sort(contacts.begin(), contacts.end(),
+              [](const Contact& a, const Contact& b) { return std::tie(a.a, a.b) < std::tie(b.a, b.b); });
     return contacts;
 }
 

@@ -46,7 +46,7 @@ struct Contact {
 /// All pairs of labels with voxels side by side (sharing a face), ordered by (a, b). Scalars of one label are one body.
 /// The sum over a label's contacts is its surface.
 /// \param threads  0: all cores; the result does not depend on it
-/// Cost: O(runs of the distinct 9 x 9 footprints of columns in each tile). Memory: the result of each tile.
+/// Cost: O(runs of the distinct 9 x 9 footprints of columns in each tile). Memory: about twice the result.
 [[nodiscard]] std::vector<Contact> contactsOf(const ColumnVolume& columns, const Grid& grid, const LabelTable& labels,
                                               int threads = 0);
 
