@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <algorithm>
+#include <random>
+#include <string>
 
 namespace svt::illustrate {
 namespace {
@@ -155,6 +157,29 @@ TEST(Owners, SayWhatIsWrongAndWhere) {
     }
     EXPECT_NE(errorOf("flatt,Bob").message().find("did you mean 'flat'?"), std::string::npos);
     EXPECT_NE(errorOf("a,Ada\nflat,Bob").message().find("in line 1"), std::string::npos);
+}
+
+TEST(Owners, AnyTextIsATableOrAnErrorInOneOfItsLines) {
+    const auto volume = threeRooms();
+    const char* const words[] = {"a",   "flat", "b", "c",          ",",   ",",    ";",    "\"", "\n",          "\n",
+                                 "Ada", "Bob",  " ", "class=room", "all", "\r\n", "\xFF", "(",  "id=\"\"a\"\""};
+    std::mt19937 random(7);
+    int tables = 0;
+    for (int round = 0; round < 20000; ++round) {
+        std::string text;
+        for (std::uint32_t word = random() % 12; word > 0; --word) text += words[random() % std::size(words)];
+        const auto table = parseOwners(text, "t.csv", volume.labels);
+        if (!table) {
+            const auto lines = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+            EXPECT_LE(table.error().where().line, lines) << text;
+            EXPECT_FALSE(table.error().message().empty());
+            continue;
+        }
+        ++tables;
+        EXPECT_FALSE(table->names.empty());
+        for (const std::uint32_t owner : table->ofLabel) EXPECT_TRUE(owner == kNoOwner || owner < table->names.size());
+    }
+    EXPECT_GT(tables, 100);
 }
 
 }  // namespace
