@@ -2,6 +2,8 @@
 #include "run_command.hpp"
 #include "small_model.hpp"
 
+#include <svt/core/test_data_test.hpp>
+
 #include <fmt/format.h>
 
 #include <map>
@@ -208,6 +210,41 @@ TEST(QueryReports, AreTheSameForAnyNumberOfThreads) {
     EXPECT_GT(one.size(), 1000u);
     EXPECT_EQ(report("2"), one);
     EXPECT_EQ(report("7"), one);
+}
+
+TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
+    SVT_NEEDS_DATA(model, "fzk_haus_citygml3.gml");
+    const TemporaryFolder folder;
+    (void)runSvtWell(folder.path(), {"build", model.string(), "-o", "f.svt", "--spacing", "0.02"});
+    std::string table;
+    for (const char* room : {"Schlafzimmer", "Bad", "Buero", "Wohnen", "Flur", "K\u00fcche", "Galerie"})
+        table += fmt::format("\"name=\"\"{}\"\"\",owner of {}\n", room, room);
+    writeText(folder / "owners.csv", table);
+    const json report = runSvtForJson(folder.path(), {"query", "f.svt", "all", "--owners", "owners.csv", "--json"});
+    double own = 0, all = report["nobody"].get<double>() + report["untouched"].get<double>(), shares = 0;
+    for (const json& owner : report["owners"]) {
+        own += owner["own"].get<double>();
+        all += owner["total"].get<double>();
+    }
+    // Stairs, rafters and purlins stand in rooms.
+    EXPECT_NEAR(own, 470.83, 0.004 * 470.83);
+    for (const json& component : report["components"])
+        for (const json& share : component["shares"]) shares += share["volume"].get<double>();
+    EXPECT_NEAR(own + shares + report["untouched"].get<double>(), all, 1e-9 * all);
+    const json known =
+        runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--with", "surface", "--json"});
+    // 12 x 10 x 0.2 m.
+    EXPECT_NEAR(known[0]["surface"]["area"].get<double>(), 248.8, 0.002 * 248.8);
+    // The rooms of the ground floor stand on it: their floors.
+    const json neighbors =
+        runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--neighbours", "--json"});
+    double floors = 0, contacts = 0;
+    for (const json& row : neighbors) {
+        contacts += row["area"].get<double>();
+        if (row["neighbourClass"] == "BuildingRoom") floors += row["area"].get<double>();
+    }
+    EXPECT_NEAR(contacts, known[0]["surface"]["area"].get<double>(), 1e-9 * contacts);
+    EXPECT_NEAR(floors, 101.33, 0.01 * 101.33);
 }
 
 }  // namespace
