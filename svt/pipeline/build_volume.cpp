@@ -116,7 +116,7 @@ void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimP
     });
 }
 
-// Whether the box of an object meets the grid's voxels; all corners on one far side of an axis: it does not.
+// Whether the box of an object, along the grid's axes, meets its voxels.
 bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshScene& scene, const volume::Grid& grid) {
     Box3d box;
     for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + scene.origin));
