@@ -184,7 +184,8 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
 }
 
 Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const BuildArguments& arguments,
-                                          const Progress* progress, Diagnostics& diagnostics) {
+                                          const Progress* progress, Diagnostics& diagnostics,
+                                          const volume::Grid* grid) {
     std::array<char, 4096> head{};
     std::ifstream stream(input, std::ios::binary);
     stream.read(head.data(), head.size());
@@ -194,6 +195,7 @@ Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, co
     auto options = arguments.options(sheet);
     if (!options) return options.error();
     options->progress = progress;
+    if (grid != nullptr) options->grid = *grid;
     auto output = pipeline::buildVolume(std::span(&input, 1), *options, &diagnostics);
     if (!output) return output.error();
     return std::move(output->volume);

@@ -56,9 +56,10 @@ struct BuildArguments {
 };
 
 /// A volume from a `.svt` or, by building it, from a model file.
+/// \param grid  of another volume that a model is built on; null: as the arguments say
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const BuildArguments& arguments, const Progress* progress,
-                                                        Diagnostics& diagnostics);
+                                                        Diagnostics& diagnostics, const volume::Grid* grid = nullptr);
 
 /// "800,700,400" or "800x700x400" -> three numbers; one number stands for all three.
 [[nodiscard]] Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std::string_view unit);

@@ -13,6 +13,7 @@ namespace {
 struct Arguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
+    std::filesystem::path gridOf;
     BuildArguments build;
     bool json = false, verbose = false, strict = false;
 };
@@ -25,10 +26,24 @@ void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, c
                spacing.y, spacing.z, double(fileBytes) / 1000, built.report.seconds.total);
 }
 
+Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const BuildArguments& build) {
+    if (!build.dimension.empty() || !build.spacing.empty() || build.frame != "world")
+        return Error(Code::BadArgument,
+                     "--grid-of excludes --dimension, --spacing and --frame; the other volume has them already");
+    const auto volume = volume::readSvt(path);
+    if (!volume) return volume.error();
+    return volume->grid;
+}
+
 int runBuild(const Arguments& arguments) {
     std::optional<pipeline::StyleSheet> sheet;
     auto options = arguments.build.options(sheet);
     if (!options) return fail(options.error());
+    if (!arguments.gridOf.empty()) {
+        auto grid = gridOfVolume(arguments.gridOf, arguments.build);
+        if (!grid) return fail(grid.error());
+        options->grid = *grid;
+    }
     Diagnostics diagnostics;
     const auto start = std::chrono::steady_clock::now();
     Result<pipeline::BuildOutput> built = [&] {
@@ -80,6 +95,11 @@ Run addBuildCommand(CLI::App& app) {
         ->required();
     command->add_option("-o,--output", arguments->output, "the volume to write")->required()->type_name("F.svt");
     arguments->build.addTo(*command);
+    command
+        ->add_option("--grid-of", arguments->gridOf,
+                     "samples where this volume has them, so that the two can be compared voxel by voxel")
+        ->group("Grid")
+        ->type_name("F.svt");
     command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");
     command
         ->add_flag("--strict", arguments->strict,

@@ -162,8 +162,8 @@ ShellHierarchy ShellHierarchy::ofVolume(const volume::SemanticVolume& volume, in
         const std::size_t low = lowest(byTree[b]);
         if (low < kBuilding) touched[hierarchy.component_[a]].push_back(byTree[b][low]);
     };
-    for (const volume::Contact& contact :
-         volume::labelContacts(volume.columns, volume.labels.labelOfScalar(), threads)) {
+    for (const volume::Contact& contact : volume::contactsOf(volume.columns, volume.grid, volume.labels, threads)) {
+        if (contact.b == kNoLabel) continue;
         touch(contact.a, contact.b);
         touch(contact.b, contact.a);
     }

@@ -50,7 +50,7 @@ struct ShellStep {
 class ShellHierarchy {
 public:
     /// \param threads  0: all cores; the result does not depend on it
-    /// Cost: that of volume::labelContacts, and O(labels + memberships).
+    /// Cost: that of volume::contactsOf, and O(labels + memberships).
     [[nodiscard]] static ShellHierarchy ofVolume(const volume::SemanticVolume& volume, int threads = 0);
 
     /// Entry l = label that stands for the group of label l at this level: its room, flat, storey or building, else its

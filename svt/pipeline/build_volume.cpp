@@ -116,6 +116,36 @@ void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimP
     });
 }
 
+// Whether the box of an object, along the grid's axes, meets its voxels.
+bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshScene& scene, const volume::Grid& grid) {
+    Box3d box;
+    for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + scene.origin));
+    const Vec3i n = grid.dimension();
+    return box.overlaps({{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}});
+}
+
+// Says which objects lie outside of a grid that was made for another model; an error where all do.
+Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshScene& scene, const volume::Grid& grid,
+                            Diagnostics* log) {
+    std::size_t outside = 0;
+    for (const mesh::ObjectMesh& object : scene.objects) {
+        if (meetsGrid(object, scene, grid)) continue;
+        ++outside;
+        const model::Feature& feature = model.features[object.feature];
+        if (log != nullptr)
+            log->add(Severity::Warning, Code::NoGeometry, "no part of it lies in the given grid",
+                     {model.source, feature.line, 0, feature.id});
+    }
+    if (outside < scene.objects.size()) return {};
+    const Vec3d low = scene.bounds.min + scene.origin, high = scene.bounds.max + scene.origin;
+    return Error(
+        Code::EmptyModel,
+        fmt::format("no part of the model lies in the given grid: the model reaches from ({:.3f}, {:.3f}, "
+                    "{:.3f}) to ({:.3f}, {:.3f}, {:.3f}), the grid begins at ({:.3f}, {:.3f}, {:.3f}); both "
+                    "must be of one place and CRS",
+                    low.x, low.y, low.z, high.x, high.y, high.z, grid.origin().x, grid.origin().y, grid.origin().z));
+}
+
 }  // namespace
 
 Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads,
@@ -137,6 +167,7 @@ Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> f
 }
 
 Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions& options) {
+    if (options.grid) return *options.grid;
     Box3d box;
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
     if (options.frame == FrameKind::Building) {
@@ -181,6 +212,8 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     if (!scene) return scene.error();
     const auto grid = chooseGrid(*scene, options);
     if (!grid) return grid.error();
+    if (options.grid)
+        if (const auto checked = checkGivenGrid(model, *scene, *grid, log); !checked) return checked.error();
     addCapFeatures(model, *scene);
     std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
     if (options.style != nullptr) sheets.push_back(options.style);

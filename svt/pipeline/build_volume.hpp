@@ -27,6 +27,7 @@ struct BuildOptions {
     std::optional<Vec3d> spacing;    ///< metres; neither: the longest side gets kDefaultSamples
     static constexpr int kDefaultSamples = 400;
     FrameKind frame = FrameKind::World;
+    std::optional<volume::Grid> grid;  ///< that of another volume; dimension, spacing and frame do not count then
     model::LodChoice lod;
     bool giveThematicBodies = true;  ///< material between hull and rooms goes to the nearest boundary surface
     bool usePatterns = false;        ///< patterns of the built-in style
@@ -55,7 +56,7 @@ struct BuildOutput {
 
 /// Reads all files into one model (ids made unique), meshes, voxelizes, labels.
 /// \param log  gets all findings; may be null
-/// \return the volume and its figures, or the first error of a stage
+/// \return the volume and its figures, or the first error of a stage; EmptyModel where nothing lies in a given grid
 [[nodiscard]] Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files,
                                               const BuildOptions& options = {}, Diagnostics* log = nullptr);
 

@@ -314,5 +314,31 @@ TEST_F(TwoFiles, MissingFileIsAnError) {
     EXPECT_EQ(all.error().code(), Code::CannotOpen);
 }
 
+TEST(BuildVolume, AGivenGridIsTaken) {
+    const BuildOutput house = build(thematicHouse(), withSpacing(0.25));
+    // A parcel that reaches beyond the house's grid on three sides, and one that lies elsewhere.
+    model::BuildingModel parcels;
+    addBoxFeature(parcels, "LandUse", "parcel", {-5, -5, -1}, {3, 20, 10});
+    addBoxFeature(parcels, "LandUse", "elsewhere", {50, 0, 0}, {60, 10, 3});
+    BuildOptions options;
+    options.grid = house.volume.grid;
+    Diagnostics log;
+    const BuildOutput output = build(parcels, options, &log);
+    EXPECT_EQ(output.volume.grid, house.volume.grid);
+    // 12 of 25 samples along x: those at 0, 0.25, ... 2.75 m, and that at 3 m by the half-open rule or not.
+    const std::uint64_t layer = 21 * 13;
+    EXPECT_GE(labelOf(output, "parcel").voxels, 12 * layer);
+    EXPECT_LE(labelOf(output, "parcel").voxels, 13 * layer);
+    EXPECT_EQ(labelOf(output, "elsewhere").voxels, 0u);
+    ASSERT_EQ(log.count(Severity::Warning), 1u);
+    EXPECT_EQ(log.items().back().where.id, "elsewhere");
+    // Nothing in the grid at all.
+    model::BuildingModel far;
+    addBoxFeature(far, "LandUse", "far", {500, 0, 0}, {510, 10, 3});
+    const auto failed = buildVolume(far, options);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code(), Code::EmptyModel);
+}
+
 }  // namespace
 }  // namespace svt::pipeline

@@ -76,12 +76,12 @@ TEST(Documents, CommandsOfTheUserDocsWork) {
     std::size_t count = 0;
     for (const fs::path& page : pages) {
         const TemporaryFolder folder;
-        // Files that a page shows as ```json NAME are there before its commands run.
+        // Files that a page shows as ```json NAME or ```csv NAME are there before its commands run.
         std::ifstream in(page);
         std::string name, content;
         for (std::string line; std::getline(in, line);) {
-            if (line.rfind("```json ", 0) == 0) {
-                name = line.substr(8);
+            if (line.rfind("```json ", 0) == 0 || line.rfind("```csv ", 0) == 0) {
+                name = line.substr(line.find(' ') + 1);
                 content.clear();
             } else if (line.rfind("```", 0) == 0) {
                 if (!name.empty()) writeText(folder / name, content);

@@ -1,0 +1,49 @@
+#include <svt/volume/label_measures.hpp>
+
+namespace svt::volume {
+
+std::vector<LabelMeasure> measureLabels(const SemanticVolume& volume, const std::vector<Contact>& contacts) {
+    const std::vector<Label>& labels = volume.labels.labels;
+    std::vector<LabelMeasure> measures(labels.size());
+    const std::vector<SampleBox> boxes = scalarBoxes(volume.columns, volume.labels.scalarCount());
+    for (std::size_t l = 0; l < labels.size(); ++l)
+        for (Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s)
+            if (!boxes[s].isEmpty()) measures[l].box.add(boxes[s]);
+    for (const Contact& contact : contacts) {
+        measures[contact.a].area += contact.area;
+        if (contact.b == kNoLabel)
+            measures[contact.a].outsideArea += contact.area;
+        else
+            measures[contact.b].area += contact.area;
+    }
+    return measures;
+}
+
+std::vector<double> ownVolumes(const LabelTable& table, const Grid& grid) {
+    std::vector<double> volumes;
+    volumes.reserve(table.labels.size());
+    for (const Label& label : table.labels) volumes.push_back(label.volume);
+    const auto byVoxels = [&](std::size_t l) {
+        const Label& label = table.labels[l];
+        volumes[l] = label.filling == Filling::Surface ? 0 : double(label.voxels) * grid.voxelVolume();
+    };
+    for (const Overlap& overlap : table.overlaps)
+        if (overlap.voxels != 0) byVoxels(overlap.b);
+    for (std::size_t l = 0; l < volumes.size(); ++l)
+        if (table.labels[l].voxels == 0 || !(volumes[l] > 0)) byVoxels(l);
+    return volumes;
+}
+
+Box3d worldBox(const SampleBox& box, const Grid& grid) noexcept {
+    Box3d world;
+    if (box.isEmpty()) return world;
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3d index;
+        for (int axis = 0; axis < 3; ++axis)
+            index[axis] = (corner >> axis & 1) != 0 ? box.max[axis] + 0.5 : box.min[axis] - 0.5;
+        world.add(grid.worldFromIndex(index));
+    }
+    return world;
+}
+
+}  // namespace svt::volume

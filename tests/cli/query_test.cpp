@@ -1,0 +1,251 @@
+// Reports of `svt query`: neighbours, rays, overlaps, gaps, parcels and owners, on models whose figures are known.
+#include "run_command.hpp"
+#include "small_model.hpp"
+
+#include <svt/core/test_data_test.hpp>
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace svt::test {
+namespace {
+
+using Keys = std::vector<std::string>;
+using nlohmann::json;
+
+// Two boxes of 4 x 6 x 3 m that share a wall.
+class TwoBoxReports : public ::testing::Test {
+protected:
+    TwoBoxReports() {
+        writeText(folder / "two.gml", twoBoxes());
+        (void)runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.1"});
+    }
+    json report(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"query", "two.svt"});
+        arguments.emplace_back("--json");
+        return runSvtForJson(folder.path(), arguments);
+    }
+    TemporaryFolder folder;
+};
+
+TEST_F(TwoBoxReports, NeighboursShareAFaceAndMeetTheOutside) {
+    const json rows = report({"id=left", "--neighbours"});
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(keysOf(rows[0]), (Keys{"area", "class", "id", "name", "neighbour", "neighbourClass", "neighbourName"}));
+    EXPECT_EQ(rows[0]["neighbour"], nullptr);
+    EXPECT_EQ(rows[1]["neighbour"], "right");
+    EXPECT_EQ(rows[1]["neighbourClass"], "Building");
+    // 6 x 3 m; the outside has the other five sides.
+    EXPECT_NEAR(rows[1]["area"].get<double>(), 18, 1e-6);
+    EXPECT_NEAR(rows[0]["area"].get<double>(), 2 * 24 + 2 * 12 + 18, 1);
+    // The other one says the same of the wall between them.
+    EXPECT_EQ(report({"id=right", "--neighbours"})[1]["area"], rows[1]["area"]);
+}
+
+TEST_F(TwoBoxReports, WithAddsColumns) {
+    const json rows = report({"id=right", "--with", "surface,box,volume"});
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(keysOf(rows[0]["surface"]), (Keys{"area", "outside"}));
+    EXPECT_NEAR(rows[0]["surface"]["area"].get<double>(), 108, 0.03 * 108);
+    EXPECT_NEAR(rows[0]["surface"]["area"].get<double>() - rows[0]["surface"]["outside"].get<double>(), 18, 1e-6);
+    EXPECT_NEAR(rows[0]["box"]["min"][0].get<double>(), 500004, 0.0501);
+    EXPECT_NEAR(rows[0]["box"]["max"][2].get<double>(), 103, 0.0501);
+    const std::string csv = runSvtWell(folder.path(), {"query", "two.svt", "id=right", "--with", "volume", "--csv"});
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,class,name,volume,voxels,voxelVolume,filling");
+    const CommandResult wrong = runSvt(folder.path(), {"query", "two.svt", "all", "--with", "volume,surfaces"});
+    EXPECT_EQ(wrong.exitCode, 2);
+    EXPECT_NE(wrong.err.find("'surfaces'"), std::string::npos) << wrong.toString();
+}
+
+TEST_F(TwoBoxReports, ARayMeetsOneAfterTheOther) {
+    const json rows = report({"all", "--along", "-2,3,1.5:1,0,0"});
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(keysOf(rows[0]), (Keys{"class", "enter", "id", "leave", "length", "name"}));
+    EXPECT_EQ(rows[0]["id"], "left");
+    EXPECT_NEAR(rows[0]["enter"].get<double>(), 2, 0.0501);
+    EXPECT_NEAR(rows[0]["leave"].get<double>(), 6, 0.0501);
+    EXPECT_EQ(rows[1]["enter"], rows[0]["leave"]);
+    EXPECT_EQ(report({"id=right", "--along", "-2,3,1.5:1,0,0"}).size(), 1u);
+    for (const char* ray : {"1,2,3", "0,0,0:0,0,0", "0,0,9:1,0,0"})
+        EXPECT_EQ(runSvt(folder.path(), {"query", "two.svt", "all", "--along", ray}).exitCode, 2) << ray;
+}
+
+TEST_F(TwoBoxReports, ParcelsDivideThem) {
+    // A border at y = 2; the parcels reach far beyond the houses, and leave x > 6 to nobody.
+    writeText(folder / "parcels.gml",
+              cityModel(building("south", solid(boxFaces(499990, 5399990, 90, 500006, 5400002, 120))) +
+                        building("north", solid(boxFaces(499990, 5400002, 90, 500006, 5400030, 120)))));
+    const json rows = report({"all", "--parcels", "parcels.gml"});
+    std::map<std::string, json> byPair;
+    for (const json& row : rows)
+        byPair[row["id"].get<std::string>() + " " +
+               (row["parcel"].is_null() ? "-" : row["parcel"].get<std::string>())] = row;
+    ASSERT_EQ(byPair.size(), 5u);
+    EXPECT_EQ(keysOf(rows[0]),
+              (Keys{"class", "id", "name", "parcel", "parcelClass", "parcelName", "part", "volume", "voxels"}));
+    EXPECT_NEAR(byPair["left south"]["part"].get<double>(), 2.0 / 6, 0.01);
+    EXPECT_NEAR(byPair["left north"]["part"].get<double>(), 4.0 / 6, 0.01);
+    EXPECT_NEAR(byPair["right -"]["part"].get<double>(), 0.5, 0.02);
+    EXPECT_NEAR(byPair["right south"]["part"].get<double>(), 1.0 / 6, 0.02);
+    EXPECT_NEAR(byPair["left south"]["volume"].get<double>(), 24, 0.06 * 24);
+    // The same from a volume built on the same grid; another grid is refused, and the remedy is named.
+    (void)runSvtWell(folder.path(), {"build", "parcels.gml", "-o", "p.svt", "--grid-of", "two.svt"});
+    EXPECT_EQ(report({"all", "--parcels", "p.svt"}), rows);
+    (void)runSvtWell(folder.path(), {"build", "parcels.gml", "-o", "other.svt", "--spacing", "1"});
+    const CommandResult refused = runSvt(folder.path(), {"query", "two.svt", "all", "--parcels", "other.svt"});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find("--grid-of"), std::string::npos) << refused.toString();
+    EXPECT_EQ(runSvt(folder.path(), {"query", "two.svt", "all", "--parcels", "missing.svt"}).exitCode, 3);
+}
+
+TEST_F(TwoBoxReports, AGridOfAnotherVolumeIsTakenAsItIs) {
+    (void)runSvtWell(folder.path(), {"build", "two.gml", "-o", "again.svt", "--grid-of", "two.svt"});
+    EXPECT_EQ(readText(folder / "again.svt"), readText(folder / "two.svt"));
+    const auto exitOf = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"build", "two.gml", "-o", "x.svt"});
+        return runSvt(folder.path(), more).exitCode;
+    };
+    EXPECT_EQ(exitOf({"--grid-of", "two.svt", "--spacing", "1"}), 2);
+    EXPECT_EQ(exitOf({"--grid-of", "missing.svt"}), 3);
+    EXPECT_EQ(exitOf({"--grid-of", "two.gml"}), 3);
+    writeText(folder / "far.gml", cityModel(building("far", solid(boxFaces(0, 0, 0, 5, 5, 5)))));
+    const CommandResult far = runSvt(folder.path(), {"build", "far.gml", "-o", "x.svt", "--grid-of", "two.svt"});
+    EXPECT_EQ(far.exitCode, 3);
+    EXPECT_NE(far.err.find("E109"), std::string::npos) << far.toString();
+}
+
+TEST_F(TwoBoxReports, OneReportAtATimeAndOneFormat) {
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+             {"--neighbours", "--gaps"}, {"--overlaps", "--with", "box"}, {"--json", "--csv"}}) {
+        std::vector<std::string> arguments{"query", "two.svt", "all"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, 2);
+        EXPECT_EQ(result.out, "");
+        EXPECT_NE(result.err.find("exclude each other"), std::string::npos) << result.toString();
+    }
+    const CommandResult nothing = runSvt(folder.path(), {"query", "two.svt", "id=lefft", "--neighbours"});
+    EXPECT_EQ(nothing.exitCode, 2);
+    EXPECT_NE(nothing.err.find("'left'"), std::string::npos) << nothing.toString();
+}
+
+TEST_F(TwoBoxReports, BadOwnersTablesSayWhere) {
+    const auto errorOf = [&](const std::string& table, int exitCode) {
+        writeText(folder / "owners.csv", table);
+        const CommandResult result = runSvt(folder.path(), {"query", "two.svt", "all", "--owners", "owners.csv"});
+        EXPECT_EQ(result.exitCode, exitCode) << table;
+        return result.err;
+    };
+    EXPECT_NE(errorOf("left,Ada\nrigth,Bob\n", 2).find("owners.csv:2"), std::string::npos);
+    EXPECT_NE(errorOf("left,Ada\nrigth,Bob\n", 2).find("'right'"), std::string::npos);
+    EXPECT_NE(errorOf("left,Ada\nright\n", 3).find("owners.csv:2"), std::string::npos);
+    EXPECT_NE(errorOf("", 3).find("no rows"), std::string::npos);
+    EXPECT_EQ(runSvt(folder.path(), {"query", "two.svt", "all", "--owners", "missing.csv"}).exitCode, 3);
+}
+
+TEST(QueryReports, AHollowIsAGapAndOverlapsAreTold) {
+    const TemporaryFolder folder;
+    // Five slabs around a hollow of 2 x 2 x 2 m, the lid reaching into the two side walls.
+    const auto box = [](const char* id, double x0, double y0, double z0, double x1, double y1, double z1) {
+        return building(id, solid(boxFaces(500000 + x0, 5400000 + y0, 100 + z0, 500000 + x1, 5400000 + y1, 100 + z1)));
+    };
+    writeText(folder / "hollow.gml", cityModel(box("floor", 0, 0, 0, 4, 4, 1) + box("west", 0, 0, 1, 1, 4, 3) +
+                                               box("east", 3, 0, 1, 4, 4, 3) + box("south", 1, 0, 1, 3, 1, 3) +
+                                               box("north", 1, 3, 1, 3, 4, 3) + box("lid", 0, 0, 2.5, 4, 4, 4)));
+    (void)runSvtWell(folder.path(), {"build", "hollow.gml", "-o", "h.svt", "--spacing", "0.125"});
+    const json gaps = runSvtForJson(folder.path(), {"query", "h.svt", "all", "--gaps", "--json"});
+    ASSERT_EQ(gaps.size(), 1u);
+    EXPECT_EQ(keysOf(gaps[0]), (Keys{"around", "maxX", "maxY", "maxZ", "minX", "minY", "minZ", "volume", "voxels"}));
+    EXPECT_NEAR(gaps[0]["volume"].get<double>(), 2 * 2 * 1.5, 0.2 * 6);
+    EXPECT_NEAR(gaps[0]["minX"].get<double>(), 500001, 0.13);
+    EXPECT_EQ(gaps[0]["around"].size(), 6u);
+    const json overlaps = runSvtForJson(folder.path(), {"query", "h.svt", "id=east", "--overlaps", "--json"});
+    ASSERT_EQ(overlaps.size(), 1u);
+    EXPECT_EQ(keysOf(overlaps[0]),
+              (Keys{"a", "aClass", "aName", "b", "bClass", "bName", "nested", "volume", "voxels"}));
+    EXPECT_NEAR(overlaps[0]["volume"].get<double>(), 1 * 4 * 0.5, 0.3);
+    EXPECT_EQ(overlaps[0]["nested"], false);
+}
+
+TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {
+    const TemporaryFolder folder;
+    (void)runSvtWell(folder.path(), {"sample", "tower", "-o", "tower.gml", "--storeys", "1"});
+    (void)runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "0.06"});
+    writeText(folder / "owners.csv", "feature,owner\ntower_S00_F1,Weber\ntower_S00_F2,\"Hoffmann, H.\"\n");
+    const std::vector<std::string> query{"query", "tower.svt", "id=tower_S00_wall_party_south_1", "--owners",
+                                         "owners.csv"};
+    std::vector<std::string> asJson = query, asCsv = query;
+    asJson.emplace_back("--json");
+    asCsv.emplace_back("--csv");
+    const json report = runSvtForJson(folder.path(), asJson);
+    EXPECT_EQ(keysOf(report), (Keys{"components", "nobody", "owners", "untouched"}));
+    ASSERT_EQ(report["owners"].size(), 2u);
+    EXPECT_EQ(keysOf(report["owners"][0]), (Keys{"alone", "own", "owner", "shared", "total", "with"}));
+    ASSERT_EQ(report["components"].size(), 1u);
+    const json& wall = report["components"][0];
+    EXPECT_EQ(keysOf(wall), (Keys{"class", "id", "name", "shares", "volume"}));
+    // 0.24 x 7 x 2.84 m; its ends meet the exterior and the corridor wall.
+    EXPECT_NEAR(wall["volume"].get<double>(), 0.24 * 7 * 2.84, 1e-6);
+    ASSERT_EQ(wall["shares"].size(), 2u);
+    for (const json& share : wall["shares"]) {
+        EXPECT_NEAR(share["area"].get<double>(), 7 * 2.84, 0.04 * 7 * 2.84);
+        EXPECT_NEAR(share["volume"].get<double>(), 0.12 * 7 * 2.84, 0.02 * 0.24 * 7 * 2.84);
+    }
+    // A flat's own is its rooms and inner walls: what the model says of the unit, and doors and furniture beside it.
+    EXPECT_NEAR(report["owners"][0]["own"].get<double>(), 197.27, 0.02 * 197.27);
+    const std::string csv = runSvtWell(folder.path(), asCsv);
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,class,name,owner,area,volume");
+    EXPECT_NE(csv.find("\"Hoffmann, H.\""), std::string::npos) << csv;
+}
+
+TEST(QueryReports, AreTheSameForAnyNumberOfThreads) {
+    const TemporaryFolder folder;
+    (void)runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml", "--turn", "30"});
+    (void)runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.08"});
+    const auto report = [&](const char* threads) {
+        return runSvtWell(folder.path(), {"query", "house.svt", "all", "--neighbours", "--json", "--threads", threads});
+    };
+    const std::string one = report("1");
+    EXPECT_GT(one.size(), 1000u);
+    EXPECT_EQ(report("2"), one);
+    EXPECT_EQ(report("7"), one);
+}
+
+TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
+    SVT_NEEDS_DATA(model, "fzk_haus_citygml3.gml");
+    const TemporaryFolder folder;
+    (void)runSvtWell(folder.path(), {"build", model.string(), "-o", "f.svt", "--spacing", "0.02"});
+    std::string table;
+    for (const char* room : {"Schlafzimmer", "Bad", "Buero", "Wohnen", "Flur", "K\u00fcche", "Galerie"})
+        table += fmt::format("\"name=\"\"{}\"\"\",owner of {}\n", room, room);
+    writeText(folder / "owners.csv", table);
+    const json report = runSvtForJson(folder.path(), {"query", "f.svt", "all", "--owners", "owners.csv", "--json"});
+    double own = 0, all = report["nobody"].get<double>() + report["untouched"].get<double>(), shares = 0;
+    for (const json& owner : report["owners"]) {
+        own += owner["own"].get<double>();
+        all += owner["total"].get<double>();
+    }
+    // Stairs, rafters and purlins stand in rooms.
+    EXPECT_NEAR(own, 470.83, 0.004 * 470.83);
+    for (const json& component : report["components"])
+        for (const json& share : component["shares"]) shares += share["volume"].get<double>();
+    EXPECT_NEAR(own + shares + report["untouched"].get<double>(), all, 1e-9 * all);
+    const json known =
+        runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--with", "surface", "--json"});
+    // 12 x 10 x 0.2 m.
+    EXPECT_NEAR(known[0]["surface"]["area"].get<double>(), 248.8, 0.002 * 248.8);
+    // The rooms of the ground floor stand on it: their floors.
+    const json neighbors =
+        runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--neighbours", "--json"});
+    double floors = 0, contacts = 0;
+    for (const json& row : neighbors) {
+        contacts += row["area"].get<double>();
+        if (row["neighbourClass"] == "BuildingRoom") floors += row["area"].get<double>();
+    }
+    EXPECT_NEAR(contacts, known[0]["surface"]["area"].get<double>(), 1e-9 * contacts);
+    EXPECT_NEAR(floors, 101.33, 0.01 * 101.33);
+}
+
+}  // namespace
+}  // namespace svt::test
