@@ -28,6 +28,10 @@ struct SectionPlane {
 ///         - NothingSelected  no such storey, or none with voxels (names the nearest)
 [[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume);
 
+/// The plane of a plan where none is given: 1.1 m above the floor of the lowest storey, or above half of the volume's
+/// height where there is no storey with voxels, or the volume ends below.
+[[nodiscard]] SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume);
+
 /// Whether the plane meets the voxels of `grid`.
 [[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);
 
