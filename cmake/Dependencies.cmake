@@ -30,3 +30,14 @@ endif()
 
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
   /usr/share/fonts/dejavu-sans-fonts REQUIRED)
+
+# Clipper is a second implementation in tests; see docs/dev/dependencies.md.
+if(SVT_TESTS)
+  find_path(CLIPPER_INCLUDE_DIR polyclipping/clipper.hpp REQUIRED)
+  find_library(CLIPPER_LIBRARY polyclipping REQUIRED)
+  if(NOT TARGET Clipper::Clipper)
+    add_library(Clipper::Clipper INTERFACE IMPORTED)
+    target_include_directories(Clipper::Clipper SYSTEM INTERFACE ${CLIPPER_INCLUDE_DIR})
+    target_link_libraries(Clipper::Clipper INTERFACE ${CLIPPER_LIBRARY})
+  endif()
+endif()

@@ -71,6 +71,7 @@ Run addBuildCommand(CLI::App& app);
 Run addInfoCommand(CLI::App& app);
 Run addCheckCommand(CLI::App& app);
 Run addRenderCommand(CLI::App& app);
+Run addSectionCommand(CLI::App& app);
 Run addQueryCommand(CLI::App& app);
 Run addShellCommand(CLI::App& app);
 Run addConvertCommand(CLI::App& app);

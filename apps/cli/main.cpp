@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
     commands.emplace_back("info", addInfoCommand(app));
     commands.emplace_back("check", addCheckCommand(app));
     commands.emplace_back("render", addRenderCommand(app));
+    commands.emplace_back("section", addSectionCommand(app));
     commands.emplace_back("query", addQueryCommand(app));
     commands.emplace_back("shell", addShellCommand(app));
     commands.emplace_back("convert", addConvertCommand(app));

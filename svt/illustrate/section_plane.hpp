@@ -36,6 +36,10 @@ struct SectionPlane {
 [[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
                                                               const volume::SemanticVolume& volume);
 
+/// The plane of a plan where none is given: 1.1 m above the floor of the lowest storey, or above half of the volume's
+/// height where there is no storey with voxels, or the volume ends below.
+[[nodiscard]] SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume);
+
 /// Whether the plane meets the voxels of `grid`.
 [[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);
 

@@ -59,6 +59,15 @@ TEST(SectionPlane, StoreysCountFromTheFloorOfTheirRooms) {
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=\"1-OG\"+0.5", volume)), 30 + 2.875 + 0.5);
 }
 
+TEST(SectionPlane, DefaultIsAPlanOfTheLowestStorey) {
+    auto volume = twoStoreys();
+    EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 0.375 + 1.1);
+    EXPECT_EQ(defaultSectionPlane(volume).normal, (Vec3d{0, 0, 1}));
+    for (volume::Label& label : volume.labels.labels)
+        if (label.className == "Storey") label.className = "CityObjectGroup";
+    EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 2.5);
+}
+
 TEST(SectionPlane, FourNumbersAreAHalfSpace) {
     const auto volume = twoStoreys();
     const auto plane = parseSectionPlane("0,0,2,-2.4", volume);

@@ -1,6 +1,7 @@
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/mesh/models_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/render/color_text.hpp>
 #include <svt/samples/sample.hpp>
 #include <svt/volume/volume_json.hpp>
 

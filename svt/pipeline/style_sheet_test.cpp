@@ -1,6 +1,7 @@
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/pipeline/default_style.hpp>
 #include <svt/pipeline/style_sheet.hpp>
+#include <svt/render/color_text.hpp>
 
 #include <gtest/gtest.h>
 

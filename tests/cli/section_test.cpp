@@ -1,0 +1,251 @@
+// `svt section`: drawings that other programs open, their areas, and clear errors.
+#include "run_command.hpp"
+#include "small_model.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <regex>
+
+namespace svt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Two boxes side by side, 4 x 6 x 3 m each, as a volume of 0.1 m in `folder`.
+void buildBoxes(const fs::path& folder) {
+    writeText(folder / "boxes.gml", twoBoxes());
+    runSvtWell(folder, {"build", "boxes.gml", "-o", "boxes.svt", "--spacing", "0.1"});
+}
+
+/// The generated house, 0.1 m.
+void buildHouse(const fs::path& folder) {
+    runSvtWell(folder, {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder, {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1"});
+}
+
+bool hasProgram(const std::string& name) { return std::system((name + " --version > /dev/null 2>&1").c_str()) == 0; }
+
+/// Output of a shell command.
+std::string outputOf(const fs::path& folder, const std::string& command) {
+    const fs::path file = folder / "output.txt";
+    const int status = std::system(("cd '" + folder.string() + "' && " + command + " > output.txt 2>&1").c_str());
+    EXPECT_EQ(status, 0) << command << "\n" << readText(file);
+    return readText(file);
+}
+
+double ringArea(const nlohmann::json& ring) {
+    double area = 0;
+    for (std::size_t n = 0; n + 1 < ring.size(); ++n) {
+        // Relative to the first point: coordinates are large.
+        const double ax = ring[n][0].get<double>() - ring[0][0].get<double>();
+        const double ay = ring[n][1].get<double>() - ring[0][1].get<double>();
+        const double bx = ring[n + 1][0].get<double>() - ring[0][0].get<double>();
+        const double by = ring[n + 1][1].get<double>() - ring[0][1].get<double>();
+        area += 0.5 * (ax * by - ay * bx);
+    }
+    return area;
+}
+
+TEST(Section, TableHasTheAreasOfTheBoxes) {
+    const TemporaryFolder folder;
+    buildBoxes(folder.path());
+    const auto plan = runSvtForJson(folder.path(), {"section", "boxes.svt", "--plane", "z=1", "--json"});
+    ASSERT_EQ(plan["components"].size(), 2u);
+    for (const auto& component : plan["components"]) {
+        EXPECT_LE(std::abs(component["area"].get<double>() - 24), component["areaBound"].get<double>());
+        EXPECT_EQ(component["class"], "Building");
+        EXPECT_EQ(component["polygons"], 1);
+    }
+    ASSERT_EQ(plan["classes"].size(), 1u);
+    EXPECT_EQ(plan["classes"][0]["components"], 2);
+    EXPECT_NEAR(plan["classes"][0]["area"].get<double>(), plan["area"].get<double>(), 1e-5);
+    const auto upright = runSvtForJson(folder.path(), {"section", "boxes.svt", "--plane", "y<3", "--json"});
+    for (const auto& component : upright["components"])
+        EXPECT_LE(std::abs(component["area"].get<double>() - 12), component["areaBound"].get<double>());
+    // The middle where there is no storey.
+    const auto middle = runSvtForJson(folder.path(), {"section", "boxes.svt", "--json"});
+    EXPECT_NEAR(middle["plane"]["origin"][2].get<double>() - plan["plane"]["origin"][2].get<double>(), 0.5, 1e-6);
+    runSvtWell(folder.path(), {"section", "boxes.svt", "--table", "t.csv", "--table", "t.json"});
+    EXPECT_EQ(nlohmann::json::parse(readText(folder / "t.json")), middle);
+    EXPECT_EQ(readText(folder / "t.csv").rfind("kind,id,class,name,polygons,area_m2,area_bound_m2\r\n", 0), 0u);
+}
+
+TEST(Section, DefaultIsAboveTheLowestStoreysFloor) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    const auto byDefault = runSvtForJson(folder.path(), {"section", "house.svt", "--json"});
+    const auto named =
+        runSvtForJson(folder.path(), {"section", "house.svt", "--json", "--plane", "storey=house_storey_0+1.1"});
+    EXPECT_EQ(byDefault, named);
+    const auto names = byDefault.dump();
+    EXPECT_NE(names.find("Kitchen"), std::string::npos);
+    const auto noRooms = runSvtForJson(folder.path(), {"section", "house.svt", "--json", "--no-rooms"});
+    EXPECT_EQ(noRooms.dump().find("BuildingRoom"), std::string::npos);
+    const auto shown = runSvtForJson(folder.path(), {"section", "house.svt", "--json", "--show", "class=BuildingRoom",
+                                                     "--hide", "name=Kitchen", "--min-area", "5"});
+    for (const auto& component : shown["components"]) {
+        EXPECT_EQ(component["class"], "BuildingRoom");
+        EXPECT_NE(component["name"], "Kitchen");
+        EXPECT_GE(component["area"].get<double>(), 5);
+    }
+}
+
+TEST(Section, SameBytesForAnyNumberOfThreads) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    for (const char* threads : {"1", "4"})
+        runSvtWell(folder.path(), {"section", "house.svt", "--plane", "0.3,0.5,0.4,-6", "--threads", threads, "-o",
+                                   std::string(threads) + ".svg", "-o", std::string(threads) + ".dxf", "-o",
+                                   std::string(threads) + ".geojson"});
+    for (const char* extension : {".svg", ".dxf", ".geojson"}) {
+        const std::string one = readText(folder / (std::string("1") + extension));
+        EXPECT_GT(one.size(), 1000u);
+        EXPECT_EQ(one, readText(folder / (std::string("4") + extension)));
+    }
+}
+
+TEST(Section, SvgIsXmlToScaleAndCanBeDrawn) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    runSvtWell(folder.path(), {"section", "house.svt", "-o", "a.svg", "-o", "b.svg"});
+    runSvtWell(folder.path(), {"section", "house.svt", "-o", "large.svg", "--scale", "1:50"});
+    const std::string svg = readText(folder / "a.svg");
+    EXPECT_EQ(svg, readText(folder / "b.svg"));
+    for (const char* part :
+         {"class=\"BuildingRoom\"", "data-id=\"house_kitchen\"", "<title>house_kitchen: Kitchen</title>",
+          ">Kitchen</text>", "1:100", "class=\"bold\"", "url(#masonry)"})
+        EXPECT_NE(svg.find(part), std::string::npos) << part;
+    const auto widthOf = [](const std::string& text) {
+        std::smatch match;
+        return std::regex_search(text, match, std::regex("width=\"([0-9.]+)mm\"")) ? std::stod(match[1]) : 0.0;
+    };
+    // Twice as wide, between margins of 10 mm.
+    EXPECT_NEAR(widthOf(readText(folder / "large.svg")) - 20, 2 * (widthOf(svg) - 20), 0.01);
+    if (!hasProgram("xmllint") || !hasProgram("rsvg-convert")) GTEST_SKIP() << "no xmllint or rsvg-convert here";
+    outputOf(folder.path(), "xmllint --noout a.svg");
+    outputOf(folder.path(), "rsvg-convert a.svg -o a.png");
+    EXPECT_GT(fs::file_size(folder / "a.png"), 5000u);
+}
+
+TEST(Section, GeojsonHasAreasInTheModelsCrs) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    runSvtWell(folder.path(), {"section", "house.svt", "-o", "plan.geojson"});
+    const auto json = nlohmann::json::parse(readText(folder / "plan.geojson"));
+    EXPECT_GT(json["features"].size(), 20u);
+    for (const auto& feature : json["features"]) {
+        double area = 0;
+        for (const auto& polygon : feature["geometry"]["coordinates"]) {
+            EXPECT_GT(ringArea(polygon[0]), 0);  // counter-clockwise
+            for (const auto& ring : polygon) {
+                EXPECT_EQ(ring.front(), ring.back());
+                area += ringArea(ring);
+            }
+        }
+        EXPECT_NEAR(area, feature["properties"]["area"].get<double>(), 1e-4) << feature["id"];
+    }
+    if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo here";
+    const std::string info = outputOf(folder.path(), "ogrinfo -al -so plan.geojson");
+    EXPECT_NE(info.find("Feature Count: " + std::to_string(json["features"].size())), std::string::npos) << info;
+    EXPECT_NE(info.find("25832"), std::string::npos) << info;
+    EXPECT_NE(info.find("area: Real"), std::string::npos) << info;
+    // OGR's own areas.
+    const std::string query = "SELECT id, area, OGR_GEOM_AREA AS g FROM \"" + json["name"].get<std::string>() + "\"";
+    const std::string rows = outputOf(folder.path(), "ogr2ogr -f CSV /vsistdout/ plan.geojson -sql '" + query + "'");
+    const std::regex row(R"row(\n"?([^,"]+)"?,([0-9.]+),([0-9.]+))row");
+    int count = 0;
+    for (auto at = std::sregex_iterator(rows.begin(), rows.end(), row); at != std::sregex_iterator(); ++at, ++count)
+        EXPECT_NEAR(std::stod((*at)[2]), std::stod((*at)[3]), 1e-3) << (*at)[1];
+    EXPECT_EQ(count, static_cast<int>(json["features"].size())) << rows;
+}
+
+TEST(Section, UprightGeojsonLiesOnThePlane) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    runSvtWell(folder.path(), {"section", "house.svt", "-o", "cut.geojson", "--plane", "0.6,0.8,0.1,-8"});
+    const auto json = nlohmann::json::parse(readText(folder / "cut.geojson"));
+    const auto vectorOf = [&](const char* key, int n) { return json["plane"][key][n].get<double>(); };
+    for (const auto& feature : json["features"])
+        for (const auto& polygon : feature["geometry"]["coordinates"])
+            for (const auto& ring : polygon)
+                for (const auto& p : ring) {
+                    double height = 0;
+                    for (int n = 0; n < 3; ++n)
+                        height += vectorOf("normal", n) * (p[std::size_t(n)].get<double>() - vectorOf("origin", n));
+                    ASSERT_NEAR(height, 0, 5e-6);
+                }
+}
+
+TEST(Section, DxfIsReadByOgr) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    runSvtWell(folder.path(),
+               {"section", "house.svt", "-o", "plan.dxf", "-o", "plan.geojson", "--hide", "class=BuildingFurniture"});
+    if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo here";
+    outputOf(folder.path(), "ogr2ogr -f GeoJSON dxf.json plan.dxf");
+    const auto dxf = nlohmann::json::parse(readText(folder / "dxf.json"));
+    const auto drawing = nlohmann::json::parse(readText(folder / "plan.geojson"));
+    std::size_t rings = 0;
+    std::map<std::string, double> expected, found;
+    for (const auto& feature : drawing["features"]) {
+        for (const auto& polygon : feature["geometry"]["coordinates"]) rings += polygon.size();
+        expected[feature["properties"]["class"]] += feature["properties"]["area"].get<double>();
+    }
+    std::size_t lines = 0;
+    bool hasKitchen = false, hasArea = false;
+    for (const auto& feature : dxf["features"]) {
+        const auto& geometry = feature["geometry"];
+        if (geometry["type"] == "LineString") {
+            ++lines;
+            EXPECT_EQ(geometry["coordinates"].front(), geometry["coordinates"].back());
+            found[feature["properties"]["Layer"]] += ringArea(geometry["coordinates"]);
+        } else {
+            EXPECT_EQ(feature["properties"]["Layer"], "TEXT");
+            const std::string text = feature["properties"]["Text"];
+            hasKitchen = hasKitchen || text == "Kitchen";
+            hasArea = hasArea || text.ends_with(" m\u00B2");  // the code page is understood
+        }
+    }
+    EXPECT_EQ(lines, rings);
+    EXPECT_TRUE(hasKitchen && hasArea);
+    ASSERT_EQ(found.size(), expected.size());
+    for (const auto& [name, area] : expected) EXPECT_NEAR(found[name], area, 1e-3) << name;
+}
+
+TEST(Section, ErrorsSayWhatToDo) {
+    const TemporaryFolder folder;
+    buildBoxes(folder.path());
+    struct Case {
+        std::vector<std::string> arguments;
+        int exitCode;
+        const char* expected;
+    };
+    const Case cases[] = {
+        {{"-o", "d.pdf"}, 2, "\\.svg, \\.dxf, \\.geojson"},
+        {{}, 2, "nothing to write"},
+        {{"-o", "d.svg", "--plane", "z=99"}, 2, "E503 BadSection.*passes the whole volume by.*from"},
+        {{"-o", "d.svg", "--plane", "q=1"}, 2, "E503 BadSection.*expected z=1.2"},
+        {{"-o", "d.svg", "--plane", "0,0,0,1"}, 2, "normal is zero"},
+        {{"-o", "d.svg", "--plane", "storey=EG+1"}, 2, "E902|storey"},
+        {{"-o", "d.svg", "--scale", "1:0"}, 2, "--scale '1:0'.*1:N"},
+        {{"-o", "d.svg", "--scale", "nan"}, 2, "--scale 'nan'"},
+        {{"-o", "d.svg", "--hide", "all"}, 2, "E503 BadSection.*cuts nothing that is shown"},
+        {{"-o", "d.svg", "--show", "class=Bilding"}, 2, "E902 NothingSelected"},
+        {{"-o", "d.svg", "--hide", "class="}, 2, "E901 BadQuery"},
+        {{"-o", "d.svg", "--min-area", "-1"}, 2, "min-area"},
+        {{"-o", "missing/d.svg"}, 5, "E404 CannotWrite"},
+        {{"--table", "t.txt"}, 2, "\\.json, \\.csv"},
+    };
+    for (const Case& c : cases) {
+        std::vector<std::string> arguments{"section", "boxes.svt"};
+        arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, c.exitCode) << result.toString();
+        EXPECT_TRUE(std::regex_search(result.err, std::regex(c.expected))) << c.expected << "\n" << result.toString();
+        EXPECT_FALSE(fs::exists(folder / "d.svg"));
+    }
+}
+
+}  // namespace
+}  // namespace svt::test
