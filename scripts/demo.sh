@@ -28,5 +28,9 @@ draw house_rooms "$out/house.svt" --hide 'name~"Roof|Rafter|Ridge"' --opacity cl
 draw house_plan "$out/house.svt" --hide class=BuildingRoom --section 'z>1.4' --camera top --ortho
 draw house_beam "$out/house.svt" --hide class=BuildingRoom --section 'y<4.3' --color 'name="Hidden beam":red' --camera front
 draw house_patterns "$out/house_patterns.svt" --hide class=BuildingRoom --section 'y<4.3' --camera front
-draw tower_flat "$out/tower.svt" --opacity all:0.02 --opacity 'under tower_S04_F2:1' --color 'under tower_S04_F2:orange'
+draw house_lens "$out/house.svt" --hide class=BuildingRoom --lens 'view(0.5,0.5,0.35)' --section 'y<4.3'
+draw house_cutaway "$out/house.svt" --look paper --hide class=BuildingRoom --cutaway 'name="Hidden beam"' --color 'name="Hidden beam":red'
+draw tower_flats "$out/tower.svt" --scene examples/scenes/two_flats_in_their_tower.scene.json
+$svt section "$out/house.svt" -o "$out/house_plan.svg" --plane 'storey=Ground floor+1.2'
+echo "  $out/house_plan.svg"
 echo "demo: done; the pictures are in $out, the volumes beside them ('$svt info $out/house.svt --tree' shows what is inside)"
