@@ -1,4 +1,5 @@
 #include "cli.hpp"
+#include "render_vectors.hpp"
 
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/selection.hpp>
@@ -21,6 +22,7 @@ namespace {
 struct Arguments {
     std::filesystem::path input, output, labelOutput, depthOutput;
     BuildArguments build;
+    VectorArguments vectors;
     std::string camera = "iso", size = "1280x720", background = "white";
     std::vector<std::string> hide, show, color, opacity, section;
     std::vector<double> eye, target;
@@ -156,7 +158,8 @@ int runRender(const Arguments& arguments) {
     if (!size) return fail(size.error());
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    const auto volume =
+        loadVolume(arguments.input, arguments.vectors.forBuild(arguments.build), progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
     render::FrameSpec spec;
@@ -183,6 +186,7 @@ int runRender(const Arguments& arguments) {
         if (!plane) return fail(plane.error());
         pass.clips.push_back(render::ClipRegion::plane(plane->normal, plane->point));
     }
+    if (auto added = arguments.vectors.apply(*volume, pass); !added) return fail(added.error());
     spec.passes.push_back(std::move(pass));
     // Lines are drawn between objects, not between the phases of one object's pattern.
     spec.objectOfScalar = volume->labels.labelOfScalar();
@@ -296,6 +300,7 @@ Run addRenderCommand(CLI::App& app) {
         ->group("Output")
         ->type_name("D.png");
     command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
+    arguments->vectors.addTo(*command);
     arguments->build.addTo(*command);
     return [arguments] { return runRender(*arguments); };
 }

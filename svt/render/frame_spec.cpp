@@ -67,6 +67,7 @@ Result<void> checkPass(const Pass& pass, std::size_t number) {
             if (!isFinite(half.normal) || !(length(half.normal) > 0) || !std::isfinite(half.offset))
                 return bad("a clip plane has a zero normal or is not finite");
     }
+    if (auto checked = checkShapes(pass.lines, pass.triangles); !checked) return bad(checked.error().message());
     return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/render/shapes.hpp>
 #include <svt/volume/column_volume.hpp>
 
 #include <cstdint>
@@ -93,6 +94,8 @@ struct Pass {
     std::vector<Style> styles;      ///< by scalar; scalars beyond the end are hidden. The transfer function
     std::vector<ClipRegion> clips;  ///< drawn is what no region cuts away and every KeepOnly region holds; at most 16
     Join join = Join::Over;
+    std::vector<LineSet> lines{};           ///< composited with the voxels at their depth; clipped as they are
+    std::vector<MeshTriangle> triangles{};  ///< the same; drawn instead of the voxels of their objects
 
     static constexpr std::size_t kMaxClips = 16;
     friend bool operator==(const Pass&, const Pass&) = default;

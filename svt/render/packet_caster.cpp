@@ -81,9 +81,10 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     }
     const bool isAnyInside = setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
     for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
-    if (!isAnyInside)
+    const bool isAnyMet = isAnyInside || scene_.hasShapes;
+    if (!isAnyMet)
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
-    for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyInside; ++pass) {
+    for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyMet; ++pass) {
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
             Sample& sample = samples[places_[n]];
@@ -97,6 +98,8 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     pass_ = pass;
     PacketScene scene = packetScene;
     scene.surface = &PacketCaster::surfaceOf;
+    scene.fragment = &PacketCaster::fragmentOf;
+    withColor_ = scene.withColor;
     for (auto& color : seen_.color) color.fill(0);
     for (auto& normal : seen_.normal) normal.fill(0);
     seen_.transmittance.fill(1);
@@ -105,35 +108,92 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     seen_.object.fill(0);
     seen_.isCap.fill(0);
     seen_.isDone.fill(0);
-    Lanes<std::int64_t> capped{};
-    const Clipper& clipper = scene_.passes[pass].clipper;
-    if (clipper.isEmpty()) {
-        capPlanes_.fill(nullptr);
-        from_ = rays_.from;
-        walkPacket(scene, rays_, rays_.from, rays_.to, capped, this, seen_);
-    } else {
-        std::array<DrawnIntervals, kPacketRays> drawn;
-        std::size_t most = 0;
-        for (std::size_t n = 0; n < count_; ++n) {
-            const RaySpan span{rays_.from[n], rays_.to[n]};
-            if (!(span.from < span.to)) continue;
-            drawn[n] = clipper.cut(scene_.rays.at(rays_.u[n], rays_.v[n]).index, span);
-            most = std::max(most, static_cast<std::size_t>(drawn[n].end() - drawn[n].begin()));
-        }
-        for (std::size_t part = 0; part < most; ++part) {
-            Lanes<double> to{};
-            from_.fill(0);
-            for (std::size_t n = 0; n < count_; ++n) {
-                if (part >= static_cast<std::size_t>(drawn[n].end() - drawn[n].begin())) continue;
-                const DrawnInterval& interval = drawn[n].begin()[part];
-                from_[n] = interval.from;
-                to[n] = interval.to;
-                capPlanes_[n] = interval.capPlane;
-                capped[n] = interval.capPlane != nullptr ? 1 : 0;
-            }
-            walkPacket(scene, rays_, from_, to, capped, this, seen_);
-        }
+    seen_.lines.fill(1);
+    seen_.nextFragment.fill(std::numeric_limits<double>::infinity());
+    fragments_.clear();
+    rayFragments_.fill({});
+    if (!scene_.passes[pass].clipper.isEmpty() || !scene_.passes[pass].shapes.isEmpty()) return castParts(scene);
+    capPlanes_.fill(nullptr);
+    from_ = rays_.from;
+    walkPacket(scene, rays_, rays_.from, rays_.to, {}, this, seen_);
+}
+
+// The stretches of all rays, one after the other.
+void PacketCaster::castParts(const PacketScene& scene) {
+    parts_.clear();
+    std::size_t most = 0;
+    for (std::size_t n = 0; n < count_; ++n) {
+        rayParts_[n].next = parts_.size();
+        findParts(n);
+        rayParts_[n].end = parts_.size();
+        most = std::max(most, rayParts_[n].end - rayParts_[n].next);
     }
+    Lanes<std::int64_t> capped{};
+    for (std::size_t part = 0; part < most; ++part) {
+        Lanes<double> to{};
+        from_.fill(0);
+        for (std::size_t n = 0; n < count_; ++n) {
+            if (part >= rayParts_[n].end - rayParts_[n].next) continue;
+            const DrawnInterval& interval = parts_[rayParts_[n].next + part];
+            from_[n] = interval.from;
+            to[n] = interval.to;
+            capPlanes_[n] = interval.capPlane;
+            capped[n] = interval.capPlane != nullptr ? 1 : 0;
+        }
+        walkPacket(scene, rays_, from_, to, capped, this, seen_);
+    }
+    if (fragments_.empty()) return;
+    for (std::size_t n = 0; n < count_; ++n)
+        while (seen_.isDone[n] == 0 && rayFragments_[n].next < rayFragments_[n].end) addFragment(n);
+}
+
+// What is drawn of a ray, and the fragments that it meets.
+void PacketCaster::findParts(std::size_t ray) {
+    const PreparedPass& pass = scene_.passes[pass_];
+    const double u = rays_.u[ray], v = rays_.v[ray];
+    const RaySpan span{rays_.from[ray], rays_.to[ray]};
+    const bool isInside = span.from < span.to;
+    const bool hasShapes = !pass.shapes.isEmpty() && !pass.shapes.near(u, v).empty();
+    const std::size_t first = parts_.size();
+    if (pass.clipper.isEmpty() && isInside) parts_.push_back({span.from, span.to, nullptr});
+    if (!hasShapes && (pass.clipper.isEmpty() || !isInside)) return;
+    const CameraRay cameraRay = scene_.rays.at(u, v);
+    if (!pass.clipper.isEmpty() && isInside) {
+        const DrawnIntervals drawn = pass.clipper.cut(cameraRay.index, span);
+        parts_.insert(parts_.end(), drawn.begin(), drawn.end());
+    }
+    if (!hasShapes) return;
+    Range& found = rayFragments_[ray];
+    found.next = fragments_.size();
+    const double end = finder_.find(pass_, u, v, cameraRay, std::span(parts_).subspan(first), withColor_, fragments_);
+    found.end = fragments_.size();
+    if (found.next < found.end) seen_.nextFragment[ray] = fragments_[found.next].depth;
+    for (std::size_t part = first; part < parts_.size(); ++part) parts_[part].to = std::min(parts_[part].to, end);
+}
+
+void PacketCaster::fragmentOf(void* context, std::size_t ray) { static_cast<PacketCaster*>(context)->addFragment(ray); }
+
+// RunShader::addFragment().
+void PacketCaster::addFragment(std::size_t ray) {
+    Range& found = rayFragments_[ray];
+    const Fragment& fragment = fragments_[found.next++];
+    seen_.nextFragment[ray] =
+        found.next < found.end ? fragments_[found.next].depth : std::numeric_limits<double>::infinity();
+    Vec3d color{seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]};
+    blend(fragment, color, seen_.transmittance[ray], seen_.lines[ray]);
+    for (int channel = 0; channel < 3; ++channel) seen_.color[channel][ray] = color[channel];
+    const double opacity = 1 - seen_.transmittance[ray];
+    const bool hasHit = seen_.depth[ray] < std::numeric_limits<double>::infinity();
+    if (!fragment.isLine && !hasHit && opacity > double(scene_.options.labelAt)) {
+        seen_.label[ray] = fragment.label;
+        seen_.object[ray] = fragment.object;
+        seen_.depth[ray] = fragment.depth;
+        for (int axis = 0; axis < 3; ++axis) seen_.normal[axis][ray] = fragment.normal[axis];
+        seen_.isCap[ray] = fragment.isCap ? 1 : 0;
+    }
+    const bool isDone = withColor_ ? opacity >= double(scene_.options.opaqueAt)
+                                   : seen_.depth[ray] < std::numeric_limits<double>::infinity();
+    if (isDone) seen_.isDone[ray] = -1;
 }
 
 Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
@@ -145,8 +205,10 @@ Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
         sample.normal = toFloat({seen_.normal[0][ray], seen_.normal[1][ray], seen_.normal[2][ray]});
         sample.isCap = seen_.isCap[ray] != 0;
     }
-    finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]}, seen_.transmittance[ray],
-                 scene_.options, sample);
+    finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]},
+                 seen_.transmittance[ray] * seen_.lines[ray], scene_.options, sample);
+    const Range& found = rayFragments_[ray];
+    if (found.next < found.end) drawHidden(std::span(fragments_).subspan(found.next, found.end - found.next), sample);
     return sample;
 }
 
