@@ -11,8 +11,8 @@ namespace {
 using Kind = LinearStyle::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Lines lie before what is so near behind them: voxels, and half widths of the line.
-constexpr double kVoxelsBefore = 1.5, kWidthsBefore = 4;
+/// Lines lie so many voxels before what they lie on.
+constexpr double kVoxelsBefore = 1.5;
 
 bool isBefore(const Fragment& a, const Fragment& b) noexcept { return a.depth < b.depth; }
 
@@ -25,73 +25,73 @@ bool isDrawn(std::span<const DrawnInterval> drawn, double depth) noexcept {
 
 FragmentFinder::FragmentFinder(const Scene& scene)
     : scene_(scene),
-      perPixel_(std::round(std::sqrt(scene.spec.samplesPerPixel))),
-      voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})) {}
+      voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
+      view_{scene.rays.isPerspective(), scene.lineSamples, scene.rays.pixelSize(1), kVoxelsBefore * voxelSize_} {}
 
-double FragmentFinder::find(std::size_t pass, double u, double v, const CameraRay& ray,
-                            std::span<const DrawnInterval> drawn, bool withLines, std::vector<Fragment>& fragments) {
+std::span<LineHit> FragmentFinder::findLines(std::size_t pass, const double* u, const double* v,
+                                             std::array<std::size_t, kLineRays + 1>& starts) {
     const PassShapes& shapes = scene_.passes[pass].shapes;
-    const std::size_t first = fragments.size();
-    const double x = (u + 1) / 2 * shapes.width(), y = (1 - v) / 2 * shapes.height();
-    Vec3d origin{};
-    if (!scene_.rays.isPerspective()) {
-        const CameraRays::Basis basis = scene_.rays.basis();
-        origin = basis.right * (u * basis.halfWidth) + basis.up * (v * basis.halfHeight);
+    starts.fill(0);
+    double x[kLineRays], y[kLineRays];
+    for (std::size_t n = 0; n < kLineRays; ++n) {
+        x[n] = (u[n] + 1) / 2 * shapes.width();
+        y[n] = (1 - v[n]) / 2 * shapes.height();
     }
-    hits_.clear();
-    for (const std::uint32_t shape : shapes.near(u, v)) {
-        if (shape >= PassShapes::kTriangle)
-            addHit(shapes.triangle(shape - PassShapes::kTriangle), shape - PassShapes::kTriangle, origin,
-                   ray.direction);
-        else if (withLines)
-            addLine(shapes, shapes.line(shape), x, y, fragments);
-    }
-    joinLines(first, fragments);
-    if (hits_.empty()) return kInfinity;
-    const double end = addSurfaces(pass, ray, drawn, fragments);
-    std::stable_sort(fragments.begin() + static_cast<std::ptrdiff_t>(first), fragments.end(), isBefore);
-    return end;
+    const std::span<const std::uint32_t> near = shapes.linesNear(x, y, near_);
+    if (near.empty()) return {};
+    if (lineHits_.size() < kLineRays * near.size()) lineHits_.resize(2 * kLineRays * near.size());
+    const std::size_t count =
+        render::findLines(view_, shapes.lines().data(), shapes.looks().data(), near, x, y, lineHits_.data());
+    for (std::size_t h = 0; h < count; ++h) ++starts[lineHits_[h].ray + 1];
+    for (std::size_t n = 0; n < kLineRays; ++n) starts[n + 1] += starts[n];
+    if (sortedHits_.size() < count) sortedHits_.resize(2 * count);
+    std::array<std::size_t, kLineRays + 1> at = starts;
+    for (std::size_t h = 0; h < count; ++h) sortedHits_[at[lineHits_[h].ray]++] = lineHits_[h];
+    return std::span(sortedHits_).first(count);
 }
 
-void FragmentFinder::addLine(const PassShapes& shapes, const PictureLine& line, double x, double y,
-                             std::vector<Fragment>& fragments) const {
-    const LineLook& look = shapes.look(line.look);
-    const double asideX = x - line.x, asideY = y - line.y;
-    const double along = std::clamp((asideX * line.dx + asideY * line.dy) * line.perSquaredLength, 0.0, 1.0);
-    const double offX = asideX - along * line.dx, offY = asideY - along * line.dy;
-    const double distance = std::sqrt(offX * offX + offY * offY);
-    const double coverage = std::min((look.halfWidth - distance) * perPixel_ + 0.5, look.darkest);
-    if (!(coverage > 0)) return;
-    const double place = line.depth + line.depthChange * along;
-    const double depth = scene_.rays.isPerspective() ? 1 / place : place;
-    const double before = kVoxelsBefore * voxelSize_ + kWidthsBefore * look.halfWidth * scene_.rays.pixelSize(depth);
-    double hidden = look.hidden == HiddenLines::None ? 0 : coverage * look.hiddenOpacity;
-    if (look.hidden == HiddenLines::Dashed) {
-        const double pixels = along * std::sqrt(line.dx * line.dx + line.dy * line.dy);
-        if (pixels - std::floor(pixels / look.period) * look.period > look.dash) hidden = 0;
+std::span<LineHit> FragmentFinder::findLines(std::size_t pass, double u, double v) {
+    const PassShapes& shapes = scene_.passes[pass].shapes;
+    const double x = (u + 1) / 2 * shapes.width(), y = (1 - v) / 2 * shapes.height();
+    lineHits_.clear();
+    LineHit hit{};
+    for (const std::uint32_t shape : shapes.near(u, v)) {
+        if (shape >= PassShapes::kTriangle) break;
+        const PictureLine& line = shapes.lines()[shape];
+        if (findLine(view_, line, shapes.looks()[line.look], shape, x, y, hit)) lineHits_.push_back(hit);
     }
-    fragments.push_back({std::max(depth - before, 0.0), look.color, coverage, hidden, true});
+    return lineHits_;
 }
 
 // Lines at one depth are one line, as strong as the strongest.
-void FragmentFinder::joinLines(std::size_t first, std::vector<Fragment>& fragments) const {
-    if (fragments.size() < first + 2) return;
-    std::stable_sort(fragments.begin() + static_cast<std::ptrdiff_t>(first), fragments.end(), isBefore);
-    std::size_t last = first;
-    for (std::size_t n = first + 1; n < fragments.size(); ++n) {
-        Fragment& joined = fragments[last];
-        const Fragment& next = fragments[n];
-        if (next.depth - joined.depth > 2 * voxelSize_) {
-            fragments[++last] = next;
-            continue;
-        }
-        if (next.opacity > joined.opacity) {
-            joined.opacity = next.opacity;
-            joined.color = next.color;
-        }
-        joined.hidden = std::max(joined.hidden, next.hidden);
+void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragments& fragments) const {
+    if (hits.empty()) return;
+    const PassShapes& shapes = scene_.passes[pass].shapes;
+    // There are few.
+    for (std::size_t n = 1; n < hits.size(); ++n) {
+        const auto isNearer = [](const LineHit& a, const LineHit& b) {
+            return a.depth < b.depth || (a.depth == b.depth && a.line < b.line);
+        };
+        if (!isNearer(hits[n], hits[n - 1])) continue;
+        const LineHit hit = hits[n];
+        std::size_t at = n;
+        for (; at > 0 && isNearer(hit, hits[at - 1]); --at) hits[at] = hits[at - 1];
+        hits[at] = hit;
     }
-    fragments.resize(last + 1);
+    for (std::size_t begin = 0; begin < hits.size();) {
+        LineHit joined = hits[begin];
+        std::size_t end = begin + 1;
+        for (; end < hits.size() && hits[end].depth - joined.depth <= 2 * voxelSize_; ++end) {
+            if (hits[end].opacity > joined.opacity) {
+                joined.opacity = hits[end].opacity;
+                joined.line = hits[end].line;
+            }
+            joined.hidden = std::max(joined.hidden, hits[end].hidden);
+        }
+        begin = end;
+        const LineLook& look = shapes.looks()[shapes.lines()[joined.line].look];
+        fragments.items.push_back({joined.depth, joined.opacity, joined.hidden, look.color});
+    }
 }
 
 // On which side of each edge the ray passes is the same expression, with the other sign, for the triangle beyond: no
@@ -118,9 +118,25 @@ void FragmentFinder::sortHits(const PassShapes& shapes) {
     hits_.erase(std::unique(hits_.begin(), hits_.end(), isSame), hits_.end());
 }
 
-double FragmentFinder::addSurfaces(std::size_t pass, const CameraRay& ray, std::span<const DrawnInterval> drawn,
-                                   std::vector<Fragment>& fragments) {
+double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const CameraRay& ray,
+                                   std::span<const DrawnInterval> drawn, std::size_t first, Fragments& fragments) {
     const PassShapes& shapes = scene_.passes[pass].shapes;
+    const auto near = shapes.near(u, v);
+    if (near.empty() || near.back() < PassShapes::kTriangle) return kInfinity;
+    Vec3d origin{};
+    if (!scene_.rays.isPerspective()) {
+        const CameraRays::Basis basis = scene_.rays.basis();
+        origin = basis.right * (u * basis.halfWidth) + basis.up * (v * basis.halfHeight);
+    }
+    hits_.clear();
+    const double x = (u + 1) / 2 * shapes.width(), y = (1 - v) / 2 * shapes.height();
+    for (const std::uint32_t shape : near) {
+        if (shape < PassShapes::kTriangle) continue;
+        const PictureTriangle& triangle = shapes.triangle(shape - PassShapes::kTriangle);
+        if (x < triangle.left || x > triangle.right || y < triangle.top || y > triangle.bottom) continue;
+        addHit(triangle, shape - PassShapes::kTriangle, origin, ray.direction);
+    }
+    if (hits_.empty()) return kInfinity;
     sortHits(shapes);
     double end = kInfinity;
     for (const DrawnInterval& interval : drawn) {
@@ -128,9 +144,7 @@ double FragmentFinder::addSurfaces(std::size_t pass, const CameraRay& ray, std::
         const PictureTriangle* body = cutOpen(shapes, interval.from);
         if (body == nullptr || body->style.kind != Kind::Opaque) continue;
         const Vec3d up = normalized(interval.capPlane->normal);
-        Fragment cap = surface(pass, ray, *body, interval.from, dot(up, ray.direction) > 0 ? -up : up);
-        cap.isCap = true;
-        fragments.push_back(cap);
+        addSurface(pass, ray, *body, interval.from, dot(up, ray.direction) > 0 ? -up : up, true, fragments);
         end = interval.from;
         break;
     }
@@ -138,10 +152,11 @@ double FragmentFinder::addSurfaces(std::size_t pass, const CameraRay& ray, std::
         if (hit.depth >= end) break;
         if (!isDrawn(drawn, hit.depth)) continue;
         const PictureTriangle& triangle = shapes.triangle(hit.triangle);
-        fragments.push_back(
-            surface(pass, ray, triangle, hit.depth, hit.isEntering ? triangle.normal : -triangle.normal));
+        addSurface(pass, ray, triangle, hit.depth, hit.isEntering ? triangle.normal : -triangle.normal, false,
+                   fragments);
         if (triangle.style.kind == Kind::Opaque) end = hit.depth;
     }
+    std::stable_sort(fragments.items.begin() + static_cast<std::ptrdiff_t>(first), fragments.items.end(), isBefore);
     return end;
 }
 
@@ -164,22 +179,17 @@ const PictureTriangle* FragmentFinder::cutOpen(const PassShapes& shapes, double 
     return body;
 }
 
-Fragment FragmentFinder::surface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle, double depth,
-                                 Vec3d normal) {
+void FragmentFinder::addSurface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle, double depth,
+                                Vec3d normal, bool isCap, Fragments& fragments) {
     const LinearStyle& style = triangle.style;
     const SurfaceLight lights(scene_, pass, cache_);
     const double lit =
         lights.on(style, normal, normalized(-ray.direction), ray.index.origin + ray.index.direction * depth);
     const double light = 1 + (lit - 1) * double(style.surface);
-    return {depth,
-            Vec3d{style.color.x, style.color.y, style.color.z} * light,
-            triangle.opacity,
-            0,
-            false,
-            false,
-            style.label,
-            style.object,
-            normal};
+    const auto number = static_cast<std::int32_t>(fragments.surfaces.size());
+    fragments.surfaces.push_back({style.label, style.object, normal, isCap});
+    fragments.items.push_back(
+        {depth, triangle.opacity, 0, Vec3d{style.color.x, style.color.y, style.color.z} * light, number});
 }
 
 }  // namespace svt::render

@@ -6,6 +6,7 @@
 /// fragment within a run, the run's light is added up to there, then the fragment's, and the run goes on: it is not lit
 /// anew, and no second walk is made.
 
+#include <svt/render/line_kernel.hpp>
 #include <svt/render/sample_caster.hpp>
 
 #include <limits>
@@ -14,17 +15,33 @@
 
 namespace svt::render {
 
-/// A line or a surface that a ray meets.
-struct Fragment {
-    double depth;        ///< the ray's parameter
-    Vec3d color;         ///< linear light, lit
-    double opacity;      ///< 0..1
-    double hidden;       ///< opacity behind something opaque; surfaces: 0
-    bool isLine;         ///< has no label
+/// A surface that a ray meets.
+struct MetSurface {
+    volume::Scalar label;
+    std::uint32_t object;
+    Vec3d normal;        ///< world space, unit length, towards the viewer
     bool isCap = false;  ///< on a clip plane
-    volume::Scalar label = 0;
-    std::uint32_t object = 0;
-    Vec3d normal{};  ///< world space, unit length, towards the viewer
+};
+
+/// What a ray meets at one depth: a line or a surface.
+struct Fragment {
+    double depth;               ///< the ray's parameter
+    double opacity;             ///< 0..1
+    double hidden;              ///< opacity behind something opaque; surfaces: 0
+    Vec3d color;                ///< linear light, lit
+    std::int32_t surface = -1;  ///< its number; -1: a line, which has no label
+
+    [[nodiscard]] bool isLine() const noexcept { return surface < 0; }
+};
+
+/// Of a ray, or of all rays of a packet.
+struct Fragments {
+    std::vector<Fragment> items;  ///< those of one ray stand together, by ascending depth
+    std::vector<MetSurface> surfaces;
+    void clear() noexcept {
+        items.clear();
+        surfaces.clear();
+    }
 };
 
 /// Adds a fragment to what a ray has gathered.
@@ -33,7 +50,7 @@ struct Fragment {
 inline void blend(const Fragment& fragment, Vec3d& color, double& transmittance, double& lines) noexcept {
     const double share = transmittance * fragment.opacity;
     color = color + fragment.color * (share * lines);
-    if (fragment.isLine)
+    if (fragment.isLine())
         lines *= 1 - fragment.opacity;
     else
         transmittance -= share;
@@ -48,6 +65,7 @@ inline void drawHidden(std::span<const Fragment> fragments, Sample& sample) noex
     const auto share = static_cast<float>(strongest->hidden);
     sample.color = sample.color * (1 - share) + toFloat(strongest->color) * share;
     sample.alpha = sample.alpha + (1 - sample.alpha) * share;
+    sample.hasLine = true;
 }
 
 /// Finds fragments; keeps its buffers. Belongs to one thread.
@@ -55,12 +73,20 @@ class FragmentFinder {
 public:
     explicit FragmentFinder(const Scene& scene);
 
-    /// Appends to `fragments`, by ascending depth, what the ray through (u, v), see CameraRays::at(), meets of the
-    /// shapes of a pass that lie near it (PassShapes::near()): of surfaces those in `drawn`, up to the first opaque
-    /// one. \param withLines  false: surfaces alone \return depth of that opaque one, where the ray ends; infinity if
-    /// there is none
-    double find(std::size_t pass, double u, double v, const CameraRay& ray, std::span<const DrawnInterval> drawn,
-                bool withLines, std::vector<Fragment>& fragments);
+    /// What kLineRays rays come upon of the lines of a pass; `u` and `v` as CameraRays::at() takes them.
+    /// \return the hits in the order of rays, `starts[n]` to `starts[n + 1]` those of ray n; valid until the next call
+    std::span<LineHit> findLines(std::size_t pass, const double* u, const double* v,
+                                 std::array<std::size_t, kLineRays + 1>& starts);
+    /// The same for one ray.
+    std::span<LineHit> findLines(std::size_t pass, double u, double v);
+    /// Appends what is drawn of one ray's hits to `fragments`, by ascending depth.
+    void addLines(std::size_t pass, std::span<LineHit> hits, Fragments& fragments) const;
+
+    /// Adds the surfaces that the ray through (u, v) meets in `drawn`, up to the first opaque one, to those of its
+    /// fragments that begin at `first`; all are then by ascending depth.
+    /// \return depth of that opaque one, where the ray ends; infinity if there is none
+    double addSurfaces(std::size_t pass, double u, double v, const CameraRay& ray, std::span<const DrawnInterval> drawn,
+                       std::size_t first, Fragments& fragments);
 
 private:
     struct Hit {
@@ -69,22 +95,19 @@ private:
         bool isEntering;
     };
 
-    void addLine(const PassShapes& shapes, const PictureLine& line, double x, double y,
-                 std::vector<Fragment>& fragments) const;
-    void joinLines(std::size_t first, std::vector<Fragment>& fragments) const;
     void addHit(const PictureTriangle& triangle, std::uint32_t number, Vec3d origin, Vec3d direction);
-    double addSurfaces(std::size_t pass, const CameraRay& ray, std::span<const DrawnInterval> drawn,
-                       std::vector<Fragment>& fragments);
     void sortHits(const PassShapes& shapes);
-    [[nodiscard]] Fragment surface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle,
-                                   double depth, Vec3d normal);
+    void addSurface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle, double depth, Vec3d normal,
+                    bool isCap, Fragments& fragments);
     const PictureTriangle* cutOpen(const PassShapes& shapes, double depth);
 
     const Scene& scene_;
-    double perPixel_;   // samples along a pixel
     double voxelSize_;  // metres, the largest spacing
+    LineView view_;
     NormalCache cache_;
     std::vector<Hit> hits_;
+    std::vector<std::uint32_t> near_;  // lines near a few rays
+    std::vector<LineHit> lineHits_, sortedHits_;
     std::vector<std::pair<std::uint32_t, int>> inside_;  // labels, how often entered
 };
 

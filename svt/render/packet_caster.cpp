@@ -122,6 +122,21 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
 void PacketCaster::castParts(const PacketScene& scene) {
     parts_.clear();
     std::size_t most = 0;
+    const PassShapes& shapes = scene_.passes[pass_].shapes;
+    if (withColor_ && !shapes.lines().empty())
+        for (std::size_t block = 0; block < count_; block += kLineRays) findLines(block);
+    if (scene_.passes[pass_].clipper.isEmpty()) {
+        capPlanes_.fill(nullptr);
+        from_ = rays_.from;
+        Lanes<double> to = rays_.to;
+        for (std::size_t n = 0; n < count_ && shapes.hasTriangles(); ++n) {
+            const DrawnInterval whole{from_[n], to[n], nullptr};
+            if (whole.from < whole.to) to[n] = std::min(to[n], findSurfaces(n, std::span(&whole, 1)));
+        }
+        walkPacket(scene, rays_, rays_.from, to, {}, this, seen_);
+        addLastFragments();
+        return;
+    }
     for (std::size_t n = 0; n < count_; ++n) {
         rayParts_[n].next = parts_.size();
         findParts(n);
@@ -142,33 +157,56 @@ void PacketCaster::castParts(const PacketScene& scene) {
         }
         walkPacket(scene, rays_, from_, to, capped, this, seen_);
     }
-    if (fragments_.empty()) return;
+    addLastFragments();
+}
+
+// What lies behind all voxels.
+void PacketCaster::addLastFragments() {
+    if (fragments_.items.empty()) return;
     for (std::size_t n = 0; n < count_; ++n)
         while (seen_.isDone[n] == 0 && rayFragments_[n].next < rayFragments_[n].end) addFragment(n);
 }
 
-// What is drawn of a ray, and the fragments that it meets.
-void PacketCaster::findParts(std::size_t ray) {
-    const PreparedPass& pass = scene_.passes[pass_];
-    const double u = rays_.u[ray], v = rays_.v[ray];
-    const RaySpan span{rays_.from[ray], rays_.to[ray]};
-    const bool isInside = span.from < span.to;
-    const bool hasShapes = !pass.shapes.isEmpty() && !pass.shapes.near(u, v).empty();
-    const std::size_t first = parts_.size();
-    if (pass.clipper.isEmpty() && isInside) parts_.push_back({span.from, span.to, nullptr});
-    if (!hasShapes && (pass.clipper.isEmpty() || !isInside)) return;
-    const CameraRay cameraRay = scene_.rays.at(u, v);
-    if (!pass.clipper.isEmpty() && isInside) {
-        const DrawnIntervals drawn = pass.clipper.cut(cameraRay.index, span);
-        parts_.insert(parts_.end(), drawn.begin(), drawn.end());
+// The lines that a few rays come upon, as their first fragments. Rays of the packet beyond the last are those of the
+// first.
+void PacketCaster::findLines(std::size_t block) {
+    std::array<std::size_t, kLineRays + 1> starts;
+    const auto hits = finder_.findLines(pass_, rays_.u.data() + block, rays_.v.data() + block, starts);
+    if (hits.empty()) return;
+    for (std::size_t n = 0; n < std::min(kLineRays, count_ - block); ++n) {
+        Range& found = rayFragments_[block + n];
+        found.next = fragments_.items.size();
+        finder_.addLines(pass_, hits.subspan(starts[n], starts[n + 1] - starts[n]), fragments_);
+        found.end = fragments_.items.size();
+        if (found.next < found.end) seen_.nextFragment[block + n] = fragments_.items[found.next].depth;
     }
-    if (!hasShapes) return;
-    Range& found = rayFragments_[ray];
-    found.next = fragments_.size();
-    const double end = finder_.find(pass_, u, v, cameraRay, std::span(parts_).subspan(first), withColor_, fragments_);
-    found.end = fragments_.size();
-    if (found.next < found.end) seen_.nextFragment[ray] = fragments_[found.next].depth;
+}
+
+// What the clips leave of a ray, up to the first opaque surface.
+void PacketCaster::findParts(std::size_t ray) {
+    const RaySpan span{rays_.from[ray], rays_.to[ray]};
+    if (!(span.from < span.to)) return;
+    const Clipper& clipper = scene_.passes[pass_].clipper;
+    const std::size_t first = parts_.size();
+    const DrawnIntervals drawn = clipper.cut(scene_.rays.at(rays_.u[ray], rays_.v[ray]).index, span);
+    parts_.insert(parts_.end(), drawn.begin(), drawn.end());
+    if (!scene_.passes[pass_].shapes.hasTriangles()) return;
+    const double end = findSurfaces(ray, std::span(parts_).subspan(first));
     for (std::size_t part = first; part < parts_.size(); ++part) parts_[part].to = std::min(parts_[part].to, end);
+}
+
+// Puts the surfaces that a ray meets among its fragments. \return where an opaque one ends it
+double PacketCaster::findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn) {
+    const double u = rays_.u[ray], v = rays_.v[ray];
+    if (!scene_.passes[pass_].shapes.hasTriangles(u, v)) return std::numeric_limits<double>::infinity();
+    // The fragments of a ray stand together.
+    Range& found = rayFragments_[ray];
+    const std::size_t begin = fragments_.items.size();
+    for (std::size_t f = found.next; f < found.end; ++f) fragments_.items.push_back(Fragment(fragments_.items[f]));
+    const double end = finder_.addSurfaces(pass_, u, v, scene_.rays.at(u, v), drawn, begin, fragments_);
+    found = {begin, fragments_.items.size()};
+    if (found.next < found.end) seen_.nextFragment[ray] = fragments_.items[found.next].depth;
+    return end;
 }
 
 void PacketCaster::fragmentOf(void* context, std::size_t ray) { static_cast<PacketCaster*>(context)->addFragment(ray); }
@@ -176,20 +214,21 @@ void PacketCaster::fragmentOf(void* context, std::size_t ray) { static_cast<Pack
 // RunShader::addFragment().
 void PacketCaster::addFragment(std::size_t ray) {
     Range& found = rayFragments_[ray];
-    const Fragment& fragment = fragments_[found.next++];
+    const Fragment& fragment = fragments_.items[found.next++];
     seen_.nextFragment[ray] =
-        found.next < found.end ? fragments_[found.next].depth : std::numeric_limits<double>::infinity();
+        found.next < found.end ? fragments_.items[found.next].depth : std::numeric_limits<double>::infinity();
     Vec3d color{seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]};
     blend(fragment, color, seen_.transmittance[ray], seen_.lines[ray]);
     for (int channel = 0; channel < 3; ++channel) seen_.color[channel][ray] = color[channel];
     const double opacity = 1 - seen_.transmittance[ray];
     const bool hasHit = seen_.depth[ray] < std::numeric_limits<double>::infinity();
-    if (!fragment.isLine && !hasHit && opacity > double(scene_.options.labelAt)) {
-        seen_.label[ray] = fragment.label;
-        seen_.object[ray] = fragment.object;
+    if (!fragment.isLine() && !hasHit && opacity > double(scene_.options.labelAt)) {
+        const MetSurface& surface = fragments_.surfaces[static_cast<std::size_t>(fragment.surface)];
+        seen_.label[ray] = surface.label;
+        seen_.object[ray] = surface.object;
         seen_.depth[ray] = fragment.depth;
-        for (int axis = 0; axis < 3; ++axis) seen_.normal[axis][ray] = fragment.normal[axis];
-        seen_.isCap[ray] = fragment.isCap ? 1 : 0;
+        for (int axis = 0; axis < 3; ++axis) seen_.normal[axis][ray] = surface.normal[axis];
+        seen_.isCap[ray] = surface.isCap ? 1 : 0;
     }
     const bool isDone = withColor_ ? opacity >= double(scene_.options.opaqueAt)
                                    : seen_.depth[ray] < std::numeric_limits<double>::infinity();
@@ -208,7 +247,8 @@ Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
     finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]},
                  seen_.transmittance[ray] * seen_.lines[ray], scene_.options, sample);
     const Range& found = rayFragments_[ray];
-    if (found.next < found.end) drawHidden(std::span(fragments_).subspan(found.next, found.end - found.next), sample);
+    if (found.next < found.end)
+        drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
     return sample;
 }
 

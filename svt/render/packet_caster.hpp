@@ -45,7 +45,10 @@ public:
 private:
     void castPass(std::size_t pass, const PacketScene& packetScene);
     void castParts(const PacketScene& scene);
+    void findLines(std::size_t block);
+    void addLastFragments();
     void findParts(std::size_t ray);
+    double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
     [[nodiscard]] Sample sampleOf(std::size_t ray) const noexcept;
     void addFragment(std::size_t ray);
     static void fragmentOf(void* context, std::size_t ray);
@@ -63,7 +66,7 @@ private:
     Lanes<double> from_{};
     FragmentFinder finder_;
     std::vector<DrawnInterval> parts_;  // of all rays of the packet, ray by ray
-    std::vector<Fragment> fragments_;   // the same
+    Fragments fragments_;               // the same
     struct Range {
         std::size_t next = 0, end = 0;
     };

@@ -16,6 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Rays outside of the picture whose shapes are known, pixels; TileRenderer casts them for border lines.
 constexpr double kMargin = 2;
+/// Shorter lines are left out: those of round profiles far away, which would add up to blots. Pixels.
+constexpr double kShortest = 0.5;
 /// Most entries in the lists of all tiles, and of all squares.
 constexpr std::size_t kMaxEntries = std::size_t{1} << 26;
 
@@ -41,7 +43,8 @@ Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar) {
 }
 
 Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, const CameraRays& rays,
-                                    const volume::Grid& grid, const Clipper& clipper, int threads) {
+                                    const volume::Grid& grid, const Clipper& clipper, double samplesPerPixel,
+                                    int threads) {
     PassShapes shapes;
     if (pass.lines.empty() && pass.triangles.empty()) return shapes;
     shapes.width_ = spec.width;
@@ -49,9 +52,8 @@ Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, con
     // Nearer to the eye plane nothing is drawn: a millionth of the way to what is looked at.
     const double nearest = 1e-6 * length(spec.camera.target - spec.camera.eye);
     for (const LineSet& set : pass.lines) {
-        const double perPixel = std::round(std::sqrt(spec.samplesPerPixel));
         const double half = double(set.width) / 2;
-        shapes.looks_.push_back({toDouble(linearFromSrgb(set.color)), half, std::min(1.0, 2 * half * perPixel),
+        shapes.looks_.push_back({toDouble(linearFromSrgb(set.color)), half, std::min(1.0, 2 * half * samplesPerPixel),
                                  double(set.hiddenOpacity), double(set.dash), double(set.dash) + double(set.gap),
                                  set.hidden});
         shapes.reach_ = std::max(shapes.reach_, half + 0.5);
@@ -108,7 +110,9 @@ void PassShapes::addLine(Vec3d from, Vec3d to, const CameraRays& rays, double ne
     line.dx = (b.x - a.x) / 2 * width_;
     line.dy = (a.y - b.y) / 2 * height_;
     const double squared = line.dx * line.dx + line.dy * line.dy;
-    line.perSquaredLength = squared > 1e-12 ? 1 / squared : 0;
+    if (!(squared >= kShortest * kShortest)) return;
+    line.perSquaredLength = 1 / squared;
+    line.length = std::sqrt(squared);
     line.depth = rays.isPerspective() ? 1 / depth : depth;
     line.depthChange = (rays.isPerspective() ? 1 / farDepth : farDepth) - line.depth;
     if (std::isfinite(line.x) && std::isfinite(line.y) && std::isfinite(squared)) lines_.push_back(line);
@@ -140,9 +144,35 @@ void PassShapes::addTriangles(const Pass& pass, const FrameSpec& spec, const Cam
         }
         if (behind == 3) continue;
         if (behind > 0) outline.fill(0);
+        const Square bounds = boundsOf(outline);
+        triangle.left = bounds.left;
+        triangle.top = bounds.top;
+        triangle.right = bounds.right;
+        triangle.bottom = bounds.bottom;
         triangles_.push_back(triangle);
         outlines_.push_back(outline);
     }
+}
+
+std::span<const std::uint32_t> PassShapes::linesNear(double left, double top, double right, double bottom,
+                                                     std::vector<std::uint32_t>& buffer) const {
+    const auto linesOf = [&](std::int32_t x, std::int32_t y) {
+        auto shapes = inCell(x, y);
+        while (!shapes.empty() && shapes.back() >= kTriangle) shapes = shapes.first(shapes.size() - 1);
+        return shapes;
+    };
+    const std::int32_t x0 = cellOf(left, cellsX_), x1 = cellOf(right, cellsX_);
+    const std::int32_t y0 = cellOf(top, cellsY_), y1 = cellOf(bottom, cellsY_);
+    if (x0 == x1 && y0 == y1) return linesOf(x0, y0);
+    buffer.clear();
+    for (std::int32_t y = y0; y <= y1; ++y)
+        for (std::int32_t x = x0; x <= x1; ++x) {
+            const auto lines = linesOf(x, y);
+            buffer.insert(buffer.end(), lines.begin(), lines.end());
+        }
+    std::sort(buffer.begin(), buffer.end());
+    buffer.erase(std::unique(buffer.begin(), buffer.end()), buffer.end());
+    return buffer;
 }
 
 PassShapes::Square PassShapes::boundsOf(std::uint32_t shape) const noexcept {
@@ -152,7 +182,11 @@ PassShapes::Square PassShapes::boundsOf(std::uint32_t shape) const noexcept {
         return {std::min(line.x, line.x + line.dx) - reach, std::min(line.y, line.y + line.dy) - reach,
                 std::max(line.x, line.x + line.dx) + reach, std::max(line.y, line.y + line.dy) + reach};
     }
-    const std::array<double, 6>& o = outlines_[shape - kTriangle];
+    const PictureTriangle& triangle = triangles_[shape - kTriangle];
+    return {triangle.left, triangle.top, triangle.right, triangle.bottom};
+}
+
+PassShapes::Square PassShapes::boundsOf(const std::array<double, 6>& o) noexcept {
     if (o == std::array<double, 6>{}) return {-kInfinity, -kInfinity, kInfinity, kInfinity};
     constexpr double kRounding = 0.01;
     return {std::min({o[0], o[2], o[4]}) - kRounding, std::min({o[1], o[3], o[5]}) - kRounding,

@@ -19,8 +19,9 @@ namespace svt::render {
 /// A line in the picture: cut by the clips and the eye plane.
 struct PictureLine {
     double x, y, dx, dy;        ///< pixels from the picture's upper left corner: begin, and way to the end
-    double perSquaredLength;    ///< 1 / (dx^2 + dy^2); 0 where it is a point
+    double perSquaredLength;    ///< 1 / (dx^2 + dy^2)
     double depth, depthChange;  ///< 1 / depth at the begin, and what the end adds; depth itself where orthographic
+    double length;              ///< pixels
     std::uint32_t look;         ///< of PassShapes::looks()
 };
 
@@ -35,7 +36,8 @@ struct LineLook {
 /// A triangle as rays meet it. World space from the eye, metres.
 struct PictureTriangle {
     std::array<Vec3d, 3> corners;
-    Vec3d normal;  ///< unit length, outwards
+    Vec3d normal;                     ///< unit length, outwards
+    double left, top, right, bottom;  ///< where it lies in the picture, pixels
     LinearStyle style;
     double opacity;
 };
@@ -45,12 +47,14 @@ class PassShapes {
 public:
     PassShapes() = default;
 
-    /// \param clipper  of the pass
+    /// \param clipper          of the pass
+    /// \param samplesPerPixel  along a side, see Scene::lineSamples
     /// \return the shapes, or BadFrame where they cover the picture too often
     /// Cost: O(shapes + squares that they touch), mostly parallel. Memory: at most about 1 GB, where the picture is
     /// full of shapes.
     [[nodiscard]] static Result<PassShapes> make(const Pass& pass, const FrameSpec& spec, const CameraRays& rays,
-                                                 const volume::Grid& grid, const Clipper& clipper, int threads);
+                                                 const volume::Grid& grid, const Clipper& clipper,
+                                                 double samplesPerPixel, int threads);
 
     [[nodiscard]] bool isEmpty() const noexcept { return tiles_.empty(); }
     /// Farthest that a line reaches from its middle, pixels.
@@ -59,19 +63,26 @@ public:
     /// Shapes that a ray through (u, v), see CameraRays::at(), may meet, ascending: lines, then triangles, whose
     /// numbers have kTriangle added. Rays up to 2 pixels outside of the picture are answered, too.
     [[nodiscard]] std::span<const std::uint32_t> near(double u, double v) const noexcept {
-        const auto cellOf = [](double pixel, std::int32_t count) {
-            return std::clamp(static_cast<std::int32_t>(pixel * (1.0 / kCellPixels)), 0, count - 1);
-        };
-        const std::int32_t x = cellOf((u + 1) / 2 * width_, cellsX_), y = cellOf((1 - v) / 2 * height_, cellsY_);
-        const Tile& tile = tiles_[static_cast<std::size_t>(x / kTileCells + tilesX_ * (y / kTileCells))];
-        if (tile.starts.empty()) return tile.shapes;
-        const auto cell = static_cast<std::size_t>(x % kTileCells + kTileCells * (y % kTileCells));
-        return std::span(tile.shapes).subspan(tile.starts[cell], tile.starts[cell + 1] - tile.starts[cell]);
+        return inCell(cellOf((u + 1) / 2 * width_, cellsX_), cellOf((1 - v) / 2 * height_, cellsY_));
     }
     static constexpr std::uint32_t kTriangle = 0x80000000u;
+    /// Lines that any of a few rays through (x[n], y[n]), pixels, may meet; each once, in any order.
+    /// \param buffer  may hold them
+    template <std::size_t kCount>
+    [[nodiscard]] std::span<const std::uint32_t> linesNear(const double (&x)[kCount], const double (&y)[kCount],
+                                                           std::vector<std::uint32_t>& buffer) const {
+        const auto [left, right] = std::minmax_element(x, x + kCount);
+        const auto [top, bottom] = std::minmax_element(y, y + kCount);
+        return linesNear(*left, *top, *right, *bottom, buffer);
+    }
+    [[nodiscard]] bool hasTriangles() const noexcept { return !triangles_.empty(); }
+    [[nodiscard]] bool hasTriangles(double u, double v) const noexcept {
+        const auto shapes = near(u, v);
+        return !shapes.empty() && shapes.back() >= kTriangle;
+    }
 
-    [[nodiscard]] const PictureLine& line(std::uint32_t number) const noexcept { return lines_[number]; }
-    [[nodiscard]] const LineLook& look(std::uint32_t number) const noexcept { return looks_[number]; }
+    [[nodiscard]] std::span<const PictureLine> lines() const noexcept { return lines_; }
+    [[nodiscard]] std::span<const LineLook> looks() const noexcept { return looks_; }
     [[nodiscard]] const PictureTriangle& triangle(std::uint32_t number) const noexcept { return triangles_[number]; }
     [[nodiscard]] double width() const noexcept { return width_; }
     [[nodiscard]] double height() const noexcept { return height_; }
@@ -86,6 +97,17 @@ private:
     struct Square {
         double left, top, right, bottom;
     };
+    [[nodiscard]] static std::int32_t cellOf(double pixel, std::int32_t count) noexcept {
+        return std::clamp(static_cast<std::int32_t>(pixel * (1.0 / kCellPixels)), 0, count - 1);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> inCell(std::int32_t x, std::int32_t y) const noexcept {
+        const Tile& tile = tiles_[static_cast<std::size_t>(x / kTileCells + tilesX_ * (y / kTileCells))];
+        if (tile.starts.empty()) return tile.shapes;
+        const auto cell = static_cast<std::size_t>(x % kTileCells + kTileCells * (y % kTileCells));
+        return std::span(tile.shapes).subspan(tile.starts[cell], tile.starts[cell + 1] - tile.starts[cell]);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> linesNear(double left, double top, double right, double bottom,
+                                                           std::vector<std::uint32_t>& buffer) const;
 
     void addLines(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, const volume::Grid& grid,
                   const Clipper& clipper);
@@ -94,6 +116,7 @@ private:
     [[nodiscard]] Result<void> sortIntoTiles(int threads);
     void sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const;
     [[nodiscard]] Square boundsOf(std::uint32_t shape) const noexcept;
+    [[nodiscard]] static Square boundsOf(const std::array<double, 6>& outline) noexcept;
     [[nodiscard]] bool touches(std::uint32_t shape, const Square& square) const noexcept;
 
     double width_ = 0, height_ = 0, reach_ = 0;  // pixels

@@ -29,12 +29,13 @@ double expOfMinus(double x) noexcept {
 class RunShader {
 public:
     RunShader(const Scene& scene, std::size_t pass, NormalCache& cache, const CameraRay& ray,
-              std::span<const Fragment> fragments, bool withColor)
+              const Fragments& fragments, bool withColor)
         : scene_(scene),
           pass_(scene.passes[pass]),
           surfaceLight_(scene, pass, cache),
           ray_(ray),
-          fragments_(fragments),
+          fragments_(fragments.items),
+          surfaces_(fragments.surfaces),
           withColor_(withColor) {}
 
     void beginInterval(const DrawnInterval& interval) noexcept {
@@ -86,6 +87,7 @@ public:
     [[nodiscard]] Sample result() const noexcept {
         Sample sample = sample_;
         finishSample(color_, transmittance_ * lines_, scene_.options, sample);
+        sample.hasLine = lines_ < 1;
         drawHidden(fragments_.subspan(next_), sample);
         return sample;
     }
@@ -103,12 +105,13 @@ private:
     bool addFragment() {
         const Fragment& fragment = fragments_[next_++];
         blend(fragment, color_, transmittance_, lines_);
-        if (!fragment.isLine && !sample_.hasHit() && 1 - transmittance_ > double(scene_.options.labelAt)) {
-            sample_.label = fragment.label;
-            sample_.object = fragment.object;
+        if (!fragment.isLine() && !sample_.hasHit() && 1 - transmittance_ > double(scene_.options.labelAt)) {
+            const MetSurface& surface = surfaces_[static_cast<std::size_t>(fragment.surface)];
+            sample_.label = surface.label;
+            sample_.object = surface.object;
             sample_.depth = static_cast<float>(fragment.depth);
-            sample_.normal = toFloat(fragment.normal);
-            sample_.isCap = fragment.isCap;
+            sample_.normal = toFloat(surface.normal);
+            sample_.isCap = surface.isCap;
         }
         return isDone();
     }
@@ -132,6 +135,7 @@ private:
     SurfaceLight surfaceLight_;
     const CameraRay& ray_;
     std::span<const Fragment> fragments_;
+    std::span<const MetSurface> surfaces_;
     std::size_t next_ = 0;  // the first that the ray has not come to
     bool withColor_;
     bool hasEnded_ = false;
@@ -163,7 +167,9 @@ Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexc
 }
 
 SampleCaster::SampleCaster(const Scene& scene)
-    : scene_(scene), finder_(scene.hasShapes ? std::make_unique<FragmentFinder>(scene) : nullptr) {}
+    : scene_(scene),
+      finder_(scene.hasShapes ? std::make_unique<FragmentFinder>(scene) : nullptr),
+      fragments_(std::make_unique<Fragments>()) {}
 SampleCaster::~SampleCaster() = default;
 
 Sample SampleCaster::cast(double u, double v, bool withColor) {
@@ -174,11 +180,13 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
     for (std::size_t n = 0; n < scene_.passes.size(); ++n) {
         const PreparedPass& pass = scene_.passes[n];
         const DrawnIntervals drawn = pass.clipper.cut(ray.index, span);
-        fragments_.clear();
+        fragments_->clear();
         double end = std::numeric_limits<double>::infinity();
-        if (!pass.shapes.isEmpty())
-            end = finder_->find(n, u, v, ray, {drawn.begin(), drawn.end()}, withColor, fragments_);
-        RunShader shader(scene_, n, cache_, ray, fragments_, withColor);
+        if (!pass.shapes.isEmpty()) {
+            if (withColor) finder_->addLines(n, finder_->findLines(n, u, v), *fragments_);
+            end = finder_->addSurfaces(n, u, v, ray, {drawn.begin(), drawn.end()}, 0, *fragments_);
+        }
+        RunShader shader(scene_, n, cache_, ray, *fragments_, withColor);
         for (DrawnInterval interval : drawn) {
             interval.to = std::min(interval.to, end);
             if (!(interval.from < interval.to)) break;

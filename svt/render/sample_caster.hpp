@@ -26,6 +26,7 @@ struct Sample {
     float depth = std::numeric_limits<float>::infinity();  ///< infinity: nothing met
     Vec3f normal{};                                        ///< world space, unit length, where the label begins
     bool isCap = false;                                    ///< the label begins on a clip plane
+    bool hasLine = false;                                  ///< a line is part of the color
 
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -103,6 +104,8 @@ struct Scene {
     bool isAdaptive = false;  ///< more samples only where pixels differ
     PixelRect drawn{};        ///< outside of it no ray meets the volume or a line
     bool hasShapes = false;   ///< any pass has
+    /// Samples along a pixel's side, over which lines fade out. Adaptive pictures have one in most pixels.
+    double lineSamples = 1;
 };
 
 /// Normals of hit voxels, kept per tile: neighbouring rays often hit the same voxel.
@@ -123,7 +126,7 @@ private:
 };
 
 class FragmentFinder;
-struct Fragment;
+struct Fragments;
 
 /// Casts rays one by one: the plain way, which packets are held against. Belongs to one thread.
 class SampleCaster {
@@ -138,7 +141,7 @@ private:
     const Scene& scene_;
     NormalCache cache_;
     std::unique_ptr<FragmentFinder> finder_;
-    std::vector<Fragment> fragments_;  // of the ray
+    std::unique_ptr<Fragments> fragments_;  // of the ray
 };
 
 }  // namespace svt::render

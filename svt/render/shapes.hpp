@@ -25,7 +25,7 @@ struct Line {
 
 /// Lines of one look. They are drawn over what is up to 1.5 voxels before them, so that the edges of a body lie on its
 /// voxels. They change the colour of a picture alone, not its labels and depths. Where lines lie on each other, as the
-/// edges of neighbours do, the strongest alone is drawn.
+/// edges of neighbours do, the strongest alone is drawn. What is shorter than half a pixel is left out.
 struct LineSet {
     std::vector<Line> lines;
     Vec3f color{0.10f, 0.10f, 0.12f};  ///< sRGB, 0..1; not lit
@@ -42,7 +42,7 @@ struct LineSet {
 /// picture are those of the triangle where it is what is seen first.
 ///
 /// Voxels of objects (FrameSpec::objectOfScalar) that have triangles in a pass are not drawn in it. Where a clip cuts a
-/// closed mesh open, its cut face is drawn.
+/// closed mesh open, its cut face is drawn. Outside of the volume's voxels nothing is.
 struct MeshTriangle {
     std::array<Vec3d, 3> corners{};  ///< counter-clockwise from outside
     volume::Scalar scalar = 0;
