@@ -160,23 +160,25 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
     return end;
 }
 
-// The body that the ray is in at a depth, by which it has entered and left before; null if in none.
+// The body that the ray is in at a depth, the one entered last; null if in none. What the ray does not leave as often
+// as it enters it is no body but a sheet.
 const PictureTriangle* FragmentFinder::cutOpen(const PassShapes& shapes, double depth) {
-    inside_.clear();
-    const PictureTriangle* body = nullptr;
+    bodies_.clear();
     for (const Hit& hit : hits_) {
-        if (hit.depth > depth) break;
-        const PictureTriangle& triangle = shapes.triangle(hit.triangle);
-        auto known = std::find_if(inside_.begin(), inside_.end(),
-                                  [&](const auto& entry) { return entry.first == triangle.style.object; });
-        if (known == inside_.end()) known = inside_.insert(known, {triangle.style.object, 0});
-        known->second += hit.isEntering ? 1 : -1;
-        if (hit.isEntering)
-            body = &triangle;
-        else if (body != nullptr && body->style.object == triangle.style.object && known->second <= 0)
-            body = nullptr;
+        const std::uint32_t object = shapes.triangle(hit.triangle).style.object;
+        auto known = std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& b) { return b.object == object; });
+        if (known == bodies_.end()) known = bodies_.insert(known, Body{object});
+        const int step = hit.isEntering ? 1 : -1;
+        known->balance += step;
+        if (hit.depth > depth) continue;
+        known->inside += step;
+        if (hit.isEntering) known->entered = &shapes.triangle(hit.triangle);
+        known->order = &hit - hits_.data();
     }
-    return body;
+    const Body* last = nullptr;
+    for (const Body& body : bodies_)
+        if (body.balance == 0 && body.inside > 0 && (last == nullptr || body.order > last->order)) last = &body;
+    return last == nullptr ? nullptr : last->entered;
 }
 
 void FragmentFinder::addSurface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle, double depth,

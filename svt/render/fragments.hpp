@@ -108,7 +108,13 @@ private:
     std::vector<Hit> hits_;
     std::vector<std::uint32_t> near_;  // lines near a few rays
     std::vector<LineHit> lineHits_, sortedHits_;
-    std::vector<std::pair<std::uint32_t, int>> inside_;  // labels, how often entered
+    struct Body {
+        std::uint32_t object;
+        int balance = 0, inside = 0;  // how much oftener entered than left: by the whole ray, up to the cut
+        const PictureTriangle* entered = nullptr;
+        std::ptrdiff_t order = 0;
+    };
+    std::vector<Body> bodies_;
 };
 
 }  // namespace svt::render

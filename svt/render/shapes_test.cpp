@@ -238,6 +238,18 @@ TEST(Meshes, AreCutOpenWithACutFace) {
     EXPECT_EQ(mesh.color, voxels.color);
 }
 
+// A sheet before the cut, which a ray enters and never leaves.
+TEST(Meshes, CutAwaySheetsHaveNoCutFace) {
+    const TestVolume volume = roomWithChest();
+    FrameSpec spec = frontOf({{{0.3f, 0.5f, 0.8f}, 0}, kWall});
+    spec.passes[0].clips = {ClipRegion::plane({0, -1, 0}, {0, 2, 0})};
+    const Vec3d a{0.5, 1, 0.5}, b{3.5, 1, 0.5}, c{3.5, 1, 3.5}, d{0.5, 1, 3.5};
+    spec.passes[0].triangles = {{{a, b, c}, 2}, {{a, c, d}, 2}};
+    EXPECT_EQ(test::countLabel(cast(volume, spec), 2), 0u);
+    spec.passes[0].clips.clear();
+    EXPECT_EQ(test::countLabel(cast(volume, spec), 2), 3600u);
+}
+
 TEST(Meshes, OfGlassArePanes) {
     const TestVolume volume = roomWithChest();
     FrameSpec spec = frontOf({{{0.3f, 0.5f, 0.8f}, 0}, {{1, 1, 1}, 0.5f}});
