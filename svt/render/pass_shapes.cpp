@@ -261,6 +261,21 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
     return {};
 }
 
+// From where to where along x a line reaches between two rows of pixels; nothing where first > last.
+std::pair<double, double> PassShapes::spanOf(const PictureLine& line, double top, double bottom) const noexcept {
+    constexpr double kRounding = 0.01;
+    const double reach = looks_[line.look].halfWidth + 0.5 + kRounding;
+    double begin = 0, end = 1;
+    if (std::abs(line.dy) > 1e-9) {
+        const double a = (top - reach - line.y) / line.dy, b = (bottom + reach - line.y) / line.dy;
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+    }
+    if (begin > end) return {kInfinity, -kInfinity};
+    const double a = line.x + line.dx * begin, b = line.x + line.dx * end;
+    return {std::min(a, b) - reach, std::max(a, b) + reach};
+}
+
 // Squares at the border of the picture answer for rays beside it.
 void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const {
     constexpr std::size_t kCells = std::size_t{kTileCells} * kTileCells;
@@ -273,6 +288,21 @@ void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tile
                 std::clamp(std::floor((pixel - double(tileAt * kTilePixels)) / kCellPixels), 0.0, kTileCells - 1.0));
         };
         const std::int32_t endX = cellAt(bounds.right + kMargin, tileX), endY = cellAt(bounds.bottom + kMargin, tileY);
+        if (shape < kTriangle) {
+            // Row by row, what of it lies in the row.
+            const double left = double(tileX * kTilePixels), right = left + kTilePixels;
+            for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y) {
+                const std::int32_t row = tileY * kTileCells + y;
+                const double cellTop = double(row * kCellPixels) - (row == 0 ? kMargin : 0);
+                const double cellBottom = double((row + 1) * kCellPixels) + (row >= cellsY_ - 1 ? kMargin : 0);
+                const auto [first, last] = spanOf(lines_[shape], cellTop, cellBottom);
+                if (!(last >= left - kMargin && first <= right + kMargin)) continue;
+                const std::int32_t end = cellAt(last, tileX);
+                for (std::int32_t x = cellAt(first, tileX); x <= end; ++x)
+                    found.emplace_back(static_cast<std::uint32_t>(x + kTileCells * y), shape);
+            }
+            continue;
+        }
         for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y)
             for (std::int32_t x = cellAt(bounds.left - kMargin, tileX); x <= endX; ++x) {
                 Square square{double(tileX * kTilePixels + x * kCellPixels),

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace svt::render {
@@ -115,6 +116,7 @@ private:
     void addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest);
     [[nodiscard]] Result<void> sortIntoTiles(int threads);
     void sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const;
+    [[nodiscard]] std::pair<double, double> spanOf(const PictureLine& line, double top, double bottom) const noexcept;
     [[nodiscard]] Square boundsOf(std::uint32_t shape) const noexcept;
     [[nodiscard]] static Square boundsOf(const std::array<double, 6>& outline) noexcept;
     [[nodiscard]] bool touches(std::uint32_t shape, const Square& square) const noexcept;
