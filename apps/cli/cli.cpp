@@ -174,6 +174,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.sheets = sheets == "thin" ? voxelize::SheetMode::Thin : voxelize::SheetMode::Conservative;
     options.keepThinParts = !noThin;
     options.threads = threads;
+    options.vectors = vectors;
     if (!style.empty()) {
         auto sheet = pipeline::readStyleSheet(style);
         if (!sheet) return sheet.error();

@@ -49,6 +49,7 @@ struct BuildArguments {
     double lod = -1;
     bool noBodies = false, patterns = false, noThin = false;
     int threads = 0;
+    pipeline::VectorChoice vectors;  ///< no option of all commands
 
     void addTo(CLI::App& command);
     /// The options, checked; `styleSheet` keeps what they point at.

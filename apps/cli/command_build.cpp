@@ -100,6 +100,21 @@ Run addBuildCommand(CLI::App& app) {
                      "samples where this volume has them, so that the two can be compared voxel by voxel")
         ->group("Grid")
         ->type_name("F.svt");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--vectors",
+            [arguments](const std::vector<std::string>& kinds) {
+                for (const std::string& kind : kinds) {
+                    if (kind == "edges") arguments->build.vectors.edges = true;
+                    if (kind == "meshes") arguments->build.vectors.meshes = true;
+                }
+            },
+            "also keep edges, or meshes, or both (edges,meshes), to be drawn inside the volume")
+        ->group("Output")
+        ->delimiter(',')
+        ->expected(1, 2)
+        ->type_name("KIND")
+        ->check(CLI::IsMember({"edges", "meshes"}));
     command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");
     command
         ->add_flag("--strict", arguments->strict,

@@ -90,6 +90,15 @@ Result<void> addNames(const illustrate::Scene& scene, const volume::SemanticVolu
     return {};
 }
 
+// What a model must keep of itself for a scene.
+BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene) {
+    for (const illustrate::ScenePass& pass : scene.passes) {
+        build.vectors.edges = build.vectors.edges || !pass.lines.empty();
+        build.vectors.meshes = build.vectors.meshes || !pass.meshes.empty();
+    }
+    return build;
+}
+
 int runRender(const Arguments& arguments) {
     // Before anything long: does what is asked for make sense?
     const auto first = arguments.scene.toScene(0, arguments.frames);
@@ -100,7 +109,7 @@ int runRender(const Arguments& arguments) {
     }
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    const auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
 

@@ -105,6 +105,24 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
     return {};
 }
 
+Result<void> addVectors(const SceneArguments& arguments, illustrate::ScenePass& pass) {
+    pass.meshes.insert(pass.meshes.end(), arguments.meshes.begin(), arguments.meshes.end());
+    if (!arguments.wireframe) return {};
+    illustrate::SceneLines lines;
+    lines.select = *arguments.wireframe;
+    if (arguments.wireWidth) lines.width = static_cast<float>(*arguments.wireWidth);
+    if (arguments.wireColor) {
+        const auto color = render::parseColor(*arguments.wireColor);
+        if (!color) return Error(Code::BadArgument, "--wire-color: " + color.error().message());
+        lines.color = *color;
+    }
+    lines.hidden = arguments.hiddenLines == "dashed" ? render::HiddenLines::Dashed
+                   : arguments.hiddenLines == "none" ? render::HiddenLines::None
+                                                     : render::HiddenLines::Faint;
+    pass.lines.push_back(lines);
+    return {};
+}
+
 std::string either(const std::string& a, const std::string& b) {
     return a.empty() || b.empty() ? a + b : fmt::format("{} or {}", a, b);
 }
@@ -121,6 +139,7 @@ Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Sce
     pass.show.insert(pass.show.end(), arguments.show.begin(), arguments.show.end());
     pass.hide.insert(pass.hide.end(), arguments.hide.begin(), arguments.hide.end());
     if (auto added = addStyles(arguments, pass); !added) return added;
+    if (auto added = addVectors(arguments, pass); !added) return added;
     std::string section;
     for (const std::string& text : arguments.sections) {
         const auto moved = movedSection(text, frame, frames);
@@ -252,6 +271,27 @@ void SceneArguments::addTo(CLI::App& command) {
         ->capture_default_str();
     list("--names", names, "name the selected at the sides of the picture, with leader lines; may be repeated",
          "Illustrate", "QUERY");
+    command
+        .add_option_function<std::string>(
+            "--wireframe", [this](const std::string& text) { wireframe = text; },
+            "draw the edges of what the query selects, at their depth inside the volume; without a query: of all that "
+            "is visible")
+        ->group("Lines")
+        ->expected(0, 1)
+        ->default_str("")
+        ->type_name("QUERY");
+    command.add_option("--hidden-lines", hiddenLines, "lines behind something opaque")
+        ->group("Lines")
+        ->check(CLI::IsMember({"faint", "dashed", "none"}))
+        ->capture_default_str();
+    command.add_option("--wire-width", wireWidth, "pixels, 0.1 to 64; default: 1")
+        ->group("Lines")
+        ->check(CLI::Range(0.1, 64.0));
+    command.add_option("--wire-color", wireColor, "#rrggbb or a colour name")->group("Lines");
+    list("--vectors", meshes,
+         "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along each "
+         "axis; may be repeated",
+         "Lines", "QUERY");
     list("--hide", hide, "hide what the query selects; may be repeated", "Style", "QUERY");
     list("--show", show, "show only what the query selects; may be repeated", "Style", "QUERY");
     list("--color", color, "colour by query, such as 'name=\"Unterzug-1\":red'; may be repeated", "Style",

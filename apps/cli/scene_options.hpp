@@ -17,7 +17,10 @@ namespace svt::cli {
 struct SceneArguments {
     std::filesystem::path sceneFile;
     std::optional<std::string> camera, size, background, look;
-    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names;
+    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes;
+    std::optional<std::string> wireframe, wireColor;
+    std::string hiddenLines = "faint";
+    std::optional<double> wireWidth;
     std::string cut, keep, lens, cutaway, around, context = "ghost";
     std::vector<double> eye, target;
     std::optional<int> samples, dpi;

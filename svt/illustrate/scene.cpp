@@ -3,6 +3,7 @@
 #include <svt/illustrate/hatches.hpp>
 #include <svt/illustrate/region.hpp>
 #include <svt/illustrate/selection.hpp>
+#include <svt/illustrate/vector_shapes.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/render/camera_presets.hpp>
 #include <svt/volume/scalar_boxes.hpp>
@@ -221,6 +222,7 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const R
     };
     if (auto added = addClip(wanted.keep, render::ClipRegion::Mode::KeepOnly); !added) return added.error();
     if (auto added = addClip(wanted.cut, render::ClipRegion::Mode::CutAway); !added) return added.error();
+    if (auto added = addShapes(wanted, context.volume, pass); !added) return added.error();
     return pass;
 }
 

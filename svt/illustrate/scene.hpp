@@ -37,6 +37,15 @@ struct SceneStyle {
     friend bool operator==(const SceneStyle&, const SceneStyle&) = default;
 };
 
+/// Feature edges of the model's meshes, drawn at their depth inside the volume.
+struct SceneLines {
+    std::string select;  ///< query: whose, visible or not; empty: of all that is visible
+    float width = 1;     ///< pixels, 0.1 to 64
+    std::optional<Vec3f> color;
+    render::HiddenLines hidden = render::HiddenLines::Faint;  ///< behind something opaque
+    friend bool operator==(const SceneLines&, const SceneLines&) = default;
+};
+
 /// Part of the volume, and how it is drawn.
 struct ScenePass {
     std::vector<std::string> show;  ///< queries; where there are any, all else is hidden
@@ -45,6 +54,8 @@ struct ScenePass {
     std::string cut;   ///< region that is cut away; empty: none
     std::string keep;  ///< region outside of which nothing is drawn; empty: no limit
     render::Pass::Join join = render::Pass::Join::Over;
+    std::vector<SceneLines> lines;
+    std::vector<std::string> meshes;  ///< queries, or size<M: what is drawn as the model's meshes, not as voxels
     friend bool operator==(const ScenePass&, const ScenePass&) = default;
 };
 
@@ -92,7 +103,8 @@ void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context
 void addCutaway(Scene& scene, const std::string& query, double margin);
 
 /// The frame that shows `scene` on `volume`.
-/// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame
+/// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
+///         BadArgument where lines or meshes are asked for and the volume was built without
 [[nodiscard]] Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume);
 
 /// \param name  stands for the file in messages

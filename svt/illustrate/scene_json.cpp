@@ -18,6 +18,9 @@ using Join = render::Pass::Join;
 
 constexpr int kVersion = 1;
 constexpr std::size_t kMaxPasses = render::FrameSpec::kMaxPasses;
+constexpr std::pair<render::HiddenLines, std::string_view> kHidden[] = {{render::HiddenLines::None, "none"},
+                                                                        {render::HiddenLines::Faint, "faint"},
+                                                                        {render::HiddenLines::Dashed, "dashed"}};
 constexpr std::pair<Join, std::string_view> kJoins[] = {
     {Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}};
 
@@ -125,14 +128,40 @@ void readStyle(Reader& read, const Json& json, const std::string& path, SceneSty
     }
 }
 
+void readSceneLines(Reader& read, const Json& json, const std::string& path, SceneLines& lines) {
+    if (!read.object(json, path, {"select", "width", "color", "hidden"})) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = path + "/" + key;
+        if (key == "select") read.text(value, at, lines.select);
+        if (key == "width") read.number(value, at, 0.1, 64, lines.width);
+        if (key == "color") read.color(value, at, lines.color);
+        if (key == "hidden") {
+            std::string name;
+            read.text(value, at, name);
+            const auto found = std::ranges::find(kHidden, name, [](const auto& hidden) { return hidden.second; });
+            if (found == std::end(kHidden))
+                read.fail(at,
+                          fmt::format("'{}' is no way to draw hidden lines; possible are none, faint, dashed", name));
+            else
+                lines.hidden = found->first;
+        }
+    }
+}
+
 void readPass(Reader& read, const Json& json, const std::string& path, ScenePass& pass) {
-    if (!read.object(json, path, {"show", "hide", "styles", "cut", "keep", "join"})) return;
+    if (!read.object(json, path, {"show", "hide", "styles", "cut", "keep", "join", "lines", "meshes"})) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = path + "/" + key;
         if (key == "show") read.texts(value, at, pass.show);
         if (key == "hide") read.texts(value, at, pass.hide);
         if (key == "cut") read.text(value, at, pass.cut);
         if (key == "keep") read.text(value, at, pass.keep);
+        if (key == "meshes") read.texts(value, at, pass.meshes);
+        if (key == "lines") {
+            if (!value.is_array()) return read.fail(at, "expected an array of lines");
+            for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
+                readSceneLines(read, value[n], fmt::format("{}/{}", at, n), pass.lines.emplace_back());
+        }
         if (key == "join") {
             std::string name;
             read.text(value, at, name);
@@ -241,6 +270,16 @@ Json jsonOf(const SceneStyle& style) {
     return json;
 }
 
+Json jsonOf(const SceneLines& lines) {
+    Json json = Json::object();
+    if (!lines.select.empty()) json["select"] = lines.select;
+    if (lines.width != 1) json["width"] = shortest(lines.width);
+    if (lines.color) json["color"] = render::colorText(*lines.color);
+    for (const auto& [hidden, name] : kHidden)
+        if (hidden == lines.hidden && hidden != render::HiddenLines::Faint) json["hidden"] = name;
+    return json;
+}
+
 Json jsonOf(const ScenePass& pass) {
     Json json = Json::object();
     if (!pass.show.empty()) json["show"] = pass.show;
@@ -250,6 +289,8 @@ Json jsonOf(const ScenePass& pass) {
     if (!pass.keep.empty()) json["keep"] = pass.keep;
     for (const auto& [join, name] : kJoins)
         if (join == pass.join && join != Join::Over) json["join"] = name;
+    for (const SceneLines& lines : pass.lines) json["lines"].push_back(jsonOf(lines));
+    if (!pass.meshes.empty()) json["meshes"] = pass.meshes;
     return json;
 }
 

@@ -157,6 +157,8 @@ Scene everything() {
     pass.cut = "z>1.2";
     pass.keep = "storey(EG)";
     pass.join = render::Pass::Join::Replace;
+    pass.lines = {{"", 1, {}, render::HiddenLines::Faint}, {"id=x", 1.5f, Vec3f{1, 1, 1}, render::HiddenLines::Dashed}};
+    pass.meshes = {"size<0.5"};
     scene.passes = {ScenePass{}, pass};
     return scene;
 }

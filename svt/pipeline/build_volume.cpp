@@ -258,6 +258,9 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
             label.filling = volume::Filling::Body;
             label.volume = double(label.voxels) * grid->voxelVolume();
         }
+    auto vectors = makeVectorParts(*scene, labelling->labelOfObject, *grid, options.vectors, options.threads);
+    if (!vectors) return vectors.error();
+    output.volume.vectors = std::move(*vectors);
     report.objects = scene->objects.size();
     report.triangles = scene->triangleCount();
     output.volume.grid = *grid;

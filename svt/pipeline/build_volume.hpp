@@ -8,6 +8,7 @@
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/model/building_model.hpp>
 #include <svt/pipeline/style_sheet.hpp>
+#include <svt/pipeline/vector_parts.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/voxelize/voxelize.hpp>
 
@@ -33,6 +34,7 @@ struct BuildOptions {
     bool usePatterns = false;        ///< patterns of the built-in style
     voxelize::SheetMode sheets = voxelize::SheetMode::Thin;
     bool keepThinParts = true;
+    VectorChoice vectors;               ///< what SemanticVolume::vectors gets; nothing by default
     const StyleSheet* style = nullptr;  ///< on top of the built-in style
     int threads = 0;
     const Progress* progress = nullptr;

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 
 namespace svt::pipeline {
@@ -59,6 +60,39 @@ model::BuildingModel thematicHouse() {
                    {test::surfaceOf({{test::addRings(model, {ring}), false}})});
     }
     return model;
+}
+
+TEST(BuildVolume, KeepsEdgesAndMeshesByLabelWhereAskedFor) {
+    BuildOptions options = withSpacing(0.2);
+    const BuildOutput bare = build(thematicHouse(), options);
+    EXPECT_TRUE(bare.volume.vectors.isEmpty());
+    options.vectors = {.edges = true, .meshes = true};
+    const BuildOutput output = build(thematicHouse(), options);
+    EXPECT_EQ(output.volume.columns.countVoxels(output.volume.labels.scalarCount()),
+              bare.volume.columns.countVoxels(bare.volume.labels.scalarCount()));
+    const volume::VectorParts& parts = output.volume.vectors;
+    ASSERT_TRUE(volume::checkVectorParts(parts, output.volume.labels.labels.size()));
+    std::map<std::string, std::size_t> segments, triangles;
+    Box3d room;
+    for (const auto& segment : parts.segments) {
+        const Label& label = output.volume.labels.labels[segment.label];
+        ++segments[label.id];
+        if (label.id == "room")
+            for (const std::uint32_t end : segment.ends) room.add(parts.position(end, output.volume.grid.origin()));
+    }
+    for (const auto& triangle : parts.triangles) ++triangles[output.volume.labels.labels[triangle.label].id];
+    EXPECT_EQ(segments["house"], 12u);
+    EXPECT_EQ(segments["room"], 12u);
+    EXPECT_EQ(segments["outer-3"], 4u);
+    EXPECT_EQ(triangles["room"], 12u);
+    EXPECT_EQ(triangles["outer-3"], 2u);
+    EXPECT_LT(length(room.min - Vec3d{0.4, 0.4, 0.4}), 1e-4);
+    EXPECT_LT(length(room.max - Vec3d{5.6, 4.6, 2.6}), 1e-4);
+
+    options.threads = 1;
+    EXPECT_EQ(build(thematicHouse(), options).volume.vectors, parts);
+    options.vectors.meshes = false;
+    EXPECT_TRUE(build(thematicHouse(), options).volume.vectors.triangles.empty());
 }
 
 TEST(BuildVolume, BoxHasItsVoxelsAndFigures) {

@@ -74,6 +74,7 @@ Result<void> checkPass(const Pass& pass, std::size_t number) {
     }
     if (parts > Pass::kMaxClipParts)
         return bad(fmt::format("clips of {} parts are over the limit of {}", parts, Pass::kMaxClipParts));
+    if (auto checked = checkShapes(pass.lines, pass.triangles); !checked) return bad(checked.error().message());
     return {};
 }
 

@@ -7,6 +7,7 @@
 #include <svt/core/vec.hpp>
 #include <svt/render/clip_region.hpp>
 #include <svt/render/hatch.hpp>
+#include <svt/render/shapes.hpp>
 #include <svt/volume/column_volume.hpp>
 
 #include <cstdint>
@@ -90,6 +91,8 @@ struct Pass {
     std::vector<ClipRegion> clips;  ///< drawn is what no region cuts away and every KeepOnly region holds; at most
                                     ///< kMaxClipParts parts in all
     Join join = Join::Over;
+    std::vector<LineSet> lines{};           ///< composited with the voxels at their depth; clipped as they are
+    std::vector<MeshTriangle> triangles{};  ///< the same; drawn instead of the voxels of their objects
 
     static constexpr std::size_t kMaxClipParts = 32;
     friend bool operator==(const Pass&, const Pass&) = default;

@@ -82,9 +82,10 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     }
     const bool isAnyInside = setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
     for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
-    if (!isAnyInside)
+    const bool isAnyMet = isAnyInside || scene_.hasShapes;
+    if (!isAnyMet)
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
-    for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyInside; ++pass) {
+    for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyMet; ++pass) {
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
             Sample& joined = samples[places_[n]];
@@ -100,6 +101,8 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     pass_ = pass;
     PacketScene scene = packetScene;
     scene.surface = &PacketCaster::surfaceOf;
+    scene.fragment = &PacketCaster::fragmentOf;
+    withColor_ = scene.withColor;
     for (auto& color : seen_.color) color.fill(0);
     for (auto& normal : seen_.normal) normal.fill(0);
     seen_.transmittance.fill(1);
@@ -108,35 +111,131 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     seen_.object.fill(0);
     seen_.isCap.fill(0);
     seen_.isDone.fill(0);
-    Lanes<std::int64_t> capped{};
-    const Clipper& clipper = scene_.passes[pass].clipper;
-    if (clipper.isEmpty()) {
+    seen_.lines.fill(1);
+    seen_.nextFragment.fill(std::numeric_limits<double>::infinity());
+    fragments_.clear();
+    rayFragments_.fill({});
+    if (!scene_.passes[pass].clipper.isEmpty() || !scene_.passes[pass].shapes.isEmpty()) return castParts(scene);
+    caps_.fill({});
+    from_ = rays_.from;
+    walkPacket(scene, rays_, rays_.from, rays_.to, {}, this, seen_);
+}
+
+// The stretches of all rays, one after the other.
+void PacketCaster::castParts(const PacketScene& scene) {
+    parts_.clear();
+    std::size_t most = 0;
+    const PassShapes& shapes = scene_.passes[pass_].shapes;
+    if (withColor_ && !shapes.lines().empty())
+        for (std::size_t block = 0; block < count_; block += kLineRays) findLines(block);
+    if (scene_.passes[pass_].clipper.isEmpty()) {
         caps_.fill({});
         from_ = rays_.from;
-        walkPacket(scene, rays_, rays_.from, rays_.to, capped, this, seen_);
-    } else {
-        std::array<DrawnIntervals, kPacketRays> drawn;
-        std::size_t most = 0;
-        for (std::size_t n = 0; n < count_; ++n) {
-            const RaySpan span{rays_.from[n], rays_.to[n]};
-            if (!(span.from < span.to)) continue;
-            drawn[n] = clipper.cut(scene_.rays.at(rays_.u[n], rays_.v[n]).index, span);
-            most = std::max(most, static_cast<std::size_t>(drawn[n].end() - drawn[n].begin()));
+        Lanes<double> to = rays_.to;
+        for (std::size_t n = 0; n < count_ && shapes.hasTriangles(); ++n) {
+            const DrawnInterval whole{from_[n], to[n], {}};
+            if (whole.from < whole.to) to[n] = std::min(to[n], findSurfaces(n, std::span(&whole, 1)));
         }
-        for (std::size_t part = 0; part < most; ++part) {
-            Lanes<double> to{};
-            from_.fill(0);
-            for (std::size_t n = 0; n < count_; ++n) {
-                if (part >= static_cast<std::size_t>(drawn[n].end() - drawn[n].begin())) continue;
-                const DrawnInterval& interval = drawn[n].begin()[part];
-                from_[n] = interval.from;
-                to[n] = interval.to;
-                caps_[n] = interval.cap;
-                capped[n] = interval.cap ? 1 : 0;
-            }
-            walkPacket(scene, rays_, from_, to, capped, this, seen_);
-        }
+        walkPacket(scene, rays_, rays_.from, to, {}, this, seen_);
+        addLastFragments();
+        return;
     }
+    for (std::size_t n = 0; n < count_; ++n) {
+        rayParts_[n].next = parts_.size();
+        findParts(n);
+        rayParts_[n].end = parts_.size();
+        most = std::max(most, rayParts_[n].end - rayParts_[n].next);
+    }
+    Lanes<std::int64_t> capped{};
+    for (std::size_t part = 0; part < most; ++part) {
+        Lanes<double> to{};
+        from_.fill(0);
+        for (std::size_t n = 0; n < count_; ++n) {
+            if (part >= rayParts_[n].end - rayParts_[n].next) continue;
+            const DrawnInterval& interval = parts_[rayParts_[n].next + part];
+            from_[n] = interval.from;
+            to[n] = interval.to;
+            caps_[n] = interval.cap;
+            capped[n] = interval.cap ? 1 : 0;
+        }
+        walkPacket(scene, rays_, from_, to, capped, this, seen_);
+    }
+    addLastFragments();
+}
+
+// What lies behind all voxels.
+void PacketCaster::addLastFragments() {
+    if (fragments_.items.empty()) return;
+    for (std::size_t n = 0; n < count_; ++n)
+        while (seen_.isDone[n] == 0 && rayFragments_[n].next < rayFragments_[n].end) addFragment(n);
+}
+
+// The lines that a few rays come upon, as their first fragments. Rays of the packet beyond the last are those of the
+// first.
+void PacketCaster::findLines(std::size_t block) {
+    std::array<std::size_t, kLineRays + 1> starts;
+    const auto hits = finder_.findLines(pass_, rays_.u.data() + block, rays_.v.data() + block, starts);
+    if (hits.empty()) return;
+    for (std::size_t n = 0; n < std::min(kLineRays, count_ - block); ++n) {
+        Range& found = rayFragments_[block + n];
+        found.next = fragments_.items.size();
+        finder_.addLines(pass_, hits.subspan(starts[n], starts[n + 1] - starts[n]), fragments_);
+        found.end = fragments_.items.size();
+        if (found.next < found.end) seen_.nextFragment[block + n] = fragments_.items[found.next].depth;
+    }
+}
+
+// What the clips leave of a ray, up to the first opaque surface.
+void PacketCaster::findParts(std::size_t ray) {
+    const RaySpan span{rays_.from[ray], rays_.to[ray]};
+    if (!(span.from < span.to)) return;
+    const Clipper& clipper = scene_.passes[pass_].clipper;
+    const std::size_t first = parts_.size();
+    const DrawnIntervals drawn = clipper.cut(scene_.rays.at(rays_.u[ray], rays_.v[ray]).index, span);
+    parts_.insert(parts_.end(), drawn.begin(), drawn.end());
+    if (!scene_.passes[pass_].shapes.hasTriangles()) return;
+    const double end = findSurfaces(ray, std::span(parts_).subspan(first));
+    for (std::size_t part = first; part < parts_.size(); ++part) parts_[part].to = std::min(parts_[part].to, end);
+}
+
+// Puts the surfaces that a ray meets among its fragments. \return where an opaque one ends it
+double PacketCaster::findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn) {
+    const double u = rays_.u[ray], v = rays_.v[ray];
+    if (!scene_.passes[pass_].shapes.hasTriangles(u, v)) return std::numeric_limits<double>::infinity();
+    // The fragments of a ray stand together.
+    Range& found = rayFragments_[ray];
+    const std::size_t begin = fragments_.items.size();
+    for (std::size_t f = found.next; f < found.end; ++f) fragments_.items.push_back(Fragment(fragments_.items[f]));
+    const double end = finder_.addSurfaces(pass_, u, v, scene_.rays.at(u, v), drawn, begin, fragments_);
+    found = {begin, fragments_.items.size()};
+    if (found.next < found.end) seen_.nextFragment[ray] = fragments_.items[found.next].depth;
+    return end;
+}
+
+void PacketCaster::fragmentOf(void* context, std::size_t ray) { static_cast<PacketCaster*>(context)->addFragment(ray); }
+
+// RunShader::addFragment().
+void PacketCaster::addFragment(std::size_t ray) {
+    Range& found = rayFragments_[ray];
+    const Fragment& fragment = fragments_.items[found.next++];
+    seen_.nextFragment[ray] =
+        found.next < found.end ? fragments_.items[found.next].depth : std::numeric_limits<double>::infinity();
+    Vec3d color{seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]};
+    blend(fragment, color, seen_.transmittance[ray], seen_.lines[ray]);
+    for (int channel = 0; channel < 3; ++channel) seen_.color[channel][ray] = color[channel];
+    const double opacity = 1 - seen_.transmittance[ray];
+    const bool hasHit = seen_.depth[ray] < std::numeric_limits<double>::infinity();
+    if (!fragment.isLine() && !hasHit && opacity > double(scene_.options.labelAt)) {
+        const MetSurface& surface = fragments_.surfaces[static_cast<std::size_t>(fragment.surface)];
+        seen_.label[ray] = surface.label;
+        seen_.object[ray] = surface.object;
+        seen_.depth[ray] = fragment.depth;
+        for (int axis = 0; axis < 3; ++axis) seen_.normal[axis][ray] = surface.normal[axis];
+        seen_.isCap[ray] = surface.isCap ? 1 : 0;
+    }
+    const bool isDone = withColor_ ? opacity >= double(scene_.options.opaqueAt)
+                                   : seen_.depth[ray] < std::numeric_limits<double>::infinity();
+    if (isDone) seen_.isDone[ray] = -1;
 }
 
 Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
@@ -148,8 +247,11 @@ Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
         sample.normal = toFloat({seen_.normal[0][ray], seen_.normal[1][ray], seen_.normal[2][ray]});
         sample.isCap = seen_.isCap[ray] != 0;
     }
-    finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]}, seen_.transmittance[ray],
-                 scene_.options, sample);
+    finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]},
+                 seen_.transmittance[ray] * seen_.lines[ray], scene_.options, sample);
+    const Range& found = rayFragments_[ray];
+    if (found.next < found.end)
+        drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
     return sample;
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// Casts rays in packets of sixteen, with the results of SampleCaster to the last bit. Internal to render.
 
+#include <svt/render/fragments.hpp>
 #include <svt/render/packet_kernel.hpp>
 #include <svt/render/sample_caster.hpp>
 
@@ -28,7 +29,7 @@ private:
 /// Casts packets of one tile; belongs to one thread.
 class PacketCaster {
 public:
-    PacketCaster(const Scene& scene, const PacketPasses& passes) : scene_(scene), passes_(passes) {}
+    PacketCaster(const Scene& scene, const PacketPasses& passes) : scene_(scene), passes_(passes), finder_(scene) {}
 
     /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if
     /// isFull().
@@ -43,7 +44,14 @@ public:
 
 private:
     void castPass(std::size_t pass, const PacketScene& packetScene);
+    void castParts(const PacketScene& scene);
+    void findLines(std::size_t block);
+    void addLastFragments();
+    void findParts(std::size_t ray);
+    double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
     [[nodiscard]] Sample sampleOf(std::size_t ray) const noexcept;
+    void addFragment(std::size_t ray);
+    static void fragmentOf(void* context, std::size_t ray);
     [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
 
     const Scene& scene_;
@@ -56,6 +64,14 @@ private:
     std::size_t pass_ = 0;
     std::array<CapFace, kPacketRays> caps_{};
     Lanes<double> from_{};
+    FragmentFinder finder_;
+    std::vector<DrawnInterval> parts_;  // of all rays of the packet, ray by ray
+    Fragments fragments_;               // the same
+    struct Range {
+        std::size_t next = 0, end = 0;
+    };
+    std::array<Range, kPacketRays> rayParts_{}, rayFragments_{};
+    bool withColor_ = true;
 };
 
 }  // namespace svt::render

@@ -222,7 +222,8 @@ public:
         const D d;
         color_ = loadV3(samples.color, first);
         transmittance_ = hn::Load(d, samples.transmittance.data() + first);
-        runStart_ = hn::Zero(d);
+        lines_ = hn::Load(d, samples.lines.data() + first);
+        runStart_ = labelStart_ = hn::Zero(d);
     }
 
     // Starts on [from, to).
@@ -235,6 +236,7 @@ public:
         active_ = started_ = andNot(isDone_, hn::Lt(t_, end_));
         isRunTranslucent_ = isOpaque_ = isUnlit_ = hn::Lt(t_, t_);
         t_ = hn::IfThenElse(active_, t_, hn::Set(d, kInfinity));
+        hasFragments_ = any(hn::Lt(hn::Load(d, samples_.nextFragment.data() + first_), hn::Set(d, kInfinity)));
     }
 
     // Where the rays are; infinity for those that have ended.
@@ -380,6 +382,7 @@ public:
 
     HWY_INLINE void finish() {
         if (any(isOpaque_)) addOpaque();
+        if (hasFragments_) addFragments(started_, end_);
         const M leaving = hn::And(andNot(isDone_, started_), isRunTranslucent_);
         if (any(leaving)) leave(leaving, end_);
         const DI di;
@@ -503,7 +506,8 @@ private:
         return andNot(isDone_, lanes);
     }
     HWY_NOINLINE void changeTo(M changed, VI scalar, bool isVoxel) {
-        const M leaving = hn::And(changed, isRunTranslucent_);
+        if (hasFragments_) addFragments(changed, t_);
+        const M leaving = hn::And(andNot(isDone_, changed), isRunTranslucent_);
         if (any(leaving)) leave(leaving, t_);
         const M entering = andNot(isDone_, changed);
         if (any(entering)) enter(entering, scalar, isVoxel);
@@ -540,7 +544,7 @@ private:
         const V one = hn::Set(d, 1.0);
         const V surface = number<offsetof(PacketStyle, surface)>(looks);
         const V light = hn::Add(one, hn::Mul(hn::Sub(light_, one), surface));
-        const V weight = hn::Mul(share, light);
+        const V weight = hn::Mul(hn::Mul(share, light), lines_);
         constexpr std::size_t kRed = offsetof(PacketStyle, color), kNext = sizeof(double);
         const auto addColor = [&](V color, V ofLabel) {
             return hn::IfThenElse(lanes, hn::Add(color, hn::Mul(ofLabel, weight)), color);
@@ -580,12 +584,41 @@ private:
         const Looks looks = looksOf(runScalar_, lanes);
         const V density = number<offsetof(PacketStyle, density)>(looks);
         const V stopped = hn::Sub(one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
-        add(lanes, hn::Mul(transmittance_, stopped), runStart_, looks);
+        add(lanes, hn::Mul(transmittance_, stopped), labelStart_, looks);
         if (scene_.withColor) {
             markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, scene_.opaqueAt))));
         } else {
             const V depth = hn::Load(d, samples_.depth.data() + first_);
             markDone(hn::And(lanes, hn::Lt(depth, hn::Set(d, kInfinity))));
+        }
+    }
+
+    // Fragments that the rays meet up to `t`. A run is left where there is one and goes on behind it.
+    HWY_NOINLINE void addFragments(M lanes, V t) {
+        const D d;
+        const DI di;
+        alignas(64) std::int64_t wanted[hn::MaxLanes(D())];
+        while (true) {
+            const V next = hn::Load(d, samples_.nextFragment.data() + first_);
+            const M due =
+                hn::And(andNot(isDone_, lanes), hn::And(hn::Le(next, t), hn::Lt(next, hn::Set(d, kInfinity))));
+            if (!any(due)) return;
+            const M inRun = hn::And(due, isRunTranslucent_);
+            if (any(inRun)) leave(inRun, next);
+            runStart_ = hn::IfThenElse(inRun, next, runStart_);
+            const M open = andNot(isDone_, due);
+            store(color_.x, samples_.color[0], first_);
+            store(color_.y, samples_.color[1], first_);
+            store(color_.z, samples_.color[2], first_);
+            store(transmittance_, samples_.transmittance, first_);
+            store(lines_, samples_.lines, first_);
+            hn::Store(hn::IfThenElseZero(toInts(open), hn::Set(di, 1)), di, wanted);
+            for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
+                if (wanted[lane] != 0) scene_.fragment(context_, first_ + lane);
+            color_ = loadV3(samples_.color, first_);
+            transmittance_ = hn::Load(d, samples_.transmittance.data() + first_);
+            lines_ = hn::Load(d, samples_.lines.data() + first_);
+            markDone(toDoubles(hn::Ne(hn::Load(di, samples_.isDone.data() + first_), hn::Zero(di))));
         }
     }
 
@@ -595,6 +628,7 @@ private:
         const Looks looks = looksOf(scalar, lanes);
         runScalar_ = hn::IfThenElse(toInts(lanes), scalar, runScalar_);
         runStart_ = hn::IfThenElse(lanes, t_, runStart_);
+        labelStart_ = hn::IfThenElse(lanes, t_, labelStart_);
         const VI kind = integer<offsetof(PacketStyle, kind)>(looks);
         const VI object = integer<offsetof(PacketStyle, object)>(looks);
         const M visible = hn::And(lanes, toDoubles(isSet(kind, PacketKind::kVisible)));
@@ -873,13 +907,14 @@ private:
     PacketSamples& samples_;
     Axis x_, y_, z_;
     V metresPerT_, slack_;
-    V t_, from_, end_, runStart_;
+    V t_, from_, end_, runStart_, labelStart_;
     VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
     V light_, crease_ = hn::Zero(D());
     V3 normal_, away_;
     V3 color_;
-    V transmittance_;
+    V transmittance_, lines_;
     bool areMoving_;  // all rays along all axes
+    bool hasFragments_ = false;
     M active_, started_, isDone_, isCapped_, isRunTranslucent_;
     M isOpaque_, isUnlit_, isOnCap_, isAroundEye_;
 };

@@ -49,6 +49,8 @@ struct PacketSamples {
     Lanes<double> color[3], transmittance, depth, normal[3];
     Lanes<std::int64_t> label, object, isCap;
     Lanes<std::int64_t> isDone;  ///< -1: the ray has ended
+    Lanes<double> lines;         ///< share of the light that lines have let through
+    Lanes<double> nextFragment;  ///< depth of the next fragment that the ray comes to; infinity where there is none
 };
 
 /// A surface whose normal is not found here: among voxels, on a cut face, or around the eye; and that of a body which
@@ -84,6 +86,8 @@ struct PacketScene {
     double opaqueAt = 1, labelAt = 0;
     bool withColor = true;  ///< false: ends at the first label, without light
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
+    /// Adds the next fragment of a ray to its samples.
+    void (*fragment)(void* context, std::size_t ray) = nullptr;
 };
 
 /// Rays through the places `rays.u`, `rays.v`, and where they are in a volume of `count` voxels.

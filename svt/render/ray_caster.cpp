@@ -79,10 +79,20 @@ Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& g
                 .isReference = isReference};
     scene.drawn = drawnPixels(scene.rays, grid, spec);
     scene.isAdaptive = options.isAdaptive && arePixelsFine(scene.rays, grid, spec);
+    if (!scene.isAdaptive) scene.lineSamples = std::round(std::sqrt(spec.samplesPerPixel));
     scene.towardsLight = towardsLight(spec.light, scene.rays);
     scene.hatchColor = linearFromSrgb(spec.hatches.color);
     for (const Pass& pass : spec.passes) {
-        PreparedPass prepared{tableOf(pass), Clipper(pass.clips, grid), {}, pass.join};
+        PreparedPass prepared{pass.triangles.empty() ? tableOf(pass) : tableOf(voxelsOf(pass, spec.objectOfScalar)),
+                              Clipper(pass.clips, grid),
+                              {},
+                              pass.join};
+        auto shapes =
+            PassShapes::make(pass, spec, scene.rays, grid, prepared.clipper, scene.lineSamples, options.threads);
+        if (!shapes) return shapes.error();
+        scene.hasShapes = scene.hasShapes || !shapes->isEmpty();
+        scene.drawn.widen(shapes->reach());
+        prepared.shapes = std::move(*shapes);
         if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
             const PassTable& table = prepared.table;
             prepared.occlusion = OcclusionField(

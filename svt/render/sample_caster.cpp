@@ -1,4 +1,5 @@
 #include <svt/render/cap_hatch.hpp>
+#include <svt/render/fragments.hpp>
 #include <svt/render/sample_caster.hpp>
 #include <svt/render/surface_light.hpp>
 
@@ -28,11 +29,14 @@ double expOfMinus(double x) noexcept {
 // Takes the runs of one ray under one pass.
 class RunShader {
 public:
-    RunShader(const Scene& scene, std::size_t pass, NormalCache& cache, const CameraRay& ray, bool withColor)
+    RunShader(const Scene& scene, std::size_t pass, NormalCache& cache, const CameraRay& ray,
+              const Fragments& fragments, bool withColor)
         : scene_(scene),
           pass_(scene.passes[pass]),
           surfaceLight_(scene, pass, cache),
           ray_(ray),
+          fragments_(fragments.items),
+          surfaces_(fragments.surfaces),
           withColor_(withColor) {}
 
     void beginInterval(const DrawnInterval& interval) noexcept {
@@ -41,6 +45,7 @@ public:
     }
 
     bool enter(volume::Scalar scalar, double from, const RunStart& start) {
+        if (addFragments(from)) return true;
         const LinearStyle& style = pass_.table[scalar];
         if (style.kind == Kind::Hidden) {
             previousObject_ = kNoObject;
@@ -55,33 +60,67 @@ public:
                                          from == interval_->from ? interval_->cap : CapFace{}});
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);
+        hasEnded_ = true;
         return true;
     }
 
     bool leave(volume::Scalar scalar, double from, double to) {
         const LinearStyle& style = pass_.table[scalar];
-        if (style.kind == Kind::Hidden) return false;
-        add(style, 1 - expOfMinus(double(style.density) * (to - from) * ray_.metresPerT), from);
-        return isDone();
+        if (style.kind == Kind::Hidden) return addFragments(to);
+        auto addUpTo = [&, begin = from](double end) mutable {
+            add(style, 1 - expOfMinus(double(style.density) * (end - begin) * ray_.metresPerT), from);
+            begin = end;
+            return isDone();
+        };
+        while (next_ < fragments_.size() && fragments_[next_].depth <= to)
+            if (addUpTo(fragments_[next_].depth) || addFragment()) return true;
+        return addUpTo(to);
     }
 
+    /// What lies behind all voxels.
+    void finish() { addFragments(std::numeric_limits<double>::infinity()); }
+
     [[nodiscard]] bool isDone() const noexcept {
+        if (hasEnded_) return true;
         return withColor_ ? 1 - transmittance_ >= double(scene_.options.opaqueAt) : sample_.hasHit();
     }
 
     [[nodiscard]] Sample result() const noexcept {
         Sample sample = sample_;
-        finishSample(color_, transmittance_, scene_.options, sample);
+        finishSample(color_, transmittance_ * lines_, scene_.options, sample);
+        sample.hasLine = lines_ < 1;
+        drawHidden(fragments_.subspan(next_), sample);
         return sample;
     }
 
 private:
     static constexpr std::uint64_t kNoObject = ~std::uint64_t{0};
 
+    // Those up to `depth`, outside of runs; true ends the ray.
+    bool addFragments(double depth) {
+        while (!isDone() && next_ < fragments_.size() && fragments_[next_].depth <= depth)
+            if (addFragment()) return true;
+        return isDone();
+    }
+    // The next one; true ends the ray.
+    bool addFragment() {
+        const Fragment& fragment = fragments_[next_++];
+        blend(fragment, color_, transmittance_, lines_);
+        if (!fragment.isLine() && !sample_.hasHit() && 1 - transmittance_ > double(scene_.options.labelAt)) {
+            const MetSurface& surface = surfaces_[static_cast<std::size_t>(fragment.surface)];
+            sample_.label = surface.label;
+            sample_.object = surface.object;
+            sample_.depth = static_cast<float>(fragment.depth);
+            sample_.normal = toFloat(surface.normal);
+            sample_.isCap = surface.isCap;
+        }
+        return isDone();
+    }
+
     void add(const LinearStyle& style, double alpha, double from) {
         const double share = transmittance_ * alpha;
         const double light = 1 + (surface_.light - 1) * double(style.surface);
-        color_ = color_ + Vec3d{style.color.x, style.color.y, style.color.z} * (share * light);
+        color_ = color_ + Vec3d{style.color.x, style.color.y, style.color.z} * (share * light * lines_);
         transmittance_ -= share;
         if (!sample_.hasHit() && 1 - transmittance_ > double(scene_.options.labelAt)) {
             sample_.label = style.label;
@@ -96,13 +135,17 @@ private:
     const PreparedPass& pass_;
     SurfaceLight surfaceLight_;
     const CameraRay& ray_;
+    std::span<const Fragment> fragments_;
+    std::span<const MetSurface> surfaces_;
+    std::size_t next_ = 0;  // the first that the ray has not come to
     bool withColor_;
+    bool hasEnded_ = false;
     const DrawnInterval* interval_ = nullptr;
     std::uint64_t previousObject_ = kNoObject;
     Surface surface_;
     Sample sample_;
     Vec3d color_{};
-    double transmittance_ = 1;
+    double transmittance_ = 1, lines_ = 1;  // of voxels and surfaces, of lines
 };
 
 // `front` drawn over `back`; label and depth are the front's where it has any.
@@ -124,15 +167,30 @@ Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexc
     return over(pass, before);
 }
 
+SampleCaster::SampleCaster(const Scene& scene)
+    : scene_(scene),
+      finder_(scene.hasShapes ? std::make_unique<FragmentFinder>(scene) : nullptr),
+      fragments_(std::make_unique<Fragments>()) {}
+SampleCaster::~SampleCaster() = default;
+
 Sample SampleCaster::cast(double u, double v, bool withColor) {
     Sample joined;
     const CameraRay ray = scene_.rays.at(u, v);
     const RaySpan span = spanInVolume(ray.index, scene_.volume.dimension());
-    if (!(span.from < span.to)) return joined;
+    if (!(span.from < span.to) && !scene_.hasShapes) return joined;
     for (std::size_t n = 0; n < scene_.passes.size(); ++n) {
         const PreparedPass& pass = scene_.passes[n];
-        RunShader shader(scene_, n, cache_, ray, withColor);
-        for (const DrawnInterval& interval : pass.clipper.cut(ray.index, span)) {
+        const DrawnIntervals drawn = pass.clipper.cut(ray.index, span);
+        fragments_->clear();
+        double end = std::numeric_limits<double>::infinity();
+        if (!pass.shapes.isEmpty()) {
+            if (withColor) finder_->addLines(n, finder_->findLines(n, u, v), *fragments_);
+            end = finder_->addSurfaces(n, u, v, ray, {drawn.begin(), drawn.end()}, 0, *fragments_);
+        }
+        RunShader shader(scene_, n, cache_, ray, *fragments_, withColor);
+        for (DrawnInterval interval : drawn) {
+            interval.to = std::min(interval.to, end);
+            if (!(interval.from < interval.to)) break;
             shader.beginInterval(interval);
             if (scene_.isReference)
                 walkRunsReference(scene_.volume, ray.index, interval.from, interval.to, shader);
@@ -140,6 +198,7 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
                 walkRuns(scene_.volume, ray.index, interval.from, interval.to, shader);
             if (shader.isDone()) break;
         }
+        shader.finish();
         Sample sample = shader.result();
         hatchCap(scene_, n, u, v, sample);
         joined = n == 0 ? sample : joinPass(pass.join, sample, joined);

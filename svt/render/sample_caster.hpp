@@ -5,12 +5,14 @@
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/clip_intervals.hpp>
 #include <svt/render/occlusion.hpp>
+#include <svt/render/pass_shapes.hpp>
 #include <svt/render/pass_table.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/surface_normal.hpp>
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace svt::render {
@@ -24,6 +26,7 @@ struct Sample {
     float depth = std::numeric_limits<float>::infinity();  ///< infinity: nothing met
     Vec3f normal{};                                        ///< world space, unit length, where the label begins
     bool isCap = false;                                    ///< the label begins on a clip plane
+    bool hasLine = false;                                  ///< a line is part of the color
 
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -49,11 +52,13 @@ struct PreparedPass {
     Clipper clipper;
     OcclusionField occlusion;
     Pass::Join join;
+    PassShapes shapes{};
 };
 
 /// Part of the picture, pixels.
 struct PixelRect {
     double left = 0, top = 0, right = 0, bottom = 0;
+    void widen(double by) noexcept { *this = {left - by, top - by, right + by, bottom + by}; }
     [[nodiscard]] bool overlaps(std::int32_t x, std::int32_t y, std::int32_t width,
                                 std::int32_t height) const noexcept {
         return x <= right && x + width >= left && y <= bottom && y + height >= top;
@@ -98,7 +103,10 @@ struct Scene {
     Vec3f hatchColor{};    ///< linear light
     bool isReference = false;
     bool isAdaptive = false;  ///< more samples only where pixels differ
-    PixelRect drawn{};        ///< outside of it no ray meets the volume
+    PixelRect drawn{};        ///< outside of it no ray meets the volume or a line
+    bool hasShapes = false;   ///< any pass has
+    /// Samples along a pixel's side, over which lines fade out. Adaptive pictures have one in most pixels.
+    double lineSamples = 1;
 };
 
 /// Normals of hit voxels, kept per tile: neighbouring rays often hit the same voxel.
@@ -118,10 +126,14 @@ private:
     std::array<Slot, std::size_t{1} << kBits> slots_{};
 };
 
+class FragmentFinder;
+struct Fragments;
+
 /// Casts rays one by one: the plain way, which packets are held against. Belongs to one thread.
 class SampleCaster {
 public:
-    explicit SampleCaster(const Scene& scene) : scene_(scene) {}
+    explicit SampleCaster(const Scene& scene);
+    ~SampleCaster();
 
     /// \param withColor  false: label and depth alone
     [[nodiscard]] Sample cast(double u, double v, bool withColor);
@@ -129,6 +141,8 @@ public:
 private:
     const Scene& scene_;
     NormalCache cache_;
+    std::unique_ptr<FragmentFinder> finder_;
+    std::unique_ptr<Fragments> fragments_;  // of the ray
 };
 
 }  // namespace svt::render

@@ -41,8 +41,14 @@ Vec3d DirectionTable::away(Vec3d normal) const noexcept {
 Surface SurfaceLight::at(const LinearStyle& style, const SurfaceHit& hit) const {
     Surface surface = facing(style, hit);
     const bool isOpen = !style.isBody || surface.isAroundEye || scene_.spec.light.ambientOcclusion <= 0;
-    surface.light = lightOn(surface.normal, hit.view, isOpen ? 1 : openness(hit, surface));
+    const Vec3d point = hit.origin + hit.direction * hit.from;
+    surface.light = lightOn(surface.normal, hit.view, isOpen ? 1 : openness(point, surface.away, surface.crease));
     return surface;
+}
+
+double SurfaceLight::on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept {
+    const bool isOpen = !style.isBody || scene_.spec.light.ambientOcclusion <= 0;
+    return lightOn(normal, view, isOpen ? 1 : openness(point, scene_.directions.away(normal), 0));
 }
 
 Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) const {
@@ -90,9 +96,8 @@ const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) cons
 }
 
 // 1 in the open, less in corners.
-double SurfaceLight::openness(const SurfaceHit& hit, const Surface& surface) const noexcept {
-    const double occlusion = std::min(
-        1.0, pass_.occlusion.occlusion(hit.origin + hit.direction * hit.from, surface.away) + 0.35 * surface.crease);
+double SurfaceLight::openness(Vec3d point, Vec3d away, double crease) const noexcept {
+    const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, away) + 0.35 * crease);
     return 1 - double(scene_.spec.light.ambientOcclusion) * occlusion;
 }
 

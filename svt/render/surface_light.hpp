@@ -39,11 +39,14 @@ public:
     [[nodiscard]] Surface at(const LinearStyle& style, const SurfaceHit& hit) const;
     /// The same without light.
     [[nodiscard]] Surface facing(const LinearStyle& style, const SurfaceHit& hit) const;
+    /// Light on a surface that is no voxel's. \param normal  world space, unit length, towards the viewer
+    /// \param view  the same, to the viewer \param point  voxel space
+    [[nodiscard]] double on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept;
 
 private:
     [[nodiscard]] const SurfaceNormal& normalAt(Vec3i cell, int axis, int sign) const;
     [[nodiscard]] double lightOn(Vec3d normal, Vec3d view, double open) const noexcept;
-    [[nodiscard]] double openness(const SurfaceHit& hit, const Surface& surface) const noexcept;
+    [[nodiscard]] double openness(Vec3d point, Vec3d away, double crease) const noexcept;
 
     const Scene& scene_;
     const PreparedPass& pass_;

@@ -155,9 +155,11 @@ bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {
 // `other` lies by `aside` (metres, world space) beside `sample`.
 bool TileRenderer::looksOther(const Sample& sample, const Sample& other, Vec3d aside) const {
     constexpr float kColor = 0.02f, kTurned = 0.995f;
-    if (sample.hasHit() != other.hasHit() || std::abs(sample.alpha - other.alpha) > kColor) return true;
-    if (std::max({std::abs(sample.color.x - other.color.x), std::abs(sample.color.y - other.color.y),
-                  std::abs(sample.color.z - other.color.z)}) > kColor)
+    // Lines are smooth as they are.
+    const bool hasLine = sample.hasLine || other.hasLine;
+    if (sample.hasHit() != other.hasHit() || (!hasLine && std::abs(sample.alpha - other.alpha) > kColor)) return true;
+    if (!hasLine && std::max({std::abs(sample.color.x - other.color.x), std::abs(sample.color.y - other.color.y),
+                              std::abs(sample.color.z - other.color.z)}) > kColor)
         return true;
     if (!sample.hasHit()) return false;
     return dot(sample.normal, other.normal) < kTurned || lineBetween(sample, other, aside, true) > 0 ||

@@ -5,6 +5,7 @@
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
 #include <svt/volume/label_table.hpp>
+#include <svt/volume/vector_parts.hpp>
 
 #include <string>
 
@@ -17,6 +18,7 @@ struct SemanticVolume {
     std::string crsName;    ///< srsName or referenceSystem of the model, or empty
     std::string modelName;  ///< name of the model, or empty
     std::string source;     ///< file name (without folder) of the model
+    VectorParts vectors{};  ///< empty where they were not asked for
 };
 
 }  // namespace svt::volume

@@ -21,7 +21,8 @@ constexpr std::string_view kHeader = "svt.json";
 constexpr std::string_view kLabels = "labels.json";
 constexpr std::string_view kIndex = "columns/index";
 constexpr std::string_view kBlocks = "columns/blocks";
-constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks};
+constexpr std::string_view kVectors = "meshes/parts";  // only where there are any
+constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors};
 
 Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
@@ -41,6 +42,8 @@ Result<void> checkWritable(const SemanticVolume& volume) {
     for (const ColumnTile& tile : volume.columns.tiles())
         for (const Run& run : tile.runs)
             if (run.scalar >= scalarCount) return wrong(fmt::format("scalar {} belongs to no label", run.scalar));
+    if (auto checked = checkVectorParts(volume.vectors, volume.labels.labels.size()); !checked)
+        return wrong(checked.error().message());
     return {};
 }
 
@@ -49,6 +52,9 @@ class Entries {
 public:
     explicit Entries(std::vector<ZipEntry> entries) : entries_(std::move(entries)) {}
 
+    [[nodiscard]] bool has(std::string_view name) const {
+        return std::any_of(entries_.begin(), entries_.end(), [&](const ZipEntry& entry) { return entry.name == name; });
+    }
     [[nodiscard]] Result<ZipEntry> find(std::string_view name) const {
         for (const ZipEntry& entry : entries_)
             if (entry.name == name) return entry;
@@ -131,6 +137,16 @@ Result<SvtBlocks> readTables(const Entries& entries) {
                      std::move(header->source)};
 }
 
+Result<VectorParts> readVectors(const Entries& entries, std::size_t labelCount) {
+    if (!entries.has(kVectors)) return VectorParts();
+    const auto entry = entries.stored(kVectors);
+    if (!entry) return entry.error();
+    std::vector<std::byte> buffer;
+    const auto frame = unpack(*entry, entry->size, buffer);
+    if (!frame) return frame.error();
+    return readVectorParts(*frame, labelCount);
+}
+
 Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
     const auto entries = openEntries(bytes);
     if (!entries) return entries.error();
@@ -143,12 +159,15 @@ Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
     if (auto others = entries->checkOthers(); !others) return others.error();
     auto columns = tables->blocks.decodeAll(tables->frames);
     if (!columns) return columns.error();
+    auto vectors = readVectors(*entries, tables->labels.labels.size());
+    if (!vectors) return vectors.error();
     return SemanticVolume{tables->grid,
                           std::move(tables->labels),
                           std::move(*columns),
                           std::move(tables->crsName),
                           std::move(tables->modelName),
-                          std::move(tables->source)};
+                          std::move(tables->source),
+                          std::move(*vectors)};
 }
 
 }  // namespace
@@ -170,7 +189,13 @@ Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesyst
                                                     labels.size(), kMaxLabelsBytes));
     const auto compressed = compressColumns(volume.columns);
     if (!compressed) return compressed.error();
-    std::vector<ZipSource> entries(std::size(kUsed));
+    std::vector<std::byte> vectors;
+    if (!volume.vectors.isEmpty()) {
+        auto frame = compressVectorParts(volume.vectors);
+        if (!frame) return frame.error();
+        vectors = std::move(*frame);
+    }
+    std::vector<ZipSource> entries(std::size(kUsed) - (vectors.empty() ? 1 : 0));
     for (std::size_t e = 0; e < entries.size(); ++e) entries[e].name = kUsed[e];
     entries[0].isAligned = false;
     entries[0].parts = {std::as_bytes(std::span(kMimeType))};
@@ -179,6 +204,7 @@ Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesyst
     entries[2].isDeflated = true;
     entries[3].parts = {std::as_bytes(std::span(compressed->index))};
     entries[4].parts.assign(compressed->frames.begin(), compressed->frames.end());
+    if (!vectors.empty()) entries[5].parts = {std::span<const std::byte>(vectors)};
     return writeZip(path, entries);
 }
 

@@ -8,6 +8,7 @@
 ///     labels.json      label table, overlaps, phase colors (deflated)
 ///     columns/index    of the blocks, see column_blocks.hpp
 ///     columns/blocks   zstd frames, one per block
+///     meshes/parts     lines and triangles by label, see vector_parts.hpp; only where there are any
 
 #include <svt/core/result.hpp>
 #include <svt/volume/column_blocks.hpp>

@@ -74,6 +74,30 @@ void expectRefused(const std::string& file, Code code, std::string_view reason) 
     EXPECT_EQ(volume.error().where().file, "test.svt");
 }
 
+TEST(SvtFile, KeepsLinesAndMeshesWhereThereAreAny) {
+    const SemanticVolume bare = sampleVolume({8, 8, 8});
+    SemanticVolume volume = bare;
+    volume.vectors.points = {{0, 0, 0}, {10000, 0, 0}, {0, 10000, 7}};
+    volume.vectors.segments = {{0, {0, 1}}};
+    volume.vectors.triangles = {{0, {0, 1, 2}}};
+    const std::string file = bytesOfVolume(volume);
+    const auto read = readBytes(file);
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_EQ(read->vectors, volume.vectors);
+    EXPECT_EQ(bytesOfVolume(*read), file);
+    // Without them the file has no such entry.
+    EXPECT_EQ(changed(bytesOfVolume(bare), [](EntryTexts& texts) { EXPECT_EQ(texts.count("meshes/parts"), 0u); }),
+              changed(file, [](EntryTexts& texts) { EXPECT_EQ(texts.erase("meshes/parts"), 1u); }));
+
+    expectRefused(changed(file, [](EntryTexts& texts) { texts["meshes/parts"].pop_back(); }), Code::BadVolume,
+                  "vector parts");
+    volume.vectors.segments[0].label = 4000;
+    const TemporaryFolder folder;
+    const auto refused = writeSvt(volume, folder / "v.svt");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code(), Code::BadArgument);
+}
+
 TEST(SvtFile, VolumeComesBackAsWritten) {
     const TemporaryFolder folder;
     for (const Vec3i dimension : {Vec3i{8, 8, 8}, Vec3i{64, 64, 9}, Vec3i{70, 66, 9}, Vec3i{130, 200, 40}}) {

@@ -101,6 +101,16 @@ const std::vector<Picture> kPictures{
      {}},
     {"patterns", {"--camera", "front", "--section", "y<5"}, {"--patterns"}, "224x126"},
     {"dark", {"--background", "#203040", "--edges", "1", "--camera", "iso-ne"}, {}},
+    {"wireframe",
+     {"--opacity", "all:0.3", "--opacity", "class=BuildingRoom:0.05", "--wireframe", "--wire-width", "0.7"},
+     {"--vectors", "edges"}},
+    {"hidden_lines",
+     {"--wireframe", "class=BuildingRoom", "--hidden-lines", "dashed", "--wire-width", "1.5", "--edges", "0"},
+     {"--vectors", "edges"}},
+    {"meshes",
+     {"--section", "z>1.3", "--vectors", "class=BuildingFurniture", "--vectors", "size<1", "--camera", "iso-sw",
+      "--zoom", "2"},
+     {"--vectors", "meshes"}},
     {"coarse", {"--level", "2", "--section", "y<5", "--camera", "iso-sw"}, {}},
     {"paper", {"--look", "paper", "--hide", "class=BuildingRoom", "--section", "y<5", "--camera", "front"}, {}},
     {"blueprint",
@@ -183,6 +193,30 @@ TEST_F(SmallHouse, TransparentBackgroundHasNoAlpha) {
     const auto image = draw({"--transparent"});
     EXPECT_EQ(image.at(0, 0).a, 0);
     EXPECT_EQ(image.at(80, 45).a, 255);
+}
+
+TEST_F(SmallHouse, LinesAndMeshesOfTheModelAreThoseOfItsVolume) {
+    const std::vector<std::string> options{"--wireframe", "--vectors", "class=BuildingFurniture", "--opacity",
+                                           "all:0.3"};
+    runSvtWell(folder.path(),
+               {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "edges,meshes"});
+    const auto ofVolume = draw(options);
+    std::vector<std::string> arguments{"render", "house.gml", "-o", "p.png", "--size", "160x90", "--spacing", "0.2"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    runSvtWell(folder.path(), arguments);
+    const auto ofModel = render::readPng(folder / "p.png");
+    ASSERT_TRUE(ofModel);
+    EXPECT_EQ(*ofModel, ofVolume);
+    EXPECT_NE(draw({"--opacity", "all:0.3"}), ofVolume);
+}
+
+TEST_F(SmallHouse, WithoutLinesAndMeshesTheRemedyIsNamed) {
+    for (const auto& [option, query, what] : {std::tuple("--wireframe", "all", "--vectors edges"),
+                                              std::tuple("--vectors", "size<0.5", "--vectors meshes")}) {
+        const CommandResult result = runSvt(folder.path(), {"render", "house.svt", "-o", "p.png", option, query});
+        EXPECT_EQ(result.exitCode, 2) << result.err;
+        EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+    }
 }
 
 TEST_F(SmallHouse, PictureOfTheModelIsThatOfItsVolume) {

@@ -1,0 +1,98 @@
+#include <svt/pipeline/vector_parts.hpp>
+
+#include <svt/core/parallel.hpp>
+#include <svt/mesh/feature_edges.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace svt::pipeline {
+namespace {
+
+constexpr double kReach = 200'000;  // metres; 2^31 units are 214,748 m
+
+// Parts of one object; its points are numbered by first use.
+class ObjectParts {
+public:
+    ObjectParts(const mesh::ObjectMesh& mesh, Vec3d fromGrid) : mesh_(mesh), fromGrid_(fromGrid) {}
+
+    void addEdges() {
+        for (const mesh::FeatureEdge& edge : mesh::findFeatureEdges(mesh_))
+            parts_.segments.push_back({0, {pointOf(edge.from), pointOf(edge.to)}});
+    }
+    void addTriangles() {
+        for (const mesh::Triangle& triangle : mesh_.triangles)
+            parts_.triangles.push_back(
+                {0, {pointOf(triangle.corners[0]), pointOf(triangle.corners[1]), pointOf(triangle.corners[2])}});
+    }
+    [[nodiscard]] bool isInReach() const noexcept { return isInReach_; }
+    [[nodiscard]] const volume::VectorParts& parts() const noexcept { return parts_; }
+
+private:
+    static constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
+
+    std::uint32_t pointOf(std::uint32_t vertex) {
+        if (numbers_.empty()) numbers_.assign(mesh_.vertices.size(), kUnused);
+        std::uint32_t& number = numbers_[vertex];
+        if (number != kUnused) return number;
+        number = static_cast<std::uint32_t>(parts_.points.size());
+        Vec3i& point = parts_.points.emplace_back();
+        for (int axis = 0; axis < 3; ++axis) {
+            const double place = mesh_.vertices[vertex][axis] + fromGrid_[axis];
+            isInReach_ = isInReach_ && std::abs(place) <= kReach;
+            if (isInReach_) point[axis] = static_cast<std::int32_t>(std::lround(place / volume::VectorParts::kUnit));
+        }
+        return number;
+    }
+
+    const mesh::ObjectMesh& mesh_;
+    Vec3d fromGrid_;
+    std::vector<std::uint32_t> numbers_;
+    volume::VectorParts parts_;
+    bool isInReach_ = true;
+};
+
+void append(const volume::VectorParts& from, std::uint32_t label, volume::VectorParts& to) {
+    const auto first = static_cast<std::uint32_t>(to.points.size());
+    to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+    for (const auto& segment : from.segments)
+        to.segments.push_back({label, {segment.ends[0] + first, segment.ends[1] + first}});
+    for (const auto& triangle : from.triangles)
+        to.triangles.push_back(
+            {label, {triangle.corners[0] + first, triangle.corners[1] + first, triangle.corners[2] + first}});
+}
+
+}  // namespace
+
+Result<volume::VectorParts> makeVectorParts(const mesh::MeshScene& scene, std::span<const std::uint32_t> labelOfObject,
+                                            const volume::Grid& grid, VectorChoice choice, int threads) {
+    volume::VectorParts all;
+    if (choice.isNone()) return all;
+    std::vector<ObjectParts> objects;
+    for (const mesh::ObjectMesh& mesh : scene.objects) objects.emplace_back(mesh, scene.origin - grid.origin());
+    parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t o = begin; o < end; ++o) {
+            if (choice.edges) objects[o].addEdges();
+            if (choice.meshes) objects[o].addTriangles();
+        }
+    });
+    std::vector<std::uint32_t> order(objects.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return labelOfObject[a] < labelOfObject[b]; });
+    for (const std::uint32_t o : order) {
+        if (!objects[o].isInReach())
+            return Error(
+                Code::GridTooLarge,
+                fmt::format("a part lies over {} km from the grid's lower corner, too far for edges and meshes; "
+                            "build without them, or split the model",
+                            kReach / 1000));
+        append(objects[o].parts(), labelOfObject[o], all);
+    }
+    return all;
+}
+
+}  // namespace svt::pipeline

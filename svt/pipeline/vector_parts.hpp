@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Lines and triangles of meshes, by label, to be kept beside the voxels.
+
+#include <svt/core/result.hpp>
+#include <svt/mesh/mesh_scene.hpp>
+#include <svt/volume/grid.hpp>
+#include <svt/volume/vector_parts.hpp>
+
+#include <cstdint>
+#include <span>
+
+namespace svt::pipeline {
+
+/// What is kept.
+struct VectorChoice {
+    bool edges = false;   ///< feature edges, see mesh::findFeatureEdges()
+    bool meshes = false;  ///< all triangles
+    [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
+};
+
+/// \param labelOfObject  per scene.objects
+/// \return the parts, in the order of labels, or GridTooLarge where a point lies over 200 km from the grid's origin
+/// Cost: that of the feature edges, parallel. The result does not depend on `threads`.
+[[nodiscard]] Result<volume::VectorParts> makeVectorParts(const mesh::MeshScene& scene,
+                                                          std::span<const std::uint32_t> labelOfObject,
+                                                          const volume::Grid& grid, VectorChoice choice,
+                                                          int threads = 0);
+
+}  // namespace svt::pipeline

@@ -1,0 +1,137 @@
+#pragma once
+/// \file
+/// The lines and triangles of a pass as the picture shows them, and which of them lie near a place in it. Internal to
+/// render.
+
+#include <svt/core/result.hpp>
+#include <svt/render/camera_rays.hpp>
+#include <svt/render/clip_intervals.hpp>
+#include <svt/render/frame_spec.hpp>
+#include <svt/render/pass_table.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace svt::render {
+
+/// A line in the picture: cut by the clips and the eye plane.
+struct PictureLine {
+    double x, y, dx, dy;        ///< pixels from the picture's upper left corner: begin, and way to the end
+    double perSquaredLength;    ///< 1 / (dx^2 + dy^2)
+    double depth, depthChange;  ///< 1 / depth at the begin, and what the end adds; depth itself where orthographic
+    double length;              ///< pixels
+    std::uint32_t look;         ///< of PassShapes::looks()
+};
+
+/// Look of a set of lines.
+struct LineLook {
+    Vec3d color;                ///< linear light
+    double halfWidth, darkest;  ///< pixels; coverage at most
+    double hiddenOpacity, dash, period;
+    HiddenLines hidden;
+};
+
+/// A triangle as rays meet it. World space from the eye, metres.
+struct PictureTriangle {
+    std::array<Vec3d, 3> corners;
+    Vec3d normal;                     ///< unit length, outwards
+    double left, top, right, bottom;  ///< where it lies in the picture, pixels
+    LinearStyle style;
+    double opacity;
+};
+
+/// Shapes of one pass in small squares of the picture.
+class PassShapes {
+public:
+    PassShapes() = default;
+
+    /// \param clipper          of the pass
+    /// \param samplesPerPixel  along a side, see Scene::lineSamples
+    /// \return the shapes, or BadFrame where they cover the picture too often
+    /// Cost: O(shapes + squares that they touch), mostly parallel. Memory: at most about 1 GB, where the picture is
+    /// full of shapes.
+    [[nodiscard]] static Result<PassShapes> make(const Pass& pass, const FrameSpec& spec, const CameraRays& rays,
+                                                 const volume::Grid& grid, const Clipper& clipper,
+                                                 double samplesPerPixel, int threads);
+
+    [[nodiscard]] bool isEmpty() const noexcept { return tiles_.empty(); }
+    /// Farthest that a line reaches from its middle, pixels.
+    [[nodiscard]] double reach() const noexcept { return reach_; }
+
+    /// Shapes that a ray through (u, v), see CameraRays::at(), may meet, ascending: lines, then triangles, whose
+    /// numbers have kTriangle added. Rays up to 2 pixels outside of the picture are answered, too.
+    [[nodiscard]] std::span<const std::uint32_t> near(double u, double v) const noexcept {
+        return inCell(cellOf((u + 1) / 2 * width_, cellsX_), cellOf((1 - v) / 2 * height_, cellsY_));
+    }
+    static constexpr std::uint32_t kTriangle = 0x80000000u;
+    /// Lines that any of a few rays through (x[n], y[n]), pixels, may meet; each once, in any order.
+    /// \param buffer  may hold them
+    template <std::size_t kCount>
+    [[nodiscard]] std::span<const std::uint32_t> linesNear(const double (&x)[kCount], const double (&y)[kCount],
+                                                           std::vector<std::uint32_t>& buffer) const {
+        const auto [left, right] = std::minmax_element(x, x + kCount);
+        const auto [top, bottom] = std::minmax_element(y, y + kCount);
+        return linesNear(*left, *top, *right, *bottom, buffer);
+    }
+    [[nodiscard]] bool hasTriangles() const noexcept { return !triangles_.empty(); }
+    [[nodiscard]] bool hasTriangles(double u, double v) const noexcept {
+        const auto shapes = near(u, v);
+        return !shapes.empty() && shapes.back() >= kTriangle;
+    }
+
+    [[nodiscard]] std::span<const PictureLine> lines() const noexcept { return lines_; }
+    [[nodiscard]] std::span<const LineLook> looks() const noexcept { return looks_; }
+    [[nodiscard]] const PictureTriangle& triangle(std::uint32_t number) const noexcept { return triangles_[number]; }
+    [[nodiscard]] double width() const noexcept { return width_; }
+    [[nodiscard]] double height() const noexcept { return height_; }
+
+private:
+    // Squares of 4 x 4 pixels, 8 x 8 of them in a tile.
+    static constexpr std::int32_t kCellPixels = 4, kTileCells = 8, kTilePixels = kCellPixels * kTileCells;
+    struct Tile {
+        std::vector<std::uint32_t> starts;  // by square, x fastest, and the end; empty: all have all shapes
+        std::vector<std::uint32_t> shapes;
+    };
+    struct Square {
+        double left, top, right, bottom;
+    };
+    [[nodiscard]] static std::int32_t cellOf(double pixel, std::int32_t count) noexcept {
+        return std::clamp(static_cast<std::int32_t>(pixel * (1.0 / kCellPixels)), 0, count - 1);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> inCell(std::int32_t x, std::int32_t y) const noexcept {
+        const Tile& tile = tiles_[static_cast<std::size_t>(x / kTileCells + tilesX_ * (y / kTileCells))];
+        if (tile.starts.empty()) return tile.shapes;
+        const auto cell = static_cast<std::size_t>(x % kTileCells + kTileCells * (y % kTileCells));
+        return std::span(tile.shapes).subspan(tile.starts[cell], tile.starts[cell + 1] - tile.starts[cell]);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> linesNear(double left, double top, double right, double bottom,
+                                                           std::vector<std::uint32_t>& buffer) const;
+
+    void addLines(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, const volume::Grid& grid,
+                  const Clipper& clipper);
+    void addLine(Vec3d from, Vec3d to, const CameraRays& rays, double nearest);
+    void addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest);
+    [[nodiscard]] Result<void> sortIntoTiles(int threads);
+    void sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const;
+    [[nodiscard]] std::pair<double, double> spanOf(const PictureLine& line, double top, double bottom) const noexcept;
+    [[nodiscard]] Square boundsOf(std::uint32_t shape) const noexcept;
+    [[nodiscard]] static Square boundsOf(const std::array<double, 6>& outline) noexcept;
+    [[nodiscard]] bool touches(std::uint32_t shape, const Square& square) const noexcept;
+
+    double width_ = 0, height_ = 0, reach_ = 0;  // pixels
+    std::int32_t cellsX_ = 0, cellsY_ = 0, tilesX_ = 0, tilesY_ = 0;
+    std::vector<LineLook> looks_;
+    std::vector<PictureLine> lines_;
+    std::vector<PictureTriangle> triangles_;
+    // Corners in the picture, x and y each; all zero where a corner lies behind the eye plane: anywhere.
+    std::vector<std::array<double, 6>> outlines_;
+    std::vector<Tile> tiles_;
+};
+
+/// Styles of the pass for its voxels: what triangles stand for is hidden.
+[[nodiscard]] Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar);
+
+}  // namespace svt::render

@@ -1,0 +1,108 @@
+#include <svt/volume/vector_parts.hpp>
+
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <limits>
+#include <random>
+#include <string>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::size_t kLabels = 9;
+
+VectorParts someParts() {
+    std::mt19937 random(7);
+    VectorParts parts;
+    for (int n = 0; n < 200; ++n)
+        parts.points.push_back({static_cast<std::int32_t>(random()), static_cast<std::int32_t>(random() % 100000),
+                                -static_cast<std::int32_t>(random() % 300)});
+    parts.points[3] = {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max(), 0};
+    parts.points[4] = {std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::min(), -1};
+    const auto point = [&] { return static_cast<std::uint32_t>(random() % parts.points.size()); };
+    for (std::uint32_t n = 0; n < 90; ++n) parts.segments.push_back({n / 10, {point(), point()}});
+    for (std::uint32_t n = 0; n < 80; ++n) parts.triangles.push_back({n / 20 + 4, {point(), point(), point()}});
+    return parts;
+}
+
+std::vector<std::byte> frameOf(const std::vector<std::uint8_t>& bytes) {
+    std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
+    frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
+    return frame;
+}
+
+void expectRefused(const std::vector<std::byte>& frame, std::string_view reason) {
+    const auto parts = readVectorParts(frame, kLabels);
+    ASSERT_FALSE(parts) << "accepted, expected: " << reason;
+    EXPECT_EQ(parts.error().code(), Code::BadVolume);
+    EXPECT_NE(parts.error().message().find(reason), std::string::npos) << parts.error().message();
+}
+
+TEST(VectorParts, ComeBackAsWritten) {
+    for (const VectorParts& parts : {someParts(), VectorParts()}) {
+        const auto frame = compressVectorParts(parts);
+        ASSERT_TRUE(frame);
+        const auto read = readVectorParts(*frame, kLabels);
+        ASSERT_TRUE(read) << read.error().toString();
+        EXPECT_EQ(*read, parts);
+        EXPECT_EQ(*compressVectorParts(*read), *frame);
+    }
+}
+
+TEST(VectorParts, PlacesAreTenthsOfAMillimetre) {
+    VectorParts parts;
+    parts.points = {{10000, -5, 1}};
+    const Vec3d place = parts.position(0, {458877, 5438353, 100});
+    EXPECT_NEAR(place.x, 458878, 1e-9);
+    EXPECT_NEAR(place.y, 5438352.9995, 1e-9);
+    EXPECT_NEAR(place.z, 100.0001, 1e-9);
+}
+
+// The worked example of docs/formats/svt.md.
+TEST(VectorParts, TheExampleOfTheFormatReads) {
+    const auto parts = readVectorParts(
+        frameOf({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}), kLabels);
+    ASSERT_TRUE(parts) << parts.error().toString();
+    VectorParts expected;
+    expected.points = {{0, 0, 0}, {10000, 0, 0}, {10000, 10000, 0}};
+    expected.segments = {{2, {0, 1}}};
+    expected.triangles = {{0, {0, 1, 2}}};
+    EXPECT_EQ(*parts, expected);
+}
+
+TEST(VectorParts, DamagedOnesAreRefused) {
+    expectRefused({}, "no zstd frame");
+    expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
+    expectRefused(frameOf({}), "are said to be in");
+    expectRefused(frameOf({1, 0, 0, 2, 2}), "are said to be in 2 bytes");
+    expectRefused(frameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
+    expectRefused(frameOf({1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
+    expectRefused(frameOf({1, 0, 0, 2, 2, 0x80}), "cut short");
+    expectRefused(frameOf({1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
+    expectRefused(frameOf({1, 1, 0, 0, 0, 0, 9, 0, 0}), "segment 0 is of label 9, there are 9");
+    expectRefused(frameOf({1, 1, 0, 0, 0, 0, 1, 0, 2}), "segment 0 uses point 1, there are 1");
+    expectRefused(frameOf({1, 0, 1, 0, 0, 0, 1, 0, 0, 1}), "triangle 0 uses point 4294967295");
+    // 3, then a difference that wraps around to 2.
+    expectRefused(frameOf({1, 2, 0, 0, 0, 0, 3, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0}), "out of the order");
+    std::vector<std::uint8_t> zeros(std::size_t{64} << 20, 0);
+    expectRefused(frameOf(zeros), "are possible");
+}
+
+TEST(VectorParts, AnyDamageIsToldOrReadsAsParts) {
+    const auto frame = compressVectorParts(someParts());
+    ASSERT_TRUE(frame);
+    std::mt19937 random(3);
+    for (int round = 0; round < 2000; ++round) {
+        auto damaged = *frame;
+        damaged[random() % damaged.size()] = static_cast<std::byte>(random());
+        if (round % 5 == 0) damaged.resize(random() % damaged.size());
+        const auto parts = readVectorParts(damaged, kLabels);
+        if (parts) {
+            EXPECT_TRUE(checkVectorParts(*parts, kLabels));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace svt::volume
