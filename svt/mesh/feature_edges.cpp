@@ -33,9 +33,8 @@ std::vector<Wing> collectWings(const std::vector<Vec3d>& vertices, const std::ve
             const Vec3d inside = vertices[triangle.corners[(c + 2) % 3]] - vertices[a];
             wings.push_back({std::min(a, b), std::max(a, b), normalized(inside - along * dot(inside, along))});
         }
-    std::stable_sort(wings.begin(), wings.end(), [](const Wing& p, const Wing& q) {
-        return std::tie(p.low, p.high) < std::tie(q.low, q.high);
-    });
+    std::stable_sort(wings.begin(), wings.end(),
+                     [](const Wing& p, const Wing& q) { return std::tie(p.low, p.high) < std::tie(q.low, q.high); });
     return wings;
 }
 

@@ -9,8 +9,8 @@
 namespace svt::mesh {
 
 struct FeatureEdgeOptions {
-    /// Faces that meet at a larger angle than this make a crease, degrees, 0 = coplanar. Above the 15 degrees of a round
-    /// column of 24 sides, whose facets are not meant to be seen.
+    /// Faces that meet at a larger angle than this make a crease, degrees, 0 = coplanar. Above the 15 degrees of a
+    /// round column of 24 sides, whose facets are not meant to be seen.
     double creaseAngleDegrees = 20;
     double tolerance = 1e-4;  ///< points this near to a line lie on it, metres
 };
@@ -21,9 +21,9 @@ struct FeatureEdge {
     friend bool operator==(const FeatureEdge&, const FeatureEdge&) = default;
 };
 
-/// Where two faces meet at an angle, where a face ends, and where more than two faces meet that do not lie in one plane.
-/// Edges between triangles of one plane are left out, also where one side of them is cut at other points than the other
-/// (T-junctions); collinear pieces are joined. The winding of the triangles does not matter.
+/// Where two faces meet at an angle, where a face ends, and where more than two faces meet that do not lie in one
+/// plane. Edges between triangles of one plane are left out, also where one side of them is cut at other points than
+/// the other (T-junctions); collinear pieces are joined. The winding of the triangles does not matter.
 ///
 /// \return the edges, longest first, equal lengths by vertex numbers
 /// Cost: O(triangles log triangles), and what cutAtTJunctions() takes where the mesh is open.

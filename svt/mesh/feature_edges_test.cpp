@@ -82,9 +82,9 @@ TEST(FeatureEdges, ACreaseWithATJunctionIsOneEdge) {
 }
 
 TEST(FeatureEdges, WhereAWallStandsOnAFloorIsAnEdge) {
-    const ObjectMesh mesh = test::meshOfRings({{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}, {-2, 0, 0}, {-2, 2, 0},
-                                               {0, 0, 2}, {0, 2, 2}},
-                                              {{0, 2, 3, 1}, {4, 0, 1, 5}, {0, 1, 7, 6}});
+    const ObjectMesh mesh =
+        test::meshOfRings({{0, 0, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 0}, {-2, 0, 0}, {-2, 2, 0}, {0, 0, 2}, {0, 2, 2}},
+                          {{0, 2, 3, 1}, {4, 0, 1, 5}, {0, 1, 7, 6}});
     const auto edges = findFeatureEdges(mesh);
     EXPECT_TRUE(std::any_of(edges.begin(), edges.end(), [](const FeatureEdge& e) { return e.from == 0 && e.to == 1; }));
     EXPECT_EQ(edges.size(), 4u + 3u + 1u) << "the floor's border, three sides of the wall, and its foot";

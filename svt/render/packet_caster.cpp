@@ -82,7 +82,10 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     }
     const bool isAnyInside = setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
     for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
-    const bool isAnyMet = isAnyInside || scene_.hasShapes;
+    const bool isAnyMet =
+        isAnyInside || std::any_of(scene_.passes.begin(), scene_.passes.end(), [&](const PreparedPass& pass) {
+            return !pass.shapes.isEmpty() && pass.shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_);
+        });
     if (!isAnyMet)
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
     for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyMet; ++pass) {
@@ -126,13 +129,14 @@ void PacketCaster::castParts(const PacketScene& scene) {
     parts_.clear();
     std::size_t most = 0;
     const PassShapes& shapes = scene_.passes[pass_].shapes;
-    if (withColor_ && !shapes.lines().empty())
+    const bool hasShapes = !shapes.isEmpty() && shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_);
+    if (hasShapes && withColor_ && !shapes.lines().empty())
         for (std::size_t block = 0; block < count_; block += kLineRays) findLines(block);
     if (scene_.passes[pass_].clipper.isEmpty()) {
         caps_.fill({});
         from_ = rays_.from;
         Lanes<double> to = rays_.to;
-        for (std::size_t n = 0; n < count_ && shapes.hasTriangles(); ++n) {
+        for (std::size_t n = 0; n < count_ && hasShapes && shapes.hasTriangles(); ++n) {
             const DrawnInterval whole{from_[n], to[n], {}};
             if (whole.from < whole.to) to[n] = std::min(to[n], findSurfaces(n, std::span(&whole, 1)));
         }

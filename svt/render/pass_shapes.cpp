@@ -154,15 +154,22 @@ void PassShapes::addTriangles(const Pass& pass, const FrameSpec& spec, const Cam
     }
 }
 
-std::span<const std::uint32_t> PassShapes::linesNear(double left, double top, double right, double bottom,
-                                                     std::vector<std::uint32_t>& buffer) const {
+bool PassShapes::hasAnyIn(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1) const noexcept {
+    constexpr std::int32_t kMany = 16;
+    if (x1 - x0 > kMany || y1 - y0 > kMany) return true;
+    for (std::int32_t y = y0; y <= y1; ++y)
+        for (std::int32_t x = x0; x <= x1; ++x)
+            if (!inCell(x, y).empty()) return true;
+    return false;
+}
+
+std::span<const std::uint32_t> PassShapes::linesIn(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1,
+                                                   std::vector<std::uint32_t>& buffer) const {
     const auto linesOf = [&](std::int32_t x, std::int32_t y) {
         auto shapes = inCell(x, y);
         while (!shapes.empty() && shapes.back() >= kTriangle) shapes = shapes.first(shapes.size() - 1);
         return shapes;
     };
-    const std::int32_t x0 = cellOf(left, cellsX_), x1 = cellOf(right, cellsX_);
-    const std::int32_t y0 = cellOf(top, cellsY_), y1 = cellOf(bottom, cellsY_);
     if (x0 == x1 && y0 == y1) return linesOf(x0, y0);
     buffer.clear();
     for (std::int32_t y = y0; y <= y1; ++y)

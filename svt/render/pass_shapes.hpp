@@ -72,9 +72,17 @@ public:
     template <std::size_t kCount>
     [[nodiscard]] std::span<const std::uint32_t> linesNear(const double (&x)[kCount], const double (&y)[kCount],
                                                            std::vector<std::uint32_t>& buffer) const {
-        const auto [left, right] = std::minmax_element(x, x + kCount);
-        const auto [top, bottom] = std::minmax_element(y, y + kCount);
-        return linesNear(*left, *top, *right, *bottom, buffer);
+        const auto [left, right] = rangeOf(x, kCount);
+        const auto [top, bottom] = rangeOf(y, kCount);
+        return linesIn(cellOf(left, cellsX_), cellOf(top, cellsY_), cellOf(right, cellsX_), cellOf(bottom, cellsY_),
+                       buffer);
+    }
+    /// False where none of the rays through (u[n], v[n]), n < count, meets any shape; true where one may.
+    [[nodiscard]] bool hasAnyNear(const double* u, const double* v, std::size_t count) const noexcept {
+        const auto [left, right] = rangeOf(u, count);
+        const auto [bottom, top] = rangeOf(v, count);
+        return hasAnyIn(cellOf((left + 1) / 2 * width_, cellsX_), cellOf((1 - top) / 2 * height_, cellsY_),
+                        cellOf((right + 1) / 2 * width_, cellsX_), cellOf((1 - bottom) / 2 * height_, cellsY_));
     }
     [[nodiscard]] bool hasTriangles() const noexcept { return !triangles_.empty(); }
     [[nodiscard]] bool hasTriangles(double u, double v) const noexcept {
@@ -107,8 +115,18 @@ private:
         const auto cell = static_cast<std::size_t>(x % kTileCells + kTileCells * (y % kTileCells));
         return std::span(tile.shapes).subspan(tile.starts[cell], tile.starts[cell + 1] - tile.starts[cell]);
     }
-    [[nodiscard]] std::span<const std::uint32_t> linesNear(double left, double top, double right, double bottom,
-                                                           std::vector<std::uint32_t>& buffer) const;
+    [[nodiscard]] static std::pair<double, double> rangeOf(const double* values, std::size_t count) noexcept {
+        double least = values[0], most = values[0];
+        for (std::size_t n = 1; n < count; ++n) {
+            least = values[n] < least ? values[n] : least;
+            most = values[n] > most ? values[n] : most;
+        }
+        return {least, most};
+    }
+    // Squares from (x0, y0) to (x1, y1).
+    [[nodiscard]] std::span<const std::uint32_t> linesIn(std::int32_t x0, std::int32_t y0, std::int32_t x1,
+                                                         std::int32_t y1, std::vector<std::uint32_t>& buffer) const;
+    [[nodiscard]] bool hasAnyIn(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1) const noexcept;
 
     void addLines(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, const volume::Grid& grid,
                   const Clipper& clipper);
