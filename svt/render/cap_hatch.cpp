@@ -6,7 +6,6 @@
 namespace svt::render {
 
 void hatchCap(const Scene& scene, std::size_t pass, double u, double v, Sample& sample) noexcept {
-    if (!sample.isCap) return;
     const auto& styles = scene.spec.passes[pass].styles;
     const Hatch hatch = sample.label < styles.size() ? styles[sample.label].hatch : Hatch::None;
     const HatchLook& look = scene.spec.hatches;

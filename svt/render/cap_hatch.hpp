@@ -6,7 +6,7 @@
 
 namespace svt::render {
 
-/// Draws the hatch of its label on a sample of `pass` that lies on a cut face; leaves others as they are.
+/// Draws the hatch of its label on a sample of `pass` that lies on a cut face.
 /// \param u, v  where in the picture, see CameraRays::at()
 void hatchCap(const Scene& scene, std::size_t pass, double u, double v, Sample& sample) noexcept;
 

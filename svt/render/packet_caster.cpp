@@ -83,21 +83,46 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     const bool isAnyInside = setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
     for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
     const bool isAnyMet =
-        isAnyInside || std::any_of(scene_.passes.begin(), scene_.passes.end(), [&](const PreparedPass& pass) {
+        (isAnyInside && !scene_.passes.empty()) ||
+        std::any_of(scene_.passes.begin(), scene_.passes.end(), [&](const PreparedPass& pass) {
             return !pass.shapes.isEmpty() && pass.shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_);
         });
     if (!isAnyMet)
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
-    for (std::size_t pass = 0; pass < scene_.passes.size() && isAnyMet; ++pass) {
+    if (isAnyMet) castPasses(withColor, samples);
+    count_ = 0;
+}
+
+// From the last pass to the first, since what hides all before it need not be cast twice; joined from the first on.
+void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
+    const std::size_t last = scene_.passes.size() - 1;
+    if (last > 0) ofPasses_.resize(scene_.passes.size() * kPacketRays);
+    std::array<std::size_t, kPacketRays> first;
+    first.fill(last + 1);
+    std::size_t open = count_;
+    const Lanes<double> to = rays_.to;
+    for (std::size_t pass = last + 1; pass-- > 0 && open > 0;) {
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
-            Sample& joined = samples[places_[n]];
-            Sample sample = sampleOf(n);
-            hatchCap(scene_, pass, rays_.u[n], rays_.v[n], sample);
-            joined = pass == 0 ? sample : joinPass(scene_.passes[pass].join, sample, joined);
+            if (first[n] != pass + 1) continue;  // hidden
+            Sample& sample = last > 0 ? ofPasses_[pass * kPacketRays + n] : samples[places_[n]];
+            sample = sampleOf(n);
+            if (sample.isCap) hatchCap(scene_, pass, rays_.u[n], rays_.v[n], sample);
+            first[n] = pass;
+            if (pass == 0 || !hidesAllBefore(scene_.passes[pass].join, sample)) continue;
+            first[n] = kPacketRays + pass;
+            rays_.to[n] = 0;
+            --open;
         }
     }
-    count_ = 0;
+    rays_.to = to;
+    for (std::size_t n = 0; n < count_ && last > 0; ++n) {
+        const std::size_t begin = first[n] % kPacketRays;
+        Sample joined = ofPasses_[begin * kPacketRays + n];
+        for (std::size_t pass = begin + 1; pass <= last; ++pass)
+            joined = joinPass(scene_.passes[pass].join, ofPasses_[pass * kPacketRays + n], joined);
+        samples[places_[n]] = joined;
+    }
 }
 
 void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {

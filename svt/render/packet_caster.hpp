@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Casts rays in packets of sixteen, with the results of SampleCaster to the last bit. Internal to render.
+/// Casts rays in packets, with the results of SampleCaster to the last bit. Internal to render.
 
 #include <svt/render/fragments.hpp>
 #include <svt/render/packet_kernel.hpp>
@@ -43,6 +43,7 @@ public:
     void cast(bool withColor, std::span<Sample> samples);
 
 private:
+    void castPasses(bool withColor, std::span<Sample> samples);
     void castPass(std::size_t pass, const PacketScene& packetScene);
     void castParts(const PacketScene& scene);
     void findLines(std::size_t block);
@@ -61,6 +62,7 @@ private:
     std::array<std::size_t, kPacketRays> places_;
     PacketRays rays_;
     PacketSamples seen_;
+    std::vector<Sample> ofPasses_;  // kPacketRays a pass
     std::size_t pass_ = 0;
     std::array<CapFace, kPacketRays> caps_{};
     Lanes<double> from_{};

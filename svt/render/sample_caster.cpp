@@ -200,7 +200,7 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
         }
         shader.finish();
         Sample sample = shader.result();
-        hatchCap(scene_, n, u, v, sample);
+        if (sample.isCap) hatchCap(scene_, n, u, v, sample);
         joined = n == 0 ? sample : joinPass(pass.join, sample, joined);
     }
     return joined;

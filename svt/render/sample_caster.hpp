@@ -46,6 +46,12 @@ inline void finishSample(Vec3d color, double transmittance, const CastOptions& o
 /// `pass` joined with what the passes before it have seen.
 [[nodiscard]] Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexcept;
 
+/// Whether nothing of the passes before is left in joinPass().
+[[nodiscard]] inline bool hidesAllBefore(Pass::Join join, const Sample& pass) noexcept {
+    return (join == Pass::Join::Replace && pass.alpha > 0) ||
+           (join == Pass::Join::Over && pass.alpha >= 1 && pass.hasHit());
+}
+
 /// A pass as all rays share it.
 struct PreparedPass {
     PassTable table;
