@@ -89,14 +89,19 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
         });
     if (!isAnyMet)
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
-    if (isAnyMet) castPasses(withColor, samples);
+    if (isAnyMet && scene_.passes.size() == 1) {
+        castPass(0, withColor ? passes_[0] : passes_.labelsOnly(0));
+        for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = sampleOf(n);
+    } else if (isAnyMet) {
+        castPasses(withColor, samples);
+    }
     count_ = 0;
 }
 
 // From the last pass to the first, since what hides all before it need not be cast twice; joined from the first on.
 void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
     const std::size_t last = scene_.passes.size() - 1;
-    if (last > 0) ofPasses_.resize(scene_.passes.size() * kPacketRays);
+    ofPasses_.resize(scene_.passes.size() * kPacketRays);
     std::array<std::size_t, kPacketRays> first;
     first.fill(last + 1);
     std::size_t open = count_;
@@ -105,9 +110,8 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
             if (first[n] != pass + 1) continue;  // hidden
-            Sample& sample = last > 0 ? ofPasses_[pass * kPacketRays + n] : samples[places_[n]];
+            Sample& sample = ofPasses_[pass * kPacketRays + n];
             sample = sampleOf(n);
-            if (sample.isCap) hatchCap(scene_, pass, rays_.u[n], rays_.v[n], sample);
             first[n] = pass;
             if (pass == 0 || !hidesAllBefore(scene_.passes[pass].join, sample)) continue;
             first[n] = kPacketRays + pass;
@@ -116,7 +120,7 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
         }
     }
     rays_.to = to;
-    for (std::size_t n = 0; n < count_ && last > 0; ++n) {
+    for (std::size_t n = 0; n < count_; ++n) {
         const std::size_t begin = first[n] % kPacketRays;
         Sample joined = ofPasses_[begin * kPacketRays + n];
         for (std::size_t pass = begin + 1; pass <= last; ++pass)
@@ -131,26 +135,26 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     scene.surface = &PacketCaster::surfaceOf;
     scene.fragment = &PacketCaster::fragmentOf;
     withColor_ = scene.withColor;
+    // The other members are read where there is a depth alone.
     for (auto& color : seen_.color) color.fill(0);
-    for (auto& normal : seen_.normal) normal.fill(0);
     seen_.transmittance.fill(1);
     seen_.depth.fill(std::numeric_limits<double>::infinity());
-    seen_.label.fill(0);
-    seen_.object.fill(0);
-    seen_.isCap.fill(0);
     seen_.isDone.fill(0);
-    seen_.lines.fill(1);
-    seen_.nextFragment.fill(std::numeric_limits<double>::infinity());
-    fragments_.clear();
-    rayFragments_.fill({});
-    if (!scene_.passes[pass].clipper.isEmpty() || !scene_.passes[pass].shapes.isEmpty()) return castParts(scene);
+    hasShapes_ = !scene_.passes[pass].shapes.isEmpty();
+    if (hasShapes_) {
+        seen_.lines.fill(1);
+        seen_.nextFragment.fill(std::numeric_limits<double>::infinity());
+        fragments_.clear();
+        rayFragments_.fill({});
+    }
+    if (hasShapes_ || !scene_.passes[pass].clipper.isEmpty()) return castParts(scene);
     caps_.fill({});
     from_ = rays_.from;
     walkPacket(scene, rays_, rays_.from, rays_.to, {}, this, seen_);
 }
 
 // The stretches of all rays, one after the other.
-void PacketCaster::castParts(const PacketScene& scene) {
+void PacketCaster::castParts(PacketScene& scene) {
     parts_.clear();
     std::size_t most = 0;
     const PassShapes& shapes = scene_.passes[pass_].shapes;
@@ -165,6 +169,7 @@ void PacketCaster::castParts(const PacketScene& scene) {
             const DrawnInterval whole{from_[n], to[n], {}};
             if (whole.from < whole.to) to[n] = std::min(to[n], findSurfaces(n, std::span(&whole, 1)));
         }
+        scene.hasFragments = hasShapes_ && !fragments_.items.empty();
         walkPacket(scene, rays_, rays_.from, to, {}, this, seen_);
         addLastFragments();
         return;
@@ -175,6 +180,7 @@ void PacketCaster::castParts(const PacketScene& scene) {
         rayParts_[n].end = parts_.size();
         most = std::max(most, rayParts_[n].end - rayParts_[n].next);
     }
+    scene.hasFragments = hasShapes_ && !fragments_.items.empty();
     Lanes<std::int64_t> capped{};
     for (std::size_t part = 0; part < most; ++part) {
         Lanes<double> to{};
@@ -194,7 +200,7 @@ void PacketCaster::castParts(const PacketScene& scene) {
 
 // What lies behind all voxels.
 void PacketCaster::addLastFragments() {
-    if (fragments_.items.empty()) return;
+    if (!hasShapes_ || fragments_.items.empty()) return;
     for (std::size_t n = 0; n < count_; ++n)
         while (seen_.isDone[n] == 0 && rayFragments_[n].next < rayFragments_[n].end) addFragment(n);
 }
@@ -277,10 +283,13 @@ Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
         sample.isCap = seen_.isCap[ray] != 0;
     }
     finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]},
-                 seen_.transmittance[ray] * seen_.lines[ray], scene_.options, sample);
-    const Range& found = rayFragments_[ray];
-    if (found.next < found.end)
+                 hasShapes_ ? seen_.transmittance[ray] * seen_.lines[ray] : seen_.transmittance[ray], scene_.options,
+                 sample);
+    if (hasShapes_ && rayFragments_[ray].next < rayFragments_[ray].end) {
+        const Range& found = rayFragments_[ray];
         drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
+    }
+    if (sample.isCap) hatchCap(scene_, pass_, rays_.u[ray], rays_.v[ray], sample);
     return sample;
 }
 

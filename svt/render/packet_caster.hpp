@@ -45,7 +45,7 @@ public:
 private:
     void castPasses(bool withColor, std::span<Sample> samples);
     void castPass(std::size_t pass, const PacketScene& packetScene);
-    void castParts(const PacketScene& scene);
+    void castParts(PacketScene& scene);
     void findLines(std::size_t block);
     void addLastFragments();
     void findParts(std::size_t ray);
@@ -73,7 +73,7 @@ private:
         std::size_t next = 0, end = 0;
     };
     std::array<Range, kPacketRays> rayParts_{}, rayFragments_{};
-    bool withColor_ = true;
+    bool withColor_ = true, hasShapes_ = false;
 };
 
 }  // namespace svt::render

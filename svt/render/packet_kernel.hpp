@@ -86,6 +86,7 @@ struct PacketScene {
     double opaqueAt = 1, labelAt = 0;
     bool withColor = true;  ///< false: ends at the first label, without light
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
+    bool hasFragments = false;  ///< rays may come to lines or meshes; else samples.lines and nextFragment are not read
     /// Adds the next fragment of a ray to its samples.
     void (*fragment)(void* context, std::size_t ray) = nullptr;
 };
