@@ -980,28 +980,32 @@ private:
                 bounds.low[axis] = box.min[axis];
                 bounds.high[axis] = box.max[axis];
             }
-            if (entry < volume.uniformBoxes)
-                cross(bounds,
-                      [&](Walk& walk, const typename Walk::Inside& inside) { walk.crossUniform(inside, box.scalar); });
-            else
-                cross(bounds, [&](Walk& walk, const typename Walk::Inside& inside) {
-                    walk.crossCoded(inside, volume.codes[box.scalar]);
-                });
-        } else {
-            for (int axis = 0; axis < 3; ++axis) {
-                bounds.low[axis] = cell[axis] & ~7;
-                bounds.high[axis] = bounds.low[axis] + 8;
-            }
-            const volume::BrickVolume::PaletteBrick& brick = volume.bricks[entry - volume.boxes.size()];
-            cross(bounds,
-                  [&](Walk& walk, const typename Walk::Inside& inside) { walk.crossVoxels(inside, bounds, brick); });
+            if (entry < volume.uniformBoxes) return crossUniform(bounds, box.scalar);
+            return crossCoded(bounds, volume.codes[box.scalar]);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            bounds.low[axis] = cell[axis] & ~7;
+            bounds.high[axis] = bounds.low[axis] + 8;
+        }
+        crossVoxels(bounds, volume.bricks[entry - volume.boxes.size()]);
+    }
+    // All rays that are in a box cross it.
+    HWY_INLINE void crossUniform(const Bounds& bounds, std::int64_t scalar) {
+        for (Walk& walk : walks_) {
+            const auto inside = walk.findInside(bounds);
+            if (any(inside.lanes)) walk.crossUniform(inside, scalar);
         }
     }
-    template <class Cross>
-    HWY_INLINE void cross(const Bounds& bounds, const Cross& through) {
+    HWY_INLINE void crossCoded(const Bounds& bounds, const volume::BrickVolume::BoxCoding& code) {
         for (Walk& walk : walks_) {
-            const typename Walk::Inside inside = walk.findInside(bounds);
-            if (any(inside.lanes)) through(walk, inside);
+            const auto inside = walk.findInside(bounds);
+            if (any(inside.lanes)) walk.crossCoded(inside, code);
+        }
+    }
+    HWY_INLINE void crossVoxels(const Bounds& bounds, const volume::BrickVolume::PaletteBrick& brick) {
+        for (Walk& walk : walks_) {
+            const auto inside = walk.findInside(bounds);
+            if (any(inside.lanes)) walk.crossVoxels(inside, bounds, brick);
         }
     }
 
