@@ -66,7 +66,7 @@ std::filesystem::path numbered(const std::filesystem::path& file, int frame, int
 
 Result<void> writeBuffers(const render::Frame& frame, const Arguments& arguments, int number) {
     const auto at = [&](const std::filesystem::path& file) { return numbered(file, number, arguments.frames); };
-    if (auto written = render::writePng(at(arguments.output), frame.color, arguments.scene.dpi.value_or(0)); !written)
+    if (auto written = render::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()); !written)
         return written;
     if (!arguments.labelOutput.empty()) {
         const auto gray = render::grayFromLabels(frame.label);

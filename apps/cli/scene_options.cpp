@@ -28,21 +28,24 @@ Result<std::pair<std::string, std::string>> splitValue(const std::string& text, 
     return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
+constexpr int kDefaultDpi = 300;
+
+bool isMetric(const std::string& size) { return size.size() > 2 && size.compare(size.size() - 2, 2, "mm") == 0; }
+
 // "1280x720" pixels, or "160x90mm" at `dpi`.
 Result<void> parseSize(const std::string& text, int dpi, Scene& scene) {
     const auto bad = [&] {
         return Error(Code::BadFrame,
                      fmt::format("--size '{}': expected pixels such as 1280x720, or 160x90mm for print", text));
     };
-    const bool isMetric = text.size() > 2 && text.compare(text.size() - 2, 2, "mm") == 0;
-    const std::string numbers = isMetric ? text.substr(0, text.size() - 2) : text;
+    const bool inPrint = isMetric(text);
+    const std::string numbers = inPrint ? text.substr(0, text.size() - 2) : text;
     const std::size_t at = numbers.find_first_of("xX,");
     if (at == std::string::npos) return bad();
     const auto triple = parseTriple(numbers.substr(0, at) + "," + numbers.substr(at + 1) + ",1", "--size", "pixels");
     if (!triple) return bad();
-    const double scale = isMetric ? dpi / 25.4 : 1;
-    const double width = isMetric ? std::round(triple->x * scale) : triple->x;
-    const double height = isMetric ? std::round(triple->y * scale) : triple->y;
+    const double width = inPrint ? std::round(triple->x * dpi / 25.4) : triple->x;
+    const double height = inPrint ? std::round(triple->y * dpi / 25.4) : triple->y;
     const auto inRange = [](double v) { return v >= 1 && v <= render::FrameSpec::kMaxSize && v == std::floor(v); };
     if (!inRange(width) || !inRange(height))
         return Error(Code::BadFrame, fmt::format("--size '{}': 1 to {} pixels along a side are possible", text,
@@ -170,6 +173,8 @@ Result<Scene> readScene(const std::filesystem::path& file) {
 
 }  // namespace
 
+int SceneArguments::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? kDefaultDpi : 0; }
+
 Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     Scene scene;
     if (!sceneFile.empty()) {
@@ -178,7 +183,7 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
         scene = std::move(*read);
     }
     if (size)
-        if (auto parsed = parseSize(*size, dpi.value_or(300), scene); !parsed) return parsed.error();
+        if (auto parsed = parseSize(*size, dpi.value_or(kDefaultDpi), scene); !parsed) return parsed.error();
     if (samples) scene.samples = *samples;
     if (look) scene.look = *illustrate::lookFromName(*look);
     if (camera) scene.camera.preset = *camera;

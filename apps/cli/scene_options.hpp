@@ -28,6 +28,8 @@ struct SceneArguments {
     bool isParallel = false, isTransparent = false, hasHatches = false;
 
     void addTo(CLI::App& command);
+    /// What the picture says of its size in print; 0: nothing.
+    [[nodiscard]] int printedDpi() const;
     /// The scene of frame `frame` of `frames`: sections such as z=0..6 move from the one end to the other.
     [[nodiscard]] Result<illustrate::Scene> toScene(int frame, int frames) const;
 };

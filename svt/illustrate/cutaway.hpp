@@ -14,7 +14,7 @@ namespace svt::illustrate {
 [[nodiscard]] render::RoundBody viewBody(const render::Camera& camera, double aspect, double x, double y,
                                          double radius);
 
-/// What must go so that a target is seen: a cone around it that opens towards the viewer by `kOpening` more than the
+/// What must go so that a target is seen: a cone around it that opens towards the viewer by kCutawaySlope more than the
 /// view itself, so that its cut faces are seen, and that ends in a tip behind the target.
 /// \param target  samples around which it goes
 /// \param margin  metres left free around the target

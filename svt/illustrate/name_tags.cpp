@@ -111,7 +111,7 @@ Result<NameTags> findNameTags(const std::vector<std::string>& queries, const vol
     }
     std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
     const auto best = innermostPixels(frame.label, labelOf, labels.size());
-    const auto boxes = volume::scalarBoxes(volume.columns, volume.labels.scalarCount());
+    const auto boxes = volume::labelBoxes(volume.columns, volume.labels);
     NameTags result;
     std::tie(result.left, result.right) = columnsOf(frame.label);
     for (std::size_t l = 0; l < labels.size(); ++l) {
@@ -121,9 +121,7 @@ Result<NameTags> findNameTags(const std::vector<std::string>& queries, const vol
             tag.x = best[l].second % frame.label.width() + 0.5;
             tag.y = best[l].second / frame.label.width() + 0.5;
         } else {
-            volume::SampleBox box;
-            for (volume::Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s)
-                if (!boxes[s].isEmpty()) box.add(boxes[s]);
+            const volume::SampleBox& box = boxes[l];
             if (box.isEmpty()) continue;
             Vec3d middle;
             for (int axis = 0; axis < 3; ++axis) middle[axis] = (double(box.min[axis]) + box.max[axis]) / 2;

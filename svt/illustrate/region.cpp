@@ -3,8 +3,6 @@
 #include <svt/illustrate/cutaway.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/selection.hpp>
-#include <svt/model/classes.hpp>
-#include <svt/volume/scalar_boxes.hpp>
 
 #include <fmt/format.h>
 
@@ -374,22 +372,10 @@ private:
         return std::pair(std::move(*selected), margin);
     }
 
-    Result<volume::SampleBox> boxAround(std::string_view name, const std::vector<std::uint32_t>& labels) const {
-        const auto boxes = volume::scalarBoxes(context_.volume.columns, context_.volume.labels.scalarCount());
-        volume::SampleBox all;
-        for (const std::uint32_t l : labels) {
-            const volume::Label& label = context_.volume.labels.labels[l];
-            for (volume::Scalar s = label.first; s < label.first + label.count; ++s)
-                if (!boxes[s].isEmpty()) all.add(boxes[s]);
-        }
-        if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("{}: what is selected has no voxels", name));
-        return all;
-    }
-
     Result<Parts> makeAround(const std::string& text) const {
         const auto selection = selectionOf("around", text);
         if (!selection) return selection.error();
-        const auto box = boxAround("around", selection->first);
+        const auto box = boxAround(selection->first, context_.volume, "what around() selects");
         if (!box) return box.error();
         Vec3d low, high;
         for (int axis = 0; axis < 3; ++axis) {
@@ -409,7 +395,7 @@ private:
     Result<Parts> makeCutaway(const std::string& text) const {
         const auto selection = selectionOf("cutaway", text);
         if (!selection) return selection.error();
-        const auto box = boxAround("cutaway", selection->first);
+        const auto box = boxAround(selection->first, context_.volume, "what cutaway() selects");
         if (!box) return box.error();
         return Parts{{{}, {cutawayBody(context_.camera, grid(), *box, selection->second)}}};
     }

@@ -6,7 +6,6 @@
 #include <svt/illustrate/vector_shapes.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/render/camera_presets.hpp>
-#include <svt/volume/scalar_boxes.hpp>
 
 #include <fmt/format.h>
 
@@ -77,22 +76,6 @@ void applyLook(const Scene& scene, render::FrameSpec& spec) {
     if (scene.ambientOcclusion) spec.light.ambientOcclusion = *scene.ambientOcclusion;
 }
 
-// The box around what `query` selects, in index space.
-Result<volume::SampleBox> boxOf(const std::string& query, const volume::SemanticVolume& volume) {
-    const auto selected = selectLabels(volume.labels, query);
-    if (!selected) return selected.error();
-    const auto boxes = volume::scalarBoxes(volume.columns, volume.labels.scalarCount());
-    volume::SampleBox all;
-    for (const std::uint32_t l : *selected) {
-        const Label& label = volume.labels.labels[l];
-        for (volume::Scalar s = label.first; s < label.first + label.count; ++s)
-            if (!boxes[s].isEmpty()) all.add(boxes[s]);
-    }
-    if (all.isEmpty())
-        return Error(Code::NothingSelected, fmt::format("what the query '{}' selects has no voxels", query));
-    return all;
-}
-
 // The grid of a box of samples, for cameras to look at.
 volume::Grid gridOf(const volume::SampleBox& box, const volume::Grid& grid) {
     Vec3i dimension;
@@ -123,7 +106,9 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume
     options.verticalFovDegrees = wanted.fieldOfView;
     volume::Grid seen = volume.grid;
     if (!wanted.around.empty()) {
-        const auto box = boxOf(wanted.around, volume);
+        const auto selected = selectLabels(volume.labels, wanted.around);
+        if (!selected) return selected.error();
+        const auto box = boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around));
         if (!box) return box.error();
         seen = gridOf(*box, volume.grid);
     }

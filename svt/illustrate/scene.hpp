@@ -94,10 +94,10 @@ enum class Context : std::uint8_t {
 };
 
 /// The scene's only pass becomes an S-Lens: within `region` the model is seen without what `cut` takes away, and covers
-/// the context (Ropinski and Hinrichs 2005; section 5.2 of the paper).
+/// the context (Ropinski and Hinrichs 2005; section 5.1 of the paper).
 void addLens(Scene& scene, const std::string& region, const std::string& cut, Context context);
 /// The scene's only pass becomes a highlight of what the queries select, in its context; light reaches it whatever
-/// stands in front (section 5.3 of the paper).
+/// stands in front (section 5.2 of the paper).
 void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context context);
 /// Takes away what hides the selected, which is drawn whole.
 void addCutaway(Scene& scene, const std::string& query, double margin);

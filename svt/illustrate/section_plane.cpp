@@ -58,15 +58,11 @@ Result<std::pair<double, double>> storeyHeights(const std::string& storey, const
     }
     const auto selected = selectLabels(volume.labels, fmt::format("storey=\"{}\"", quoted));
     if (!selected) return selected.error();
-    const auto boxes = volume::scalarBoxes(volume.columns, volume.labels.scalarCount());
+    const auto boxes = volume::labelBoxes(volume.columns, volume.labels);
     volume::SampleBox rooms, all;
     for (const std::uint32_t l : *selected) {
-        const volume::Label& label = volume.labels.labels[l];
-        for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
-            if (boxes[s].isEmpty()) continue;
-            all.add(boxes[s]);
-            if (model::isSpace(label.className)) rooms.add(boxes[s]);
-        }
+        all.add(boxes[l]);
+        if (model::isSpace(volume.labels.labels[l].className)) rooms.add(boxes[l]);
     }
     if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
     const volume::SampleBox& box = rooms.isEmpty() ? all : rooms;

@@ -24,4 +24,13 @@ Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& table,
                  fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
 }
 
+Result<volume::SampleBox> boxAround(const std::vector<std::uint32_t>& labels, const volume::SemanticVolume& volume,
+                                    std::string_view what) {
+    const std::vector<volume::SampleBox> boxes = volume::labelBoxes(volume.columns, volume.labels);
+    volume::SampleBox all;
+    for (const std::uint32_t l : labels) all.add(boxes[l]);
+    if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("{} has no voxels", what));
+    return all;
+}
+
 }  // namespace svt::illustrate

@@ -1,9 +1,11 @@
 #pragma once
 /// \file
-/// Labels of a volume as rows of a query.
+/// Labels of a volume as rows of a query; what is selected, and where it is.
 
 #include <svt/model/query.hpp>
 #include <svt/volume/label_table.hpp>
+#include <svt/volume/scalar_boxes.hpp>
+#include <svt/volume/semantic_volume.hpp>
 
 #include <cstdint>
 #include <string_view>
@@ -16,5 +18,11 @@ namespace svt::illustrate {
 
 /// Labels that `text` selects, or BadQuery, or NothingSelected with the nearest existing value.
 [[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& labels, std::string_view text);
+
+/// The box around all voxels of `labels`.
+/// \param what  names them in the message
+/// \return the box, or NothingSelected where they have none
+[[nodiscard]] Result<volume::SampleBox> boxAround(const std::vector<std::uint32_t>& labels,
+                                                  const volume::SemanticVolume& volume, std::string_view what);
 
 }  // namespace svt::illustrate

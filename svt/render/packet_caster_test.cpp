@@ -87,6 +87,20 @@ TEST(PacketCaster, GivesTheVeryPictureOfThePlainCaster) {
     }
 }
 
+// Passes are cast from the last on, and rays that the last ones hide everything for are left out of the others.
+TEST(PacketCaster, JoinsPassesAsThePlainCasterDoes) {
+    const TestVolume volume = makeTurnedHouse();
+    for (const Pass::Join second : {Pass::Join::Over, Pass::Join::Replace, Pass::Join::Depth})
+        for (const Pass::Join third : {Pass::Join::Over, Pass::Join::Replace, Pass::Join::Depth})
+            for (const float opacity : {1.0f, 0.3f}) {
+                FrameSpec spec = view(volume, "iso", 0.4f);
+                spec.passes.push_back({styles(opacity), {ClipRegion::plane({0, 0, 1}, {0, 0, 3})}, second});
+                spec.passes.push_back(
+                    {styles(1), {ClipRegion::box({{2, 2, 1}, {6, 4, 3}}, ClipRegion::Mode::KeepOnly)}, third});
+                expectSame(volume, spec);
+            }
+}
+
 TEST(PacketCaster, GivesThePictureOfThePlainCasterFromInside) {
     const TestVolume volume = makeTurnedHouse();
     for (int round = 0; round < 12; ++round) {

@@ -5,10 +5,8 @@ namespace svt::volume {
 std::vector<LabelMeasure> measureLabels(const SemanticVolume& volume, const std::vector<Contact>& contacts) {
     const std::vector<Label>& labels = volume.labels.labels;
     std::vector<LabelMeasure> measures(labels.size());
-    const std::vector<SampleBox> boxes = scalarBoxes(volume.columns, volume.labels.scalarCount());
-    for (std::size_t l = 0; l < labels.size(); ++l)
-        for (Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s)
-            if (!boxes[s].isEmpty()) measures[l].box.add(boxes[s]);
+    const std::vector<SampleBox> boxes = labelBoxes(volume.columns, volume.labels);
+    for (std::size_t l = 0; l < labels.size(); ++l) measures[l].box = boxes[l];
     for (const Contact& contact : contacts) {
         measures[contact.a].area += contact.area;
         if (contact.b == kNoLabel)

@@ -42,4 +42,13 @@ std::vector<SampleBox> scalarBoxes(const ColumnVolume& columns, Scalar scalarCou
     return boxes;
 }
 
+std::vector<SampleBox> labelBoxes(const ColumnVolume& columns, const LabelTable& table) {
+    const std::vector<SampleBox> ofScalars = scalarBoxes(columns, table.scalarCount());
+    std::vector<SampleBox> boxes(table.labels.size());
+    for (std::size_t l = 0; l < boxes.size(); ++l)
+        for (Scalar s = table.labels[l].first; s < table.labels[l].first + table.labels[l].count; ++s)
+            boxes[l].add(ofScalars[s]);
+    return boxes;
+}
+
 }  // namespace svt::volume

@@ -4,7 +4,9 @@
 
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
+#include <svt/volume/label_table.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -29,5 +31,8 @@ struct SampleBox {
 /// The box of each scalar's samples; entry s of `scalarCount`, empty where there is no such sample.
 /// Cost: O(distinct rows and columns' runs of all tiles).
 [[nodiscard]] std::vector<SampleBox> scalarBoxes(const ColumnVolume& columns, Scalar scalarCount);
+
+/// The same of each label's own samples; entry l is label l. Cost: that of scalarBoxes, and O(scalars).
+[[nodiscard]] std::vector<SampleBox> labelBoxes(const ColumnVolume& columns, const LabelTable& labels);
 
 }  // namespace svt::volume

@@ -22,5 +22,18 @@ TEST(ScalarBoxes, AreThoseOfEverySample) {
     EXPECT_TRUE(expected[5].isEmpty());
 }
 
+TEST(LabelBoxes, JoinThePhasesOfALabel) {
+    std::vector<Scalar> dense(8 * 8 * 8, 0);
+    dense[0] = 1;
+    dense[7 + 8 * (6 + 8 * 5)] = 2;
+    LabelTable table;
+    table.labels.resize(2);
+    table.labels[0].first = 1;
+    table.labels[0].count = 2;
+    const auto boxes = labelBoxes(ColumnVolume::fromDense({8, 8, 8}, dense), table);
+    EXPECT_EQ(boxes[0], (SampleBox{{0, 0, 0}, {7, 6, 5}}));
+    EXPECT_TRUE(boxes[1].isEmpty());
+}
+
 }  // namespace
 }  // namespace svt::volume

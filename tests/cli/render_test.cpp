@@ -222,6 +222,26 @@ TEST_F(SmallHouse, WithoutLinesAndMeshesTheRemedyIsNamed) {
     }
 }
 
+TEST_F(SmallHouse, ASizeInMillimetresIsToldToThePrinter) {
+    const auto perMetre = [&] {
+        const std::string bytes = readText(folder / "p.png");
+        const std::size_t at = bytes.find("pHYs");
+        if (at == std::string::npos) return 0;
+        const auto byte = [&](std::size_t n) {
+            return static_cast<int>(static_cast<unsigned char>(bytes[at + 4 + n]));
+        };
+        return byte(0) << 24 | byte(1) << 16 | byte(2) << 8 | byte(3);
+    };
+    (void)draw({});
+    EXPECT_EQ(perMetre(), 0);
+    runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--size", "50.8x25.4mm", "--dpi", "100"});
+    EXPECT_EQ(render::readPng(folder / "p.png")->width(), 200);
+    EXPECT_EQ(perMetre(), 3937);
+    runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--size", "25.4x12.7mm"});
+    EXPECT_EQ(render::readPng(folder / "p.png")->width(), 300);
+    EXPECT_EQ(perMetre(), 11811);
+}
+
 TEST_F(SmallHouse, PictureOfTheModelIsThatOfItsVolume) {
     const auto ofVolume = draw({});
     runSvtWell(folder.path(), {"render", "house.gml", "-o", "p.png", "--size", "160x90", "--spacing", "0.2"});
