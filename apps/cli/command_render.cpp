@@ -2,15 +2,11 @@
 #include "scene_options.hpp"
 
 #include <svt/core/file.hpp>
-#include <svt/illustrate/name_tags.hpp>
+#include <svt/illustrate/scene_painter.hpp>
 #include <svt/render/png.hpp>
-#include <svt/render/ray_caster.hpp>
-#include <svt/volume/brick_volume.hpp>
-#include <svt/volume/lod_pyramid.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 
 namespace svt::cli {
@@ -23,37 +19,6 @@ struct Arguments {
     std::optional<int> level;
     int frames = 1;
     bool verbose = false;
-};
-
-// The forms of a volume that pictures need, each made once.
-class Drawn {
-public:
-    Drawn(const volume::SemanticVolume& volume, int threads) : volume_(volume), threads_(threads) {}
-
-    Result<render::Frame> cast(const render::FrameSpec& spec, int level, const render::CastOptions& options) {
-        if (level > 0) {
-            if (!levels_) {
-                auto levels = volume::buildLodPyramid(volume_.columns, volume_.grid, 6, threads_);
-                if (!levels) return levels.error();
-                levels_ = std::move(*levels);
-            }
-            if (!levels_->empty())
-                return render::castRays((*levels_)[std::min(levels_->size(), static_cast<std::size_t>(level)) - 1],
-                                        spec, options);
-        }
-        if (!bricks_) {
-            auto bricks = volume::BrickVolume::fromColumns(volume_.columns, threads_);
-            if (!bricks) return bricks.error();
-            bricks_ = std::move(*bricks);
-        }
-        return render::castRays(*bricks_, volume_.grid, spec, options);
-    }
-
-private:
-    const volume::SemanticVolume& volume_;
-    int threads_;
-    std::optional<volume::BrickVolume> bricks_;
-    std::optional<std::vector<volume::LodLevel>> levels_;
 };
 
 // P.png -> P_0007.png
@@ -75,18 +40,6 @@ Result<void> writeBuffers(const render::Frame& frame, const Arguments& arguments
     }
     if (!arguments.depthOutput.empty())
         return render::writePng(at(arguments.depthOutput), render::grayFromDepth(frame.depth, 0.001));
-    return {};
-}
-
-Result<void> addNames(const illustrate::Scene& scene, const volume::SemanticVolume& volume,
-                      const render::FrameSpec& spec, render::Frame& frame) {
-    if (scene.names.empty()) return {};
-    const auto tags = illustrate::findNameTags(scene.names, volume, spec, frame);
-    if (!tags) return tags.error();
-    const Vec3f paper = (spec.background.top + spec.background.bottom) * 0.5f;
-    const bool isDark = paper.x + paper.y + paper.z < 1.5f && spec.background.alpha > 0;
-    const Vec3f dark{0.05f, 0.05f, 0.06f}, light{1, 1, 1};
-    drawNameTags(*tags, 0, isDark ? light : dark, isDark ? paper : light, frame.color);
     return {};
 }
 
@@ -117,17 +70,13 @@ int runRender(const Arguments& arguments) {
     options.threads = arguments.build.threads;
     options.progress = progress.get();
     options.isAdaptive = true;
-    Drawn drawn(*volume, arguments.build.threads);
+    illustrate::ScenePainter painter(*volume, arguments.build.threads);
     for (int frame = 0; frame < arguments.frames; ++frame) {
         const auto scene = arguments.scene.toScene(frame, arguments.frames);
         if (!scene) return fail(scene.error());
-        const auto spec = illustrate::frameOf(*scene, *volume);
-        if (!spec) return fail(spec.error());
-        const int level = arguments.level ? *arguments.level : render::levelForView(*spec, volume->grid);
-        auto picture = drawn.cast(*spec, level, options);
-        if (!picture) return fail(picture.error());
-        if (auto named = addNames(*scene, *volume, *spec, *picture); !named) return fail(named.error());
-        if (auto written = writeBuffers(*picture, arguments, frame); !written) return fail(written.error());
+        const auto painting = painter.paint(*scene, options, arguments.level);
+        if (!painting) return fail(painting.error());
+        if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
         Progress::tell(progress.get(), "render", double(frame + 1) / arguments.frames);
     }
     return kDone;
