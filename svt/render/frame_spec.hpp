@@ -91,6 +91,7 @@ struct Pass {
     std::vector<ClipRegion> clips;  ///< drawn is what no region cuts away and every KeepOnly region holds; at most
                                     ///< kMaxClipParts parts in all
     Join join = Join::Over;
+    std::uint32_t volume = 0;               ///< which of the volumes that castRays() is given
     std::vector<LineSet> lines{};           ///< composited with the voxels at their depth; clipped as they are
     std::vector<MeshTriangle> triangles{};  ///< the same; drawn instead of the voxels of their objects
 

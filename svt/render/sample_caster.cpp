@@ -175,11 +175,11 @@ SampleCaster::~SampleCaster() = default;
 
 Sample SampleCaster::cast(double u, double v, bool withColor) {
     Sample joined;
-    const CameraRay ray = scene_.rays.at(u, v);
-    const RaySpan span = spanInVolume(ray.index, scene_.volume.dimension());
-    if (!(span.from < span.to) && !scene_.hasShapes) return joined;
     for (std::size_t n = 0; n < scene_.passes.size(); ++n) {
         const PreparedPass& pass = scene_.passes[n];
+        const PreparedVolume& volume = scene_.volumes[pass.volume];
+        const CameraRay ray = volume.rays.at(u, v);
+        const RaySpan span = spanInVolume(ray.index, volume.bricks.dimension());
         const DrawnIntervals drawn = pass.clipper.cut(ray.index, span);
         fragments_->clear();
         double end = std::numeric_limits<double>::infinity();
@@ -193,13 +193,14 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
             if (!(interval.from < interval.to)) break;
             shader.beginInterval(interval);
             if (scene_.isReference)
-                walkRunsReference(scene_.volume, ray.index, interval.from, interval.to, shader);
+                walkRunsReference(volume.bricks, ray.index, interval.from, interval.to, shader);
             else
-                walkRuns(scene_.volume, ray.index, interval.from, interval.to, shader);
+                walkRuns(volume.bricks, ray.index, interval.from, interval.to, shader);
             if (shader.isDone()) break;
         }
         shader.finish();
         Sample sample = shader.result();
+        sample.volume = pass.volume;
         if (sample.isCap) hatchCap(scene_, n, u, v, sample);
         joined = n == 0 ? sample : joinPass(pass.join, sample, joined);
     }

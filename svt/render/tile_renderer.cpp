@@ -36,7 +36,6 @@ TileRenderer::TileRenderer(const Scene& scene, const PacketPasses* packets, Fram
       backgroundTop_(linearFromSrgb(scene.spec.background.top)),
       backgroundBottom_(linearFromSrgb(scene.spec.background.bottom)),
       lineColor_(linearFromSrgb(scene.spec.borders.color)),
-      voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
       samples_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_)),
       lines_(samples_.size()) {
     if (packets != nullptr) packets_.emplace(scene, *packets);
@@ -142,11 +141,11 @@ void TileRenderer::castPixels() {
 
 bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {
     const Sample& sample = pixels_[middleOf(x, y)];
-    const double step = sample.hasHit() ? scene_.rays.pixelSize(static_cast<double>(sample.depth)) : 0;
+    const double step = sample.hasHit() ? scene_.rays().pixelSize(static_cast<double>(sample.depth)) : 0;
     for (std::int32_t dy = -1; dy <= 1; ++dy)
         for (std::int32_t dx = -1; dx <= 1; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            const Vec3d aside = scene_.rays.right() * (step * dx) - scene_.rays.up() * (step * dy);
+            const Vec3d aside = scene_.rays().right() * (step * dx) - scene_.rays().up() * (step * dy);
             if (looksOther(sample, pixels_[middleOf(x + dx, y + dy)], aside)) return true;
         }
     return false;
@@ -196,11 +195,11 @@ void TileRenderer::findLines() {
 
 // How dark the line on a sample is; it stands at (x, y).
 float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y) const {
-    const double step = scene_.rays.pixelSize(static_cast<double>(sample.depth)) / side_;
+    const double step = scene_.rays().pixelSize(static_cast<double>(sample.depth)) / side_;
     const std::int32_t most = sample.isCap ? margin_ : lineReach_;
     float line = 0;
     for (std::int32_t reach = 1; reach <= most && line < 1; ++reach) {
-        const Vec3d right = scene_.rays.right() * (step * reach), up = scene_.rays.up() * (step * reach);
+        const Vec3d right = scene_.rays().right() * (step * reach), up = scene_.rays().up() * (step * reach);
         const auto look = [&](std::int32_t dx, std::int32_t dy, Vec3d aside, bool isFirst) {
             const Sample& other = samples_[at(x + dx * reach, y + dy * reach)];
             if (most > 1 && reach > reachBetween(sample, other)) return;
@@ -228,12 +227,13 @@ float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d
     // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in
     // depth.
     const Vec3d normal = toDouble(sample.normal);
-    const double facing = std::max(-dot(normal, scene_.rays.forward()), 0.02);
+    const double facing = std::max(-dot(normal, scene_.rays().forward()), 0.02);
     const double predicted = dot(normal, aside) / facing;
     // A step of a voxel in one object's face is no border, though its riser faces the viewer.
-    const double otherFacing = std::max(-dot(toDouble(other.normal), scene_.rays.forward()), 0.02);
+    const double otherFacing = std::max(-dot(toDouble(other.normal), scene_.rays().forward()), 0.02);
     const double grazing = sample.object == other.object ? std::min(facing, otherFacing) : facing;
-    const double tolerance = (1 + 2 / grazing) * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
+    const double tolerance =
+        (1 + 2 / grazing) * scene_.volumes[sample.volume].voxelSize + length(aside) + 0.7 * std::abs(predicted);
     const bool isJump = std::abs(difference - predicted) > tolerance;
     const bool isOtherLabel = sample.object != other.object || sample.isCap != other.isCap;
     if (!isJump && !isOtherLabel) return 0;

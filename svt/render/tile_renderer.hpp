@@ -77,7 +77,6 @@ private:
     std::int32_t stride_;
     Vec3f backgroundTop_, backgroundBottom_, lineColor_;  // linear light
     const SrgbBytes& bytes_ = SrgbBytes::table();
-    double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
     std::vector<double> columns_, rows_;                                   // where they lie in the picture, -1..1
     std::vector<Sample> samples_;
