@@ -86,7 +86,8 @@ Result<PreparedPass> preparedPass(const Pass& pass, const Scene& scene, const Dr
                           {},
                           pass.join,
                           static_cast<std::uint8_t>(pass.volume)};
-    auto shapes = PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, scene.lineSamples, threads);
+    auto shapes = PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, scene.lineSamples,
+                                   SampleLayout(spec).blockMargin(scene.isAdaptive), threads);
     if (!shapes) return shapes.error();
     prepared.shapes = std::move(*shapes);
     if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
