@@ -94,7 +94,7 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
     if (isAnyMet && scene_.passes.size() == 1) {
         castPass(0, withColor ? passes_[0] : passes_.labelsOnly(0));
-        for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = sampleOf(n);
+        for (std::size_t n = 0; n < count_; ++n) writeSample(n, samples[places_[n]]);
     } else if (isAnyMet) {
         castPasses(withColor, samples);
     }
@@ -127,7 +127,7 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
         for (std::size_t n = 0; n < count_; ++n) {
             if (first[n] != pass + 1) continue;  // hidden
             Sample& sample = ofPasses_[pass * kPacketRays + n];
-            sample = sampleOf(n);
+            writeSample(n, sample);
             first[n] = pass;
             if (pass == 0 || !hidesAllBefore(scene_.passes[pass].join, sample)) continue;
             first[n] = kPacketRays + pass;
@@ -288,8 +288,9 @@ void PacketCaster::addFragment(std::size_t ray) {
     if (isDone) seen_.isDone[ray] = -1;
 }
 
-Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
-    Sample sample;
+// Written where it stays: a copy right behind the writing would wait for it.
+void PacketCaster::writeSample(std::size_t ray, Sample& sample) const noexcept {
+    sample = Sample();
     sample.depth = static_cast<float>(seen_.depth[ray]);
     if (sample.hasHit()) {
         sample.label = static_cast<volume::Scalar>(seen_.label[ray]);
@@ -306,7 +307,6 @@ Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
         drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
     }
     if (sample.isCap) hatchCap(scene_, pass_, rays_.u[ray], rays_.v[ray], sample);
-    return sample;
 }
 
 Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {

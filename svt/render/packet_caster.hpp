@@ -51,7 +51,7 @@ private:
     void addLastFragments();
     void findParts(std::size_t ray);
     double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
-    [[nodiscard]] Sample sampleOf(std::size_t ray) const noexcept;
+    void writeSample(std::size_t ray, Sample& sample) const noexcept;
     void addFragment(std::size_t ray);
     static void fragmentOf(void* context, std::size_t ray);
     [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
