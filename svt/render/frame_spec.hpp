@@ -83,7 +83,7 @@ struct Pass {
     /// How the pass joins what the passes before it have drawn, sample by sample.
     enum class Join : std::uint8_t {
         Over,     ///< in front of it, at any depth
-        Replace,  ///< where this pass draws anything, all before it is dropped
+        Replace,  ///< where this pass draws anything, all before it is dropped, with a border line around it
         Depth     ///< in front of it where this pass' first label is nearer, else behind
     };
 

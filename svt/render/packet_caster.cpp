@@ -137,9 +137,11 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
     }
     for (std::size_t n = 0; n < count_; ++n) {
         const std::size_t begin = first[n] % kPacketRays;
+        // Nothing is left of what is before it.
         Sample joined = ofPasses_[begin * kPacketRays + n];
+        if (begin > 0) joined = joinPass(scene_.passes[begin].join, begin, joined, {});
         for (std::size_t pass = begin + 1; pass <= last; ++pass)
-            joined = joinPass(scene_.passes[pass].join, ofPasses_[pass * kPacketRays + n], joined);
+            joined = joinPass(scene_.passes[pass].join, pass, ofPasses_[pass * kPacketRays + n], joined);
         samples[places_[n]] = joined;
     }
 }

@@ -158,9 +158,13 @@ Sample over(const Sample& front, const Sample& back) noexcept {
 
 }  // namespace
 
-Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexcept {
+Sample joinPass(Pass::Join join, std::size_t number, const Sample& pass, const Sample& before) noexcept {
     switch (join) {
-        case Pass::Join::Replace: return pass.alpha > 0 ? pass : before;
+        case Pass::Join::Replace: {
+            Sample joined = pass.alpha > 0 ? pass : before;
+            if (pass.alpha > 0) joined.lens = static_cast<std::uint8_t>(number);
+            return joined;
+        }
         case Pass::Join::Depth: return pass.depth <= before.depth ? over(pass, before) : over(before, pass);
         case Pass::Join::Over: break;
     }
@@ -202,7 +206,7 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
         Sample sample = shader.result();
         sample.volume = pass.volume;
         if (sample.isCap) hatchCap(scene_, n, u, v, sample);
-        joined = n == 0 ? sample : joinPass(pass.join, sample, joined);
+        joined = n == 0 ? sample : joinPass(pass.join, n, sample, joined);
     }
     return joined;
 }

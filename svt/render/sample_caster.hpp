@@ -29,6 +29,7 @@ struct Sample {
     bool isCap = false;                                    ///< the label begins on a clip plane
     bool hasLine = false;                                  ///< a line is part of the color
     std::uint8_t volume = 0;                               ///< where the label was met, see Scene::volumes
+    std::uint8_t lens = 0;                                 ///< number of the pass that replaced all before it; 0: none
 
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -45,8 +46,8 @@ inline void finishSample(Vec3d color, double transmittance, const CastOptions& o
     sample.alpha = isOpaque ? 1 : static_cast<float>(alpha);
 }
 
-/// `pass` joined with what the passes before it have seen.
-[[nodiscard]] Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexcept;
+/// What pass `number` has seen, joined with what the passes before it have.
+[[nodiscard]] Sample joinPass(Pass::Join join, std::size_t number, const Sample& pass, const Sample& before) noexcept;
 
 /// Whether nothing of the passes before is left in joinPass().
 [[nodiscard]] inline bool hidesAllBefore(Pass::Join join, const Sample& pass) noexcept {

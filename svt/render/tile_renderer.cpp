@@ -15,8 +15,12 @@ std::int32_t reachOf(float width, std::int32_t side) noexcept {
     return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
 }
 
-// Is a line between the two one of a cut face?
+// Is the line between the two the rim of a lens that has `sample` in it?
+bool isRim(const Sample& sample, const Sample& other) noexcept { return sample.lens > other.lens; }
+
+// Is a line between the two one of a cut face or a rim?
 bool isCutLine(const Sample& sample, const Sample& other) noexcept {
+    if (sample.lens != other.lens) return isRim(sample, other);
     return sample.isCap && (!other.hasHit() || !other.isCap || sample.object != other.object);
 }
 
@@ -204,7 +208,7 @@ void TileRenderer::findLines() {
 // How dark the line on a sample is; it stands at (x, y).
 float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y) const {
     const double step = scene_.rays().pixelSize(static_cast<double>(sample.depth)) / layout_.side;
-    const std::int32_t most = sample.isCap ? layout_.margin : layout_.lineReach;
+    const std::int32_t most = sample.isCap || sample.lens > 0 ? layout_.margin : layout_.lineReach;
     float line = 0;
     for (std::int32_t reach = 1; reach <= most && line < 1; ++reach) {
         const Vec3d right = scene_.rays().right() * (step * reach), up = scene_.rays().up() * (step * reach);
@@ -223,14 +227,16 @@ float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y)
 
 std::int32_t TileRenderer::reachBetween(const Sample& sample, const Sample& other) const noexcept {
     if (!isCutLine(sample, other)) return layout_.lineReach;
-    return other.hasHit() && other.isCap ? layout_.cutReach : std::max(layout_.lineReach, layout_.margin);
+    return isRim(sample, other) || (other.hasHit() && other.isCap) ? layout_.cutReach
+                                                                   : std::max(layout_.lineReach, layout_.margin);
 }
 
 // How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space)
 // beside it. The nearer of the two carries the line. Where both are of one surface both do, or, with one sample per
 // pixel, only the first of them, so that the line is a pixel wide.
 float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const {
-    if (!other.hasHit()) return 1;
+    if (!other.hasHit() || isRim(sample, other)) return 1;
+    if (isRim(other, sample)) return 0;
     const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
     // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in
     // depth.
