@@ -168,8 +168,8 @@ TEST_P(TowerSceneTest, LooksAsItsReference) {
     runSvtWell(folder.path(), {"build", "tower.gml", "-o", "house.svt", "--spacing", "0.1"});
     expectAsReference(folder.path(), picture());
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest, ::testing::Values("two_flats", "two_flats_in_their_tower"),
-                         nameOfScene);
+INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest,
+                         ::testing::Values("two_flats", "two_flats_in_their_tower", "hulls_of_storeys"), nameOfScene);
 
 class SmallHouse : public ::testing::Test {
 protected:
