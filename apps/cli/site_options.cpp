@@ -89,9 +89,12 @@ private:
 
     Result<void> open(const std::string& name) {
         const serve::SiteModel* wanted = models_.empty() ? nullptr : &models_.front();
+        const auto isMeant = [&](const serve::SiteModel& model) {
+            return model.name == name || model.name + ".svt" == name;
+        };
         for (const serve::SiteModel& model : models_)
-            if (model.name == name) wanted = &model;
-        if (wanted == nullptr || (!name.empty() && wanted->name != name))
+            if (isMeant(model)) wanted = &model;
+        if (wanted == nullptr || (!name.empty() && !isMeant(*wanted)))
             return Error(Code::BadArgument, fmt::format("there is no model '{}'; models.json lists them", name));
         if (opened_ == wanted) return {};
         painter_.reset();

@@ -177,13 +177,11 @@ std::string dateNow() {
 }
 
 // What the page may do: run its own scripts, workers and WebAssembly, and talk to this server; nothing from elsewhere,
-// and no other page may hold it. `data:` and `blob:` are what the page makes itself. Inline styles are what components
-// set; they run nothing.
+// no styles or scripts within the text of the page, and no other page may hold it.
 constexpr std::string_view kSafetyHeaders =
     "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
-    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
-    "connect-src 'self' data: blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors "
-    "'none'\r\n"
+    "style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'\r\n"
     "Cross-Origin-Opener-Policy: same-origin\r\n"
     "Cross-Origin-Embedder-Policy: require-corp\r\n"
     "Cross-Origin-Resource-Policy: same-origin\r\n"
@@ -333,10 +331,10 @@ private:
         for (int i = 0; i < kAtOnce; ++i) {
             Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
             if (socket.get() < 0) {
-                // Out of descriptors or memory: asking again at once would only burn time.
-                if (errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == ENOBUFS)
-                    acceptFrom_ = now_ + std::chrono::milliseconds(100);
                 if (errno == ECONNABORTED || errno == EINTR) continue;
+                if (errno == EAGAIN || errno == EWOULDBLOCK) return;
+                // Out of descriptors or memory: asking again at once would only burn time.
+                if (!makeRoom()) acceptFrom_ = now_ + std::chrono::milliseconds(100);
                 return;
             }
             if (connections_.size() >= options_.maxConnections && !makeRoom()) {

@@ -79,6 +79,7 @@ public:
                     "\r\n\r\n" + body);
         return client.receive(true, 60);
     }
+    [[nodiscard]] int port() const { return port_; }
     [[nodiscard]] std::string out() const { return readText(folder_ / "out"); }
     [[nodiscard]] std::string err() const { return readText(folder_ / "err"); }
 
@@ -127,6 +128,10 @@ TEST_F(ServeTest, PicturesAreThoseOfRender) {
     EXPECT_EQ(answer.header("Content-Type"), "image/png");
     EXPECT_TRUE(answer.body == readText(folder / "a.png"));
 
+    EXPECT_TRUE(serving.ask("POST /api/picture", "{\"model\":\"house.svt\",\"scene\":" + scene + "}").body ==
+                answer.body);
+    EXPECT_TRUE(serving.ask("POST /api/picture", "{\"scene\":" + scene + "}").body == answer.body);
+
     const auto code = [&](const std::string& body) {
         const auto refused = serving.ask("POST /api/picture", body);
         EXPECT_EQ(refused.status, 422) << body;
@@ -143,6 +148,16 @@ TEST_F(ServeTest, PicturesAreThoseOfRender) {
     EXPECT_EQ(code("{\"scene\":{\"passes\":[{\"show\":[\"class=Nothing\"]}]}}"), "E902");
     EXPECT_EQ(serving.ask("POST /api/picture", std::string(300000, ' ')).status, 413);
     EXPECT_EQ(serving.stop(SIGTERM), 0) << serving.err();
+}
+
+TEST_F(ServeTest, StopsWhileItDraws) {
+    Serving serving(folder.path(), {"serve", "house.svt", "--viewer", "page", "--port", "0"});
+    serve::Client client(serving.port());
+    const std::string body = R"({"scene":{"size":[2000,2000],"samples":4,"ambientOcclusion":1}})";
+    client.send("POST /api/picture HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    ::usleep(100000);
+    EXPECT_EQ(serving.stop(SIGINT), 0);
 }
 
 TEST_F(ServeTest, UploadsAreConverted) {
