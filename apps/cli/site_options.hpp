@@ -26,9 +26,9 @@ struct SiteArguments {
     [[nodiscard]] Result<std::vector<serve::SiteModel>> load(const std::vector<std::filesystem::path>& inputs) const;
 };
 
-/// POST /api/picture: {"model": NAME, "scene": {...}} -> PNG. NAME may end in ".svt"; without one, the first model. One picture at a time;
-/// 422 where the scene cannot be drawn, or has over 16,777,216 rays (pixels times samples).
-/// \param threads  0: all cores
+/// POST /api/picture: {"model": NAME, "scene": {...}} -> PNG. NAME may end in ".svt"; without one, the first model. One
+/// picture at a time; 422 where the scene cannot be drawn, or has over 16,777,216 rays (pixels times samples). \param
+/// threads  0: all cores
 [[nodiscard]] serve::Route pictureRoute(std::vector<serve::SiteModel> models, int threads);
 
 }  // namespace svt::cli
