@@ -35,7 +35,12 @@ void onSignal(int) {
     if (signalTarget != nullptr) signalTarget->stop();
 }
 
-bool isLoopback(const std::string& host) { return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0; }
+bool isLoopback(const std::string& host) {
+    constexpr std::uint32_t kLoopbackNet = 127;
+    in_addr address{};
+    const bool isAddress = ::inet_pton(AF_INET, host.c_str(), &address) == 1;
+    return host == "localhost" || host == "::1" || (isAddress && ntohl(address.s_addr) >> 24 == kLoopbackNet);
+}
 
 std::string addressOf(const std::string& host, int port) {
     const bool isAny = host == "0.0.0.0" || host == "::";

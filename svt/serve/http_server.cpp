@@ -322,8 +322,10 @@ private:
         isStopping_ = true;
         stopAt_ = now_ + seconds(options_.stopSeconds);
         listener_.reset();
-        for (Connection& connection : connections_)
+        for (Connection& connection : connections_) {
+            connection.isKept = false;
             if (connection.state != State::Writing) end(connection);
+        }
     }
 
     void acceptAll() {
@@ -601,6 +603,7 @@ private:
     void finish(Connection& connection) {
         connection.out.clear();
         connection.body = {};
+        if (isStopping_) return end(connection);
         if (!connection.isKept) {
             ::shutdown(connection.socket.get(), SHUT_WR);
             return enter(connection, State::Draining, 1);
