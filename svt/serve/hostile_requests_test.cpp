@@ -207,7 +207,7 @@ TEST_F(HostileRequests, SlowClientsLoseTheirPlaceAndHoldUpNobody) {
         slowest = std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count());
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    EXPECT_LT(slowest, hasSanitizer ? 2 : 0.5);
+    EXPECT_LT(slowest, hasSanitizer ? 4 : 1);
     for (Client& client : heads) EXPECT_TRUE(client.isClosed(3));
     for (Client& client : bodies) EXPECT_TRUE(client.isClosed(3));
     for (Client& client : readers) EXPECT_TRUE(client.isClosed(3));  // after what was on its way
