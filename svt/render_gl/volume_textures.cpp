@@ -27,6 +27,20 @@ std::vector<float> planesFrom(Vec3i middle, std::span<const volume::BrickPlane> 
     return values;
 }
 
+// Palette brick of each brick; all bits set where it holds one scalar.
+std::vector<std::uint32_t> patternsOf(const BrickVolume& volume) {
+    std::vector<std::uint32_t> patterns;
+    const Vec3i count = volume.brickCount();
+    for (std::int32_t z = 0; z < count.z; ++z)
+        for (std::int32_t y = 0; y < count.y; ++y)
+            for (std::int32_t x = 0; x < count.x; ++x) {
+                const BrickVolume::Entry entry = volume.entry(x, y, z);
+                patterns.push_back(entry.isMixed() ? static_cast<std::uint32_t>(volume.paletteBrickNumber(entry))
+                                                   : 0xFFFFFFFFu);
+            }
+    return patterns;
+}
+
 }  // namespace
 
 Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlLimits& limits) {
@@ -47,6 +61,8 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
             : std::any_of(arrays.wide.begin(), arrays.wide.begin() + static_cast<std::ptrdiff_t>(count), isVoxels);
     const std::vector<float> planes = planesFrom(made.middle, arrays.oblique);
 
+    const std::vector<std::uint32_t> patterns = made.hasVoxels ? patternsOf(volume) : std::vector<std::uint32_t>();
+
     clearGlErrors();
     struct Upload {
         Texture& texture;
@@ -62,7 +78,8 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
         {made.bricks, GL_RGBA32UI, arrays.bricks.data(), arrays.bricks.size(), 16},
         {made.palettes, GL_R32UI, arrays.palettes.data(), arrays.palettes.size(), 4},
         {made.words, GL_RG32UI, arrays.words.data(), arrays.words.size(), 8},
-        {made.planes, GL_RGBA32UI, planes.data(), arrays.oblique.size(), 16}};
+        {made.planes, GL_RGBA32UI, planes.data(), arrays.oblique.size(), 16},
+        {made.patterns, GL_R32UI, patterns.data(), patterns.size(), 4}};
     for (const Upload& upload : uploads) {
         if (auto set = upload.texture.setArray(upload.form, upload.data, upload.count, limits); !set)
             return set.error();
@@ -80,6 +97,7 @@ void VolumeTextures::setUniforms(Program& program) const {
     program.bind("palettes", palettes);
     program.bind("words", words);
     program.bind("planes", planes);
+    program.bind("patterns", patterns);
     program.set("uniformBoxes", GLuint{uniformBoxes});
     program.set("boxCount", GLuint{boxCount});
     program.set("dimension", dimension);

@@ -10,6 +10,7 @@ namespace svt::render_gl {
 /// Never changes once it is made: styles, clips and cameras leave it alone.
 struct VolumeTextures {
     Texture index, boxes, codes, bricks, palettes, words, planes;
+    Texture patterns;  ///< palette brick by brick, where normals are fitted to voxels
     std::uint32_t uniformBoxes = 0, boxCount = 0;
     Vec3i dimension{}, brickCount{};
     Vec3i middle{};          ///< places in shaders are counted from this voxel, so that they are small

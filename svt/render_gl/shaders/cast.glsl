@@ -1,6 +1,6 @@
 // One ray under one pass, joined with the passes before.
-uniform usampler2D styles, colorBefore, hitBefore;
-uniform uint styleCount, join;  // join: 0 over, 1 replace, 2 depth; 3 the first pass
+uniform usampler2D colorBefore, hitBefore;
+uniform uint join;  // 0 over, 1 replace, 2 depth; 3 the first pass
 uniform float opaqueAt, labelAt;
 uniform vec2 firstSample, perSample;  // samples from the picture's upper left corner; 2 / samples along it
 
@@ -105,7 +105,10 @@ void lightSurface() {
     surfaceNormal = facingNormal(runCap, runIsFirst);
     float crease = 0.0;
 #if FITTED
-    if (isVoxel && runCap == kNone && plane == kNone && !isAroundEye) surfaceNormal = fittedNormal(crease);
+    bool isFitted = isVoxel && runCap == kNone && plane == kNone && !isAroundEye;
+    vec3 fitted = fittedNormal(isFitted, crease);
+    if (isFitted) surfaceNormal = fitted;
+    else crease = 0.0;
 #endif
     float open = isAroundEye || lightOcclusion <= 0.0 ? 1.0 : openness(surfaceNormal, crease);
     surfaceLight = lightOn(surfaceNormal, open);

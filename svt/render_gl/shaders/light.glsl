@@ -1,5 +1,6 @@
 // Where a run begins, and how it is lit there.
-uniform usampler2D occlusion;
+uniform usampler2D styles, occlusion;
+uniform uint styleCount;
 uniform mat3 worldFromCovector;  // of planes in voxel space to world space
 uniform mat3 indexFromWorld;     // of directions
 uniform vec3 towardsLight;
