@@ -150,6 +150,7 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         setView(program);
         program.set("firstSample", grid.firstX, grid.firstY);
         program.set("perSample", 2.0 / (spec.width * grid.side), 2.0 / (spec.height * grid.side));
+        if ((passNeeds_[n] & kHatches) != 0) setHatches(program, grid.side);
         program.set("join", n == 0 ? 3u : static_cast<GLuint>(spec.passes[n].join));
         if (n > 0) {
             program.bind("colorBefore", color_[1 - last_]);
@@ -201,6 +202,27 @@ void FramePainter::setView(Program& program) const {
     program.set("indexFromWorld", directions);
     program.set("opaqueAt", parts_->options.opaqueAt);
     program.set("labelAt", parts_->options.labelAt);
+}
+
+void FramePainter::setHatches(Program& program, int side) const {
+    const render::FrameSpec& spec = parts_->spec;
+    const volume::Grid& grid = parts_->grid;
+    const render::CameraRays rays(spec, grid);
+    std::array<Vec3d, 3> directions;
+    for (int axis = 0; axis < 3; ++axis)
+        directions[static_cast<std::size_t>(axis)] = grid.axes()[static_cast<std::size_t>(axis)] * grid.spacing()[axis];
+    program.set("worldFromIndex", directions);
+    program.set("originFromMiddle", Vec3d{0.5, 0.5, 0.5} - toDouble(parts_->textures.middle));
+    program.set("gridNorth", grid.axes()[1]);
+    program.set("gridUp", grid.axes()[2]);
+    program.set("hatchColor", toDouble(render::linearFromSrgb(spec.hatches.color)));
+    program.set("hatchSpacing", spec.hatches.spacing);
+    program.set("hatchWidth", spec.hatches.width);
+    program.set("hatchStrength", spec.hatches.strength);
+    program.set("pixelPerDepth", rays.isPerspective() ? rays.pixelSize(1) : 0.0);
+    program.set("pixelSize", rays.isPerspective() ? 0.0 : rays.pixelSize(1));
+    program.set("samplesAlong", double(side));
+    program.set("cameraForward", rays.forward());
 }
 
 void FramePainter::resolve(const PixelTile& tile, const PixelTile& window) {

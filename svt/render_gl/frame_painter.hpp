@@ -64,6 +64,7 @@ private:
     [[nodiscard]] Result<void> prepareResolve();
     void castGrid(const SampleGrid& grid);
     void setView(Program& program) const;
+    void setHatches(Program& program, int side) const;
 
     std::optional<FrameParts> parts_;
     std::vector<PassTextures> passes_;

@@ -20,7 +20,7 @@ uvec4 style;
 uint runScalar, runCap;
 float runFrom, surfaceLight;
 vec3 surfaceNormal;
-bool surfaceIsCap, runIsFirst;
+bool surfaceIsCap, runIsFirst, isSameObject;
 
 #if SHAPES
 float lineLight();
@@ -68,7 +68,8 @@ void castInterval(float from, float to, uint cap) {
 #if SHAPES
                 addShapes(min(stepEnd, to));
 #endif
-            } else if (style.y != object) {
+            } else if (style.y != object || kind == 2u) {
+                isSameObject = style.y == object;
                 object = style.y;
                 isNew = true;
                 break;
@@ -90,6 +91,10 @@ void castInterval(float from, float to, uint cap) {
             if (stepEnd >= to || !goOn()) break;
         }
         if (!isNew) break;
+        if (isSameObject) {
+            hasEnded = true;
+            break;
+        }
         runCap = runIsFirst ? cap : kNone;
         surfaceIsCap = runCap != kNone;
         if ((style.x & 3u) == 2u) {
@@ -105,7 +110,7 @@ void lightSurface() {
     surfaceNormal = facingNormal(runCap, runIsFirst);
     float crease = 0.0;
 #if FITTED
-    bool isFitted = isVoxel && runCap == kNone && plane == kNone && !isAroundEye;
+    bool isFitted = isVoxel && runCap == kNone && !isOblique && !isAroundEye;
     vec3 fitted = fittedNormal(isFitted, crease);
     if (isFitted) surfaceNormal = fitted;
     else crease = 0.0;
@@ -138,7 +143,8 @@ void castPass() {
     }
 #endif
     if (isOpaque) {
-        lightSurface();
+        // Within an object no surface is seen.
+        if (!isSameObject) lightSurface();
         add(1.0);
     }
 }
@@ -151,7 +157,7 @@ void main() {
     hitLabel = hitObject = hitHatch = runScalar = 0u;
     hitDepth = kFar;
     hitNormal = vec3(0.0, 0.0, 1.0);
-    hitIsCap = hasEnded = false;
+    hitIsCap = hasEnded = isSameObject = false;
     beginRay(place);
     view = normalize(-worldDirection);
 #if SHAPES
@@ -170,7 +176,10 @@ void main() {
     drawHiddenLines(alpha);
 #endif
 #if HATCHES
-    if (hitIsCap) hatchCap(place, alpha);
+    if (hitIsCap) {
+        float ink = inkOn(hitHatch, hitNormal, hitDepth);
+        color = color * (1.0 - ink) + hatchColor * (ink * alpha);
+    }
 #endif
     ivec2 at = ivec2(gl_FragCoord.xy);
     uvec4 hit = uvec4(hitLabel, hitObject, floatBitsToUint(hitDepth), packedDirection(hitNormal) | (hitIsCap ? kCap : 0u));

@@ -40,11 +40,11 @@ uint seamPlane() {
     return isNear(before.y, point) ? before.y : kNone;
 }
 
-bool isAroundEye;
+bool isAroundEye, isOblique;
 
 // World space, towards the viewer but for what is seen from behind.
 vec3 facingNormal(uint cap, bool isFirst) {
-    isAroundEye = false;
+    isAroundEye = isOblique = false;
     if (cap != kNone) {
 #if CLIPS
         vec3 normal = worldNormal(capDirection(cap, origin + t * direction));
@@ -52,7 +52,8 @@ vec3 facingNormal(uint cap, bool isFirst) {
 #endif
     }
     uint oblique = plane != kNone || isFirst ? plane : seamPlane();
-    if (oblique != kNone) {
+    isOblique = oblique != kNone;
+    if (isOblique) {
         vec3 across = floatsOf(planes, oblique).xyz;
         return worldNormal(dot(across, direction) > 0.0 ? -across : across);
     }
