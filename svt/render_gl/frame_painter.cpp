@@ -3,6 +3,7 @@
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/color.hpp>
 #include <svt/render_gl/shader_sources.hpp>
+#include <svt/render_gl/view_depth.hpp>
 
 #include <fmt/format.h>
 
@@ -14,8 +15,6 @@
 namespace svt::render_gl {
 namespace {
 
-/// Side of the targets, samples: 32 MB for each set.
-constexpr std::int32_t kTargetSamples = 1024;
 /// Stands for infinity in shaders.
 constexpr float kFar = 3.0e38f;
 
@@ -55,9 +54,6 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
     passNeeds_.clear();
     for (std::size_t n = 0; n < passes_.size(); ++n) {
         const render::Pass& pass = spec.passes[n];
-        if (!pass.lines.empty() || !pass.triangles.empty())
-            return Error(Code::NoGraphics,
-                         "lines and meshes inside the volume are not drawn by OpenGL; draw without it");
         if (auto updated = passes_[n].update(pass, spec, parts.volume, parts.grid, parts.textures.middle, parts.limits,
                                              parts.options.threads);
             !updated)
@@ -80,6 +76,7 @@ unsigned FramePainter::needsOf(const PassTextures& pass) const {
     if (pass.hasClips()) needs |= kClips;
     if (pass.hasTranslucent()) needs |= kTranslucent;
     if (pass.hasOpaque() && parts_->textures.hasVoxels) needs |= kFitted;
+    if (pass.hasShapes()) needs |= kShapes;
     if (pass.hasHatches() && parts_->spec.hatches.strength > 0) needs |= kHatches;
     return needs;
 }
@@ -99,6 +96,7 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
     if (has(kFitted) != 0) sources.push_back(shaders::fitted());
     if (has(kHatches) != 0) sources.push_back(shaders::hatches());
     sources.push_back(shaders::cast());
+    if (has(kShapes) != 0) sources.push_back(shaders::shapes());
     auto program = Program::make(defines, sources);
     if (!program) return program.error();
     cast_[needs].emplace(std::move(*program));
@@ -146,10 +144,11 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         Program& program = *cast_[passNeeds_[n]];
         program.use();
         parts_->textures.setUniforms(program);
-        passes_[n].setUniforms(program);
         setView(program);
+        passes_[n].setUniforms(program);
         program.set("firstSample", grid.firstX, grid.firstY);
         program.set("perSample", 2.0 / (spec.width * grid.side), 2.0 / (spec.height * grid.side));
+        program.set("samplesAPixel", double(grid.side));
         if ((passNeeds_[n] & kHatches) != 0) setHatches(program, grid.side);
         program.set("join", n == 0 ? 3u : static_cast<GLuint>(spec.passes[n].join));
         if (n > 0) {
@@ -167,8 +166,7 @@ void FramePainter::setView(Program& program) const {
     const render::CameraRays rays(spec, grid);
     const auto basis = rays.basis();
     const Vec3d middle = toDouble(parts_->textures.middle);
-    const Vec3d center = grid.worldFromIndex(middle - Vec3d{0.5, 0.5, 0.5});
-    const double depth = std::max(0.0, dot(center - spec.camera.eye, basis.forward));
+    const double depth = middleDepthOf(spec.camera, rays, grid, parts_->textures.middle);
     const bool isPerspective = rays.isPerspective();
     const Vec3d right = basis.rightIndex * basis.halfWidth, up = basis.upIndex * basis.halfHeight;
     const double reach = isPerspective ? depth : 1, turn = isPerspective ? 1 : 0;
@@ -182,6 +180,9 @@ void FramePainter::setView(Program& program) const {
     program.set("worldRight", basis.right * (basis.halfWidth * turn));
     program.set("worldUp", basis.up * (basis.halfHeight * turn));
     program.set("middleDepth", depth);
+    program.set("isPerspective", isPerspective ? 1 : 0);
+    program.set("worldOriginRight", basis.right * (basis.halfWidth * reach));
+    program.set("worldOriginUp", basis.up * (basis.halfHeight * reach));
     // A ten-thousandth of a voxel, as depth.
     program.set("clipSlack", 1e-4 / length(basis.forwardIndex));
 

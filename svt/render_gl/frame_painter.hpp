@@ -17,6 +17,9 @@
 
 namespace svt::render_gl {
 
+/// Side of the targets, samples: 32 MB for each set.
+inline constexpr std::int32_t kTargetSamples = 1024;
+
 /// Pixels of the picture; y from the top.
 struct PixelTile {
     std::int32_t x = 0, y = 0, width = 0, height = 0;

@@ -52,6 +52,15 @@ Result<void> forTiles(const render::FrameSpec& spec, std::int32_t size, const Bo
     return {};
 }
 
+// Of the bound framebuffer, into the picture.
+void readPixels(const PixelTile& tile, render::Image<render::Rgba8>& color) {
+    std::vector<render::Rgba8> rows(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
+    glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+    for (std::int32_t y = 0; y < tile.height; ++y)
+        std::copy_n(rows.begin() + std::ptrdiff_t{tile.height - 1 - y} * tile.width, tile.width,
+                    &color.at(tile.x, tile.y + y));
+}
+
 }  // namespace
 
 struct GlRenderer::Parts {
@@ -68,14 +77,6 @@ struct GlRenderer::Parts {
         if (auto checked = checkFrameSpec(spec); !checked) return checked;
         clearGlErrors();
         return painter.prepare({spec, volume, grid, textures, limits, options});
-    }
-
-    void readColor(const PixelTile& tile, render::Frame& frame) {
-        std::vector<render::Rgba8> rows(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
-        glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
-        for (std::int32_t y = 0; y < tile.height; ++y)
-            std::copy_n(rows.begin() + std::ptrdiff_t{tile.height - 1 - y} * tile.width, tile.width,
-                        &frame.color.at(tile.x, tile.y + y));
     }
 };
 
@@ -112,27 +113,39 @@ Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
 }
 
 Result<render::Frame> GlRenderer::read(const render::FrameSpec& spec) {
+    auto color = readColor(spec);
+    if (!color) return color.error();
     const KeptBindings bindings;
-    if (auto prepared = parts_->prepare(spec); !prepared) return prepared.error();
-    FramePainter& painter = parts_->painter;
-    render::Frame frame{render::Image<render::Rgba8>(spec.width, spec.height),
-                        render::Image<volume::Scalar>(spec.width, spec.height),
+    render::Frame frame{std::move(*color), render::Image<volume::Scalar>(spec.width, spec.height),
                         render::Image<float>(spec.width, spec.height)};
-    auto drawn = forTiles(spec, painter.tilePixels(), [&](const PixelTile& tile) -> Result<void> {
-        painter.castSamples(tile);
-        parts_->pixels.setTarget(GL_RGBA8, tile.width, tile.height);
-        parts_->pixelTarget.bind({parts_->pixels.name()});
-        painter.resolve(tile, tile);
-        parts_->readColor(tile, frame);
+    FramePainter& painter = parts_->painter;
+    auto drawn = forTiles(spec, kTargetSamples, [&](const PixelTile& tile) -> Result<void> {
         painter.castMiddles(tile);
         painter.readHits(tile, [&](std::int32_t x, std::int32_t y, const PickedPixel& hit) {
             frame.label.at(tile.x + x, tile.y + y) = hit.label;
             frame.depth.at(tile.x + x, tile.y + y) = hit.depth;
         });
-        return checkGl("the picture");
+        return checkGl("the labels of the picture");
     });
     if (!drawn) return drawn.error();
     return frame;
+}
+
+Result<render::Image<render::Rgba8>> GlRenderer::readColor(const render::FrameSpec& spec) {
+    const KeptBindings bindings;
+    if (auto prepared = parts_->prepare(spec); !prepared) return prepared.error();
+    FramePainter& painter = parts_->painter;
+    render::Image<render::Rgba8> color(spec.width, spec.height);
+    auto drawn = forTiles(spec, painter.tilePixels(), [&](const PixelTile& tile) -> Result<void> {
+        painter.castSamples(tile);
+        parts_->pixels.setTarget(GL_RGBA8, tile.width, tile.height);
+        parts_->pixelTarget.bind({parts_->pixels.name()});
+        painter.resolve(tile, tile);
+        readPixels(tile, color);
+        return checkGl("the picture");
+    });
+    if (!drawn) return drawn.error();
+    return color;
 }
 
 Result<PickedPixel> GlRenderer::pick(const render::FrameSpec& spec, std::int32_t x, std::int32_t y) {

@@ -61,6 +61,9 @@ public:
     /// \return as draw()
     [[nodiscard]] Result<render::Frame> read(const render::FrameSpec& spec);
 
+    /// The picture alone. \return as draw()
+    [[nodiscard]] Result<render::Image<render::Rgba8>> readColor(const render::FrameSpec& spec);
+
     /// What the picture of `spec` shows at pixel (x, y), y from the top; casts that one ray.
     /// \return the label and depth; as draw(), and BadArgument where the pixel lies outside
     [[nodiscard]] Result<PickedPixel> pick(const render::FrameSpec& spec, std::int32_t x, std::int32_t y);

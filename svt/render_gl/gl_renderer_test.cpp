@@ -131,6 +131,39 @@ struct Look {
 
 ClipRegion halfOpen(const Model& model) { return ClipRegion::plane({0.2, -1, 0.1}, sizesOf(model).middle); }
 
+// A fan of lines through the volume, some on each other, in two looks.
+std::vector<render::LineSet> lines(const Model& model) {
+    const auto [middle, size] = sizesOf(model);
+    std::vector<render::LineSet> sets(2);
+    sets[1].color = {0.8f, 0.1f, 0.1f};
+    sets[1].width = 3;
+    sets[1].hidden = render::HiddenLines::Dashed;
+    sets[1].withHiddenLabels = true;
+    for (int n = 0; n < 40; ++n) {
+        const Vec3d end{std::cos(n * 0.7) * size.x * 0.5, std::sin(n * 0.9) * size.y * 0.5,
+                        std::cos(n * 1.3) * size.z * 0.5};
+        sets[static_cast<std::size_t>(n % 2)].lines.push_back(
+            {middle - end * 0.9, middle + end, static_cast<volume::Scalar>(n % 5)});
+    }
+    return sets;
+}
+
+// Two octahedra around the middle, one of an opaque label and one of label 4; in mixedStyles() a pane.
+std::vector<render::MeshTriangle> octahedra(const Model& model) {
+    const auto [middle, size] = sizesOf(model);
+    std::vector<render::MeshTriangle> triangles;
+    for (const volume::Scalar label : {3u, 4u})
+        for (int n = 0; n < 8; ++n) {
+            const Vec3d center = middle + size * (label == 3 ? 0.113 : -0.107);
+            const Vec3d x{(n & 1) != 0 ? size.x * 0.3 : -size.x * 0.3, 0, 0},
+                y{0, (n & 2) != 0 ? size.y * 0.3 : -size.y * 0.3, 0};
+            const Vec3d z{0, 0, (n & 4) != 0 ? size.z * 0.4 : -size.z * 0.4};
+            const bool isTurned = ((n & 1) + (n >> 1 & 1) + (n >> 2)) % 2 == 0;
+            triangles.push_back({{center + x, center + (isTurned ? z : y), center + (isTurned ? y : z)}, label});
+        }
+    return triangles;
+}
+
 const std::vector<Look>& looks() {
     static const std::vector<Look> all{
         {"Opaque", [](const Model& m) { return frameOf(m); }},
@@ -295,6 +328,39 @@ const std::vector<Look>& looks() {
              spec.width = 120;
              spec.height = 80;
              spec.borders.strength = 0.5f;
+             return spec;
+         }},
+        {"Lines",
+         [](const Model& m) {
+             FrameSpec spec = frameOf(m);
+             spec.passes[0].styles = mixedStyles(m);
+             spec.passes[0].lines = lines(m);
+             return spec;
+         }},
+        {"LinesOfASection",
+         [](const Model& m) {
+             FrameSpec spec = frameOf(m);
+             spec.samplesPerPixel = 4;
+             spec.passes[0].lines = lines(m);
+             spec.passes[0].clips = {halfOpen(m)};
+             return spec;
+         }},
+        {"Meshes",
+         [](const Model& m) {
+             FrameSpec spec = frameOf(m);
+             spec.passes[0].styles = mixedStyles(m);
+             spec.passes[0].triangles = octahedra(m);
+             spec.passes[0].lines = lines(m);
+             return spec;
+         }},
+        {"MeshesCutOpen",
+         [](const Model& m) {
+             FrameSpec spec = frameOf(m);
+             spec.passes[0].triangles = octahedra(m);
+             spec.passes[0].clips = {halfOpen(m)};
+             spec.borders.strength = 1;
+             for (Style& style : spec.passes[0].styles) style.hatch = Hatch::Masonry;
+             spec.hatches.spacing = 0.02 * sizesOf(m).size.x;
              return spec;
          }},
         {"Hatches", [](const Model& m) {

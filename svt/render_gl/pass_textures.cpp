@@ -1,5 +1,6 @@
 #include <svt/render_gl/pass_textures.hpp>
 
+#include <svt/render/pass_shapes.hpp>
 #include <svt/render/pass_table.hpp>
 
 #include <bit>
@@ -49,8 +50,13 @@ void appendPart(std::vector<std::uint32_t>& words, const render::ConvexPart& par
 Result<void> PassTextures::update(const render::Pass& pass, const render::FrameSpec& spec,
                                   const volume::BrickVolume& volume, const volume::Grid& grid, Vec3i middle,
                                   const GlLimits& limits, int threads) {
-    if (auto updated = updateStyles(pass, spec, volume.scalarCount(), limits); !updated) return updated;
+    // What triangles stand for is not drawn as voxels.
+    auto styles = pass.triangles.empty()
+                      ? updateStyles(pass, spec, volume.scalarCount(), limits)
+                      : updateStyles(render::voxelsOf(pass, spec.objectOfScalar), spec, volume.scalarCount(), limits);
+    if (!styles) return styles;
     if (auto updated = updateClips(pass, grid, middle, limits); !updated) return updated;
+    if (auto updated = shapes_.update(pass, spec, grid, middle, limits, threads); !updated) return updated;
     if (spec.light.ambientOcclusion > 0 && hasOpaque_) return updateOcclusion(volume, grid, limits, threads);
     return {};
 }
@@ -126,6 +132,9 @@ void PassTextures::setUniforms(Program& program) const {
         program.bind("clips", clipTexture_);
         program.set("clipRegions", GLuint{clipRegions_});
     }
+    if (hasShapes()) shapes_.setUniforms(program);
+    // Without anything opaque no corner is dark.
+    if (!hasOpaque_) program.set("lightOcclusion", 0.0f);
     if (occlusionTexture_.isEmpty()) return;
     program.bind("occlusion", occlusionTexture_);
     program.set("occlusionCount[0]", std::span<const Vec3i>(occlusionCounts_));

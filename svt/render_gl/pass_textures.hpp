@@ -6,6 +6,7 @@
 #include <svt/render/frame_spec.hpp>
 #include <svt/render/occlusion.hpp>
 #include <svt/render_gl/gl_objects.hpp>
+#include <svt/render_gl/shape_textures.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/grid.hpp>
 
@@ -26,6 +27,7 @@ public:
     [[nodiscard]] bool hasClips() const noexcept { return clipRegions_ > 0; }
     [[nodiscard]] bool hasOpaque() const noexcept { return hasOpaque_; }
     [[nodiscard]] bool hasTranslucent() const noexcept { return hasTranslucent_; }
+    [[nodiscard]] bool hasShapes() const noexcept { return !shapes_.isEmpty(); }
     [[nodiscard]] bool hasHatches() const noexcept { return hasHatches_ && hasClips(); }
 
 private:
@@ -37,6 +39,7 @@ private:
                                                const GlLimits& limits, int threads);
 
     Texture styleTexture_, clipTexture_, occlusionTexture_;
+    ShapeTextures shapes_;
     std::uint32_t styleCount_ = 0, clipRegions_ = 0;
     bool hasOpaque_ = false, hasTranslucent_ = false, hasHatches_ = false;
     std::vector<Vec3i> occlusionCounts_;

@@ -25,7 +25,12 @@ bool surfaceIsCap, runIsFirst, isSameObject;
 #if SHAPES
 float lineLight();
 void addShapes(float end);
-void addShapesWithin(float end, float density);
+float addShapesWithin(float end, float density);
+bool addCutBody(float at, uint cap);
+void beginShapes(vec2 samplePlace);
+void finishShapes();
+void drawHiddenLines(inout float alpha);
+vec2 raySpan;  // inside the volume
 #else
 float lineLight() { return 1.0; }
 #endif
@@ -51,6 +56,14 @@ bool isDone() { return 1.0 - transmittance >= opaqueAt; }
 void castInterval(float from, float to, uint cap) {
     uint object = kNone;
     bool isFirst = true;
+#if SHAPES
+    addShapes(from);
+#if CLIPS
+    if (cap != kNone && !isDone() && addCutBody(from, cap)) hasEnded = true;
+#endif
+    hasEnded = hasEnded || isDone();
+    if (hasEnded) return;
+#endif
     for (int event = 0; event < 4096; ++event) {
         bool isNew = false;
         for (int steps = 0; steps < 65536; ++steps) {
@@ -76,12 +89,13 @@ void castInterval(float from, float to, uint cap) {
             }
 #if TRANSLUCENT
             if (kind == 1u) {
-                float end = min(stepEnd, to);
+                float begin = t, end = min(stepEnd, to);
                 float density = floatsOf(styles, 2u * scalar).a * metresPerT;
 #if SHAPES
-                addShapesWithin(end, density);
+                begin = addShapesWithin(end, density);
+                if (!isDone())
 #endif
-                add(1.0 - exp(-density * max(end - t, 0.0)));
+                    add(1.0 - exp(-density * max(end - begin, 0.0)));
             }
 #endif
 #if TRANSLUCENT || SHAPES
@@ -115,7 +129,7 @@ void lightSurface() {
     if (isFitted) surfaceNormal = fitted;
     else crease = 0.0;
 #endif
-    float open = isAroundEye || lightOcclusion <= 0.0 ? 1.0 : openness(surfaceNormal, crease);
+    float open = isAroundEye || lightOcclusion <= 0.0 ? 1.0 : openness(surfaceNormal, crease, t);
     surfaceLight = lightOn(surfaceNormal, open);
 }
 
@@ -161,6 +175,8 @@ void main() {
     beginRay(place);
     view = normalize(-worldDirection);
 #if SHAPES
+    int entryAxis;
+    raySpan = spanInVolume(entryAxis);
     beginShapes(gl_FragCoord.xy + firstSample);
 #endif
     castPass();

@@ -86,10 +86,10 @@ float takenAt(int level, vec3 point) {
 }
 
 // 1 in the open, less in corners.
-float openness(vec3 normal, float crease) {
+float openness(vec3 normal, float crease, float at) {
     vec3 away = indexFromWorld * normal;
     away /= max(abs(away.x), max(abs(away.y), abs(away.z)));
-    vec3 point = origin + t * direction + vec3(middle);
+    vec3 point = origin + at * direction + vec3(middle);
     float taken = 0.0;
     for (int level = 0; level < 4; ++level)
         taken += occlusionGain[level].y *
