@@ -5,6 +5,8 @@
 #include <svt/illustrate/name_tags.hpp>
 #include <svt/render/png.hpp>
 #include <svt/render/ray_caster.hpp>
+#include <svt/render_gl/egl_context.hpp>
+#include <svt/render_gl/gl_renderer.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
@@ -22,6 +24,7 @@ struct Arguments {
     SceneArguments scene;
     std::optional<int> level;
     int frames = 1;
+    bool gl = false;
     bool verbose = false;
 };
 
@@ -29,6 +32,20 @@ struct Arguments {
 class Drawn {
 public:
     Drawn(const volume::SemanticVolume& volume, int threads) : volume_(volume), threads_(threads) {}
+
+    /// The volume itself, drawn by OpenGL.
+    Result<render::Frame> drawByGl(const render::FrameSpec& spec) {
+        if (!renderer_) {
+            if (auto made = makeBricks(); !made) return made.error();
+            auto context = render_gl::EglContext::make();
+            if (!context) return context.error();
+            context_.emplace(std::move(*context));
+            auto renderer = render_gl::GlRenderer::make(*bricks_, volume_.grid, {.threads = threads_});
+            if (!renderer) return renderer.error();
+            renderer_.emplace(std::move(*renderer));
+        }
+        return renderer_->read(spec);
+    }
 
     Result<render::Frame> cast(const render::FrameSpec& spec, int level, const render::CastOptions& options) {
         if (level > 0) {
@@ -41,19 +58,25 @@ public:
                 return render::castRays((*levels_)[std::min(levels_->size(), static_cast<std::size_t>(level)) - 1],
                                         spec, options);
         }
-        if (!bricks_) {
-            auto bricks = volume::BrickVolume::fromColumns(volume_.columns, threads_);
-            if (!bricks) return bricks.error();
-            bricks_ = std::move(*bricks);
-        }
+        if (auto made = makeBricks(); !made) return made.error();
         return render::castRays(*bricks_, volume_.grid, spec, options);
     }
 
 private:
+    Result<void> makeBricks() {
+        if (bricks_) return {};
+        auto bricks = volume::BrickVolume::fromColumns(volume_.columns, threads_);
+        if (!bricks) return bricks.error();
+        bricks_ = std::move(*bricks);
+        return {};
+    }
+
     const volume::SemanticVolume& volume_;
     int threads_;
     std::optional<volume::BrickVolume> bricks_;
     std::optional<std::vector<volume::LodLevel>> levels_;
+    std::optional<render_gl::EglContext> context_;  // goes after what it holds
+    std::optional<render_gl::GlRenderer> renderer_;
 };
 
 // P.png -> P_0007.png
@@ -124,7 +147,7 @@ int runRender(const Arguments& arguments) {
         const auto spec = illustrate::frameOf(*scene, *volume);
         if (!spec) return fail(spec.error());
         const int level = arguments.level ? *arguments.level : render::levelForView(*spec, volume->grid);
-        auto picture = drawn.cast(*spec, level, options);
+        auto picture = arguments.gl ? drawn.drawByGl(*spec) : drawn.cast(*spec, level, options);
         if (!picture) return fail(picture.error());
         if (auto named = addNames(*scene, *volume, *spec, *picture); !named) return fail(named.error());
         if (auto written = writeBuffers(*picture, arguments, frame); !written) return fail(written.error());
@@ -150,11 +173,14 @@ Run addRenderCommand(CLI::App& app) {
         ->group("Scene")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    command
-        ->add_option("--level", arguments->level,
-                     "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
-        ->group("Style")
-        ->check(CLI::Range(0, 6));
+    CLI::Option* level = command
+                             ->add_option("--level", arguments->level,
+                                          "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
+                             ->group("Style")
+                             ->check(CLI::Range(0, 6));
+    command->add_flag("--gl", arguments->gl, "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display")
+        ->group("Output")
+        ->excludes(level);
     command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")
         ->group("Output")
         ->type_name("L.png");
