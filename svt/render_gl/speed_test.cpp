@@ -12,6 +12,12 @@
 namespace svt::render_gl {
 namespace {
 
+double processorOf(const std::function<void()>& work) {
+    const auto begin = std::clock();
+    work();
+    return 1000.0 * double(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
 double millisecondsOf(const std::function<void()>& work) {
     const auto begin = std::chrono::steady_clock::now();
     work();
@@ -47,14 +53,16 @@ TEST(GlSpeed, OfTheFzkHaus) {
                 spec.height = width * 9 / 16;
                 const double first = millisecondsOf([&] { (void)(*renderer)->read(spec); });
                 const double first2 = millisecondsOf([&] { (void)(*renderer)->pick(spec, 0, 0); });
-                double drawn = 1e9, cast = 1e9;
+                double drawn = 1e9, cast = 1e9, drawnProcessor = 1e9, castProcessor = 1e9;
                 for (int n = 0; n < 5; ++n) {
-                    drawn = std::min(drawn, millisecondsOf([&] { (void)(*renderer)->readColor(spec); }));
-                    cast = std::min(cast, millisecondsOf([&] { (void)render::castRays(bricks, grid, spec); }));
+                    const auto draw = [&] { (void)(*renderer)->readColor(spec); };
+                    const auto castRays = [&] { (void)render::castRays(bricks, grid, spec); };
+                    drawnProcessor = std::min(drawnProcessor, processorOf([&] { drawn = std::min(drawn, millisecondsOf(draw)); }));
+                    castProcessor = std::min(castProcessor, processorOf([&] { cast = std::min(cast, millisecondsOf(castRays)); }));
                 }
                 std::cout << test::context()->renderer() << ", opacity " << opacity << (isCut ? ", cut, " : ", ")
-                          << width << ": made " << made << " ms, first " << first << " ms, pick " << first2
-                          << " ms, drawn " << drawn << " ms, cast " << cast << " ms\n";
+                          << width << ": made " << made << " ms, first " << first << " ms, pick " << first2 << " ms, drawn "
+                          << drawn << " ms (" << drawnProcessor << " of processors), cast " << cast << " ms (" << castProcessor << ")\n";
             }
         }
 }
