@@ -146,7 +146,8 @@ void FramePainter::scissorTo(const SampleGrid& samples) const {
         farthest = std::max(farthest, seen.z);
     }
     if (rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest))) return;
-    if (std::any_of(passNeeds_.begin(), passNeeds_.end(), [](unsigned needs) { return (needs & kShapes) != 0; })) return;
+    if (std::any_of(passNeeds_.begin(), passNeeds_.end(), [](unsigned needs) { return (needs & kShapes) != 0; }))
+        return;
     const auto at = [](double sample, std::int32_t end) {
         return static_cast<GLint>(std::clamp(sample, 0.0, static_cast<double>(end)));
     };

@@ -57,12 +57,15 @@ TEST(GlSpeed, OfTheFzkHaus) {
                 for (int n = 0; n < 5; ++n) {
                     const auto draw = [&] { (void)(*renderer)->readColor(spec); };
                     const auto castRays = [&] { (void)render::castRays(bricks, grid, spec); };
-                    drawnProcessor = std::min(drawnProcessor, processorOf([&] { drawn = std::min(drawn, millisecondsOf(draw)); }));
-                    castProcessor = std::min(castProcessor, processorOf([&] { cast = std::min(cast, millisecondsOf(castRays)); }));
+                    drawnProcessor =
+                        std::min(drawnProcessor, processorOf([&] { drawn = std::min(drawn, millisecondsOf(draw)); }));
+                    castProcessor =
+                        std::min(castProcessor, processorOf([&] { cast = std::min(cast, millisecondsOf(castRays)); }));
                 }
                 std::cout << test::context()->renderer() << ", opacity " << opacity << (isCut ? ", cut, " : ", ")
-                          << width << ": made " << made << " ms, first " << first << " ms, pick " << first2 << " ms, drawn "
-                          << drawn << " ms (" << drawnProcessor << " of processors), cast " << cast << " ms (" << castProcessor << ")\n";
+                          << width << ": made " << made << " ms, first " << first << " ms, pick " << first2
+                          << " ms, drawn " << drawn << " ms (" << drawnProcessor << " of processors), cast " << cast
+                          << " ms (" << castProcessor << ")\n";
             }
         }
 }
@@ -82,7 +85,8 @@ TEST(GlSpeed, OfShaders) {
                     scalars.push_back(isInside ? 1u : 0u);
                 }
         const auto bricks = *volume::BrickVolume::fromColumns(volume::ColumnVolume::fromDense(n, scalars));
-        const auto grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+        const auto grid =
+            *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
         for (int what = 0; what < 6; ++what) {
             render::FrameSpec spec;
             spec.camera = *render::cameraPreset("iso", grid);
@@ -99,8 +103,9 @@ TEST(GlSpeed, OfShaders) {
             const double middle = double(std::clock());
             (void)renderer->pick(spec, 640, 360);
             const char* const names[]{"opaque", "opaque, cut", "glass", "glass, cut", "hatched", "lines"};
-            std::cout << (isRound ? "round, " : "flat, ") << names[what] << ": " << (middle - begin) / CLOCKS_PER_SEC * 1000
-                      << " ms of processor time, " << wall << " ms, again " << (double(std::clock()) - middle) / CLOCKS_PER_SEC * 1000 << "\n";
+            std::cout << (isRound ? "round, " : "flat, ") << names[what] << ": "
+                      << (middle - begin) / CLOCKS_PER_SEC * 1000 << " ms of processor time, " << wall << " ms, again "
+                      << (double(std::clock()) - middle) / CLOCKS_PER_SEC * 1000 << "\n";
         }
     }
 }
