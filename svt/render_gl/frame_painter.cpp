@@ -77,6 +77,7 @@ unsigned FramePainter::needsOf(const PassTextures& pass) const {
     if (pass.hasTranslucent()) needs |= kTranslucent;
     if (pass.hasOpaque() && parts_->textures.hasVoxels) needs |= kFitted;
     if (pass.hasShapes()) needs |= kShapes;
+    if (pass.hasTriangles()) needs |= kTriangles;
     if (pass.hasHatches() && parts_->spec.hatches.strength > 0) needs |= kHatches;
     return needs;
 }
@@ -89,7 +90,8 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
                                            {"TRANSLUCENT", has(kTranslucent)},
                                            {"FITTED", has(kFitted)},
                                            {"HATCHES", has(kHatches)},
-                                           {"SHAPES", has(kShapes)}});
+                                           {"SHAPES", has(kShapes)},
+                                           {"TRIANGLES", has(kTriangles)}});
     std::vector<std::string_view> sources{shaders::tables(), shaders::ray()};
     if (has(kClips) != 0) sources.push_back(shaders::clips());
     sources.push_back(shaders::light());

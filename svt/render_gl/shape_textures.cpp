@@ -114,6 +114,7 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
         table.add(triangle, from, static_cast<std::uint32_t>(pass.styles[triangle.style.label].hatch));
     }
     isEmpty_ = false;
+    hasTriangles_ = sorted.triangleCount > 0;
     if (auto set = cells_.setArray(GL_RGBA32UI, sorted.cells.data(), sorted.cells.size() / 4, limits); !set) return set;
     if (auto set = list_.setArray(GL_R32UI, sorted.list.data(), sorted.list.size(), limits); !set) return set;
     return table_.setArray(GL_RGBA32UI, table.words().data(), table.texels(), limits);
