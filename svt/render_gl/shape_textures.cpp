@@ -4,7 +4,6 @@
 #include <svt/render_gl/view_depth.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <vector>
@@ -38,13 +37,12 @@ public:
         addVector({style.color.x, style.color.y, style.color.z}, triangle.opacity);
         const std::uint32_t flags =
             static_cast<std::uint32_t>(style.kind) | std::uint32_t{style.isBody} << 2 | hatch << 8;
-        words_.insert(words_.end(), {flags, style.object, std::bit_cast<std::uint32_t>(style.surface), style.label});
+        words_.insert(words_.end(), {flags, style.object, bitsOf(style.surface), style.label});
     }
 
 private:
     void addFloats(double x, double y, double z, double w) {
-        for (const double value : {x, y, z, w})
-            words_.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+        for (const double value : {x, y, z, w}) words_.push_back(bitsOf(static_cast<float>(value)));
     }
     void addVector(Vec3d v, double w) { addFloats(v.x, v.y, v.z, w); }
 
