@@ -50,7 +50,8 @@ TEST(RenderByGl, IsThePictureOfTheCpu) {
 }
 
 TEST(RenderByGl, DrawsLensesAndLines) {
-    expectSame({"--hide", "class=BuildingRoom", "--lens", "view(0.45,0.5,0.3)", "--section", "y<5", "--wireframe", "--samples", "1"});
+    expectSame({"--hide", "class=BuildingRoom", "--lens", "view(0.45,0.5,0.3)", "--section", "y<5", "--wireframe",
+                "--samples", "1"});
 }
 
 TEST(RenderByGl, WithoutADriverExitsWith6) {
