@@ -89,6 +89,8 @@ export interface VolumeInfo {
   spacing: Point;
   /** Edge lengths of the grid's box in world axes. */
   size: Point;
+  /** The grid's axes in world axes; without them they are the same. Sections along x, y and z follow the grid. */
+  axes?: [Point, Point, Point];
   storeys: { id: string; name: string; floor: number; top: number }[];
   features: Feature[];
   /** Whether wireframes and meshes can be drawn. */
