@@ -67,4 +67,8 @@ web_library(GLU::GLU glu/include glu/src/libtess/*.c)
 target_include_directories(web_GLU PRIVATE ${WEB_SOURCES}/glu/src/include)
 target_compile_options(web_GLU PRIVATE -include limits.h)  # which one of its files forgets
 
+foreach(library pugixml simdjson PNG Freetype GLU)
+  target_compile_options(web_${library} PRIVATE -Os)
+endforeach()
+
 set(DEJAVU_SANS /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf)

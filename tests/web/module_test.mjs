@@ -30,6 +30,8 @@ const ask = (name, ...args) => JSON.parse(text(name, ...args));
 const bytes = (name, ...args) => Buffer.from(svt.call(name, args));
 const open = (file) => JSON.parse(new TextDecoder().decode(svt.call("open", [file.split("/").pop()], readFileSync(file))));
 
+svt.call("font", [], readFileSync(join(moduleFolder, "DejaVuSans.ttf")));
+
 const kScenes = {
   plain: {},
   cut: {

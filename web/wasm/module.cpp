@@ -1,5 +1,6 @@
 // What JavaScript calls: one function that takes a call's name, its arguments as a JSON array and bytes, and leaves a
 // reply, JSON or bytes, to be read before the next call. See calls() for the calls.
+#include "font.hpp"
 #include "replies.hpp"
 
 #include <svt/illustrate/section_drawing.hpp>
@@ -64,6 +65,13 @@ public:
     [[nodiscard]] Result<illustrate::Scene> scene(std::size_t n) const {
         return illustrate::parseScene(at(n).dump(), "scene");
     }
+    /// One that is to be drawn.
+    [[nodiscard]] Result<illustrate::Scene> picture(std::size_t n) const {
+        auto parsed = scene(n);
+        if (parsed && !parsed->names.empty() && !hasFont())
+            return Error(Code::BadArgument, "names cannot be drawn without their font; give it first");
+        return parsed;
+    }
 
 private:
     const Json& values_;
@@ -88,9 +96,15 @@ Result<Reply> open(const Arguments& arguments) {
     return Reply(infoOf(*session));
 }
 
+// The bytes of DejaVuSans.ttf -> nothing. Needed before names are drawn.
+Result<Reply> font(const Arguments& arguments) {
+    if (auto done = setFont(arguments.bytes()); !done) return done.error();
+    return Reply(std::string("null"));
+}
+
 // (scene, width, height) -> RGBA, row by row from the top
 Result<Reply> draw(const Arguments& arguments) {
-    auto scene = arguments.scene(0);
+    auto scene = arguments.picture(0);
     if (!scene) return scene.error();
     scene->width = static_cast<std::int32_t>(arguments.number(1));
     scene->height = static_cast<std::int32_t>(arguments.number(2));
@@ -145,7 +159,7 @@ Result<Reply> view(const Arguments& arguments) {
 
 // (scene) -> PNG
 Result<Reply> picture(const Arguments& arguments) {
-    const auto scene = arguments.scene(0);
+    const auto scene = arguments.picture(0);
     if (!scene) return scene.error();
     auto png = session->picture(*scene);
     if (!png) return png.error();
@@ -154,7 +168,7 @@ Result<Reply> picture(const Arguments& arguments) {
 
 // (scene) -> PNG, 16 bits gray: the scalar of each pixel
 Result<Reply> labels(const Arguments& arguments) {
-    const auto scene = arguments.scene(0);
+    const auto scene = arguments.picture(0);
     if (!scene) return scene.error();
     auto png = session->labels(*scene);
     if (!png) return png.error();
@@ -185,7 +199,7 @@ struct Call {
     Result<Reply> (*run)(const Arguments& arguments);
     bool needsVolume = true;
 };
-constexpr Call kCalls[] = {{"open", open, false}, {"draw", draw},     {"compose", compose, false}, {"pick", pick},
+constexpr Call kCalls[] = {{"open", open, false}, {"font", font, false}, {"draw", draw},     {"compose", compose, false}, {"pick", pick},
                            {"along", along},      {"select", select}, {"properties", properties},  {"view", view},
                            {"picture", picture},  {"labels", labels}, {"drawing", drawing}};
 

@@ -1,4 +1,4 @@
-/** The library as a module; what `make web` leaves as build/web/svt.js and svt.wasm. */
+/** The library as a module; what `make web` leaves in build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. */
 export interface SvtModule {
   /**
    * Runs a call of web/wasm/module.cpp with the arguments it names. The reply, JSON as UTF-8 or bytes, lies in the

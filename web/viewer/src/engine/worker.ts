@@ -1,6 +1,6 @@
 /** The worker: holds the library and the volume that is open, and answers the page's requests one after the other. */
 import createSvt, { type SvtModule } from "../../../../build/web/svt.js";
-import type { EngineError } from "../engine";
+import type { EngineError, Scene } from "../engine";
 import type { Answer, Calls, Drawn, Request } from "./protocol";
 
 const loaded = createSvt({ onProgress: (step, done) => post({ id: current, step, done }) });
@@ -23,8 +23,20 @@ function copied(reply: Uint8Array): ArrayBuffer {
   return reply.slice().buffer as ArrayBuffer;
 }
 
+let hasFont = false;
+
+/** The font is fetched when names are first drawn. */
+async function prepare(svt: SvtModule, scene: Scene): Promise<void> {
+  if (hasFont || !scene.names?.length) return;
+  const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
+  if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
+  svt.call("font", [], new Uint8Array(await response.arrayBuffer()));
+  hasFont = true;
+}
+
 async function draw(svt: SvtModule, args: Calls["draw"]["args"]): Promise<Drawn> {
   const [scene, width, height] = args;
+  await prepare(svt, scene);
   const start = performance.now();
   const pixels = new Uint8ClampedArray(copied(svt.call("draw", [scene, width, height])));
   const bitmap = await createImageBitmap(new ImageData(pixels, width, height));
@@ -45,6 +57,8 @@ async function answer(request: Request): Promise<void> {
       return post({ id, result: drawn }, [drawn.bitmap]);
     }
     case "picture":
+      await prepare(svt, args[0]);
+    // falls through
     case "drawing": {
       const bytes = copied(svt.call(name, args));
       return post({ id, result: bytes }, [bytes]);
