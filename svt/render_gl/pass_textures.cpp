@@ -137,6 +137,7 @@ void PassTextures::setUniforms(Program& program) const {
     if (!hasOpaque_) program.set("lightOcclusion", 0.0f);
     if (occlusionTexture_.isEmpty()) return;
     program.bind("occlusion", occlusionTexture_);
+    program.set("occlusionLevels", GLint{render::OcclusionField::kLevels});
     program.set("occlusionCount[0]", std::span<const Vec3i>(occlusionCounts_));
     program.set("occlusionFirst[0]", std::span<const GLuint>(occlusionFirsts_));
     program.setPairs("occlusionGain[0]", occlusionGains_);

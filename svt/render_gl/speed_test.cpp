@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 
 namespace svt::render_gl {
@@ -56,6 +57,44 @@ TEST(GlSpeed, OfTheFzkHaus) {
                           << " ms, drawn " << drawn << " ms, cast " << cast << " ms\n";
             }
         }
+}
+
+// How long the first pixel takes, of processor time: mostly the driver's compiler.
+TEST(GlSpeed, OfShaders) {
+    if (std::getenv("SVT_MEASURE") == nullptr) GTEST_SKIP() << "a measurement; set SVT_MEASURE to take it";
+    SVT_NEEDS_GL();
+    const Vec3i n{40, 40, 40};
+    for (const bool isRound : {false, true}) {
+        std::vector<volume::Scalar> scalars;
+        for (int k = 0; k < n.z; ++k)
+            for (int j = 0; j < n.y; ++j)
+                for (int i = 0; i < n.x; ++i) {
+                    const int x = i - 20, y = j - 20, z = k - 20;
+                    const bool isInside = isRound ? x * x + y * y + z * z < 18 * 18 : i > 5 && j > 5 && k > 9;
+                    scalars.push_back(isInside ? 1u : 0u);
+                }
+        const auto bricks = *volume::BrickVolume::fromColumns(volume::ColumnVolume::fromDense(n, scalars));
+        const auto grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+        for (int what = 0; what < 6; ++what) {
+            render::FrameSpec spec;
+            spec.camera = *render::cameraPreset("iso", grid);
+            render::Style body{{0.5f, 0.5f, 0.5f}, what == 2 || what == 3 ? 0.5f : 1.0f};
+            if (what == 4) body.hatch = render::Hatch::Concrete;
+            spec.passes.push_back({{{{}, 0}, body}, {}, render::Pass::Join::Over});
+            if (what == 1 || what == 3 || what == 4)
+                spec.passes[0].clips = {render::ClipRegion::plane({0, -1, 0}, {0, 1.23, 0})};
+            if (what == 5) spec.passes[0].lines = {{{{{0, 0, 0}, {4, 4, 4}, 1}}}};
+            auto renderer = GlRenderer::make(bricks, grid);
+            ASSERT_TRUE(renderer);
+            const double begin = double(std::clock());
+            const double wall = millisecondsOf([&] { EXPECT_TRUE(renderer->pick(spec, 640, 360)); });
+            const double middle = double(std::clock());
+            (void)renderer->pick(spec, 640, 360);
+            const char* const names[]{"opaque", "opaque, cut", "glass", "glass, cut", "hatched", "lines"};
+            std::cout << (isRound ? "round, " : "flat, ") << names[what] << ": " << (middle - begin) / CLOCKS_PER_SEC * 1000
+                      << " ms of processor time, " << wall << " ms, again " << (double(std::clock()) - middle) / CLOCKS_PER_SEC * 1000 << "\n";
+        }
+    }
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ uint runScalar, runCap;
 float runFrom, surfaceLight;
 vec3 surfaceNormal;
 bool surfaceIsCap, runIsFirst, isSameObject;
+// Of the interval.
+uint object;
+bool isFirst;
 
 #if SHAPES
 float lineLight();
@@ -54,10 +57,8 @@ void add(float alpha) {
 bool isDone() { return 1.0 - transmittance >= opaqueAt; }
 
 void castInterval(float from, float to, uint cap) {
-    uint object = kNone;
-    bool isFirst = true;
 #if SHAPES
-    addShapes(from);
+    addShapes(t);
 #if CLIPS
     if (cap != kNone && !isDone() && addCutBody(from, cap)) hasEnded = true;
 #endif
@@ -111,17 +112,14 @@ void castInterval(float from, float to, uint cap) {
         }
         runCap = runIsFirst ? cap : kNone;
         surfaceIsCap = runCap != kNone;
-        if ((style.x & 3u) == 2u) {
-            hasEnded = true;
-            break;
-        }
         surfaceNormal = facingNormal(runCap, runIsFirst);
+        hasEnded = (style.x & 3u) == 2u;
+        if (hasEnded) break;
         surfaceLight = lightOn(surfaceNormal, 1.0);
     }
 }
 
 void lightSurface() {
-    surfaceNormal = facingNormal(runCap, runIsFirst);
     float crease = 0.0;
 #if FITTED
     bool isFitted = isVoxel && runCap == kNone && !isOblique && !isAroundEye;
@@ -133,29 +131,35 @@ void lightSurface() {
     surfaceLight = lightOn(surfaceNormal, open);
 }
 
+void enterInterval(float from, int entryAxis) {
+    enterAt(from, entryAxis);
+    object = kNone;
+    isFirst = true;
+}
+
 void castPass() {
     int entryAxis;
     vec2 span = spanInVolume(entryAxis);
     float from = span.x, to = span.y;
-    bool isOpaque = false;
 #if CLIPS
-    for (int n = 0; n < 34; ++n) {
+    for (int n = 0; n < 66; ++n) {
         uint cap = kNone;
+        float before = from;
         to = span.y;
         if (!(from < to) || !nextInterval(from, to, cap)) break;
-        enterAt(from, from == span.x ? entryAxis : -1);
+        // Parts that touch are one.
+        if (n == 0 || from != before) enterInterval(from, from == span.x ? entryAxis : -1);
         castInterval(from, to, cap);
-        isOpaque = hasEnded && !isDone();
         if (hasEnded) break;
         from = to;
     }
 #else
     if (from < to) {
-        enterAt(from, entryAxis);
+        enterInterval(from, entryAxis);
         castInterval(from, to, kNone);
-        isOpaque = hasEnded && !isDone();
     }
 #endif
+    bool isOpaque = hasEnded && !isDone();
     if (isOpaque) {
         // Within an object no surface is seen.
         if (!isSameObject) lightSurface();

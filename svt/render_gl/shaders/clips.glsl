@@ -87,71 +87,47 @@ Stretch stretchOf(inout uint number) {
     return s;
 }
 
-// Moves `from` to where the first drawn stretch begins, and `to` to its end; `cap` is the face there, kNone where no
-// clip made it. False where nothing is left before `to`.
+// Moves `from` to where the first drawn stretch begins, and `to` to its end or to where parts that are kept touch;
+// `cap` is the face there, kNone where no clip made it. False where nothing is left before `to`.
 bool nextInterval(inout float from, inout float to, out uint cap) {
     cap = kNone;
-    bool isEnd = false;
+    float end = to;
     for (int attempt = 0; attempt < 80; ++attempt) {
         bool hasMoved = false;
         uint number = 0u;
+        to = end;
         for (uint r = 0u; r < 32u; ++r) {
             if (r >= clipRegions) break;
             uvec4 region = elementOf(clips, number++);
-            bool isKept = region.x != 0u, isInside = false;
-            float next = kFar;
+            bool isKept = region.x != 0u;
+            float next = kFar, reached = -kFar;
             uint nextCap = kNone;
             for (uint p = 0u; p < 32u; ++p) {
                 if (p >= region.y) break;
                 Stretch s = stretchOf(number);
                 if (!(s.enter < s.leave)) continue;
-                bool holds = s.enter <= from && from + clipSlack < s.leave;
-                isInside = isInside || holds;
-                if (!isKept && s.enter <= from + clipSlack && from + clipSlack < s.leave) {
+                bool holds = s.enter <= from + (isKept ? 0.0 : clipSlack) && from + clipSlack < s.leave;
+                if (holds && isKept) reached = max(reached, s.leave);
+                if (holds && !isKept) {
                     from = s.leave;
                     cap = s.leaveFace;
                     hasMoved = true;
                 }
-                if (isKept && s.enter > from && s.enter < next) {
+                if (s.enter > from && s.enter < next) {
                     next = s.enter;
                     nextCap = s.enterFace;
                 }
             }
-            if (isKept && !isInside) {
-                from = next;
-                cap = nextCap;
-                hasMoved = true;
-            }
+            to = min(to, isKept ? reached : next);
+            if (!isKept || reached > from) continue;
+            from = next;
+            cap = nextCap;
+            hasMoved = true;
         }
-        isEnd = from >= to;
-        if (!hasMoved || isEnd) break;
+        if (from >= end) return false;
+        if (!hasMoved) return from < to;
     }
-    if (isEnd) return false;
-    uint regionAt = 0u;
-    for (uint r = 0u; r < 32u; ++r) {
-        if (r >= clipRegions) break;
-        uvec4 region = elementOf(clips, regionAt);
-        float reached = from;  // by parts that touch
-        for (uint attempt = 0u; attempt < 33u; ++attempt) {
-            bool hasMoved = false;
-            uint number = regionAt + 1u;
-            for (uint p = 0u; p < 32u; ++p) {
-                if (p >= region.y) break;
-                Stretch s = stretchOf(number);
-                if (!(s.enter < s.leave)) continue;
-                if (region.x == 0u) {
-                    if (s.enter > from) to = min(to, s.enter);
-                } else if (s.enter <= reached + clipSlack && s.leave > reached) {
-                    reached = s.leave;
-                    hasMoved = true;
-                }
-            }
-            if (!hasMoved) break;
-        }
-        if (region.x != 0u) to = min(to, reached);
-        regionAt = region.z;
-    }
-    return from < to;
+    return false;
 }
 
 // Across the face, in voxel space; not of length 1.

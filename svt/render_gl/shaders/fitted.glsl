@@ -31,19 +31,19 @@ uvec2 down(uvec2 v, int by) {
 }
 bool isAny(uvec2 v) { return (v.x | v.y) != 0u; }
 
-int count32(uint v) {
-    v = v - ((v >> 1) & 0x55555555u);
-    v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
-    return int((((v + (v >> 4)) & 0x0F0F0F0Fu) * 0x01010101u) >> 24);
+// Number of bits, and sums of x - 3 and of y - 3 over them. All counts of a word side by side: of pairs, then nibbles,
+// then bytes, each with the sum of the x of its bits.
+ivec3 sumsOf(uvec2 bits) {
+    uvec2 xOfPair = (bits >> 1) & 0x55555555u, ofPair = bits - xOfPair, upper = (ofPair >> 2) & 0x33333333u;
+    uvec2 ofNibble = (ofPair & 0x33333333u) + upper;
+    uvec2 xOfNibble = (xOfPair & 0x33333333u) + ((xOfPair >> 2) & 0x33333333u) + 2u * upper;
+    uvec2 upperNibble = (ofNibble >> 4) & 0x0F0F0F0Fu, ofByte = (ofNibble & 0x0F0F0F0Fu) + upperNibble;
+    uvec2 xOfByte = (xOfNibble & 0x0F0F0F0Fu) + ((xOfNibble >> 4) & 0x0F0F0F0Fu) + 4u * upperNibble;
+    uvec2 rows = (ofByte * uvec2(0x00010203u, 0x04050607u)) >> 24;
+    int n = int(((ofByte.x + ofByte.y) * 0x01010101u) >> 24);
+    return ivec3(n, int(((xOfByte.x + xOfByte.y) * 0x01010101u) >> 24) - 3 * n, int(rows.x + rows.y) - 3 * n);
 }
-int count64(uvec2 v) { return count32(v.x) + count32(v.y); }
-// Number of bits, and sums of x - 3 and of y - 3 over them.
-ivec3 sumsOf(uvec2 v) {
-    int n = count64(v);
-    int x = count64(v & 0xAAAAAAAAu) + 2 * count64(v & 0xCCCCCCCCu) + 4 * count64(v & 0xF0F0F0F0u);
-    int y = count64(v & 0xFF00FF00u) + 2 * count64(v & 0xFFFF0000u) + 4 * count32(v.y);
-    return ivec3(n, x - 3 * n, y - 3 * n);
-}
+int count64(uvec2 bits) { return sumsOf(bits).x; }
 
 const uvec2 kDisc = uvec2(0x7F7F3E1Cu, 0x001C3E7Fu);
 const uvec2 kMiddlePlace = uvec2(0x08000000u, 0u);
@@ -121,9 +121,8 @@ uvec2 layerAcross(Layers window, int across, int n) {
 // The body's surface as heights over the plane across an axis: where it ends, seen from inside.
 Layers topsOf(Layers window, int across, int side, int layers) {
     Layers tops = Layers(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
-    if (layers == 0) return tops;
-    uvec2 inner = layerAcross(window, across, side > 0 ? 0 : 6);
-    for (int n = 1; n < layers; ++n) {
+    uvec2 inner = uvec2(0u);
+    for (int n = 0; n < layers; ++n) {
         uvec2 outer = layerAcross(window, across, side > 0 ? n : 6 - n);
         setLayer(tops, n - 1, inner & ~outer);
         inner = outer;

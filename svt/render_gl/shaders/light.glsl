@@ -5,6 +5,7 @@ uniform mat3 worldFromCovector;  // of planes in voxel space to world space
 uniform mat3 indexFromWorld;     // of directions
 uniform vec3 towardsLight;
 uniform float lightKey, lightAmbient, lightOcclusion;
+uniform int occlusionLevels;  // 4; a number here keeps compilers from writing the loop out
 uniform ivec3 occlusionCount[4];
 uniform uint occlusionFirst[4];
 uniform vec2 occlusionGain[4];  // gain, weight
@@ -31,13 +32,13 @@ uint seamPlane() {
     ivec3 onAxis = axisVector(axis);
     ivec3 entered = clamp(cellAt(t), ivec3(0), dimension - 1);
     entered += (ivec3(face) - isBack - entered) * onAxis;
-    uvec2 after = planesOf(entered >> 3);
-    uvec2 before = planesOf(clamp(entered - stride * onAxis, ivec3(0), dimension - 1) >> 3);
     vec3 point = origin + t * direction;
-    if (isNear(after.x, point)) return after.x;
-    if (isNear(after.y, point)) return after.y;
-    if (isNear(before.x, point)) return before.x;
-    return isNear(before.y, point) ? before.y : kNone;
+    for (int n = 0; n < 2; ++n) {
+        uvec2 oblique = planesOf(clamp(entered - n * stride * onAxis, ivec3(0), dimension - 1) >> 3);
+        if (isNear(oblique.x, point)) return oblique.x;
+        if (isNear(oblique.y, point)) return oblique.y;
+    }
+    return kNone;
 }
 
 bool isAroundEye, isOblique;
@@ -91,7 +92,7 @@ float openness(vec3 normal, float crease, float at) {
     away /= max(abs(away.x), max(abs(away.y), abs(away.z)));
     vec3 point = origin + at * direction + vec3(middle);
     float taken = 0.0;
-    for (int level = 0; level < 4; ++level)
+    for (int level = 0; level < occlusionLevels; ++level)
         taken += occlusionGain[level].y *
                  min(1.0, takenAt(level, point + away * float(8 << level)) * occlusionGain[level].x);
     return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * crease);
