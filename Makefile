@@ -3,19 +3,23 @@
 #   make build    the command at build/release/bin/svt
 #   make demo     a generated house, its volume and pictures under build/demo
 #   make test     all tests
+#   make viewer   the page that shows buildings, at build/release/share/svt/viewer
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
 #   make check    format, layers, error pages, command pages
 #   make clean    removes build/
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo test bench check clean setup
+.PHONY: build viewer demo test bench check clean setup
 
 setup:
 	@scripts/setup.sh
 
 build: setup
 	@scripts/build.sh release svt
+
+viewer: setup
+	@scripts/viewer.sh
 
 demo: build
 	@scripts/demo.sh
