@@ -74,6 +74,9 @@ export class App extends Part {
     wa-split-panel::part(divider) { background: var(--line); }
     wa-split-panel::part(divider):focus-visible { outline: 2px solid var(--focus); background: var(--focus); }
     .side { height: 100%; min-width: 0; overflow: hidden; background: var(--panel); }
+    .side nav { height: 100%; min-height: 0; }
+    .side.shared { display: grid; grid-template: minmax(0, 1fr) minmax(0, 1fr) / minmax(0, 1fr); }
+    .side.shared aside { min-height: 0; border-top: 1px solid var(--line); }
     .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
     .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
     .floating svt-properties { height: auto; }
@@ -85,9 +88,9 @@ export class App extends Part {
     .dock button:hover { background: var(--hover); }
     .dock button[aria-expanded="true"] { background: var(--accent-soft); color: var(--accent-text); }
     .dock button.used::after { content: ""; position: absolute; top: 4px; right: 8px; width: 7px; height: 7px; border-radius: 50%; background: var(--accent); }
-    .card { position: absolute; left: 50%; bottom: 78px; transform: translateX(-50%); width: min(400px, calc(100% - 16px)); max-height: calc(100% - 100px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
+    .card { position: absolute; left: 10px; top: 10px; width: min(330px, calc(100% - 20px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
     .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
-    .corner { position: absolute; left: 10px; top: 10px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: start; }
+    .corner { position: absolute; right: 10px; top: 10px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
     .status { position: absolute; right: 10px; bottom: 10px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
     .message { position: absolute; left: 50%; top: 12px; transform: translateX(-50%); max-width: min(560px, calc(100% - 24px)); padding: 10px 8px 10px 14px; border-radius: 12px; border: 1px solid var(--line); background: var(--panel); box-shadow: var(--shadow); z-index: 8; display: flex; gap: 10px; align-items: start; font-size: 13px; line-height: 1.45; }
     .message.bad { border-color: var(--error); }
@@ -100,11 +103,11 @@ export class App extends Part {
     .skip:focus { top: 6px; }
     .note { padding: 6px 10px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; display: grid; gap: 6px; max-width: 300px; }
     @media (max-width: 759px) {
-      .brand span, .title .quiet, .status { display: none; }
+      .brand, .title .quiet, .status { display: none; }
       .dock { left: 6px; right: 6px; transform: none; max-width: none; justify-content: space-between; bottom: 8px; }
       .dock button { min-width: 0; padding: 5px 3px; flex: 1; font-size: 10.5px; }
-      .card { left: 0; right: 0; transform: none; width: auto; bottom: 66px; border-radius: 14px; margin: 0 6px; max-height: 52%; }
-      header { padding: 4px 6px; gap: 2px; }
+      .card { left: 0; right: 0; top: auto; width: auto; bottom: 66px; border-radius: 14px; margin: 0 6px; max-height: 52%; }
+      header { padding: 4px 6px; gap: 0; }
     }
   `];
 
@@ -223,12 +226,16 @@ export class App extends Part {
   private wide() {
     const properties = html`<svt-properties .session=${this.session}></svt-properties>`;
     const hasColumn = !this.isSmall && this.isSelectionShown;
+    // Where there is no room for a third column, the selection stands below the parts.
+    const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && this.hasSelection;
     const middle = hasColumn
       ? html`<wa-split-panel position-in-pixels="300" primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
-      : html`<div class="middle">${this.middle()}${this.isSelectionShown && this.hasSelection ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
+      : html`<div class="middle">${this.middle()}${this.isSelectionShown && this.hasSelection && !isBelow ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
     if (!this.isTreeShown) return middle;
+    const tree = html`<svt-tree .session=${this.session}></svt-tree>`;
     return html`<wa-split-panel position-in-pixels=${this.isSmall ? 260 : 310} primary="start">
-      <nav slot="start" class="side" aria-label=${t("panelTree")}><svt-tree .session=${this.session}></svt-tree></nav>
+      <div slot="start" class="side ${isBelow ? "shared" : ""}"><nav aria-label=${t("panelTree")}>${tree}</nav>
+        ${isBelow ? html`<aside aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>
       <div slot="end" class="middle">${middle}</div></wa-split-panel>`;
   }
 

@@ -120,6 +120,7 @@ export class Session extends EventTarget {
   }
 
   redraw(): void {
+    this.quality = null;
     this.loop?.invalidate();
     clearTimeout(this.linkTimer);
     this.linkTimer = window.setTimeout(() => void this.writeLink(), 500);
@@ -137,7 +138,23 @@ export class Session extends EventTarget {
     this.report = report;
     this.quality = quality;
     this.shownCamera = state.camera;
+    this.refit(report.width / report.height);
     this.changed();
+  }
+
+  /** The view that was found for the whole building, and for which picture; a picture of another shape needs another. */
+  private fitted: { camera: Camera; aspect: number } | null = null;
+
+  private refit(aspect: number): void {
+    const { fitted } = this;
+    if (!fitted || fitted.camera !== this.state.camera || Math.abs(fitted.aspect / aspect - 1) < 0.02) return;
+    this.fitted = null;
+    void this.fit(aspect);
+  }
+
+  private async fit(aspect: number): Promise<void> {
+    await this.goTo("", "iso", false);
+    if (this.state.camera) this.fitted = { camera: this.state.camera, aspect };
   }
 
   fail(error: unknown, title?: string): void {
@@ -197,7 +214,7 @@ export class Session extends EventTarget {
     document.title = `${info.name || info.source} - SVT`;
     this.redraw();
     void this.readProperties();
-    if (!this.state.camera) void this.goTo("", "iso", false);
+    if (!this.state.camera) void this.fit(0);
   }
 
   /** To where a query's features fill the picture; from a named view, or from where the camera looks now. */

@@ -91,6 +91,7 @@ const kTexts = {
   extent: ["Extent", "Ausdehnung"],
   attributes: ["Attributes", "Attribute"],
   neighbours: ["Touches", "Berührt"],
+  outside: ["Outside air", "Außenluft"],
   noAttributes: ["none", "keine"],
   frameIt: ["Frame", "Heranholen"],
   cutawayTo: ["Cut away to it", "Freischneiden"],

@@ -2,7 +2,6 @@
 
 import { css, html } from "lit";
 import { t } from "../texts";
-import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 
 const kRows = [
@@ -17,7 +16,6 @@ export class HelpDialog extends Part {
     dt { font-weight: 600; }
     dd { margin: 0; color: var(--quiet); }
     wa-dialog { --width: 560px; }
-    .foot { margin-top: 16px; display: flex; justify-content: flex-end; }
   `];
 
   protected override uses() {
@@ -26,9 +24,6 @@ export class HelpDialog extends Part {
 
   show(): void {
     (this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean }).open = true;
-  }
-  private hide(): void {
-    (this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean }).open = false;
   }
 
   override render() {

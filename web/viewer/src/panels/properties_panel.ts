@@ -21,6 +21,7 @@ export class PropertiesPanel extends Part {
       dd { margin: 0; text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
       ul { list-style: none; margin: 0; padding: 0; }
       li button { width: 100%; justify-content: space-between; gap: 10px; border-color: transparent; background: transparent; min-height: 30px; padding: 3px 6px; text-align: left; }
+      li.outside { display: flex; justify-content: space-between; padding: 3px 6px; min-height: 30px; align-items: center; }
       li button:hover { background: var(--hover); }
       li span:first-child { overflow: hidden; text-overflow: ellipsis; min-width: 0; }
       li span:last-child { color: var(--quiet); font-variant-numeric: tabular-nums; flex: none; }
@@ -87,7 +88,7 @@ export class PropertiesPanel extends Part {
       ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${value}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}
       ${p.neighbours.length
         ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map(
-            (n) => html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
+            (n) => n.id === "" ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>` : html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
           )}</ul>`
         : nothing}
     `;

@@ -31,9 +31,9 @@ export class StyleEditor extends Part {
     const color = style?.color ?? this.color, opacity = style?.opacity ?? this.opacity;
     return html`
       <div class="line">
-        <wa-color-picker size="small" label=${t("colorOf", { name: this.label })} value=${color} without-format-toggle
+        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} value=${color} without-format-toggle
           @change=${(e: Event) => this.change({ color: toHex((e.target as HTMLInputElement).value) })}></wa-color-picker>
-        <wa-slider size="small" aria-label=${t("opacityOf", { name: this.label })} label=${t("opacityOf", { name: this.label })} min="0" max="1" step="0.01" .value=${opacity}
+        <wa-slider size="s" aria-label=${t("opacityOf", { name: this.label })} label=${t("opacityOf", { name: this.label })} min="0" max="1" step="0.01" .value=${opacity}
           @input=${(e: Event) => this.change({ opacity: Number((e.target as HTMLInputElement).value) })}></wa-slider>
         <output>${Math.round(opacity * 100)} %</output>
       </div>

@@ -50,7 +50,7 @@ export class FocusTool extends Part {
       ${effect === "highlight" ? contextChoice(focus.context, (context) => this.change({ context })) : nothing}
       ${effect === "cutaway"
         ? html`<div class="line"><span class="quiet">${t("margin")}</span>
-            <wa-slider size="small" label=${t("margin")} aria-label=${t("margin")} min="0" max="1" step="0.05" .value=${focus.margin} @input=${(e: Event) => this.change({ margin: Number((e.target as HTMLInputElement).value) })}></wa-slider>
+            <wa-slider size="s" label=${t("margin")} aria-label=${t("margin")} min="0" max="1" step="0.05" .value=${focus.margin} @input=${(e: Event) => this.change({ margin: Number((e.target as HTMLInputElement).value) })}></wa-slider>
             <output>${number(focus.margin, 2)} m</output></div>`
         : nothing}
       <h3 id="shell-title">${t("shell")}</h3>

@@ -41,7 +41,7 @@ export class LensTool extends Part {
 
   private slider(label: string, value: number, low: number, high: number, change: (value: number) => void) {
     return html`<div class="line"><span class="quiet">${label}</span>
-      <wa-slider size="small" label=${label} aria-label=${label} min=${low} max=${high} step="0.01" .value=${value} @input=${(e: Event) => change(Number((e.target as HTMLInputElement).value))}></wa-slider>
+      <wa-slider size="s" label=${label} aria-label=${label} min=${low} max=${high} step="0.01" .value=${value} @input=${(e: Event) => change(Number((e.target as HTMLInputElement).value))}></wa-slider>
       <output>${number(value * 100, 0)} %</output></div>`;
   }
 

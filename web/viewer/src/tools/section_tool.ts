@@ -79,7 +79,7 @@ export class SectionTool extends Part {
 
   private slider(label: string, value: number, low: number, high: number, step: number, text: string, change: (value: number) => void) {
     return html`<div class="line"><span class="quiet">${label}</span>
-      <wa-slider size="small" label=${label} aria-label=${label} min=${low.toFixed(3)} max=${high.toFixed(3)} step=${step} .value=${value}
+      <wa-slider size="s" label=${label} aria-label=${label} min=${low.toFixed(3)} max=${high.toFixed(3)} step=${step} .value=${value}
         @input=${(e: Event) => change(Number((e.target as HTMLInputElement).value))}></wa-slider>
       <output>${text}</output></div>`;
   }

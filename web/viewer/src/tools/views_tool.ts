@@ -47,7 +47,7 @@ export class ViewsTool extends Part {
       </div>
       ${camera && !camera.parallel
         ? html`<div class="line"><span class="quiet">${t("fieldOfView")}</span>
-            <wa-slider size="small" label=${t("fieldOfView")} aria-label=${t("fieldOfView")} min="10" max="100" step="1" .value=${Math.round(camera.fieldOfView)}
+            <wa-slider size="s" label=${t("fieldOfView")} aria-label=${t("fieldOfView")} min="10" max="100" step="1" .value=${Math.round(camera.fieldOfView)}
               @input=${(e: Event) => session.turn({ ...session.state.camera!, fieldOfView: Number((e.target as HTMLInputElement).value) })}></wa-slider>
             <output>${number(camera.fieldOfView, 0)}°</output></div>`
         : nothing}

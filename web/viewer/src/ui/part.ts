@@ -73,5 +73,8 @@ export const controls = css`
   .segments button { border: 0; border-radius: 0; flex: 1; }
   .segments button + button { border-left: 1px solid var(--line); }
   .segments :focus-visible { outline-offset: -2px; }
+  wa-slider::part(label), wa-color-picker::part(form-control-label) {
+    position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; clip-path: inset(50%); white-space: nowrap;
+  }
   .visually-hidden { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 `;
