@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 namespace svt::cli {
 namespace {
 
@@ -16,7 +14,6 @@ struct Arguments {
     std::filesystem::path input, output, labelOutput, depthOutput, sceneOutput;
     BuildArguments build;
     SceneArguments scene;
-    std::optional<int> level;
     int frames = 1;
     bool verbose = false;
 };
@@ -74,7 +71,7 @@ int runRender(const Arguments& arguments) {
     for (int frame = 0; frame < arguments.frames; ++frame) {
         const auto scene = arguments.scene.toScene(frame, arguments.frames);
         if (!scene) return fail(scene.error());
-        const auto painting = painter.paint(*scene, options, arguments.level);
+        const auto painting = painter.paint(*scene, options);
         if (!painting) return fail(painting.error());
         if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
         Progress::tell(progress.get(), "render", double(frame + 1) / arguments.frames);
@@ -99,11 +96,6 @@ Run addRenderCommand(CLI::App& app) {
         ->group("Scene")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    command
-        ->add_option("--level", arguments->level,
-                     "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
-        ->group("Style")
-        ->check(CLI::Range(0, 6));
     command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")
         ->group("Output")
         ->type_name("L.png");

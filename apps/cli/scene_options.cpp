@@ -153,12 +153,17 @@ Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Sce
     if (!arguments.cut.empty()) pass.cut = either(pass.cut, fmt::format("({})", arguments.cut));
     // Within a lens, and nowhere else, sections cut.
     if (arguments.lens.empty()) pass.cut = either(pass.cut, section);
+    if (!arguments.shell.empty()) pass.form.shell = illustrate::shellLevelFromName(arguments.shell);
     const Context context = arguments.context == "ghost"   ? Context::Ghost
                             : arguments.context == "solid" ? Context::Solid
+                            : arguments.context == "shell" ? Context::Shell
                                                            : Context::None;
     if (!arguments.lens.empty()) addLens(scene, arguments.lens, section, context);
     if (!arguments.highlights.empty()) addHighlight(scene, arguments.highlights, context);
     if (!arguments.cutaway.empty()) addCutaway(scene, arguments.cutaway, 0.15);
+    if (arguments.contextLevel && scene.passes.size() == 2) scene.passes.front().form.level = arguments.contextLevel;
+    for (illustrate::ScenePass& any : scene.passes)
+        if (arguments.level && !any.form.level) any.form.level = arguments.level;
     return {};
 }
 
@@ -270,10 +275,18 @@ void SceneArguments::addTo(CLI::App& command) {
     CLI::Option* highlightOption = command.get_option("--highlight");
     lensOption->excludes(highlightOption)->excludes(cutawayOption);
     highlightOption->excludes(cutawayOption);
-    command.add_option("--context", context, "what is around a lens or highlight: ghost, solid or none")
+    command.add_option("--context", context, "what is around a lens or highlight: ghost, solid, shell or none")
         ->group("Illustrate")
-        ->check(CLI::IsMember({"ghost", "solid", "none"}))
+        ->check(CLI::IsMember({"ghost", "solid", "shell", "none"}))
         ->capture_default_str();
+    command
+        .add_option("--context-level", contextLevel,
+                    "level of detail of what is around a lens, highlight or cutaway, 0 (finest) to 6")
+        ->group("Illustrate")
+        ->check(CLI::Range(0, 6));
+    command.add_option("--shell", shell, "draw only the hulls of components, rooms, units, storeys or the building")
+        ->group("Illustrate")
+        ->check(CLI::IsMember({"component", "room", "unit", "storey", "building"}));
     list("--names", names, "name the selected at the sides of the picture, with leader lines; may be repeated",
          "Illustrate", "QUERY");
     command
@@ -325,6 +338,9 @@ void SceneArguments::addTo(CLI::App& command) {
     command.add_option("--cut-width", cutWidth, "width of lines around what is cut, pixels, 0 to 16; default: by look")
         ->group("Style")
         ->check(CLI::Range(0.0, 16.0));
+    command.add_option("--level", level, "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
+        ->group("Style")
+        ->check(CLI::Range(0, 6));
     command.add_option("--background", background, "#rrggbb or a colour name; default: by look")->group("Style");
     command.add_flag("--transparent", isTransparent, "leave the background transparent")->group("Style");
     command.add_option("--scene", sceneFile, "scene file; the other options change it")

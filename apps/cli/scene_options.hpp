@@ -21,9 +21,9 @@ struct SceneArguments {
     std::optional<std::string> wireframe, wireColor;
     std::string hiddenLines = "faint";
     std::optional<double> wireWidth;
-    std::string cut, keep, lens, cutaway, around, context = "ghost";
+    std::string cut, keep, lens, cutaway, around, context = "ghost", shell;
     std::vector<double> eye, target;
-    std::optional<int> samples, dpi;
+    std::optional<int> samples, dpi, level, contextLevel;
     std::optional<double> edges, lineWidth, cutWidth, hatchSpacing, fov, zoom;
     bool isParallel = false, isTransparent = false, hasHatches = false;
 

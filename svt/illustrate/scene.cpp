@@ -22,6 +22,8 @@ using volume::LabelTable;
 
 constexpr std::array<std::string_view, 4> kLookNames{"plain", "paper", "blueprint", "dark"};
 constexpr float kGhostOpacity = 0.22f;
+// What a hull of glass stops, seen at a right angle.
+constexpr double kShellGhost = 0.10;
 
 // What a label looks like in a pass.
 struct LabelLook {
@@ -145,7 +147,17 @@ Result<void> select(const LabelTable& table, const std::vector<std::string>& que
     return {};
 }
 
-Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass, const LabelTable& table) {
+// Per metre. A hull is as thin as voxels are.
+float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
+    if (!pass.form.shell) return kGhostOpacity;
+    const double thickness = 2 * std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z});
+    return static_cast<float>(std::min(0.9999, 1 - std::pow(1 - kShellGhost, 1 / thickness)));
+}
+
+Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass,
+                                       const volume::SemanticVolume& volume) {
+    const LabelTable& table = volume.labels;
+    const float ghost = ghostOpacity(pass, volume.grid);
     std::vector<LabelLook> looks;
     const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
@@ -161,7 +173,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) {
             LabelLook& look = looks[l];
-            if (style.isGhost) look.opacity = look.opacity >= 0.5f ? kGhostOpacity : 0;
+            if (style.isGhost) look.opacity = look.opacity >= 0.5f ? ghost : 0;
             if (style.color) {
                 look.color = *style.color;
                 look.isRecolored = true;
@@ -194,7 +206,7 @@ std::vector<render::Style> stylesOf(const LabelTable& table, const std::vector<L
 
 Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const RegionContext& context) {
     render::Pass pass;
-    const auto looks = looksOf(scene, wanted, context.volume.labels);
+    const auto looks = looksOf(scene, wanted, context.volume);
     if (!looks) return looks.error();
     pass.styles = stylesOf(context.volume.labels, *looks, scene.look);
     pass.join = wanted.join;
@@ -221,6 +233,15 @@ std::string bothOf(const std::string& a, const std::string& b) {
     return fmt::format("({}) and ({})", a, b);
 }
 
+// The scene's passes become `detail` and what is around it.
+void setInContext(Scene& scene, const ScenePass& detail, ScenePass around, Context context) {
+    if (context == Context::Shell) around.form.shell = ShellLevel::Building;
+    if (context == Context::Shell || context == Context::Ghost) around.styles.push_back({"all", {}, {}, {}, true});
+    scene.passes.clear();
+    if (context != Context::None) scene.passes.push_back(std::move(around));
+    scene.passes.push_back(detail);
+}
+
 std::string anyOf(const std::vector<std::string>& queries) {
     std::string text;
     for (const std::string& query : queries) text += fmt::format("{}({})", text.empty() ? "" : " or ", query);
@@ -242,10 +263,7 @@ void addLens(Scene& scene, const std::string& region, const std::string& cut, Co
     detail.keep = bothOf(detail.keep, region);
     detail.cut = either(detail.cut, cut);
     detail.join = render::Pass::Join::Replace;
-    if (context == Context::Ghost) around.styles.push_back({"all", {}, {}, {}, true});
-    scene.passes.clear();
-    if (context != Context::None) scene.passes.push_back(around);
-    scene.passes.push_back(detail);
+    setInContext(scene, detail, around, context);
 }
 
 void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context context) {
@@ -255,10 +273,7 @@ void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context
     target.styles.insert(target.styles.begin(), {"all", {}, 1.0f, {}, false});
     target.join = render::Pass::Join::Over;
     around.hide.push_back(anyOf(queries));
-    if (context == Context::Ghost) around.styles.push_back({"all", {}, {}, {}, true});
-    scene.passes.clear();
-    if (context != Context::None) scene.passes.push_back(around);
-    scene.passes.push_back(target);
+    setInContext(scene, target, around, context);
 }
 
 void addCutaway(Scene& scene, const std::string& query, double margin) {
@@ -268,6 +283,14 @@ void addCutaway(Scene& scene, const std::string& query, double margin) {
     around.hide.push_back(query);
     around.cut = either(around.cut, fmt::format("cutaway({}; {})", query, margin));
     scene.passes = {around, target};
+}
+
+std::vector<VolumeForm> formsOf(const Scene& scene) {
+    std::vector<VolumeForm> forms;
+    for (const ScenePass& pass : scene.passes)
+        if (std::ranges::find(forms, pass.form) == forms.end()) forms.push_back(pass.form);
+    if (forms.empty()) forms.emplace_back();
+    return forms;
 }
 
 Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume) {
@@ -285,9 +308,11 @@ Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolu
     spec.camera = *camera;
     spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundSpacing(11 * pixelOf(spec));
     const RegionContext context{volume, *camera, double(scene.width) / scene.height};
+    const std::vector<VolumeForm> forms = formsOf(scene);
     for (const ScenePass& wanted : scene.passes) {
         auto pass = passOf(scene, wanted, context);
         if (!pass) return pass.error();
+        pass->volume = static_cast<std::uint32_t>(std::ranges::find(forms, wanted.form) - forms.begin());
         spec.passes.push_back(std::move(*pass));
     }
     // Lines are drawn between objects, not between the phases of one object's pattern.

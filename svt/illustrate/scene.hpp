@@ -5,6 +5,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/illustrate/shell_groups.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -46,6 +47,13 @@ struct SceneLines {
     friend bool operator==(const SceneLines&, const SceneLines&) = default;
 };
 
+/// A form of the volume that passes draw.
+struct VolumeForm {
+    std::optional<ShellLevel> shell;  ///< the hulls of groups of this level, two voxels thick; nothing: the volume
+    std::optional<int> level;         ///< level of detail, 0 (finest) to 6; nothing: as fine as the pixels show
+    friend bool operator==(const VolumeForm&, const VolumeForm&) = default;
+};
+
 /// Part of the volume, and how it is drawn.
 struct ScenePass {
     std::vector<std::string> show;  ///< queries; where there are any, all else is hidden
@@ -55,6 +63,7 @@ struct ScenePass {
     std::string keep;  ///< region outside of which nothing is drawn; empty: no limit
     render::Pass::Join join = render::Pass::Join::Over;
     std::vector<SceneLines> lines;
+    VolumeForm form{};
     std::vector<std::string> meshes;  ///< queries, or size<M: what is drawn as the model's meshes, not as voxels
     friend bool operator==(const ScenePass&, const ScenePass&) = default;
 };
@@ -90,6 +99,7 @@ struct Scene {
 enum class Context : std::uint8_t {
     Ghost,  ///< coloured air
     Solid,  ///< as it is
+    Shell,  ///< glass: the outer hull of the building
     None
 };
 
@@ -102,7 +112,9 @@ void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context
 /// Takes away what hides the selected, which is drawn whole.
 void addCutaway(Scene& scene, const std::string& query, double margin);
 
-/// The frame that shows `scene` on `volume`.
+/// What the passes of a scene draw, each once, in the order of their first use. At least one.
+[[nodiscard]] std::vector<VolumeForm> formsOf(const Scene& scene);
+/// The frame that shows `scene` on `volume`. Pass::volume counts formsOf(scene).
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
 ///         BadArgument where lines or meshes are asked for and the volume was built without
 [[nodiscard]] Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume);

@@ -149,7 +149,9 @@ void readSceneLines(Reader& read, const Json& json, const std::string& path, Sce
 }
 
 void readPass(Reader& read, const Json& json, const std::string& path, ScenePass& pass) {
-    if (!read.object(json, path, {"show", "hide", "styles", "cut", "keep", "join", "lines", "meshes"})) return;
+    if (!read.object(json, path,
+                     {"show", "hide", "styles", "cut", "keep", "join", "shell", "level", "lines", "meshes"}))
+        return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = path + "/" + key;
         if (key == "show") read.texts(value, at, pass.show);
@@ -157,6 +159,16 @@ void readPass(Reader& read, const Json& json, const std::string& path, ScenePass
         if (key == "cut") read.text(value, at, pass.cut);
         if (key == "keep") read.text(value, at, pass.keep);
         if (key == "meshes") read.texts(value, at, pass.meshes);
+        if (key == "level") read.number(value, at, 0, 6, pass.form.level.emplace());
+        if (key == "shell") {
+            std::string level;
+            read.text(value, at, level);
+            pass.form.shell = shellLevelFromName(level);
+            if (!pass.form.shell)
+                read.fail(at, fmt::format("'{}' is no level of shells; possible are component, room, unit, storey, "
+                                          "building",
+                                          level));
+        }
         if (key == "lines") {
             if (!value.is_array()) return read.fail(at, "expected an array of lines");
             for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
@@ -289,6 +301,8 @@ Json jsonOf(const ScenePass& pass) {
     if (!pass.keep.empty()) json["keep"] = pass.keep;
     for (const auto& [join, name] : kJoins)
         if (join == pass.join && join != Join::Over) json["join"] = name;
+    if (pass.form.shell) json["shell"] = shellLevelName(*pass.form.shell);
+    if (pass.form.level) json["level"] = *pass.form.level;
     for (const SceneLines& lines : pass.lines) json["lines"].push_back(jsonOf(lines));
     if (!pass.meshes.empty()) json["meshes"] = pass.meshes;
     return json;

@@ -1,6 +1,7 @@
 #include <svt/illustrate/scene_painter.hpp>
 
 #include <svt/illustrate/name_tags.hpp>
+#include <svt/illustrate/shell.hpp>
 
 #include <algorithm>
 
@@ -21,37 +22,67 @@ Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, 
 
 }  // namespace
 
+struct ScenePainter::Forms {
+    std::optional<ShellLevel> level;
+    std::optional<volume::SemanticVolume> shell;
+    const volume::SemanticVolume* volume = nullptr;
+    std::optional<volume::BrickVolume> bricks;
+    std::optional<std::vector<volume::LodLevel>> levels;
+};
+
 ScenePainter::ScenePainter(const volume::SemanticVolume& volume, int threads) : volume_(volume), threads_(threads) {}
+ScenePainter::~ScenePainter() = default;
+ScenePainter::ScenePainter(ScenePainter&&) noexcept = default;
 
-Result<const volume::BrickVolume*> ScenePainter::bricks() {
-    if (!bricks_) {
-        auto bricks = volume::BrickVolume::fromColumns(volume_.columns, threads_);
-        if (!bricks) return bricks.error();
-        bricks_ = std::move(*bricks);
+Result<ScenePainter::Forms*> ScenePainter::formsOf(std::optional<ShellLevel> shell) {
+    for (const auto& forms : forms_)
+        if (forms->level == shell) return forms.get();
+    auto forms = std::make_unique<Forms>();
+    forms->level = shell;
+    forms->volume = &volume_;
+    if (shell) {
+        ShellOptions options;
+        options.threads = threads_;
+        auto hulls = extractShell(volume_, *shell, options);
+        if (!hulls) return hulls.error();
+        forms->volume = &forms->shell.emplace(std::move(*hulls));
     }
-    return &*bricks_;
+    return forms_.emplace_back(std::move(forms)).get();
 }
 
-Result<render::Frame> ScenePainter::cast(const render::FrameSpec& spec, int level, const render::CastOptions& options) {
+Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const render::FrameSpec& spec) {
+    auto found = formsOf(wanted.shell);
+    if (!found) return found.error();
+    Forms& forms = **found;
+    const volume::SemanticVolume& volume = *forms.volume;
+    const int level = wanted.level.value_or(render::levelForView(spec, volume.grid));
     if (level > 0) {
-        if (!levels_) {
-            auto levels = volume::buildLodPyramid(volume_.columns, volume_.grid, 6, threads_);
+        if (!forms.levels) {
+            auto levels = volume::buildLodPyramid(volume.columns, volume.grid, 6, threads_);
             if (!levels) return levels.error();
-            levels_ = std::move(*levels);
+            forms.levels = std::move(*levels);
         }
-        if (!levels_->empty())
-            return render::castRays((*levels_)[std::min(levels_->size(), static_cast<std::size_t>(level)) - 1], spec,
-                                    options);
+        if (!forms.levels->empty())
+            return render::DrawnVolume((*forms.levels)[std::min(forms.levels->size(), std::size_t(level)) - 1]);
     }
-    const auto finest = bricks();
-    if (!finest) return finest.error();
-    return render::castRays(**finest, volume_.grid, spec, options);
+    if (!forms.bricks) {
+        auto bricks = volume::BrickVolume::fromColumns(volume.columns, threads_);
+        if (!bricks) return bricks.error();
+        forms.bricks = std::move(*bricks);
+    }
+    return render::DrawnVolume(*forms.bricks, volume.grid);
 }
 
-Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options, std::optional<int> level) {
+Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
     auto spec = frameOf(scene, volume_);
     if (!spec) return spec.error();
-    auto frame = cast(*spec, level.value_or(render::levelForView(*spec, volume_.grid)), options);
+    std::vector<render::DrawnVolume> drawn;
+    for (const VolumeForm& wanted : illustrate::formsOf(scene)) {
+        const auto made = form(wanted, *spec);
+        if (!made) return made.error();
+        drawn.push_back(*made);
+    }
+    auto frame = render::castRays(drawn, *spec, options);
     if (!frame) return frame.error();
     Painting painting{std::move(*frame), std::move(*spec)};
     if (auto named = addNames(scene, volume_, painting); !named) return named.error();

@@ -7,6 +7,7 @@
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,25 +25,25 @@ public:
     /// \param volume   must outlive the painter
     /// \param threads  for the forms; 0: all cores
     explicit ScenePainter(const volume::SemanticVolume& volume, int threads = 0);
+    ~ScenePainter();
+    ScenePainter(ScenePainter&&) noexcept;
 
     /// Draws `scene`, with its names.
-    /// \param level  level of detail, 0 (finest) to 6; nothing: as fine as the pixels show
-    /// \return picture and frame, or what frameOf() or castRays() returns
-    /// Cost: that of castRays(); and once, of a volume's bricks or levels.
-    [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {},
-                                         std::optional<int> level = {});
+    /// \return picture and frame, or what frameOf(), extractShell() or castRays() returns
+    /// Cost: that of castRays(); and once, of each form.
+    [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
-    [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
-    /// The volume's bricks, made when first asked for.
-    [[nodiscard]] Result<const volume::BrickVolume*> bricks();
+    /// A form of the volume, for a picture that is `spec`. It lives as long as the painter.
+    [[nodiscard]] Result<render::DrawnVolume> form(const VolumeForm& form, const render::FrameSpec& spec);
 
 private:
-    Result<render::Frame> cast(const render::FrameSpec& spec, int level, const render::CastOptions& options);
+    // The volume or a shell of it, with what is made of it.
+    struct Forms;
+    Result<Forms*> formsOf(std::optional<ShellLevel> shell);
 
     const volume::SemanticVolume& volume_;
     int threads_;
-    std::optional<volume::BrickVolume> bricks_;
-    std::optional<std::vector<volume::LodLevel>> levels_;
+    std::vector<std::unique_ptr<Forms>> forms_;
 };
 
 }  // namespace svt::illustrate

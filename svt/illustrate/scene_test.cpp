@@ -1,6 +1,8 @@
-#include <svt/illustrate/scene.hpp>
+#include <svt/illustrate/scene_painter.hpp>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace svt::illustrate {
 namespace {
@@ -111,6 +113,54 @@ TEST(Scene, AHighlightIsSolidBeforeItsContext) {
     EXPECT_EQ(spec.passes[1].join, render::Pass::Join::Over);
 }
 
+TEST(Scene, PassesDrawFormsOfTheirOwn) {
+    Scene scene;
+    addHighlight(scene, {"id=room"}, Context::Shell);
+    scene.passes[0].form.level = 3;
+    scene.passes.push_back(scene.passes[0]);
+    EXPECT_EQ(formsOf(scene), (std::vector<VolumeForm>{{ShellLevel::Building, 3}, {}}));
+    const render::FrameSpec spec = frame(scene);
+    ASSERT_EQ(spec.passes.size(), 3u);
+    EXPECT_EQ(spec.passes[0].volume, 0u);
+    EXPECT_EQ(spec.passes[1].volume, 1u);
+    EXPECT_EQ(spec.passes[2].volume, 0u);
+    // Glass: a hull of two voxels stops a tenth.
+    EXPECT_NEAR(1 - std::pow(1 - spec.passes[0].styles[2].opacity, 2 * 0.5f), 0.10, 1e-4);
+}
+
+TEST(Scene, APainterKeepsTheFormsThatScenesNeed) {
+    volume::SemanticVolume volume = house();
+    volume::Label building;
+    building.id = "building";
+    building.className = "Building";
+    building.subtreeEnd = 4;
+    for (volume::Label& label : volume.labels.labels) {
+        label.parent = 0;
+        ++label.subtreeEnd;
+        label.voxels = 1;
+    }
+    volume.labels.labels.insert(volume.labels.labels.begin(), building);
+    ScenePainter painter(volume, 1);
+    Scene scene;
+    scene.width = scene.height = 40;
+    scene.passes[0].hide = {"id=room"};
+    const auto plain = painter.paint(scene);
+    ASSERT_TRUE(plain) << plain.error().toString();
+    scene.passes[0].form.shell = ShellLevel::Building;
+    const auto shell = painter.paint(scene);
+    ASSERT_TRUE(shell) << shell.error().toString();
+    EXPECT_EQ(plain->frame.label, shell->frame.label);  // from outside the hull looks the same
+    scene.passes[0].cut = "z>5.2";
+    const auto open = painter.paint(scene);
+    ASSERT_TRUE(open);
+    scene.passes[0].form.shell.reset();
+    EXPECT_NE(painter.paint(scene)->frame.label, open->frame.label);  // the beam is gone from the hull
+    const auto form = painter.form({}, plain->spec), again = painter.form({}, plain->spec);
+    ASSERT_TRUE(form && again);
+    EXPECT_EQ(&form->bricks(), &again->bricks());
+    EXPECT_EQ(painter.form({ShellLevel::Building, 2}, plain->spec)->level()->level, 2);
+}
+
 TEST(Scene, ACutawayLeavesItsTargetWhole) {
     Scene scene;
     addCutaway(scene, "id=beam", 0.1);
@@ -159,6 +209,7 @@ Scene everything() {
     pass.join = render::Pass::Join::Replace;
     pass.lines = {{"", 1, {}, render::HiddenLines::Faint}, {"id=x", 1.5f, Vec3f{1, 1, 1}, render::HiddenLines::Dashed}};
     pass.meshes = {"size<0.5"};
+    pass.form = {ShellLevel::Storey, 2};
     scene.passes = {ScenePass{}, pass};
     return scene;
 }
@@ -193,6 +244,9 @@ TEST(Scene, JsonErrorsNameTheMember) {
     EXPECT_NE(errorOf(R"({"passes": [{"styles": [{"color": "red"}]}]})").find("/passes/0/styles/0: needs \"select\""),
               std::string::npos);
     EXPECT_NE(errorOf(R"({"passes": [{"styles": [{"select": "all", "hatch": "bricks"}]}]})").find("is no hatch"),
+              std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": [{"shell": "roof"}]})").find("is no level of shells"), std::string::npos);
+    EXPECT_NE(errorOf(R"({"passes": [{"level": 7}]})").find("/passes/0/level: expected a number from 0 to 6"),
               std::string::npos);
     EXPECT_NE(errorOf(R"({"passes": [{"join": "under"}]})").find("/passes/0/join"), std::string::npos);
 }

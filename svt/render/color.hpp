@@ -26,8 +26,8 @@ public:
     [[nodiscard]] static const SrgbBytes& table();
 
     [[nodiscard]] std::uint8_t fromLinear(float channel) const noexcept {
-        const float c = std::clamp(channel, 0.0f, 1.0f);
-        return bytes_[static_cast<std::size_t>(c * static_cast<float>(kLast) + 0.5f)];
+        const float c = std::min(std::max(channel, 0.0f), 1.0f);
+        return bytes_[static_cast<std::size_t>(static_cast<std::int32_t>(c * static_cast<float>(kLast) + 0.5f))];
     }
 
 private:

@@ -23,10 +23,13 @@ bool isDrawn(std::span<const DrawnInterval> drawn, double depth) noexcept {
 
 }  // namespace
 
-FragmentFinder::FragmentFinder(const Scene& scene)
-    : scene_(scene),
-      voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
-      view_{scene.rays.isPerspective(), scene.lineSamples, scene.rays.pixelSize(1), kVoxelsBefore * voxelSize_} {}
+FragmentFinder::FragmentFinder(const Scene& scene) : scene_(scene) {}
+
+LineView FragmentFinder::viewOf(std::size_t pass) const noexcept {
+    const CameraRays& rays = scene_.rays();
+    return {rays.isPerspective(), scene_.lineSamples, rays.pixelSize(1),
+            kVoxelsBefore * scene_.volumeOf(pass).voxelSize};
+}
 
 std::span<LineHit> FragmentFinder::findLines(std::size_t pass, const double* u, const double* v,
                                              std::array<std::size_t, kLineRays + 1>& starts) {
@@ -41,7 +44,7 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, const double* u, 
     if (near.empty()) return {};
     if (lineHits_.size() < kLineRays * near.size()) lineHits_.resize(2 * kLineRays * near.size());
     const std::size_t count =
-        render::findLines(view_, shapes.lines().data(), shapes.looks().data(), near, x, y, lineHits_.data());
+        render::findLines(viewOf(pass), shapes.lines().data(), shapes.looks().data(), near, x, y, lineHits_.data());
     for (std::size_t h = 0; h < count; ++h) ++starts[lineHits_[h].ray + 1];
     for (std::size_t n = 0; n < kLineRays; ++n) starts[n + 1] += starts[n];
     if (sortedHits_.size() < count) sortedHits_.resize(2 * count);
@@ -55,10 +58,11 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, double u, double 
     const double x = (u + 1) / 2 * shapes.width(), y = (1 - v) / 2 * shapes.height();
     lineHits_.clear();
     LineHit hit{};
+    const LineView view = viewOf(pass);
     for (const std::uint32_t shape : shapes.near(u, v)) {
         if (shape >= PassShapes::kTriangle) break;
         const PictureLine& line = shapes.lines()[shape];
-        if (findLine(view_, line, shapes.looks()[line.look], shape, x, y, hit)) lineHits_.push_back(hit);
+        if (findLine(view, line, shapes.looks()[line.look], shape, x, y, hit)) lineHits_.push_back(hit);
     }
     return lineHits_;
 }
@@ -67,6 +71,7 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, double u, double 
 void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragments& fragments) const {
     if (hits.empty()) return;
     const PassShapes& shapes = scene_.passes[pass].shapes;
+    const double voxelSize = scene_.volumeOf(pass).voxelSize;
     // There are few.
     for (std::size_t n = 1; n < hits.size(); ++n) {
         const auto isNearer = [](const LineHit& a, const LineHit& b) {
@@ -81,7 +86,7 @@ void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragmen
     for (std::size_t begin = 0; begin < hits.size();) {
         LineHit joined = hits[begin];
         std::size_t end = begin + 1;
-        for (; end < hits.size() && hits[end].depth - joined.depth <= 2 * voxelSize_; ++end) {
+        for (; end < hits.size() && hits[end].depth - joined.depth <= 2 * voxelSize; ++end) {
             if (hits[end].opacity > joined.opacity) {
                 joined.opacity = hits[end].opacity;
                 joined.line = hits[end].line;
@@ -124,8 +129,8 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
     const auto near = shapes.near(u, v);
     if (near.empty() || near.back() < PassShapes::kTriangle) return kInfinity;
     Vec3d origin{};
-    if (!scene_.rays.isPerspective()) {
-        const CameraRays::Basis basis = scene_.rays.basis();
+    if (!scene_.rays().isPerspective()) {
+        const CameraRays::Basis basis = scene_.rays().basis();
         origin = basis.right * (u * basis.halfWidth) + basis.up * (v * basis.halfHeight);
     }
     hits_.clear();
@@ -143,8 +148,8 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
         if (!interval.cap) continue;
         const PictureTriangle* body = cutOpen(shapes, interval.from);
         if (body == nullptr || body->style.kind != Kind::Opaque) continue;
-        const Vec3d up = interval.cap.normalAt(
-            scene_.grid.worldFromIndex(ray.index.origin + ray.index.direction * interval.from - Vec3d{0.5, 0.5, 0.5}));
+        const Vec3d up = interval.cap.normalAt(scene_.volumeOf(pass).grid.worldFromIndex(
+            ray.index.origin + ray.index.direction * interval.from - Vec3d{0.5, 0.5, 0.5}));
         addSurface(pass, ray, *body, interval.from, dot(up, ray.direction) > 0 ? -up : up, true, fragments);
         end = interval.from;
         break;

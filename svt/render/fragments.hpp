@@ -95,6 +95,7 @@ private:
         bool isEntering;
     };
 
+    [[nodiscard]] LineView viewOf(std::size_t pass) const noexcept;
     void addHit(const PictureTriangle& triangle, std::uint32_t number, Vec3d origin, Vec3d direction);
     void sortHits(const PassShapes& shapes);
     void addSurface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle, double depth, Vec3d normal,
@@ -102,8 +103,6 @@ private:
     const PictureTriangle* cutOpen(const PassShapes& shapes, double depth);
 
     const Scene& scene_;
-    double voxelSize_;  // metres, the largest spacing
-    LineView view_;
     NormalCache cache_;
     std::vector<Hit> hits_;
     std::vector<std::uint32_t> near_;  // lines near a few rays

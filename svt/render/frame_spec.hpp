@@ -83,7 +83,7 @@ struct Pass {
     /// How the pass joins what the passes before it have drawn, sample by sample.
     enum class Join : std::uint8_t {
         Over,     ///< in front of it, at any depth
-        Replace,  ///< where this pass draws anything, all before it is dropped
+        Replace,  ///< where this pass draws anything, all before it is dropped, with a border line around it
         Depth     ///< in front of it where this pass' first label is nearer, else behind
     };
 
@@ -91,6 +91,7 @@ struct Pass {
     std::vector<ClipRegion> clips;  ///< drawn is what no region cuts away and every KeepOnly region holds; at most
                                     ///< kMaxClipParts parts in all
     Join join = Join::Over;
+    std::uint32_t volume = 0;               ///< which of the volumes that castRays() is given
     std::vector<LineSet> lines{};           ///< composited with the voxels at their depth; clipped as they are
     std::vector<MeshTriangle> triangles{};  ///< the same; drawn instead of the voxels of their objects
 

@@ -36,19 +36,13 @@ PacketOcclusion packetOcclusion(const OcclusionField::Level& level) noexcept {
 }  // namespace
 
 PacketPasses::PacketPasses(const Scene& scene) {
-    PacketScene shared;
-    shared.volume = scene.volume.arrays();
-    shared.bricksX = scene.volume.brickCount().x;
-    shared.bricksY = scene.volume.brickCount().y;
-    for (int axis = 0; axis < 3; ++axis) {
-        shared.count[axis] = scene.volume.dimension()[axis];
-        shared.axisNormals[axis] = scene.directions.axis(axis).normal;
-        shared.axisAways[axis] = scene.directions.axis(axis).away;
+    for (const PreparedVolume& volume : scene.volumes) {
+        auto& numbers = planeDirections_.emplace_back();
+        numbers.reserve(8 * volume.directions.planes().size());
+        for (const auto& [normal, away] : volume.directions.planes())
+            numbers.insert(numbers.end(), {normal.x, normal.y, normal.z, away.x, away.y, away.z, 0, 0});
     }
-    planeDirections_.reserve(8 * scene.directions.planes().size());
-    for (const auto& [normal, away] : scene.directions.planes())
-        planeDirections_.insert(planeDirections_.end(), {normal.x, normal.y, normal.z, away.x, away.y, away.z, 0, 0});
-    shared.planeDirections = planeDirections_.data();
+    PacketScene shared;
     shared.towardsLight = scene.towardsLight;
     shared.ambient = double(scene.spec.light.ambient);
     shared.key = double(scene.spec.light.key);
@@ -58,6 +52,16 @@ PacketPasses::PacketPasses(const Scene& scene) {
         auto& styles = styles_.emplace_back();
         for (const LinearStyle& style : pass.table.styles()) styles.push_back(packetStyle(style));
         PacketScene packetScene = shared;
+        const PreparedVolume& volume = scene.volumes[pass.volume];
+        packetScene.volume = volume.bricks.arrays();
+        packetScene.bricksX = volume.bricks.brickCount().x;
+        packetScene.bricksY = volume.bricks.brickCount().y;
+        for (int axis = 0; axis < 3; ++axis) {
+            packetScene.count[axis] = volume.bricks.dimension()[axis];
+            packetScene.axisNormals[axis] = volume.directions.axis(axis).normal;
+            packetScene.axisAways[axis] = volume.directions.axis(axis).away;
+        }
+        packetScene.planeDirections = planeDirections_[pass.volume].data();
         packetScene.styleCount = static_cast<std::int64_t>(styles.size());
         styles.push_back(packetStyle({}));
         packetScene.styles = styles.data();
@@ -80,10 +84,9 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
         rays_.u[n] = rays_.u[0];
         rays_.v[n] = rays_.v[0];
     }
-    const bool isAnyInside = setUpPacket(scene_.rays, scene_.volume.dimension(), rays_);
-    for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
+    const bool isAnyInside = setUpRays(0);
     const bool isAnyMet =
-        (isAnyInside && !scene_.passes.empty()) ||
+        ((isAnyInside || scene_.volumes.size() > 1) && !scene_.passes.empty()) ||
         std::any_of(scene_.passes.begin(), scene_.passes.end(), [&](const PreparedPass& pass) {
             return !pass.shapes.isEmpty() && pass.shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_);
         });
@@ -91,11 +94,20 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
     if (isAnyMet && scene_.passes.size() == 1) {
         castPass(0, withColor ? passes_[0] : passes_.labelsOnly(0));
-        for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = sampleOf(n);
+        for (std::size_t n = 0; n < count_; ++n) writeSample(n, samples[places_[n]]);
     } else if (isAnyMet) {
         castPasses(withColor, samples);
     }
     count_ = 0;
+}
+
+// Sets the packet's rays up for a volume. \return whether any is inside
+bool PacketCaster::setUpRays(std::size_t volume) {
+    const PreparedVolume& prepared = scene_.volumes[volume];
+    const bool isAnyInside = setUpPacket(prepared.rays, prepared.bricks.dimension(), rays_);
+    for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
+    volume_ = volume;
+    return isAnyInside;
 }
 
 // From the last pass to the first, since what hides all before it need not be cast twice; joined from the first on.
@@ -105,13 +117,17 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
     std::array<std::size_t, kPacketRays> first;
     first.fill(last + 1);
     std::size_t open = count_;
-    const Lanes<double> to = rays_.to;
     for (std::size_t pass = last + 1; pass-- > 0 && open > 0;) {
+        if (scene_.passes[pass].volume != volume_) {
+            setUpRays(scene_.passes[pass].volume);
+            for (std::size_t n = 0; n < count_; ++n)
+                if (first[n] != pass + 1) rays_.to[n] = 0;
+        }
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
             if (first[n] != pass + 1) continue;  // hidden
             Sample& sample = ofPasses_[pass * kPacketRays + n];
-            sample = sampleOf(n);
+            writeSample(n, sample);
             first[n] = pass;
             if (pass == 0 || !hidesAllBefore(scene_.passes[pass].join, sample)) continue;
             first[n] = kPacketRays + pass;
@@ -119,12 +135,13 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
             --open;
         }
     }
-    rays_.to = to;
     for (std::size_t n = 0; n < count_; ++n) {
         const std::size_t begin = first[n] % kPacketRays;
+        // Nothing is left of what is before it.
         Sample joined = ofPasses_[begin * kPacketRays + n];
+        if (begin > 0) joined = joinPass(scene_.passes[begin].join, begin, joined, {});
         for (std::size_t pass = begin + 1; pass <= last; ++pass)
-            joined = joinPass(scene_.passes[pass].join, ofPasses_[pass * kPacketRays + n], joined);
+            joined = joinPass(scene_.passes[pass].join, pass, ofPasses_[pass * kPacketRays + n], joined);
         samples[places_[n]] = joined;
     }
 }
@@ -226,7 +243,7 @@ void PacketCaster::findParts(std::size_t ray) {
     if (!(span.from < span.to)) return;
     const Clipper& clipper = scene_.passes[pass_].clipper;
     const std::size_t first = parts_.size();
-    const DrawnIntervals drawn = clipper.cut(scene_.rays.at(rays_.u[ray], rays_.v[ray]).index, span);
+    const DrawnIntervals drawn = clipper.cut(scene_.volumeOf(pass_).rays.at(rays_.u[ray], rays_.v[ray]).index, span);
     parts_.insert(parts_.end(), drawn.begin(), drawn.end());
     if (!scene_.passes[pass_].shapes.hasTriangles()) return;
     const double end = findSurfaces(ray, std::span(parts_).subspan(first));
@@ -241,7 +258,7 @@ double PacketCaster::findSurfaces(std::size_t ray, std::span<const DrawnInterval
     Range& found = rayFragments_[ray];
     const std::size_t begin = fragments_.items.size();
     for (std::size_t f = found.next; f < found.end; ++f) fragments_.items.push_back(Fragment(fragments_.items[f]));
-    const double end = finder_.addSurfaces(pass_, u, v, scene_.rays.at(u, v), drawn, begin, fragments_);
+    const double end = finder_.addSurfaces(pass_, u, v, scene_.volumeOf(pass_).rays.at(u, v), drawn, begin, fragments_);
     found = {begin, fragments_.items.size()};
     if (found.next < found.end) seen_.nextFragment[ray] = fragments_.items[found.next].depth;
     return end;
@@ -273,14 +290,16 @@ void PacketCaster::addFragment(std::size_t ray) {
     if (isDone) seen_.isDone[ray] = -1;
 }
 
-Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
-    Sample sample;
+// Written where it stays: a copy right behind the writing would wait for it.
+void PacketCaster::writeSample(std::size_t ray, Sample& sample) const noexcept {
+    sample = Sample();
     sample.depth = static_cast<float>(seen_.depth[ray]);
     if (sample.hasHit()) {
         sample.label = static_cast<volume::Scalar>(seen_.label[ray]);
         sample.object = static_cast<std::uint32_t>(seen_.object[ray]);
         sample.normal = toFloat({seen_.normal[0][ray], seen_.normal[1][ray], seen_.normal[2][ray]});
         sample.isCap = seen_.isCap[ray] != 0;
+        sample.volume = scene_.passes[pass_].volume;
     }
     finishSample({seen_.color[0][ray], seen_.color[1][ray], seen_.color[2][ray]},
                  hasShapes_ ? seen_.transmittance[ray] * seen_.lines[ray] : seen_.transmittance[ray], scene_.options,
@@ -290,7 +309,6 @@ Sample PacketCaster::sampleOf(std::size_t ray) const noexcept {
         drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
     }
     if (sample.isCap) hatchCap(scene_, pass_, rays_.u[ray], rays_.v[ray], sample);
-    return sample;
 }
 
 Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {

@@ -22,7 +22,7 @@ public:
 
 private:
     std::vector<std::vector<PacketStyle>> styles_;
-    std::vector<double> planeDirections_;
+    std::vector<std::vector<double>> planeDirections_;  // by volume
     std::vector<PacketScene> passes_;
 };
 
@@ -43,6 +43,7 @@ public:
     void cast(bool withColor, std::span<Sample> samples);
 
 private:
+    bool setUpRays(std::size_t volume);
     void castPasses(bool withColor, std::span<Sample> samples);
     void castPass(std::size_t pass, const PacketScene& packetScene);
     void castParts(PacketScene& scene);
@@ -50,7 +51,7 @@ private:
     void addLastFragments();
     void findParts(std::size_t ray);
     double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
-    [[nodiscard]] Sample sampleOf(std::size_t ray) const noexcept;
+    void writeSample(std::size_t ray, Sample& sample) const noexcept;
     void addFragment(std::size_t ray);
     static void fragmentOf(void* context, std::size_t ray);
     [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
@@ -64,6 +65,7 @@ private:
     PacketSamples seen_;
     std::vector<Sample> ofPasses_;  // kPacketRays a pass
     std::size_t pass_ = 0;
+    std::size_t volume_ = 0;  // that the rays are set up for
     std::array<CapFace, kPacketRays> caps_{};
     Lanes<double> from_{};
     FragmentFinder finder_;

@@ -101,6 +101,44 @@ TEST(PacketCaster, JoinsPassesAsThePlainCasterDoes) {
             }
 }
 
+// A fine target in a coarse context: each pass has a grid of its own, and the joins go by metres.
+TEST(PacketCaster, PassesOfSeveralVolumesJoinAsThePlainCasterJoinsThem) {
+    const TestVolume volume = makeTurnedHouse();
+    const auto levels = *volume::buildLodPyramid(volume.columns, volume.grid, 2);
+    const std::vector<DrawnVolume> volumes{{volume.bricks, volume.grid}, levels[1], levels[0]};
+    for (const Pass::Join join : {Pass::Join::Over, Pass::Join::Replace, Pass::Join::Depth})
+        for (const float opacity : {1.0f, 0.3f}) {
+            FrameSpec spec = view(volume, "iso", opacity);
+            spec.samplesPerPixel = 4;
+            spec.borders.strength = 0.6f;
+            spec.passes[0].volume = 1;
+            spec.passes.push_back({styles(0.5f), {ClipRegion::plane({0, 0, 1}, {0, 0, 3})}, join, 0});
+            spec.passes.push_back({styles(1), {ClipRegion::plane({1, 0, 0}, {4, 0, 0})}, join, 2});
+            const auto frame = castRays(volumes, spec), reference = castRaysReference(volumes, spec);
+            ASSERT_TRUE(frame && reference);
+            EXPECT_EQ(frame->label, reference->label);
+            EXPECT_EQ(frame->depth, reference->depth);
+            EXPECT_EQ(frame->color, reference->color);
+            spec.passes[1].volume = 3;
+            EXPECT_EQ(castRays(volumes, spec).error().code(), Code::BadFrame);
+        }
+}
+
+TEST(PacketCaster, APassLooksTheSameWhateverVolumesOthersDraw) {
+    const TestVolume volume = makeTurnedHouse();
+    const auto levels = *volume::buildLodPyramid(volume.columns, volume.grid, 2);
+    FrameSpec spec = view(volume, "iso-nw", 1);
+    const Frame alone = cast(volume, spec);
+    spec.passes.insert(spec.passes.begin(), Pass{styles(0), {}, Pass::Join::Over, 0});
+    spec.passes[1].volume = 1;
+    const std::vector<DrawnVolume> volumes{levels[1], {volume.bricks, volume.grid}};
+    const auto beside = castRays(volumes, spec);
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->label, alone.label);
+    EXPECT_EQ(beside->depth, alone.depth);
+    EXPECT_EQ(beside->color, alone.color);
+}
+
 TEST(PacketCaster, GivesThePictureOfThePlainCasterFromInside) {
     const TestVolume volume = makeTurnedHouse();
     for (int round = 0; round < 12; ++round) {

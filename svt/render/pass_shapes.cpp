@@ -44,11 +44,12 @@ Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar) {
 
 Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, const CameraRays& rays,
                                     const volume::Grid& grid, const Clipper& clipper, double samplesPerPixel,
-                                    int threads) {
+                                    double margin, int threads) {
     PassShapes shapes;
     if (pass.lines.empty() && pass.triangles.empty()) return shapes;
     shapes.width_ = spec.width;
     shapes.height_ = spec.height;
+    shapes.margin_ = std::fmod(margin, kCellPixels);
     // Nearer to the eye plane nothing is drawn: a millionth of the way to what is looked at.
     const double nearest = 1e-6 * length(spec.camera.target - spec.camera.eye);
     for (const LineSet& set : pass.lines) {
@@ -226,8 +227,8 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
     const auto up = [](double pixels, std::int32_t step) {
         return (static_cast<std::int32_t>(pixels) + step - 1) / step;
     };
-    cellsX_ = up(width_, kCellPixels);
-    cellsY_ = up(height_, kCellPixels);
+    cellsX_ = up(std::ceil(width_ + margin_), kCellPixels);
+    cellsY_ = up(std::ceil(height_ + margin_), kCellPixels);
     tilesX_ = up(cellsX_, kTileCells);
     tilesY_ = up(cellsY_, kTileCells);
     tiles_.resize(static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_));
@@ -237,14 +238,14 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
         if (!(bounds.right >= -kMargin && bounds.bottom >= -kMargin && bounds.left <= width_ + kMargin &&
               bounds.top <= height_ + kMargin))
             return;
-        const auto tileAt = [](double pixel, std::int32_t count) {
-            return static_cast<std::int32_t>(std::clamp(pixel / kTilePixels, 0.0, count - 1.0));
+        const auto tileAt = [this](double pixel, std::int32_t count) {
+            return static_cast<std::int32_t>(std::clamp((pixel + margin_) / kTilePixels, 0.0, count - 1.0));
         };
         const std::int32_t endX = tileAt(bounds.right, tilesX_), endY = tileAt(bounds.bottom, tilesY_);
         for (std::int32_t y = tileAt(bounds.top, tilesY_); y <= endY; ++y)
             for (std::int32_t x = tileAt(bounds.left, tilesX_); x <= endX; ++x) {
-                const Square square{double(x * kTilePixels) - kMargin, double(y * kTilePixels) - kMargin,
-                                    double((x + 1) * kTilePixels) + kMargin, double((y + 1) * kTilePixels) + kMargin};
+                const Square square{beginOf(x, kTilePixels) - kMargin, beginOf(y, kTilePixels) - kMargin,
+                                    beginOf(x + 1, kTilePixels) + kMargin, beginOf(y + 1, kTilePixels) + kMargin};
                 if (!touches(shape, square)) continue;
                 tiles_[static_cast<std::size_t>(x + tilesX_ * y)].shapes.push_back(shape);
                 ++entries;
@@ -290,18 +291,18 @@ void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tile
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // square, shape
     for (const std::uint32_t shape : tile.shapes) {
         const Square bounds = boundsOf(shape);
-        const auto cellAt = [](double pixel, std::int32_t tileAt) {
+        const auto cellAt = [this](double pixel, std::int32_t tileAt) {
             return static_cast<std::int32_t>(
-                std::clamp(std::floor((pixel - double(tileAt * kTilePixels)) / kCellPixels), 0.0, kTileCells - 1.0));
+                std::clamp(std::floor((pixel - beginOf(tileAt, kTilePixels)) / kCellPixels), 0.0, kTileCells - 1.0));
         };
         const std::int32_t endX = cellAt(bounds.right + kMargin, tileX), endY = cellAt(bounds.bottom + kMargin, tileY);
         if (shape < kTriangle) {
             // Row by row, what of it lies in the row.
-            const double left = double(tileX * kTilePixels), right = left + kTilePixels;
+            const double left = beginOf(tileX, kTilePixels), right = left + kTilePixels;
             for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y) {
                 const std::int32_t row = tileY * kTileCells + y;
-                const double cellTop = double(row * kCellPixels) - (row == 0 ? kMargin : 0);
-                const double cellBottom = double((row + 1) * kCellPixels) + (row >= cellsY_ - 1 ? kMargin : 0);
+                const double cellTop = beginOf(row, kCellPixels) - (row == 0 ? kMargin : 0);
+                const double cellBottom = beginOf(row + 1, kCellPixels) + (row >= cellsY_ - 1 ? kMargin : 0);
                 const auto [first, last] = spanOf(lines_[shape], cellTop, cellBottom);
                 if (!(last >= left - kMargin && first <= right + kMargin)) continue;
                 const std::int32_t end = cellAt(last, tileX);
@@ -312,8 +313,8 @@ void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tile
         }
         for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y)
             for (std::int32_t x = cellAt(bounds.left - kMargin, tileX); x <= endX; ++x) {
-                Square square{double(tileX * kTilePixels + x * kCellPixels),
-                              double(tileY * kTilePixels + y * kCellPixels), 0, 0};
+                Square square{beginOf(tileX * kTileCells + x, kCellPixels),
+                              beginOf(tileY * kTileCells + y, kCellPixels), 0, 0};
                 square.right = square.left + kCellPixels;
                 square.bottom = square.top + kCellPixels;
                 const std::int32_t cellX = tileX * kTileCells + x, cellY = tileY * kTileCells + y;

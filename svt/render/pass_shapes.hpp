@@ -50,12 +50,14 @@ public:
 
     /// \param clipper          of the pass
     /// \param samplesPerPixel  along a side, see Scene::lineSamples
+    /// \param margin           pixels before the picture's left and upper edge where blocks of rays begin: squares that
+    ///                         begin there have whole blocks in them
     /// \return the shapes, or BadFrame where they cover the picture too often
     /// Cost: O(shapes + squares that they touch), mostly parallel. Memory: at most about 1 GB, where the picture is
     /// full of shapes.
     [[nodiscard]] static Result<PassShapes> make(const Pass& pass, const FrameSpec& spec, const CameraRays& rays,
                                                  const volume::Grid& grid, const Clipper& clipper,
-                                                 double samplesPerPixel, int threads);
+                                                 double samplesPerPixel, double margin, int threads);
 
     [[nodiscard]] bool isEmpty() const noexcept { return tiles_.empty(); }
     /// Farthest that a line reaches from its middle, pixels.
@@ -64,7 +66,7 @@ public:
     /// Shapes that a ray through (u, v), see CameraRays::at(), may meet, ascending: lines, then triangles, whose
     /// numbers have kTriangle added. Rays up to 2 pixels outside of the picture are answered, too.
     [[nodiscard]] std::span<const std::uint32_t> near(double u, double v) const noexcept {
-        return inCell(cellOf((u + 1) / 2 * width_, cellsX_), cellOf((1 - v) / 2 * height_, cellsY_));
+        return inCell(cellX((u + 1) / 2 * width_), cellY((1 - v) / 2 * height_));
     }
     static constexpr std::uint32_t kTriangle = 0x80000000u;
     /// Lines that any of a few rays through (x[n], y[n]), pixels, may meet; each once, in any order.
@@ -74,15 +76,14 @@ public:
                                                            std::vector<std::uint32_t>& buffer) const {
         const auto [left, right] = rangeOf(x, kCount);
         const auto [top, bottom] = rangeOf(y, kCount);
-        return linesIn(cellOf(left, cellsX_), cellOf(top, cellsY_), cellOf(right, cellsX_), cellOf(bottom, cellsY_),
-                       buffer);
+        return linesIn(cellX(left), cellY(top), cellX(right), cellY(bottom), buffer);
     }
     /// False where none of the rays through (u[n], v[n]), n < count, meets any shape; true where one may.
     [[nodiscard]] bool hasAnyNear(const double* u, const double* v, std::size_t count) const noexcept {
         const auto [left, right] = rangeOf(u, count);
         const auto [bottom, top] = rangeOf(v, count);
-        return hasAnyIn(cellOf((left + 1) / 2 * width_, cellsX_), cellOf((1 - top) / 2 * height_, cellsY_),
-                        cellOf((right + 1) / 2 * width_, cellsX_), cellOf((1 - bottom) / 2 * height_, cellsY_));
+        return hasAnyIn(cellX((left + 1) / 2 * width_), cellY((1 - top) / 2 * height_), cellX((right + 1) / 2 * width_),
+                        cellY((1 - bottom) / 2 * height_));
     }
     [[nodiscard]] bool hasTriangles() const noexcept { return !triangles_.empty(); }
     [[nodiscard]] bool hasTriangles(double u, double v) const noexcept {
@@ -106,8 +107,14 @@ private:
     struct Square {
         double left, top, right, bottom;
     };
-    [[nodiscard]] static std::int32_t cellOf(double pixel, std::int32_t count) noexcept {
-        return std::clamp(static_cast<std::int32_t>(pixel * (1.0 / kCellPixels)), 0, count - 1);
+    [[nodiscard]] std::int32_t cellOf(double pixel, std::int32_t count) const noexcept {
+        return std::clamp(static_cast<std::int32_t>((pixel + margin_) * (1.0 / kCellPixels)), 0, count - 1);
+    }
+    [[nodiscard]] std::int32_t cellX(double pixel) const noexcept { return cellOf(pixel, cellsX_); }
+    [[nodiscard]] std::int32_t cellY(double pixel) const noexcept { return cellOf(pixel, cellsY_); }
+    /// Where a square or tile begins, pixels.
+    [[nodiscard]] double beginOf(std::int32_t number, std::int32_t pixels) const noexcept {
+        return double(number) * pixels - margin_;
     }
     [[nodiscard]] std::span<const std::uint32_t> inCell(std::int32_t x, std::int32_t y) const noexcept {
         const Tile& tile = tiles_[static_cast<std::size_t>(x / kTileCells + tilesX_ * (y / kTileCells))];
@@ -139,7 +146,7 @@ private:
     [[nodiscard]] static Square boundsOf(const std::array<double, 6>& outline) noexcept;
     [[nodiscard]] bool touches(std::uint32_t shape, const Square& square) const noexcept;
 
-    double width_ = 0, height_ = 0, reach_ = 0;  // pixels
+    double width_ = 0, height_ = 0, reach_ = 0, margin_ = 0;  // pixels
     std::int32_t cellsX_ = 0, cellsY_ = 0, tilesX_ = 0, tilesY_ = 0;
     std::vector<LineLook> looks_;
     std::vector<PictureLine> lines_;

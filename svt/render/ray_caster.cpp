@@ -8,18 +8,24 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 
 namespace svt::render {
 namespace {
 
-Result<void> checkCall(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
-                       const CastOptions& options) {
+Result<void> checkCall(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options) {
     if (auto checked = checkFrameSpec(spec); !checked) return checked;
-    if (volume.dimension() != grid.dimension())
-        return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    if (volumes.empty() || volumes.size() > FrameSpec::kMaxPasses)
+        return Error(Code::BadArgument,
+                     fmt::format("{} volumes to draw; 1 to {} are possible", volumes.size(), FrameSpec::kMaxPasses));
+    for (const DrawnVolume& volume : volumes)
+        if (volume.bricks().dimension() != volume.grid().dimension())
+            return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    for (std::size_t n = 0; n < spec.passes.size(); ++n)
+        if (spec.passes[n].volume >= volumes.size())
+            return Error(Code::BadFrame, fmt::format("pass {} draws volume {}, but there are {}; the first is 0", n,
+                                                     spec.passes[n].volume, volumes.size()));
     if (!(options.opaqueAt > 0 && options.opaqueAt <= 1) || !(options.labelAt >= 0 && options.labelAt < 1))
         return Error(Code::BadArgument,
                      fmt::format("opaqueAt of {} or labelAt of {} is out of range; (0, 1] and [0, 1) are "
@@ -66,42 +72,61 @@ bool arePixelsFine(const CameraRays& rays, const volume::Grid& grid, const Frame
     return rays.pixelSize(farthest) <= std::min({spacing.x, spacing.y, spacing.z});
 }
 
-using TableOf = std::function<PassTable(const Pass&)>;
+PassTable tableOf(const Pass& pass, const FrameSpec& spec, const DrawnVolume& volume) {
+    if (volume.level() != nullptr) return PassTable(pass, spec.objectOfScalar, *volume.level());
+    return PassTable(pass, spec.objectOfScalar, volume.bricks().scalarCount());
+}
 
-Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
-                        const CastOptions& options, const TableOf& tableOf, bool isReference) {
-    Scene scene{.volume = volume,
-                .grid = grid,
-                .spec = spec,
-                .options = options,
-                .rays = CameraRays(spec, grid),
-                .directions = DirectionTable(volume, grid),
-                .isReference = isReference};
-    scene.drawn = drawnPixels(scene.rays, grid, spec);
-    scene.isAdaptive = options.isAdaptive && arePixelsFine(scene.rays, grid, spec);
+Result<PreparedPass> preparedPass(const Pass& pass, const Scene& scene, const DrawnVolume& drawn) {
+    const FrameSpec& spec = scene.spec;
+    const PreparedVolume& volume = scene.volumes[pass.volume];
+    const int threads = scene.options.threads;
+    PreparedPass prepared{tableOf(pass.triangles.empty() ? pass : voxelsOf(pass, spec.objectOfScalar), spec, drawn),
+                          Clipper(pass.clips, volume.grid),
+                          {},
+                          pass.join,
+                          static_cast<std::uint8_t>(pass.volume)};
+    auto shapes = PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, scene.lineSamples,
+                                   SampleLayout(spec).blockMargin(scene.isAdaptive), threads);
+    if (!shapes) return shapes.error();
+    prepared.shapes = std::move(*shapes);
+    if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
+        const PassTable& table = prepared.table;
+        prepared.occlusion = OcclusionField(
+            volume.bricks, [&table](volume::Scalar scalar) { return table[scalar].isBody; }, prepared.clipper, threads);
+    }
+    return prepared;
+}
+
+Result<Scene> sceneOf(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options,
+                      bool isReference) {
+    Scene scene{.spec = spec, .options = options, .isReference = isReference, .isAdaptive = options.isAdaptive};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    scene.drawn = {kInfinity, kInfinity, -kInfinity, -kInfinity};
+    for (const DrawnVolume& drawn : volumes) {
+        const PreparedVolume& volume = scene.volumes.emplace_back(drawn, spec);
+        scene.drawn.include(drawnPixels(volume.rays, volume.grid, spec));
+        scene.isAdaptive = scene.isAdaptive && arePixelsFine(volume.rays, volume.grid, spec);
+    }
     if (!scene.isAdaptive) scene.lineSamples = std::round(std::sqrt(spec.samplesPerPixel));
-    scene.towardsLight = towardsLight(spec.light, scene.rays);
+    scene.towardsLight = towardsLight(spec.light, scene.rays());
     scene.hatchColor = linearFromSrgb(spec.hatches.color);
     for (const Pass& pass : spec.passes) {
-        PreparedPass prepared{pass.triangles.empty() ? tableOf(pass) : tableOf(voxelsOf(pass, spec.objectOfScalar)),
-                              Clipper(pass.clips, grid),
-                              {},
-                              pass.join};
-        auto shapes =
-            PassShapes::make(pass, spec, scene.rays, grid, prepared.clipper, scene.lineSamples, options.threads);
-        if (!shapes) return shapes.error();
-        scene.hasShapes = scene.hasShapes || !shapes->isEmpty();
-        scene.drawn.widen(shapes->reach());
-        prepared.shapes = std::move(*shapes);
-        if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
-            const PassTable& table = prepared.table;
-            prepared.occlusion = OcclusionField(
-                volume, [&table](volume::Scalar scalar) { return table[scalar].isBody; }, prepared.clipper,
-                options.threads);
-        }
-        scene.passes.push_back(std::move(prepared));
+        auto prepared = preparedPass(pass, scene, volumes[pass.volume]);
+        if (!prepared) return prepared.error();
+        scene.hasShapes = scene.hasShapes || !prepared->shapes.isEmpty();
+        scene.drawn.widen(prepared->shapes.reach());
+        scene.passes.push_back(std::move(*prepared));
     }
+    return scene;
+}
 
+Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options,
+                        bool isReference) {
+    if (auto checked = checkCall(volumes, spec, options); !checked) return checked.error();
+    auto prepared = sceneOf(volumes, spec, options, isReference);
+    if (!prepared) return prepared.error();
+    const Scene& scene = *prepared;
     std::optional<PacketPasses> packets;
     if (!isReference) packets.emplace(scene);
     Frame frame;
@@ -131,31 +156,15 @@ Result<Frame> castFrame(const volume::BrickVolume& volume, const volume::Grid& g
     return frame;
 }
 
-Result<Frame> castVolume(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
-                         const CastOptions& options, bool isReference) {
-    if (auto checked = checkCall(volume, grid, spec, options); !checked) return checked.error();
-    return castFrame(
-        volume, grid, spec, options,
-        [&](const Pass& pass) { return PassTable(pass, spec.objectOfScalar, volume.scalarCount()); }, isReference);
-}
-
 }  // namespace
 
-Result<Frame> castRays(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
-                       const CastOptions& options) {
-    return castVolume(volume, grid, spec, options, false);
+Result<Frame> castRays(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options) {
+    return castFrame(volumes, spec, options, false);
 }
 
-Result<Frame> castRaysReference(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+Result<Frame> castRaysReference(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
                                 const CastOptions& options) {
-    return castVolume(volume, grid, spec, options, true);
-}
-
-Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec, const CastOptions& options) {
-    if (auto checked = checkCall(level.bricks, level.grid, spec, options); !checked) return checked.error();
-    return castFrame(
-        level.bricks, level.grid, spec, options,
-        [&](const Pass& pass) { return PassTable(pass, spec.objectOfScalar, level); }, false);
+    return castFrame(volumes, spec, options, true);
 }
 
 int levelForView(const FrameSpec& spec, const volume::Grid& grid, int coarsest) {

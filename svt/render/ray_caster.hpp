@@ -11,6 +11,8 @@
 #include <svt/volume/grid.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
+#include <span>
+
 namespace svt::render {
 
 struct CastOptions {
@@ -32,7 +34,31 @@ struct Frame {
     Image<float> depth;           ///< metres along the view direction to where that label begins; +inf where nothing
 };
 
-/// Draws `volume` as `spec` says.
+/// A form of a semantic volume that passes may draw: the volume itself, a level of it, or its shell. All forms have the
+/// scalars of the volume, so one table of styles holds for each. What it is made of must outlive it.
+class DrawnVolume {
+public:
+    /// \param grid  where the samples of `bricks` lie; its dimension must be that of `bricks`
+    DrawnVolume(const volume::BrickVolume& bricks, const volume::Grid& grid) : bricks_(&bricks), grid_(&grid) {}
+    /// A coarse level.
+    ///
+    /// A cell has the extinction and colour of its labels, each weighted by coverage (Al-Thelaya 2020); an opaque label
+    /// stops 99 % of the light on the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each
+    /// level. A cell that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible
+    /// label of the cell.
+    DrawnVolume(const volume::LodLevel& level) : bricks_(&level.bricks), grid_(&level.grid), level_(&level) {}
+
+    [[nodiscard]] const volume::BrickVolume& bricks() const noexcept { return *bricks_; }
+    [[nodiscard]] const volume::Grid& grid() const noexcept { return *grid_; }
+    [[nodiscard]] const volume::LodLevel* level() const noexcept { return level_; }  ///< null: as fine as it is
+
+private:
+    const volume::BrickVolume* bricks_;
+    const volume::Grid* grid_;
+    const volume::LodLevel* level_ = nullptr;
+};
+
+/// Draws `volumes` as `spec` says; Pass::volume tells which of them a pass draws.
 ///
 /// A voxel is the box of half a spacing around its sample. Per pass, the ray is cut to the volume's voxels and by the
 /// clips, then taken apart into runs of one scalar:
@@ -44,28 +70,31 @@ struct Frame {
 /// plane; a cut face shows the label that it cuts. Lit and blended in linear light; passes are joined as Pass::Join
 /// says, all over the background.
 ///
-/// \param grid  where the samples of `volume` lie; its dimension must be the volume's
 /// \return the frame, or
-///         - BadFrame, BadCamera   see checkFrameSpec()
-///         - BadArgument           the grid is not the volume's, or an option is out of range
+///         - BadFrame, BadCamera   see checkFrameSpec(); a pass draws a volume that is not there
+///         - BadArgument           no volume, a grid that is not the volume's, or an option out of range
 ///         - Cancelled
 /// Cost: O(pixels * samples * passes * same-label stretches crossed), and per pass with ambient occlusion O(bricks).
 /// Threads: reads only; several frames may be cast at once. The same bytes for any number of threads.
-[[nodiscard]] Result<Frame> castRays(const volume::BrickVolume& volume, const volume::Grid& grid, const FrameSpec& spec,
+[[nodiscard]] Result<Frame> castRays(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
                                      const CastOptions& options = {});
+[[nodiscard]] inline Result<Frame> castRays(const DrawnVolume& volume, const FrameSpec& spec,
+                                            const CastOptions& options = {}) {
+    return castRays(std::span(&volume, 1), spec, options);
+}
+[[nodiscard]] inline Result<Frame> castRays(const volume::BrickVolume& volume, const volume::Grid& grid,
+                                            const FrameSpec& spec, const CastOptions& options = {}) {
+    return castRays(DrawnVolume(volume, grid), spec, options);
+}
 
 /// The same from voxel to voxel, with no skipping. Slow; what castRays() is tested against.
-[[nodiscard]] Result<Frame> castRaysReference(const volume::BrickVolume& volume, const volume::Grid& grid,
-                                              const FrameSpec& spec, const CastOptions& options = {});
-
-/// A coarse level, under the same spec as the volume itself: styles are by the volume's scalars.
-///
-/// A cell has the extinction and colour of its labels, each weighted by coverage (Al-Thelaya 2020); an opaque label
-/// stops 99 % of the light on the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each
-/// level. A cell that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible
-/// label of the cell.
-[[nodiscard]] Result<Frame> castRays(const volume::LodLevel& level, const FrameSpec& spec,
-                                     const CastOptions& options = {});
+[[nodiscard]] Result<Frame> castRaysReference(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
+                                              const CastOptions& options = {});
+[[nodiscard]] inline Result<Frame> castRaysReference(const volume::BrickVolume& volume, const volume::Grid& grid,
+                                                     const FrameSpec& spec, const CastOptions& options = {}) {
+    const DrawnVolume drawn(volume, grid);
+    return castRaysReference(std::span(&drawn, 1), spec, options);
+}
 
 /// Level of detail for a picture of a volume on `grid`: the coarsest whose cells are at most half a pixel wide wherever
 /// the volume is seen, so that what is far away does not alias; 0 = the volume itself, where pixels are finer than 4

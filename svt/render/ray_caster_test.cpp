@@ -398,6 +398,23 @@ TEST(RayCaster, SurfacesFacingTheLightAreBrighter) {
     EXPECT_LT(below.color.at(38, 30).r, below.color.at(65, 75).r);
 }
 
+// The same wall within and without: what replaces is bordered where nothing else would be seen to change.
+TEST(RayCaster, ALensHasARim) {
+    const TestVolume volume = makeBody({40, 40, 40}, {0.25, 0.25, 0.25}, [](Vec3d p) { return p.y > 5; });
+    FrameSpec spec = frontFrame(100, 100, {5, 5, 5}, 10, stylesOf({kOpaque}));
+    spec.light.ambientOcclusion = 0;
+    spec.borders.strength = 1;
+    spec.passes.push_back(spec.passes[0]);
+    spec.passes[1].clips = {ClipRegion::box({{2.5, 0, 2.5}, {7.5, 10, 7.5}}, ClipRegion::Mode::KeepOnly)};
+    const Frame over = cast(volume, spec);
+    EXPECT_EQ(over.color.at(25, 50), over.color.at(50, 50));
+    spec.passes[1].join = Pass::Join::Replace;
+    const Frame lens = cast(volume, spec);
+    EXPECT_EQ(lens.color.at(50, 50), over.color.at(50, 50));
+    EXPECT_EQ(lens.color.at(24, 50), over.color.at(50, 50));  // outside
+    for (const auto& [x, y] : {std::pair{25, 50}, {74, 50}, {50, 25}, {50, 74}}) EXPECT_LT(lens.color.at(x, y).r, 10);
+}
+
 TEST(RayCaster, CornersAreDarker) {
     const TestVolume volume = makeBody({80, 80, 80}, {0.25, 0.25, 0.25}, [](Vec3d p) { return p.z < 5 || p.y > 15; });
     FrameSpec spec = frontFrame(100, 100, {10, 5, 10}, 14, stylesOf({kOpaque}));

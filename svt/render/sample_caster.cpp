@@ -158,9 +158,13 @@ Sample over(const Sample& front, const Sample& back) noexcept {
 
 }  // namespace
 
-Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexcept {
+Sample joinPass(Pass::Join join, std::size_t number, const Sample& pass, const Sample& before) noexcept {
     switch (join) {
-        case Pass::Join::Replace: return pass.alpha > 0 ? pass : before;
+        case Pass::Join::Replace: {
+            Sample joined = pass.alpha > 0 ? pass : before;
+            if (pass.alpha > 0) joined.lens = static_cast<std::uint8_t>(number);
+            return joined;
+        }
         case Pass::Join::Depth: return pass.depth <= before.depth ? over(pass, before) : over(before, pass);
         case Pass::Join::Over: break;
     }
@@ -175,11 +179,11 @@ SampleCaster::~SampleCaster() = default;
 
 Sample SampleCaster::cast(double u, double v, bool withColor) {
     Sample joined;
-    const CameraRay ray = scene_.rays.at(u, v);
-    const RaySpan span = spanInVolume(ray.index, scene_.volume.dimension());
-    if (!(span.from < span.to) && !scene_.hasShapes) return joined;
     for (std::size_t n = 0; n < scene_.passes.size(); ++n) {
         const PreparedPass& pass = scene_.passes[n];
+        const PreparedVolume& volume = scene_.volumes[pass.volume];
+        const CameraRay ray = volume.rays.at(u, v);
+        const RaySpan span = spanInVolume(ray.index, volume.bricks.dimension());
         const DrawnIntervals drawn = pass.clipper.cut(ray.index, span);
         fragments_->clear();
         double end = std::numeric_limits<double>::infinity();
@@ -193,15 +197,16 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
             if (!(interval.from < interval.to)) break;
             shader.beginInterval(interval);
             if (scene_.isReference)
-                walkRunsReference(scene_.volume, ray.index, interval.from, interval.to, shader);
+                walkRunsReference(volume.bricks, ray.index, interval.from, interval.to, shader);
             else
-                walkRuns(scene_.volume, ray.index, interval.from, interval.to, shader);
+                walkRuns(volume.bricks, ray.index, interval.from, interval.to, shader);
             if (shader.isDone()) break;
         }
         shader.finish();
         Sample sample = shader.result();
+        sample.volume = pass.volume;
         if (sample.isCap) hatchCap(scene_, n, u, v, sample);
-        joined = n == 0 ? sample : joinPass(pass.join, sample, joined);
+        joined = n == 0 ? sample : joinPass(pass.join, n, sample, joined);
     }
     return joined;
 }

@@ -10,6 +10,7 @@
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/surface_normal.hpp>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
@@ -27,6 +28,8 @@ struct Sample {
     Vec3f normal{};                                        ///< world space, unit length, where the label begins
     bool isCap = false;                                    ///< the label begins on a clip plane
     bool hasLine = false;                                  ///< a line is part of the color
+    std::uint8_t volume = 0;                               ///< where the label was met, see Scene::volumes
+    std::uint8_t lens = 0;                                 ///< number of the pass that replaced all before it; 0: none
 
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
 };
@@ -43,8 +46,8 @@ inline void finishSample(Vec3d color, double transmittance, const CastOptions& o
     sample.alpha = isOpaque ? 1 : static_cast<float>(alpha);
 }
 
-/// `pass` joined with what the passes before it have seen.
-[[nodiscard]] Sample joinPass(Pass::Join join, const Sample& pass, const Sample& before) noexcept;
+/// What pass `number` has seen, joined with what the passes before it have.
+[[nodiscard]] Sample joinPass(Pass::Join join, std::size_t number, const Sample& pass, const Sample& before) noexcept;
 
 /// Whether nothing of the passes before is left in joinPass().
 [[nodiscard]] inline bool hidesAllBefore(Pass::Join join, const Sample& pass) noexcept {
@@ -58,6 +61,7 @@ struct PreparedPass {
     Clipper clipper;
     OcclusionField occlusion;
     Pass::Join join;
+    std::uint8_t volume;  ///< see Scene::volumes
     PassShapes shapes{};
 };
 
@@ -65,6 +69,10 @@ struct PreparedPass {
 struct PixelRect {
     double left = 0, top = 0, right = 0, bottom = 0;
     void widen(double by) noexcept { *this = {left - by, top - by, right + by, bottom + by}; }
+    void include(const PixelRect& other) noexcept {
+        *this = {std::min(left, other.left), std::min(top, other.top), std::max(right, other.right),
+                 std::max(bottom, other.bottom)};
+    }
     [[nodiscard]] bool overlaps(std::int32_t x, std::int32_t y, std::int32_t width,
                                 std::int32_t height) const noexcept {
         return x <= right && x + width >= left && y <= bottom && y + height >= top;
@@ -96,14 +104,27 @@ private:
     std::vector<Directions> planes_;
 };
 
-/// The picture as all rays share it.
-struct Scene {
-    const volume::BrickVolume& volume;
+/// A volume as all rays share it.
+struct PreparedVolume {
+    const volume::BrickVolume& bricks;
     const volume::Grid& grid;
-    const FrameSpec& spec;
-    const CastOptions& options;
     CameraRays rays;
     DirectionTable directions;
+    double voxelSize;  ///< metres, the largest spacing
+
+    PreparedVolume(const DrawnVolume& drawn, const FrameSpec& spec)
+        : bricks(drawn.bricks()),
+          grid(drawn.grid()),
+          rays(spec, grid),
+          directions(bricks, grid),
+          voxelSize(std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z})) {}
+};
+
+/// The picture as all rays share it.
+struct Scene {
+    const FrameSpec& spec;
+    const CastOptions& options;
+    std::vector<PreparedVolume> volumes{};  ///< at least one
     std::vector<PreparedPass> passes{};
     Vec3d towardsLight{};  ///< world space, unit length
     Vec3f hatchColor{};    ///< linear light
@@ -113,6 +134,12 @@ struct Scene {
     bool hasShapes = false;   ///< any pass has
     /// Samples along a pixel's side, over which lines fade out. Adaptive pictures have one in most pixels.
     double lineSamples = 1;
+
+    /// What rays have in common whatever volume they cross: all but CameraRay::index.
+    [[nodiscard]] const CameraRays& rays() const noexcept { return volumes.front().rays; }
+    [[nodiscard]] const PreparedVolume& volumeOf(std::size_t pass) const noexcept {
+        return volumes[passes[pass].volume];
+    }
 };
 
 /// Normals of hit voxels, kept per tile: neighbouring rays often hit the same voxel.

@@ -48,7 +48,7 @@ Surface SurfaceLight::at(const LinearStyle& style, const SurfaceHit& hit) const 
 
 double SurfaceLight::on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept {
     const bool isOpen = !style.isBody || scene_.spec.light.ambientOcclusion <= 0;
-    return lightOn(normal, view, isOpen ? 1 : openness(point, scene_.directions.away(normal), 0));
+    return lightOn(normal, view, isOpen ? 1 : openness(point, volume_.directions.away(normal), 0));
 }
 
 Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) const {
@@ -57,23 +57,23 @@ Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) co
     bool isAway = false;
     if (hit.cap) {
         found.normal =
-            hit.cap.normalAt(scene_.grid.worldFromIndex(hit.origin + hit.direction * hit.from - Vec3d{0.5, 0.5, 0.5}));
-        found.away = scene_.directions.away(found.normal);
+            hit.cap.normalAt(volume_.grid.worldFromIndex(hit.origin + hit.direction * hit.from - Vec3d{0.5, 0.5, 0.5}));
+        found.away = volume_.directions.away(found.normal);
         isAway = dot(found.normal, hit.view) < 0;
         surface.isCap = true;
     } else if (hit.plane != volume::BrickVolume::kNoPlane) {
-        found = scene_.directions.plane(hit.plane);
-        isAway = dot(scene_.volume.oblique()[hit.plane].normal, hit.direction) > 0;
+        found = volume_.directions.plane(hit.plane);
+        isAway = dot(volume_.bricks.oblique()[hit.plane].normal, hit.direction) > 0;
     } else if (hit.axis < 0) {
         found.normal = hit.view;
         surface.isAroundEye = true;
     } else if (style.isBody && hit.isVoxel) {
         const SurfaceNormal& fitted = normalAt(hit.cell, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
-        found = scene_.directions.directions(toDouble(fitted.indexNormal));
+        found = volume_.directions.directions(toDouble(fitted.indexNormal));
         surface.crease =
             std::clamp((double(fitted.coverage) - double(SurfaceNormal::kPlaneCoverage) - 0.05) * 2.5, 0.0, 1.0);
     } else {
-        found = scene_.directions.axis(hit.axis);
+        found = volume_.directions.axis(hit.axis);
         isAway = hit.direction[hit.axis] > 0;
     }
     surface.normal = isAway ? -found.normal : found.normal;
@@ -89,8 +89,8 @@ const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) cons
     if (slot.key != key) {
         slot.key = key;
         const PassTable& table = pass_.table;
-        slot.normal =
-            surfaceNormal(scene_.volume, cell, axis, sign, [&](volume::Scalar scalar) { return table[scalar].isBody; });
+        slot.normal = surfaceNormal(volume_.bricks, cell, axis, sign,
+                                    [&](volume::Scalar scalar) { return table[scalar].isBody; });
     }
     return slot.normal;
 }

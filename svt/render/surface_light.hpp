@@ -32,7 +32,7 @@ struct Surface {
 class SurfaceLight {
 public:
     SurfaceLight(const Scene& scene, std::size_t pass, NormalCache& cache)
-        : scene_(scene), pass_(scene.passes[pass]), passNumber_(pass), cache_(cache) {}
+        : scene_(scene), pass_(scene.passes[pass]), passNumber_(pass), volume_(scene.volumeOf(pass)), cache_(cache) {}
 
     /// A surface has the normal of the plane or voxel face that the ray crosses. Where voxels alone tell the label, a
     /// body's is fitted to those around, which also say how deep in a corner it lies.
@@ -51,6 +51,7 @@ private:
     const Scene& scene_;
     const PreparedPass& pass_;
     std::size_t passNumber_;
+    const PreparedVolume& volume_;
     NormalCache& cache_;
 };
 

@@ -15,39 +15,45 @@ std::int32_t reachOf(float width, std::int32_t side) noexcept {
     return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
 }
 
-// Is a line between the two one of a cut face?
+// Is the line between the two the rim of a lens that has `sample` in it?
+bool isRim(const Sample& sample, const Sample& other) noexcept { return sample.lens > other.lens; }
+
+// Is a line between the two one of a cut face or a rim?
 bool isCutLine(const Sample& sample, const Sample& other) noexcept {
+    if (sample.lens != other.lens) return isRim(sample, other);
     return sample.isCap && (!other.hasHit() || !other.isCap || sample.object != other.object);
 }
 
 }  // namespace
 
+SampleLayout::SampleLayout(const FrameSpec& spec)
+    : side(static_cast<std::int32_t>(std::lround(std::sqrt(spec.samplesPerPixel)))),
+      lineReach(reachOf(spec.borders.width, side)),
+      cutReach(reachOf(spec.borders.cutWidth, side)),
+      // Against what is not cut, the cut face carries all of its line.
+      margin(spec.borders.strength > 0 ? std::max(lineReach, cutReach > 1 ? 2 * cutReach : 1) : 0),
+      pixelMargin((margin + side - 1) / side + 1) {}
+
 TileRenderer::TileRenderer(const Scene& scene, const PacketPasses* packets, Frame& frame)
     : scene_(scene),
       frame_(frame),
       caster_(scene),
-      side_(static_cast<std::int32_t>(std::lround(std::sqrt(scene.spec.samplesPerPixel)))),
-      lineReach_(reachOf(scene.spec.borders.width, side_)),
-      cutReach_(reachOf(scene.spec.borders.cutWidth, side_)),
-      // Against what is not cut, the cut face carries all of its line.
-      margin_(scene.spec.borders.strength > 0 ? std::max(lineReach_, cutReach_ > 1 ? 2 * cutReach_ : 1) : 0),
-      pixelMargin_((margin_ + side_ - 1) / side_ + 1),
-      stride_(kTilePixels * side_ + 2 * margin_),
+      layout_(scene.spec),
+      stride_(kTilePixels * layout_.side + 2 * layout_.margin),
       backgroundTop_(linearFromSrgb(scene.spec.background.top)),
       backgroundBottom_(linearFromSrgb(scene.spec.background.bottom)),
       lineColor_(linearFromSrgb(scene.spec.borders.color)),
-      voxelSize_(std::max({scene.grid.spacing().x, scene.grid.spacing().y, scene.grid.spacing().z})),
       samples_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_)),
       lines_(samples_.size()) {
     if (packets != nullptr) packets_.emplace(scene, *packets);
 }
 
 double TileRenderer::horizontal(double sampleX) const noexcept {
-    return 2 * (tileX_ + sampleX / side_) / scene_.spec.width - 1;
+    return 2 * (tileX_ + sampleX / layout_.side) / scene_.spec.width - 1;
 }
 
 double TileRenderer::vertical(double sampleY) const noexcept {
-    return 1 - 2 * (tileY_ + sampleY / side_) / scene_.spec.height;
+    return 1 - 2 * (tileY_ + sampleY / layout_.side) / scene_.spec.height;
 }
 
 void TileRenderer::render(std::int32_t x, std::int32_t y) {
@@ -63,24 +69,24 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
     // Nothing is drawn without a sample, but with an even number of them a pixel's middle may still see a label.
     const bool isEmpty = std::all_of(samples_.begin(), samples_.end(),
                                      [](const Sample& sample) { return sample.alpha <= 0 && !sample.hasHit(); });
-    if (isEmpty && side_ % 2 == 1) {
+    if (isEmpty && layout_.side % 2 == 1) {
         fillBackground();
         return;
     }
-    if (margin_ > 0) findLines();
+    if (layout_.margin > 0) findLines();
     writePixels();
 }
 
 void TileRenderer::castSamples() {
     if (packets_) {
-        if (side_ > 1 && scene_.isAdaptive)
+        if (layout_.side > 1 && scene_.isAdaptive)
             castAdaptively();
         else
             castPackets();
         return;
     }
-    for (std::int32_t y = -margin_; y < tileHeight_ * side_ + margin_; ++y)
-        for (std::int32_t x = -margin_; x < tileWidth_ * side_ + margin_; ++x)
+    for (std::int32_t y = -layout_.margin; y < tileHeight_ * layout_.side + layout_.margin; ++y)
+        for (std::int32_t x = -layout_.margin; x < tileWidth_ * layout_.side + layout_.margin; ++x)
             samples_[at(x, y)] = caster_.cast(horizontal(x + 0.5), vertical(y + 0.5), true);
 }
 
@@ -106,20 +112,25 @@ void TileRenderer::castGrid(const RayGrid& grid, std::vector<Sample>& samples) {
 }
 
 void TileRenderer::castPackets() {
-    castGrid({0.5 - margin_, 1, tileWidth_ * side_ + 2 * margin_, tileHeight_ * side_ + 2 * margin_, stride_},
+    castGrid({0.5 - layout_.margin, 1, tileWidth_ * layout_.side + 2 * layout_.margin,
+              tileHeight_ * layout_.side + 2 * layout_.margin, stride_},
              samples_);
 }
 
 // Several samples only for pixels that differ from a neighbor; the others are filled with what their middle sees.
 void TileRenderer::castAdaptively() {
     castPixels();
-    const std::int32_t endX = tileWidth_ * side_ + margin_, endY = tileHeight_ * side_ + margin_;
-    const std::int32_t around = (margin_ + side_ - 1) / side_;  // pixels beside the tile with samples of its margin
+    const std::int32_t endX = tileWidth_ * layout_.side + layout_.margin,
+                       endY = tileHeight_ * layout_.side + layout_.margin;
+    const std::int32_t around =
+        (layout_.margin + layout_.side - 1) / layout_.side;  // pixels beside the tile with samples of its margin
     for (std::int32_t y = -around; y < tileHeight_ + around; ++y)
         for (std::int32_t x = -around; x < tileWidth_ + around; ++x) {
             const bool isSmooth = !needsSamples(x, y);
-            for (std::int32_t sy = std::max(y * side_, -margin_); sy < std::min((y + 1) * side_, endY); ++sy)
-                for (std::int32_t sx = std::max(x * side_, -margin_); sx < std::min((x + 1) * side_, endX); ++sx) {
+            for (std::int32_t sy = std::max(y * layout_.side, -layout_.margin);
+                 sy < std::min((y + 1) * layout_.side, endY); ++sy)
+                for (std::int32_t sx = std::max(x * layout_.side, -layout_.margin);
+                     sx < std::min((x + 1) * layout_.side, endX); ++sx) {
                     if (isSmooth) {
                         samples_[at(sx, sy)] = pixels_[middleOf(x, y)];
                         continue;
@@ -133,20 +144,20 @@ void TileRenderer::castAdaptively() {
 
 // Through the middles of pixels.
 void TileRenderer::castPixels() {
-    const std::int32_t stride = kTilePixels + 2 * pixelMargin_;
+    const std::int32_t stride = kTilePixels + 2 * layout_.pixelMargin;
     pixels_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
-    castGrid({side_ / 2.0 - pixelMargin_ * side_, double(side_), tileWidth_ + 2 * pixelMargin_,
-              tileHeight_ + 2 * pixelMargin_, stride},
+    castGrid({layout_.side / 2.0 - layout_.pixelMargin * layout_.side, double(layout_.side),
+              tileWidth_ + 2 * layout_.pixelMargin, tileHeight_ + 2 * layout_.pixelMargin, stride},
              pixels_);
 }
 
 bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {
     const Sample& sample = pixels_[middleOf(x, y)];
-    const double step = sample.hasHit() ? scene_.rays.pixelSize(static_cast<double>(sample.depth)) : 0;
+    const double step = sample.hasHit() ? scene_.rays().pixelSize(static_cast<double>(sample.depth)) : 0;
     for (std::int32_t dy = -1; dy <= 1; ++dy)
         for (std::int32_t dx = -1; dx <= 1; ++dx) {
             if (dx == 0 && dy == 0) continue;
-            const Vec3d aside = scene_.rays.right() * (step * dx) - scene_.rays.up() * (step * dy);
+            const Vec3d aside = scene_.rays().right() * (step * dx) - scene_.rays().up() * (step * dy);
             if (looksOther(sample, pixels_[middleOf(x + dx, y + dy)], aside)) return true;
         }
     return false;
@@ -168,12 +179,12 @@ bool TileRenderer::looksOther(const Sample& sample, const Sample& other, Vec3d a
 
 // What the rays through the middles of the pixels see, with an even number of samples along a pixel.
 void TileRenderer::castCenters() {
-    const double middle = side_ / 2.0;
+    const double middle = layout_.side / 2.0;
     centers_.resize(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_));
     if (packets_) {
         for (std::int32_t y = 0; y < tileHeight_; ++y)
             for (std::int32_t x = 0; x < tileWidth_; ++x) {
-                packets_->add(horizontal(x * side_ + middle), vertical(y * side_ + middle),
+                packets_->add(horizontal(x * layout_.side + middle), vertical(y * layout_.side + middle),
                               static_cast<std::size_t>(x + y * tileWidth_));
                 if (packets_->isFull()) packets_->cast(false, centers_);
             }
@@ -183,12 +194,12 @@ void TileRenderer::castCenters() {
     for (std::int32_t y = 0; y < tileHeight_; ++y)
         for (std::int32_t x = 0; x < tileWidth_; ++x)
             centers_[static_cast<std::size_t>(x + y * tileWidth_)] =
-                caster_.cast(horizontal(x * side_ + middle), vertical(y * side_ + middle), false);
+                caster_.cast(horizontal(x * layout_.side + middle), vertical(y * layout_.side + middle), false);
 }
 
 void TileRenderer::findLines() {
-    for (std::int32_t y = 0; y < tileHeight_ * side_; ++y)
-        for (std::int32_t x = 0; x < tileWidth_ * side_; ++x) {
+    for (std::int32_t y = 0; y < tileHeight_ * layout_.side; ++y)
+        for (std::int32_t x = 0; x < tileWidth_ * layout_.side; ++x) {
             const Sample& sample = samples_[at(x, y)];
             lines_[at(x, y)] = sample.hasHit() ? lineOn(sample, x, y) : 0;
         }
@@ -196,11 +207,11 @@ void TileRenderer::findLines() {
 
 // How dark the line on a sample is; it stands at (x, y).
 float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y) const {
-    const double step = scene_.rays.pixelSize(static_cast<double>(sample.depth)) / side_;
-    const std::int32_t most = sample.isCap ? margin_ : lineReach_;
+    const double step = scene_.rays().pixelSize(static_cast<double>(sample.depth)) / layout_.side;
+    const std::int32_t most = sample.isCap || sample.lens > 0 ? layout_.margin : layout_.lineReach;
     float line = 0;
     for (std::int32_t reach = 1; reach <= most && line < 1; ++reach) {
-        const Vec3d right = scene_.rays.right() * (step * reach), up = scene_.rays.up() * (step * reach);
+        const Vec3d right = scene_.rays().right() * (step * reach), up = scene_.rays().up() * (step * reach);
         const auto look = [&](std::int32_t dx, std::int32_t dy, Vec3d aside, bool isFirst) {
             const Sample& other = samples_[at(x + dx * reach, y + dy * reach)];
             if (most > 1 && reach > reachBetween(sample, other)) return;
@@ -215,30 +226,33 @@ float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y)
 }
 
 std::int32_t TileRenderer::reachBetween(const Sample& sample, const Sample& other) const noexcept {
-    if (!isCutLine(sample, other)) return lineReach_;
-    return other.hasHit() && other.isCap ? cutReach_ : std::max(lineReach_, margin_);
+    if (!isCutLine(sample, other)) return layout_.lineReach;
+    return isRim(sample, other) || (other.hasHit() && other.isCap) ? layout_.cutReach
+                                                                   : std::max(layout_.lineReach, layout_.margin);
 }
 
 // How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space)
 // beside it. The nearer of the two carries the line. Where both are of one surface both do, or, with one sample per
 // pixel, only the first of them, so that the line is a pixel wide.
 float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const {
-    if (!other.hasHit()) return 1;
+    if (!other.hasHit() || isRim(sample, other)) return 1;
+    if (isRim(other, sample)) return 0;
     const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
     // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in
     // depth.
     const Vec3d normal = toDouble(sample.normal);
-    const double facing = std::max(-dot(normal, scene_.rays.forward()), 0.02);
+    const double facing = std::max(-dot(normal, scene_.rays().forward()), 0.02);
     const double predicted = dot(normal, aside) / facing;
     // A step of a voxel in one object's face is no border, though its riser faces the viewer.
-    const double otherFacing = std::max(-dot(toDouble(other.normal), scene_.rays.forward()), 0.02);
+    const double otherFacing = std::max(-dot(toDouble(other.normal), scene_.rays().forward()), 0.02);
     const double grazing = sample.object == other.object ? std::min(facing, otherFacing) : facing;
-    const double tolerance = (1 + 2 / grazing) * voxelSize_ + length(aside) + 0.7 * std::abs(predicted);
+    const double tolerance =
+        (1 + 2 / grazing) * scene_.volumes[sample.volume].voxelSize + length(aside) + 0.7 * std::abs(predicted);
     const bool isJump = std::abs(difference - predicted) > tolerance;
     const bool isOtherLabel = sample.object != other.object || sample.isCap != other.isCap;
     if (!isJump && !isOtherLabel) return 0;
     if (isJump) return difference > 0 ? 1 : 0;
-    return side_ > 1 || isFirst ? 1 : 0;
+    return layout_.side > 1 || isFirst ? 1 : 0;
 }
 
 void TileRenderer::fillBackground() {
@@ -249,16 +263,17 @@ void TileRenderer::fillBackground() {
 }
 
 void TileRenderer::writePixels() {
-    const bool isOdd = side_ % 2 == 1;
+    const bool isOdd = layout_.side % 2 == 1;
     const bool isAdaptive = packets_ && scene_.isAdaptive;
     if (!isOdd && !isAdaptive) castCenters();
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
         const Vec3f background = backgroundOf(y);
         const Rgba8 backgroundPixel = pixelOf({}, 0, background);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
-            const Sample& center = isOdd        ? samples_[at(x * side_ + side_ / 2, y * side_ + side_ / 2)]
-                                   : isAdaptive ? pixels_[middleOf(x, y)]
-                                                : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
+            const Sample& center =
+                isOdd        ? samples_[at(x * layout_.side + layout_.side / 2, y * layout_.side + layout_.side / 2)]
+                : isAdaptive ? pixels_[middleOf(x, y)]
+                             : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
             const auto [color, alpha] = lightOf(x, y);
             frame_.color.at(tileX_ + x, tileY_ + y) = alpha > 0 ? pixelOf(color, alpha, background) : backgroundPixel;
             frame_.label.at(tileX_ + x, tileY_ + y) = center.label;
@@ -270,11 +285,11 @@ void TileRenderer::writePixels() {
 TileRenderer::PixelLight TileRenderer::lightOf(std::int32_t x, std::int32_t y) const noexcept {
     Vec3f color{};
     float alpha = 0;
-    for (std::int32_t sy = y * side_; sy < (y + 1) * side_; ++sy)
-        for (std::int32_t sx = x * side_; sx < (x + 1) * side_; ++sx) {
+    for (std::int32_t sy = y * layout_.side; sy < (y + 1) * layout_.side; ++sy)
+        for (std::int32_t sx = x * layout_.side; sx < (x + 1) * layout_.side; ++sx) {
             const Sample& sample = samples_[at(sx, sy)];
             if (sample.alpha <= 0) continue;
-            const float line = margin_ > 0 ? scene_.spec.borders.strength * lines_[at(sx, sy)] : 0;
+            const float line = layout_.margin > 0 ? scene_.spec.borders.strength * lines_[at(sx, sy)] : 0;
             // A line is seen, however thin the glass it borders.
             const float covered = sample.alpha + (1 - sample.alpha) * line * kGlassLine;
             // Light above 1 must not spill into the neighbours of a pixel.
@@ -285,7 +300,7 @@ TileRenderer::PixelLight TileRenderer::lightOf(std::int32_t x, std::int32_t y) c
                 lineColor_ * (line * covered);
             alpha += covered;
         }
-    const float share = 1.0f / static_cast<float>(side_ * side_);
+    const float share = 1.0f / static_cast<float>(layout_.side * layout_.side);
     return {color * share, alpha * share};
 }
 

@@ -16,6 +16,20 @@ namespace svt::render {
 
 inline constexpr std::int32_t kTilePixels = 32;
 
+/// Samples of a tile and around it.
+struct SampleLayout {
+    std::int32_t side;                 ///< samples per pixel along one axis
+    std::int32_t lineReach, cutReach;  ///< samples from a border that its line covers, on either side
+    std::int32_t margin;               ///< samples around the tile
+    std::int32_t pixelMargin;          ///< pixels around the tile whose middles tell which need more samples
+
+    explicit SampleLayout(const FrameSpec& spec);
+    /// Pixels before a tile where the blocks of its rays begin.
+    [[nodiscard]] double blockMargin(bool isAdaptive) const noexcept {
+        return isAdaptive && side > 1 ? double(pixelMargin) : double(margin) / side;
+    }
+};
+
 /// Renders tiles; keeps its buffers between them. Belongs to one thread.
 class TileRenderer {
 public:
@@ -56,12 +70,13 @@ private:
     [[nodiscard]] PixelLight lightOf(std::int32_t x, std::int32_t y) const noexcept;
 
     [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y) const noexcept {
-        return static_cast<std::size_t>(x + margin_) +
-               static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y + margin_);
+        return static_cast<std::size_t>(x + layout_.margin) +
+               static_cast<std::size_t>(stride_) * static_cast<std::size_t>(y + layout_.margin);
     }
     [[nodiscard]] std::size_t middleOf(std::int32_t x, std::int32_t y) const noexcept {
-        return static_cast<std::size_t>(x + pixelMargin_) +
-               static_cast<std::size_t>(kTilePixels + 2 * pixelMargin_) * static_cast<std::size_t>(y + pixelMargin_);
+        return static_cast<std::size_t>(x + layout_.pixelMargin) +
+               static_cast<std::size_t>(kTilePixels + 2 * layout_.pixelMargin) *
+                   static_cast<std::size_t>(y + layout_.pixelMargin);
     }
     [[nodiscard]] double horizontal(double sampleX) const noexcept;
     [[nodiscard]] double vertical(double sampleY) const noexcept;
@@ -70,14 +85,10 @@ private:
     Frame& frame_;
     SampleCaster caster_;
     std::optional<PacketCaster> packets_;
-    std::int32_t side_;                  // samples per pixel along one axis
-    std::int32_t lineReach_, cutReach_;  // samples from a border that its line covers, on either side
-    std::int32_t margin_;                // samples around the tile
-    std::int32_t pixelMargin_;           // pixels around the tile whose middles tell which need more samples
+    SampleLayout layout_;
     std::int32_t stride_;
     Vec3f backgroundTop_, backgroundBottom_, lineColor_;  // linear light
     const SrgbBytes& bytes_ = SrgbBytes::table();
-    double voxelSize_;                                                     // metres, the largest spacing
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
     std::vector<double> columns_, rows_;                                   // where they lie in the picture, -1..1
     std::vector<Sample> samples_;

@@ -124,6 +124,10 @@ const std::vector<Picture> kPictures{
      {"--hide", "class=BuildingRoom", "--lens", "ball(6,5,3,2.5)", "--section", "y<5", "--context", "solid"},
      {}},
     {"highlight", {"--look", "dark", "--highlight", "id=house_living", "--highlight", "id=house_hidden_beam"}, {}},
+    {"highlight_in_shell", {"--highlight", "id=house_living", "--context", "shell"}, {}},
+    {"highlight_in_coarse",
+     {"--highlight", "id=house_living", "--context", "solid", "--context-level", "2", "--hide", "name~Roof"},
+     {}},
     {"cutaway",
      {"--look", "paper", "--hide", "class=BuildingRoom", "--cutaway", "id=house_hidden_beam", "--color",
       "id=house_hidden_beam:red"},
@@ -164,8 +168,8 @@ TEST_P(TowerSceneTest, LooksAsItsReference) {
     runSvtWell(folder.path(), {"build", "tower.gml", "-o", "house.svt", "--spacing", "0.1"});
     expectAsReference(folder.path(), picture());
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest, ::testing::Values("two_flats", "two_flats_in_their_tower"),
-                         nameOfScene);
+INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest,
+                         ::testing::Values("two_flats", "two_flats_in_their_tower", "hulls_of_storeys"), nameOfScene);
 
 class SmallHouse : public ::testing::Test {
 protected:

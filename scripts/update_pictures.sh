@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Draws the pictures of README.md that are scenes of examples/scenes. Needs the FZK-Haus (CityGML 3.0):
+#   scripts/update_pictures.sh FZK_HAUS.gml
+set -euo pipefail
+model=$(realpath "${1:?usage: $0 FZK_HAUS.gml}")
+cd "$(dirname "$0")/.."
+svt=build/release/bin/svt
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+$svt build "$model" -o "$work/house.svt" --dimension 800,700,400 --vectors edges
+$svt sample tower -o "$work/tower.gml"
+$svt build "$work/tower.gml" -o "$work/tower.svt" --spacing 0.05
+draw() { # picture, volume, scene, size
+  $svt render "$work/$2.svt" --scene "examples/scenes/$3.scene.json" --size "$4" -o "docs/images/$1.png"
+  echo "docs/images/$1.png"
+}
+draw section_beam house slab_and_beam 900x540
+draw cutaway house beam_cutaway 900x640
+draw lens house lens 900x640
+draw wireframe house wireframe 600x400
+draw flats tower two_flats_in_their_tower 640x720
+draw hulls tower hulls_of_storeys 560x640
