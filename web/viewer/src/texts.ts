@@ -144,6 +144,7 @@ const kTexts = {
   lensY: ["Down", "Senkrecht"],
   context: ["Around it", "Drumherum"],
   contextGhost: ["Ghost", "Geist"],
+  contextShell: ["Hull", "Hülle"],
   contextSolid: ["Solid", "Fest"],
   contextNone: ["Nothing", "Nichts"],
 

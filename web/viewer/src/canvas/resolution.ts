@@ -5,7 +5,7 @@ const kCoarsest = 0.2;
 
 /** Share of the picture's width and height; starts small, so that the first image comes soon. */
 export class Resolution {
-  share = 0.5;
+  share = 0.3;
 
   /** Learns from a moving frame that took so long. */
   learn(milliseconds: number): void {

@@ -11,7 +11,7 @@ export function shellWord(text: string): string {
 
 /** Whether options of `svt render` say all of it. */
 function isSayable(state: ViewState): boolean {
-  if (state.custom || state.shell || state.hatches === false) return false;
+  if (state.custom || state.hatches === false) return false;
   if (state.effect === "cutaway" && (state.focus.margin !== 0.15 || focusQueries(state).length !== 1)) return false;
   return state.styles.every((style) => !style.hatch && !style.ghost);
 }
@@ -38,6 +38,7 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   add("--hide", ...state.hide);
   for (const style of state.styles) if (style.color) add("--color", `${style.select}:${style.color}`);
   for (const style of state.styles) if (style.opacity !== undefined) add("--opacity", `${style.select}:${style.opacity}`);
+  if (state.shell) add("--shell", state.shell);
   if (effects.lens) {
     add("--lens", effects.lens.region);
     if (!state.sections.length) add("--section", effects.lens.cut);

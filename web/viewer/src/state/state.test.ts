@@ -233,7 +233,7 @@ describe("command", () => {
   });
 
   it("takes a scene file where options cannot say it", () => {
-    const shown = state({ shell: "room" });
+    const shown = state({ hatches: false });
     expect(commandOf(shown, sceneOf(shown, box, size), "house.svt")).toBe("svt render house.svt -o view.png --scene view.scene.json");
   });
 });
