@@ -28,6 +28,16 @@ if(NOT TARGET ZSTD::ZSTD)
   target_link_libraries(ZSTD::ZSTD INTERFACE ${ZSTD_LIBRARY})
 endif()
 
+find_path(GLES_INCLUDE_DIR GLES3/gl3.h REQUIRED)
+foreach(library IN ITEMS EGL GLESv2)
+  find_library(${library}_LIBRARY ${library} REQUIRED)
+  if(NOT TARGET ${library}::${library})
+    add_library(${library}::${library} INTERFACE IMPORTED)
+    target_include_directories(${library}::${library} SYSTEM INTERFACE ${GLES_INCLUDE_DIR})
+    target_link_libraries(${library}::${library} INTERFACE ${${library}_LIBRARY})
+  endif()
+endforeach()
+
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
   /usr/share/fonts/dejavu-sans-fonts REQUIRED)
 

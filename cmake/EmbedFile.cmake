@@ -1,6 +1,7 @@
 # svt_embed_file(<target> <file> <symbol>): the file's bytes as `extern "C" const unsigned char <symbol>[]` and
 # `<symbol>_size` in a source of the target.
 function(svt_embed_file target file symbol)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded/${symbol}.cpp)
   if(NOT EXISTS ${source} OR ${file} IS_NEWER_THAN ${source})
     file(READ ${file} bytes HEX)

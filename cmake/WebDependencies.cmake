@@ -17,6 +17,10 @@ function(web_library alias include)
 endfunction()
 
 # Headers of Debian's packages fit every target.
+# No threads, since hosts do not always allow them; of OpenGL, Emscripten has what is needed.
+foreach(none TBB::tbb EGL::EGL GLESv2::GLESv2)
+  add_library(${none} INTERFACE IMPORTED)
+endforeach()
 add_library(web_fmt INTERFACE)
 add_library(web_nlohmann_json INTERFACE)
 target_compile_definitions(web_fmt INTERFACE FMT_HEADER_ONLY)

@@ -39,6 +39,7 @@ int exitCodeOf(Code code) noexcept {
         case Code::NothingSelected:
         case Code::BadArgument: return kUsage;
         case Code::Internal: return kInternal;
+        case Code::NoGraphics: return kNoGraphics;
         default: return kInput;
     }
 }

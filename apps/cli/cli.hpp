@@ -18,7 +18,17 @@
 namespace svt::cli {
 
 /// Exit codes, as documented in docs/user/exit-codes.md.
-enum Exit { kDone = 0, kInternal = 1, kUsage = 2, kInput = 3, kInvalid = 4, kOutput = 5, kLimit = 8, kCancelled = 9 };
+enum Exit {
+    kDone = 0,
+    kInternal = 1,
+    kUsage = 2,
+    kInput = 3,
+    kInvalid = 4,
+    kOutput = 5,
+    kNoGraphics = 6,
+    kLimit = 8,
+    kCancelled = 9
+};
 
 /// Exit code for an error code.
 [[nodiscard]] int exitCodeOf(Code code) noexcept;

@@ -59,6 +59,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(BadFrame);
         SVT_CASE(BadSection);
         SVT_CASE(BadScene);
+        SVT_CASE(NoGraphics);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

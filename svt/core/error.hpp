@@ -68,6 +68,7 @@ enum class Code : std::uint16_t {
     BadFrame = 502,    ///< picture size or plane out of range
     BadSection = 503,  ///< a plane, region or lens that cannot be used
     BadScene = 504,    ///< a scene file that does not follow its schema
+    NoGraphics = 505,  ///< no graphics context, or one that cannot draw
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

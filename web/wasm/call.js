@@ -28,3 +28,11 @@ Module["call"] = (name, args, bytes) => {
     for (const at of held) _free(at);
   }
 };
+
+/** Makes a WebGL2 context on an OffscreenCanvas and makes it current; false where there is none. */
+Module["startGl"] = (canvas) => {
+  const attributes = { majorVersion: 2, alpha: true, antialias: false, depth: false, stencil: false,
+                       premultipliedAlpha: false, powerPreference: "high-performance" };
+  const context = GL.createContext(canvas, attributes);
+  return context > 0 && GL.makeContextCurrent(context);
+};

@@ -114,6 +114,20 @@ Result<Reply> draw(const Arguments& arguments) {
     return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
 }
 
+// (scene, width, height) -> nothing; drawn into the context that is current
+Result<Reply> drawGl(const Arguments& arguments) {
+    auto scene = arguments.scene(0);
+    if (!scene) return scene.error();
+    scene->width = static_cast<std::int32_t>(arguments.number(1));
+    scene->height = static_cast<std::int32_t>(arguments.number(2));
+    if (auto drawn = session->drawGl(*scene); !drawn) return drawn.error();
+    return Reply(std::string("null"));
+}
+Result<Reply> dropGl(const Arguments&) {
+    session->dropGl();
+    return Reply(std::string("null"));
+}
+
 // (scene, effects) -> scene
 Result<Reply> compose(const Arguments& arguments) {
     auto scene = arguments.scene(0);
@@ -200,9 +214,10 @@ struct Call {
     Result<Reply> (*run)(const Arguments& arguments);
     bool needsVolume = true;
 };
-constexpr Call kCalls[] = {{"open", open, false}, {"font", font, false}, {"draw", draw},     {"compose", compose, false}, {"pick", pick},
-                           {"along", along},      {"select", select}, {"properties", properties},  {"view", view},
-                           {"picture", picture},  {"labels", labels}, {"drawing", drawing}};
+constexpr Call kCalls[] = {{"open", open, false}, {"font", font, false},       {"draw", draw}, {"drawGl", drawGl},
+                           {"dropGl", dropGl},    {"compose", compose, false}, {"pick", pick}, {"along", along},
+                           {"select", select},    {"properties", properties},  {"view", view}, {"picture", picture},
+                           {"labels", labels},    {"drawing", drawing}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);

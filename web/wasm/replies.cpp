@@ -145,7 +145,7 @@ Result<std::string> propertiesOf(Session& session, const std::string& id) {
     return textOf(json);
 }
 
-std::string pickOf(const Session& session, double x, double y) {
+std::string pickOf(Session& session, double x, double y) {
     const auto picked = session.pick(x, y);
     if (!picked) return "null";
     Json json{{"scalar", picked->scalar}};

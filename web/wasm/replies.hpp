@@ -16,7 +16,7 @@ namespace svt::web {
 /// FeatureProperties, or NothingSelected where no feature has that id.
 [[nodiscard]] Result<std::string> propertiesOf(Session& session, const std::string& id);
 /// Pick or null
-[[nodiscard]] std::string pickOf(const Session& session, double x, double y);
+[[nodiscard]] std::string pickOf(Session& session, double x, double y);
 /// Stretch[]
 [[nodiscard]] Result<std::string> stretchesOf(Session& session, double x, double y);
 /// string[]: ids

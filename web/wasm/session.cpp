@@ -42,18 +42,43 @@ Result<std::unique_ptr<Session>> Session::open(std::span<const std::byte> bytes,
     if (!volume) return volume.error();
     std::unique_ptr<Session> session(new Session(std::move(*volume), std::move(findings)));
     session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
-    if (const auto bricks = session->painter_.bricks(); !bricks) return bricks.error();
     return session;
 }
 
 Result<const render::Frame*> Session::draw(const illustrate::Scene& scene) {
     auto painting = painter_.paint(scene, castOptions());
     if (!painting) return painting.error();
-    last_ = std::move(*painting);
-    return &last_->frame;
+    lastSpec_ = std::move(painting->spec);
+    lastFrame_ = std::move(painting->frame);
+    return &*lastFrame_;
 }
 
-double Session::aspect() const noexcept { return last_ ? double(last_->spec.width) / last_->spec.height : 16.0 / 9; }
+Result<void> Session::drawGl(const illustrate::Scene& scene) {
+    auto spec = illustrate::frameOf(scene, volume_);
+    if (!spec) return spec.error();
+    const auto forms = illustrate::formsOf(scene);
+    const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
+    if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty())
+        return Error(Code::BadArgument, "names, shells and levels of detail are drawn by the CPU");
+    if (!gl_) {
+        const auto whole = painter_.form({{}, 0}, *spec);
+        if (!whole) return whole.error();
+        auto made = render_gl::GlRenderer::make(whole->bricks(), volume_.grid);
+        if (!made) return made.error();
+        gl_ = std::move(*made);
+    }
+    if (auto drawn = gl_->draw(*spec); !drawn) return drawn;
+    lastSpec_ = std::move(*spec);
+    lastFrame_.reset();
+    return {};
+}
+
+void Session::dropGl() {
+    if (!lastFrame_) lastSpec_.reset();
+    gl_.reset();
+}
+
+double Session::aspect() const noexcept { return lastSpec_ ? double(lastSpec_->width) / lastSpec_->height : 16.0 / 9; }
 
 Result<std::vector<std::byte>> Session::picture(const illustrate::Scene& scene) {
     const auto painting = painter_.paint(scene, castOptions());
@@ -69,28 +94,33 @@ Result<std::vector<std::byte>> Session::labels(const illustrate::Scene& scene) {
     return render::encodePng(*gray);
 }
 
-std::optional<Picked> Session::pick(double x, double y) const {
-    if (!last_ || !(x >= 0 && x <= 1) || !(y >= 0 && y <= 1)) return {};
-    const auto& labels = last_->frame.label;
-    const auto column = std::min(labels.width() - 1, static_cast<std::int32_t>(x * labels.width()));
-    const auto row = std::min(labels.height() - 1, static_cast<std::int32_t>(y * labels.height()));
-    const volume::Scalar scalar = labels.at(column, row);
-    const float depth = last_->frame.depth.at(column, row);
+std::optional<Picked> Session::pick(double x, double y) {
+    if (!lastSpec_ || !(x >= 0 && x <= 1) || !(y >= 0 && y <= 1)) return {};
+    const auto [width, height] = std::pair(lastSpec_->width, lastSpec_->height);
+    const auto column = std::min(width - 1, static_cast<std::int32_t>(x * width));
+    const auto row = std::min(height - 1, static_cast<std::int32_t>(y * height));
+    render_gl::PickedPixel pixel;
+    if (lastFrame_) {
+        pixel = {lastFrame_->label.at(column, row), lastFrame_->depth.at(column, row)};
+    } else if (const auto seen = gl_->pick(*lastSpec_, column, row)) {
+        pixel = *seen;
+    }
+    const volume::Scalar scalar = pixel.label;
     if (scalar == 0 || scalar >= labelOfScalar_.size() || labelOfScalar_[scalar] == volume::kNoLabel ||
-        !std::isfinite(depth))
+        !std::isfinite(pixel.depth))
         return {};
-    // The depth is that of the pixel's centre.
-    const auto ray =
-        render::viewRay(last_->spec, volume_.grid, (column + 0.5) / labels.width(), (row + 0.5) / labels.height());
-    return Picked{scalar, labelOfScalar_[scalar], ray.origin + ray.direction * double(depth) - volume_.grid.origin()};
+    // Label and depth are those of the pixel's centre.
+    const auto ray = render::viewRay(*lastSpec_, volume_.grid, (column + 0.5) / width, (row + 0.5) / height);
+    return Picked{scalar, labelOfScalar_[scalar],
+                  ray.origin + ray.direction * double(pixel.depth) - volume_.grid.origin()};
 }
 
 Result<std::vector<render::RayStretch>> Session::along(double x, double y) {
-    if (!last_) return std::vector<render::RayStretch>{};
-    const auto bricks = painter_.bricks();
-    if (!bricks) return bricks.error();
-    const auto ray = render::viewRay(last_->spec, volume_.grid, x, y);
-    return render::labelsAlong(**bricks, volume_.grid, volume_.labels, ray.origin, ray.direction);
+    if (!lastSpec_) return std::vector<render::RayStretch>{};
+    const auto whole = painter_.form({{}, 0}, *lastSpec_);
+    if (!whole) return whole.error();
+    const auto ray = render::viewRay(*lastSpec_, volume_.grid, x, y);
+    return render::labelsAlong(whole->bricks(), volume_.grid, volume_.labels, ray.origin, ray.direction);
 }
 
 const std::vector<volume::Contact>& Session::contacts() {

@@ -6,6 +6,7 @@
 #include <svt/core/progress.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/render/ray_labels.hpp>
+#include <svt/render_gl/gl_renderer.hpp>
 #include <svt/volume/contacts.hpp>
 #include <svt/volume/label_measures.hpp>
 
@@ -39,6 +40,12 @@ public:
 
     /// Draws `scene` as `svt render` does; pick() and along() are of this picture then.
     [[nodiscard]] Result<const render::Frame*> draw(const illustrate::Scene& scene);
+    /// The same by WebGL2, into the lower left of the framebuffer of the context that is current; always the same one.
+    /// \return nothing, or what draw() and GlRenderer return; BadArgument where the scene needs the CPU: names, shells
+    ///         beside the volume, levels of detail
+    [[nodiscard]] Result<void> drawGl(const illustrate::Scene& scene);
+    /// Forgets what the context holds, as where it was lost.
+    void dropGl();
     /// Width by height of the last picture; 16 : 9 before the first.
     [[nodiscard]] double aspect() const noexcept;
     /// The same as a PNG; the picture on the screen stays the last one.
@@ -49,7 +56,7 @@ public:
 
     /// \param x, y  share of the last picture's width and height
     /// \return what is seen there, or nothing
-    [[nodiscard]] std::optional<Picked> pick(double x, double y) const;
+    [[nodiscard]] std::optional<Picked> pick(double x, double y);
     /// All along the ray through a place of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::RayStretch>> along(double x, double y);
 
@@ -64,7 +71,9 @@ private:
     volume::SemanticVolume volume_;
     Diagnostics findings_;
     illustrate::ScenePainter painter_;
-    std::optional<illustrate::Painting> last_;
+    std::optional<render::FrameSpec> lastSpec_;
+    std::optional<render::Frame> lastFrame_;  // none where WebGL2 drew
+    std::optional<render_gl::GlRenderer> gl_;
     std::vector<std::uint32_t> labelOfScalar_;
     std::optional<std::vector<volume::Contact>> contacts_;
     std::optional<std::vector<volume::LabelMeasure>> measures_;

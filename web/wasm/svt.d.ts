@@ -6,6 +6,8 @@ export interface SvtModule {
    * where the module itself does, which cannot be used any more then.
    */
   call(name: string, args: readonly unknown[], bytes?: Uint8Array): Uint8Array;
+  /** Makes a WebGL2 context on the canvas and makes it current, for drawGl; false where there is none. */
+  startGl(canvas: OffscreenCanvas): boolean;
 }
 
 export interface SvtModuleOptions {

@@ -32,7 +32,10 @@ class WorkerEngine implements Engine {
   private nextDraw: WaitingDraw | null = null;
   private readonly screen: ImageBitmapRenderingContext;
 
-  constructor(canvas: HTMLCanvasElement) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly wanted: EngineKind | null,
+  ) {
     const screen = canvas.getContext("bitmaprenderer");
     if (!screen) throw { code: "E904", message: "the canvas has another context already" } satisfies EngineError;
     this.screen = screen;
@@ -41,7 +44,7 @@ class WorkerEngine implements Engine {
 
   /** Resolves when the library is there. */
   async start(): Promise<void> {
-    this.kind = await this.ask("start", []);
+    this.kind = await this.ask("start", [this.wanted]);
   }
 
   open(bytes: ArrayBuffer, fileName: string, onProgress: (step: string, done: number) => void): Promise<VolumeInfo> {
@@ -135,14 +138,20 @@ class WorkerEngine implements Engine {
     this.worker.terminate();
     const lost = [...this.waiting.values()];
     this.waiting.clear();
-    if (this.isAlive) this.worker = this.startWorker();
+    if (this.isAlive) {
+      this.worker = this.startWorker();
+      this.start().catch(() => undefined);
+    }
     for (const request of lost) request.reject(error);
   }
 }
 
-/** The library in a worker of its own, drawing into `canvas`. Rejects with an EngineError where it cannot run. */
-export async function createEngine(canvas: HTMLCanvasElement): Promise<Engine> {
-  const engine = new WorkerEngine(canvas);
+/**
+ * The library in a worker of its own, drawing into `canvas`. Rejects with an EngineError where it cannot run.
+ * @param wanted  the kind of drawing, for tests and measurements; else the faster one is found out, see drawer.ts
+ */
+export async function createEngine(canvas: HTMLCanvasElement, wanted: EngineKind | null = null): Promise<Engine> {
+  const engine = new WorkerEngine(canvas, wanted);
   await engine.start();
   return engine;
 }

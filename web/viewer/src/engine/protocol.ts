@@ -4,7 +4,7 @@ import type { DrawingFormat, FeatureProperties, FrameReport, VolumeInfo } from "
 
 /** Arguments and result of each call. */
 export interface Calls {
-  start: { args: []; result: EngineKind };
+  start: { args: [wanted: EngineKind | null]; result: EngineKind };
   open: { args: [bytes: ArrayBuffer, fileName: string]; result: VolumeInfo };
   draw: { args: [scene: Scene, width: number, height: number]; result: Drawn };
   compose: { args: [scene: Scene, effects: Effects]; result: Scene };

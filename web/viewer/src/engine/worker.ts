@@ -1,12 +1,17 @@
 /** The worker: holds the library and the volume that is open, and answers the page's requests one after the other. */
 import createSvt, { type SvtModule } from "../../../../build/web/svt.js";
-import type { EngineError, Scene } from "../engine";
-import type { Answer, Calls, Drawn, Request } from "./protocol";
+import { Drawer } from "./drawer";
+import { isEngineError } from "./errors";
+import type { Answer, Request } from "./protocol";
+
+/** How long the page must have been still before the kinds of drawing are compared. */
+const stillMilliseconds = 700;
 
 const loaded = createSvt({ onProgress: (step, done) => post({ id: current, step, done }) });
 // Kept for whoever awaits it; alone it must not end the worker.
 loaded.catch(() => undefined);
 
+let drawer: Drawer | null = null;
 /** The request that is being answered. */
 let current = 0;
 
@@ -23,24 +28,8 @@ function copied(reply: Uint8Array): ArrayBuffer {
   return reply.slice().buffer as ArrayBuffer;
 }
 
-let hasFont = false;
-
-/** The font is fetched when names are first drawn. */
-async function prepare(svt: SvtModule, scene: Scene): Promise<void> {
-  if (hasFont || !scene.names?.length) return;
-  const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
-  if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
-  svt.call("font", [], new Uint8Array(await response.arrayBuffer()));
-  hasFont = true;
-}
-
-async function draw(svt: SvtModule, args: Calls["draw"]["args"]): Promise<Drawn> {
-  const [scene, width, height] = args;
-  await prepare(svt, scene);
-  const start = performance.now();
-  const pixels = new Uint8ClampedArray(copied(svt.call("draw", [scene, width, height])));
-  const bitmap = await createImageBitmap(new ImageData(pixels, width, height));
-  return { bitmap, report: { width, height, milliseconds: performance.now() - start, engine: "cpu" } };
+function drawerOf(svt: SvtModule): Drawer {
+  return (drawer ??= new Drawer(svt, null));
 }
 
 async function answer(request: Request): Promise<void> {
@@ -49,15 +38,19 @@ async function answer(request: Request): Promise<void> {
   current = id;
   switch (name) {
     case "start":
-      return post({ id, result: "cpu" });
-    case "open":
-      return post({ id, result: json(svt.call(name, [args[1]], new Uint8Array(args[0]))) });
+      drawer = new Drawer(svt, args[0]);
+      return post({ id, result: drawer.kind });
+    case "open": {
+      const info = svt.call(name, [args[1]], new Uint8Array(args[0]));
+      drawerOf(svt).forgetPicture();
+      return post({ id, result: json(info) });
+    }
     case "draw": {
-      const drawn = await draw(svt, args);
+      const drawn = await drawerOf(svt).draw(...args);
       return post({ id, result: drawn }, [drawn.bitmap]);
     }
     case "picture":
-      await prepare(svt, args[0]);
+      await drawerOf(svt).prepare(args[0]);
     // falls through
     case "drawing": {
       const bytes = copied(svt.call(name, args));
@@ -66,10 +59,6 @@ async function answer(request: Request): Promise<void> {
     default:
       return post({ id, result: json(svt.call(name, args)) });
   }
-}
-
-function isEngineError(error: unknown): error is EngineError {
-  return typeof error === "object" && error !== null && "code" in error && typeof error.code === "string";
 }
 
 /** Anything but an error of the library leaves the module in a state that nobody knows. */
@@ -81,7 +70,15 @@ function fail(id: number, error: unknown): void {
 
 // One after the other, in order, though some answers take more than one turn.
 let queue = Promise.resolve();
+let stillTimer: ReturnType<typeof setTimeout> | undefined;
 self.onmessage = (event: MessageEvent<Request>) => {
   const request = event.data;
-  queue = queue.then(() => answer(request)).catch((error: unknown) => fail(request.id, error));
+  clearTimeout(stillTimer);
+  queue = queue
+    .then(() => answer(request))
+    .catch((error: unknown) => fail(request.id, error))
+    .then(() => {
+      clearTimeout(stillTimer);
+      if (drawer?.isUndecided) stillTimer = setTimeout(() => drawer?.decide(), stillMilliseconds);
+    });
 };

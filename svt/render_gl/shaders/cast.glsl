@@ -1,0 +1,226 @@
+// One ray under one pass, joined with the passes before.
+uniform usampler2D colorBefore, hitBefore;
+uniform uint join;  // 0 over, 1 replace, 2 depth; 3 the first pass
+uniform float opaqueAt, labelAt;
+uniform vec2 firstSample, perSample;  // samples from the picture's upper left corner; 2 / samples along it
+
+layout(location = 0) out uvec4 sampleColor;  // linear light, premultiplied, and opacity, as floats
+layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float, kFar: nothing), normal with bit 30: cut face
+
+const uint kCap = 0x40000000u;
+
+vec3 color;
+float transmittance;
+uint hitLabel, hitObject, hitHatch;
+float hitDepth;
+vec3 hitNormal;
+bool hitIsCap, hasEnded;
+// Of the run that the ray is in.
+uvec4 style;
+uint runScalar, runCap;
+float runFrom, surfaceLight;
+vec3 surfaceNormal;
+bool surfaceIsCap, runIsFirst, isSameObject;
+// Of the interval.
+uint object;
+bool isFirst;
+
+#if SHAPES
+float lineLight();
+void addShapes(float end);
+float addShapesWithin(float end, float density);
+bool addCutBody(float at, uint cap);
+void beginShapes(vec2 samplePlace);
+void finishShapes();
+void drawHiddenLines(inout float alpha);
+vec2 raySpan;  // inside the volume
+#else
+float lineLight() { return 1.0; }
+#endif
+
+bool hasHit() { return hitDepth < kFar; }
+
+void add(float alpha) {
+    float share = transmittance * alpha;
+    float light = 1.0 + (surfaceLight - 1.0) * uintBitsToFloat(style.z);
+    color += floatsOf(styles, 2u * scalar).rgb * (share * light * lineLight());
+    transmittance -= share;
+    if (hasHit() || 1.0 - transmittance <= labelAt) return;
+    hitLabel = style.w;
+    hitObject = style.y;
+    hitHatch = style.x >> 8;
+    hitDepth = runFrom + middleDepth;
+    hitNormal = surfaceNormal;
+    hitIsCap = surfaceIsCap;
+}
+
+bool isDone() { return 1.0 - transmittance >= opaqueAt; }
+
+void castInterval(float from, float to, uint cap) {
+#if SHAPES
+    addShapes(t);
+#if CLIPS
+    if (cap != kNone && !isDone() && addCutBody(from, cap)) hasEnded = true;
+#endif
+    hasEnded = hasEnded || isDone();
+    if (hasEnded) return;
+#endif
+    for (int event = 0; event < 4096; ++event) {
+        bool isNew = false;
+        for (int steps = 0; steps < 65536; ++steps) {
+            look();
+            if (isFirst || scalar != runScalar) {
+                runFrom = t;
+                runScalar = scalar;
+                runIsFirst = isFirst;
+                isFirst = false;
+            }
+            style = scalar < styleCount ? elementOf(styles, 2u * scalar + 1u) : uvec4(0u);
+            uint kind = style.x & 3u;
+            if (kind == 0u) {
+                object = kNone;
+#if SHAPES
+                addShapes(min(stepEnd, to));
+#endif
+            } else if (style.y != object || kind == 2u) {
+                isSameObject = style.y == object;
+                object = style.y;
+                isNew = true;
+                break;
+            }
+#if TRANSLUCENT
+            if (kind == 1u) {
+                float begin = t, end = min(stepEnd, to);
+                float density = floatsOf(styles, 2u * scalar).a * metresPerT;
+#if SHAPES
+                begin = addShapesWithin(end, density);
+                if (!isDone())
+#endif
+                    add(1.0 - exp(-density * max(end - begin, 0.0)));
+            }
+#endif
+#if TRANSLUCENT || SHAPES
+            hasEnded = hasEnded || isDone();
+            if (hasEnded) break;
+#endif
+            if (stepEnd >= to || !goOn()) break;
+        }
+        if (!isNew) break;
+        if (isSameObject) {
+            hasEnded = true;
+            break;
+        }
+        runCap = runIsFirst ? cap : kNone;
+        surfaceIsCap = runCap != kNone;
+        surfaceNormal = facingNormal(runCap, runIsFirst);
+        hasEnded = (style.x & 3u) == 2u;
+        if (hasEnded) break;
+        surfaceLight = lightOn(surfaceNormal, 1.0);
+    }
+}
+
+void lightSurface() {
+    float crease = 0.0;
+#if FITTED
+    bool isFitted = isVoxel && runCap == kNone && !isOblique && !isAroundEye;
+    vec3 fitted = fittedNormal(isFitted, crease);
+    if (isFitted) surfaceNormal = fitted;
+    else crease = 0.0;
+#endif
+    float open = isAroundEye || lightOcclusion <= 0.0 ? 1.0 : openness(surfaceNormal, crease, t);
+    surfaceLight = lightOn(surfaceNormal, open);
+}
+
+void enterInterval(float from, int entryAxis) {
+    enterAt(from, entryAxis);
+    object = kNone;
+    isFirst = true;
+}
+
+void castPass() {
+    int entryAxis;
+    vec2 span = spanInVolume(entryAxis);
+    float from = span.x, to = span.y;
+#if CLIPS
+    for (int n = 0; n < 66; ++n) {
+        uint cap = kNone;
+        float before = from;
+        to = span.y;
+        if (!(from < to) || !nextInterval(from, to, cap)) break;
+        // Parts that touch are one.
+        if (n == 0 || from != before) enterInterval(from, from == span.x ? entryAxis : -1);
+        castInterval(from, to, cap);
+        if (hasEnded) break;
+        from = to;
+    }
+#else
+    if (from < to) {
+        enterInterval(from, entryAxis);
+        castInterval(from, to, kNone);
+    }
+#endif
+    bool isOpaque = hasEnded && !isDone();
+    if (isOpaque) {
+        // Within an object no surface is seen.
+        if (!isSameObject) lightSurface();
+        add(1.0);
+    }
+}
+
+void main() {
+    vec2 place = (gl_FragCoord.xy + firstSample) * perSample - 1.0;
+    place.y = -place.y;
+    color = vec3(0.0);
+    transmittance = 1.0;
+    hitLabel = hitObject = hitHatch = runScalar = 0u;
+    hitDepth = kFar;
+    hitNormal = vec3(0.0, 0.0, 1.0);
+    hitIsCap = hasEnded = isSameObject = false;
+    beginRay(place);
+    view = normalize(-worldDirection);
+#if SHAPES
+    int entryAxis;
+    raySpan = spanInVolume(entryAxis);
+    beginShapes(gl_FragCoord.xy + firstSample);
+#endif
+    castPass();
+#if SHAPES
+    finishShapes();
+#endif
+    float alpha = 1.0 - transmittance * lineLight();
+    if (alpha >= opaqueAt && alpha < 1.0) {
+        color /= alpha;
+        alpha = 1.0;
+    }
+#if SHAPES
+    drawHiddenLines(alpha);
+#endif
+#if HATCHES
+    if (hitIsCap) {
+        float ink = inkOn(hitHatch, hitNormal, hitDepth);
+        color = color * (1.0 - ink) + hatchColor * (ink * alpha);
+    }
+#endif
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    uvec4 hit = uvec4(hitLabel, hitObject, floatBitsToUint(hitDepth), packedDirection(hitNormal) | (hitIsCap ? kCap : 0u));
+    vec4 light = vec4(color, alpha);
+    if (join != 3u) {
+        vec4 before = uintBitsToFloat(texelFetch(colorBefore, at, 0));
+        uvec4 seen = texelFetch(hitBefore, at, 0);
+        float depthBefore = uintBitsToFloat(seen.z);
+        if (join == 1u) {
+            if (alpha <= 0.0) {
+                light = before;
+                hit = seen;
+            }
+        } else {
+            bool isFront = join == 0u || hitDepth <= depthBefore;
+            vec4 front = isFront ? light : before, back = isFront ? before : light;
+            light = front + back * (1.0 - front.a);
+            bool isSeen = isFront ? hasHit() : depthBefore < kFar;
+            hit = isSeen == isFront ? hit : seen;
+        }
+    }
+    sampleColor = floatBitsToUint(light);
+    sampleHit = hit;
+}

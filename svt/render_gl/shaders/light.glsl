@@ -1,0 +1,99 @@
+// Where a run begins, and how it is lit there.
+uniform usampler2D styles, occlusion;
+uniform uint styleCount;
+uniform mat3 worldFromCovector;  // of planes in voxel space to world space
+uniform mat3 indexFromWorld;     // of directions
+uniform vec3 towardsLight;
+uniform float lightKey, lightAmbient, lightOcclusion;
+uniform int occlusionLevels;  // 4; a number here keeps compilers from writing the loop out
+uniform ivec3 occlusionCount[4];
+uniform uint occlusionFirst[4];
+uniform vec2 occlusionGain[4];  // gain, weight
+
+vec3 view;  // towards the viewer
+
+vec3 worldNormal(vec3 covector) { return normalize(worldFromCovector * covector); }
+
+uvec2 planesOf(ivec3 brick) {
+    uint entry = entryAt(brick);
+    if (entry < uniformBoxes || entry >= boxCount) return uvec2(kNone);
+    return elementOf(codes, 3u * elementOf(boxes, entry).w + 1u).xy;
+}
+
+bool isNear(uint number, vec3 point) {
+    if (number == kNone) return false;
+    vec4 p = floatsOf(planes, number);
+    return abs(dot(p.xyz, point) + p.w) < 0.75 && abs(componentOf(p.xyz, axis)) > 0.2;
+}
+
+// Bricks beside each other may have planes for one surface that do not quite meet.
+uint seamPlane() {
+    if (axis < 0 || (face & 7) != 0) return kNone;
+    ivec3 onAxis = axisVector(axis);
+    ivec3 entered = clamp(cellAt(t), ivec3(0), dimension - 1);
+    entered += (ivec3(face) - isBack - entered) * onAxis;
+    vec3 point = origin + t * direction;
+    for (int n = 0; n < 2; ++n) {
+        uvec2 oblique = planesOf(clamp(entered - n * stride * onAxis, ivec3(0), dimension - 1) >> 3);
+        if (isNear(oblique.x, point)) return oblique.x;
+        if (isNear(oblique.y, point)) return oblique.y;
+    }
+    return kNone;
+}
+
+bool isAroundEye, isOblique;
+
+// World space, towards the viewer but for what is seen from behind.
+vec3 facingNormal(uint cap, bool isFirst) {
+    isAroundEye = isOblique = false;
+    if (cap != kNone) {
+#if CLIPS
+        vec3 normal = worldNormal(capDirection(cap, origin + t * direction));
+        return dot(normal, view) < 0.0 ? -normal : normal;
+#endif
+    }
+    uint oblique = plane != kNone || isFirst ? plane : seamPlane();
+    isOblique = oblique != kNone;
+    if (isOblique) {
+        vec3 across = floatsOf(planes, oblique).xyz;
+        return worldNormal(dot(across, direction) > 0.0 ? -across : across);
+    }
+    isAroundEye = axis < 0;
+    return isAroundEye ? view : worldNormal(vec3(-stride * axisVector(axis)));
+}
+
+float lightOn(vec3 normal, float open) {
+    float key = max(0.0, dot(normal, towardsLight)), facing = max(0.0, dot(normal, view));
+    float sky = 0.80 + 0.20 * normal.z;
+    return lightAmbient * open * (0.82 * sky + 0.18 * facing) + lightKey * key * (0.45 + 0.55 * open);
+}
+
+// Opaque voxels around a point, in blocks that are blended.
+float takenAt(int level, vec3 point) {
+    vec3 p = point / float(8 << level) + 0.5;
+    ivec3 count = occlusionCount[level];
+    if (any(lessThanEqual(p, vec3(0.0))) || any(greaterThanEqual(p, vec3(count + 1)))) return 0.0;
+    ivec3 corner = ivec3(p);
+    vec3 f = p - vec3(corner);
+    uint nextY = uint(count.x + 2), nextZ = nextY * uint(count.y + 2);
+    uint first = occlusionFirst[level] + uint(corner.x) + nextY * uint(corner.y) + nextZ * uint(corner.z);
+    float sum = 0.0;
+    for (uint n = 0u; n < 4u; ++n) {
+        uint row = first + (n & 1u) * nextY + (n >> 1) * nextZ;
+        float along = mix(float(elementOf(occlusion, row).x), float(elementOf(occlusion, row + 1u).x), f.x);
+        sum += along * ((n & 1u) != 0u ? f.y : 1.0 - f.y) * ((n >> 1) != 0u ? f.z : 1.0 - f.z);
+    }
+    return sum;
+}
+
+// 1 in the open, less in corners.
+float openness(vec3 normal, float crease, float at) {
+    vec3 away = indexFromWorld * normal;
+    away /= max(abs(away.x), max(abs(away.y), abs(away.z)));
+    vec3 point = origin + at * direction + vec3(middle);
+    float taken = 0.0;
+    for (int level = 0; level < occlusionLevels; ++level)
+        taken += occlusionGain[level].y *
+                 min(1.0, takenAt(level, point + away * float(8 << level)) * occlusionGain[level].x);
+    return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * crease);
+}

@@ -1,0 +1,173 @@
+// A ray through the bricks. Places are voxels from `middle`, a whole voxel near the middle of the volume; t is depth
+// from `middleDepth`, metres along the view direction. So all numbers stay small, and floats are exact enough.
+uniform usampler2D brickIndex, boxes, codes, bricks, palettes, words, planes;
+uniform uint uniformBoxes, boxCount;
+uniform ivec3 dimension, brickCount, middle;
+uniform vec3 rayMiddle, rayRight, rayUp;              // where the ray through (u, v) is at t = 0
+uniform vec3 directionAhead, directionRight, directionUp;  // its direction, voxels a metre of depth
+uniform vec3 worldAhead, worldRight, worldUp;         // the same in world space
+uniform float middleDepth;
+
+vec3 origin, direction, inverse, worldDirection;
+ivec3 stride, isBack;  // 1, -1 or 0; 1 where the ray goes down
+bvec3 isStill;
+float metresPerT;
+
+void beginRay(vec2 place) {
+    origin = rayMiddle + rayRight * place.x + rayUp * place.y;
+    direction = directionAhead + directionRight * place.x + directionUp * place.y;
+    worldDirection = worldAhead + worldRight * place.x + worldUp * place.y;
+    metresPerT = length(worldDirection);
+    vec3 size = abs(direction);
+    // Rounding leaves a trace of a direction on axes that it does not have.
+    isStill = lessThanEqual(size, vec3(max(size.x, max(size.y, size.z)) * 1e-7));
+    direction = mix(direction, vec3(0.0), isStill);
+    inverse = 1.0 / mix(direction, vec3(1.0), isStill);
+    stride = ivec3(sign(direction));
+    isBack = ivec3(lessThan(direction, vec3(0.0)));
+}
+
+// When the ray crosses a plane across each axis.
+vec3 planeTimes(ivec3 plane) { return mix((vec3(plane - middle) - origin) * inverse, vec3(kFar), isStill); }
+
+ivec3 cellAt(float t) { return ivec3(floor(origin + t * direction)) + middle; }
+
+int componentOf(ivec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+float componentOf(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+ivec3 axisVector(int axis) { return ivec3(axis == 0, axis == 1, axis == 2); }
+
+uint entryAt(ivec3 brick) {
+    return elementOf(brickIndex, uint(brick.x + brickCount.x * (brick.y + brickCount.y * brick.z))).x;
+}
+
+uint voxelScalar(uint pattern, ivec3 cell) {
+    uvec4 brick = elementOf(bricks, pattern);
+    int bit = cell.x + 8 * cell.y;
+    uint number = 0u;
+    for (uint plane = 0u; plane < 9u; ++plane) {
+        if (plane >= brick.z) break;
+        uvec2 word = elementOf(words, brick.y + 8u * plane + uint(cell.z)).xy;
+        number |= (((bit < 32 ? word.x : word.y) >> uint(bit & 31)) & 1u) << plane;
+    }
+    return elementOf(palettes, brick.x + number).x;
+}
+
+// Where the ray is: the voxel, or any voxel of the box that it is in; how it came there.
+ivec3 cell;
+float t;
+int axis;    // across which voxel face, or -1
+int face;    // that face's plane
+uint plane;  // or through which oblique plane
+// What it is in, and what ends that.
+uint scalar;
+bool isVoxel;
+float stepEnd;
+ivec3 low, high, exitPlane;
+vec3 exitTimes;
+bool endsInside;
+int nextAxis, nextFace;
+uint nextPlane;
+
+void meetCut(float time, int place, int cutAxis, inout uint side, inout uint bit) {
+    bool isAfter = t >= time;
+    int along = componentOf(stride, cutAxis);
+    bool isBeyondAfter = along > 0 || (along == 0 && componentOf(cell, cutAxis) < place);
+    if (isAfter == isBeyondAfter) side |= bit;
+    bit <<= 1;
+    if (isAfter || time >= stepEnd) return;
+    stepEnd = time;
+    nextAxis = cutAxis;
+    nextFace = place;
+    nextPlane = kNone;
+    endsInside = true;
+}
+
+void meetPlane(uint number, inout uint side, inout uint bit) {
+    if (number == kNone) return;
+    vec4 p = floatsOf(planes, number);
+    float height = dot(p.xyz, origin) + p.w, rise = dot(p.xyz, direction);
+    float time = rise != 0.0 ? -height / rise : kFar;
+    bool isRising = rise != 0.0 ? rise > 0.0 : height <= 0.0;
+    bool isAfter = t >= time;
+    if (isAfter == isRising) side |= bit;
+    bit <<= 1;
+    if (isAfter || time >= stepEnd) return;
+    stepEnd = time;
+    nextAxis = -1;
+    nextPlane = number;
+    endsInside = true;
+}
+
+void look() {
+    uint entry = entryAt(cell >> 3);
+    isVoxel = entry >= boxCount;
+    uvec4 box = elementOf(boxes, isVoxel ? 0u : entry);
+    low = ivec3(box.x & 0xFFFFu, box.x >> 16, box.y & 0xFFFFu);
+    high = ivec3(box.y >> 16, box.z & 0xFFFFu, box.z >> 16);
+    scalar = box.w;
+    if (isVoxel) {
+        low = cell;
+        high = cell + 1;
+        scalar = voxelScalar(entry - boxCount, cell & 7);
+    }
+    exitPlane = high + (low - high) * isBack;
+    exitTimes = planeTimes(exitPlane);
+    stepEnd = min(exitTimes.x, min(exitTimes.y, exitTimes.z));
+    endsInside = false;
+    if (isVoxel || entry < uniformBoxes) return;
+    uvec2 cuts = elementOf(codes, 3u * scalar).xy, oblique = elementOf(codes, 3u * scalar + 1u).xy;
+    uint first = elementOf(codes, 3u * scalar + 2u).x, axes = cuts.y >> 16, side = 0u, bit = 1u;
+    ivec3 place = ivec3(cuts.x & 0xFFFFu, cuts.x >> 16, cuts.y & 0xFFFFu);
+    vec3 times = planeTimes(place);
+    if ((axes & 1u) != 0u) meetCut(times.x, place.x, 0, side, bit);
+    if ((axes & 2u) != 0u) meetCut(times.y, place.y, 1, side, bit);
+    if ((axes & 4u) != 0u) meetCut(times.z, place.z, 2, side, bit);
+    meetPlane(oblique.x, side, bit);
+    meetPlane(oblique.y, side, bit);
+    scalar = elementOf(palettes, first + side).x;
+}
+
+// To the end of the step; false where that leaves the volume.
+bool goOn() {
+    if (endsInside) {
+        t = stepEnd;
+        axis = nextAxis;
+        face = nextFace;
+        plane = nextPlane;
+        return true;
+    }
+    ivec3 isLeft = ivec3(lessThanEqual(exitTimes, vec3(stepEnd)));
+    ivec3 inside = clamp(cellAt(stepEnd), low, high - 1);
+    cell = inside + (exitPlane - isBack - inside) * isLeft;
+    axis = isLeft.x != 0 ? 0 : isLeft.y != 0 ? 1 : 2;
+    face = componentOf(exitPlane, axis);
+    plane = kNone;
+    t = max(t, stepEnd);
+    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, dimension));
+}
+
+// Part of the ray inside the volume, from the eye on; `entry` is the axis across whose face it comes in, or -1.
+vec2 spanInVolume(out int entry) {
+    vec3 a = planeTimes(ivec3(0)), b = planeTimes(dimension);
+    vec3 near = mix(min(a, b), vec3(-kFar), isStill), far = max(a, b);
+    float from = max(near.x, max(near.y, near.z)), to = min(far.x, min(far.y, far.z));
+    entry = near.x == from ? 0 : near.y == from ? 1 : 2;
+    if (from < -middleDepth) {
+        from = -middleDepth;
+        entry = -1;
+    }
+    ivec3 place = cellAt(0.0);
+    bvec3 isBeside = bvec3(ivec3(isStill) * (ivec3(lessThan(place, ivec3(0))) + ivec3(greaterThanEqual(place, dimension))));
+    return any(isBeside) ? vec2(0.0) : vec2(from, to);
+}
+
+void enterAt(float from, int entryAxis) {
+    t = from;
+    cell = clamp(cellAt(from), ivec3(0), dimension - 1);
+    axis = entryAxis;
+    plane = kNone;
+    if (axis < 0) return;
+    face = componentOf(isBack, axis) * componentOf(dimension, axis);
+    ivec3 onAxis = axisVector(axis);
+    cell += (ivec3(face) - isBack - cell) * onAxis;
+}

@@ -1,0 +1,256 @@
+// Lines and triangles that a ray meets, by depth. Nothing is kept of them but the next of each kind: the one after it
+// is looked for when it has been drawn.
+uniform usampler2D shapeCells, shapeList, shapeTable;  // by square of 4 x 4 pixels; numbers; what they stand for
+uniform ivec2 shapeCellCount;
+uniform uint looksFirst, trianglesFirst;  // in shapeTable
+uniform float lineSamples;                // along a pixel
+uniform float linePixelPerDepth, linePixelSize;  // metres: by depth, and at any depth
+uniform float lineBefore, lineTogether;   // metres
+uniform bool isPerspective;
+uniform vec3 worldOriginRight, worldOriginUp;  // where rays are at t = 0, from there on the view axis
+uniform float samplesAPixel;
+
+vec2 pixelPlace;
+uvec4 shapes;  // first number, lines, triangles
+float linesLeft;
+vec3 worldOrigin;
+
+// The line, and the triangle, that come next; their depths are t.
+float lineAt, lineEnd, lineOpacity, lineHidden;
+vec3 nextLineColor;
+float triangleAt;
+uint nextTriangle, triangleLast;
+bool triangleEnters;
+
+float lineLight() { return linesLeft; }
+
+// t of a line where the ray comes upon it; kFar where it does not.
+float meetLine(uint number, out float coverage, out float hidden, out uint look) {
+    vec4 place = floatsOf(shapeTable, 3u * number), depths = floatsOf(shapeTable, 3u * number + 1u);
+    look = elementOf(shapeTable, 3u * number + 2u).x;
+    vec4 first = floatsOf(shapeTable, looksFirst + 3u * look), more = floatsOf(shapeTable, looksFirst + 3u * look + 1u);
+    vec2 aside = pixelPlace - place.xy;
+    float along = clamp(dot(aside, place.zw) * depths.x, 0.0, 1.0);
+    coverage = min((first.w - length(aside - along * place.zw)) * lineSamples + 0.5, more.x);
+    hidden = 0.0;
+    if (coverage <= 0.0) return kFar;
+    uint kind = elementOf(shapeTable, looksFirst + 3u * look + 2u).x;
+    if (kind != 0u) hidden = coverage * more.y;
+    float pixels = along * depths.w;
+    if (kind == 2u && pixels - floor(pixels / more.w) * more.w > more.z) hidden = 0.0;
+    float seen = depths.y + depths.z * along, depth = isPerspective ? 1.0 / seen : seen;
+    float before = lineBefore + 4.0 * first.w * (linePixelPerDepth * depth + linePixelSize);
+    return max(depth - before, 0.0) - middleDepth;
+}
+
+// Lines at one depth are one line, as strong as the strongest.
+void findLine() {
+    float coverage, hidden;
+    uint look;
+    lineAt = kFar;
+    for (uint n = 0u; n < shapes.y; ++n) {
+        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, look);
+        if (at > lineEnd) lineAt = min(lineAt, at);
+    }
+    if (lineAt >= kFar) return;
+    lineEnd = lineAt + lineTogether;
+    lineOpacity = lineHidden = 0.0;
+    float nearest = kFar;
+    for (uint n = 0u; n < shapes.y; ++n) {
+        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, look);
+        if (at < lineAt || at > lineEnd) continue;
+        lineHidden = max(lineHidden, hidden);
+        if (coverage < lineOpacity || (coverage == lineOpacity && at >= nearest)) continue;
+        lineOpacity = coverage;
+        nearest = at;
+        nextLineColor = floatsOf(shapeTable, looksFirst + 3u * look).rgb;
+    }
+}
+
+// t of a triangle where the ray goes through it; kFar where it does not.
+float meetTriangle(uint number, out bool isEntering) {
+    uint first = trianglesFirst + 6u * number;
+    vec4 corner = floatsOf(shapeTable, first), second = floatsOf(shapeTable, first + 1u);
+    vec4 third = floatsOf(shapeTable, first + 2u), across = floatsOf(shapeTable, first + 3u);
+    vec3 a = corner.xyz - worldOrigin, b = second.xyz - worldOrigin, c = third.xyz - worldOrigin;
+    vec3 sides = vec3(dot(worldDirection, cross(b, c)), dot(worldDirection, cross(c, a)), dot(worldDirection, cross(a, b)));
+    bool isInside = all(greaterThanEqual(sides, vec3(0.0))) || all(lessThanEqual(sides, vec3(0.0)));
+    float facing = dot(across.xyz, worldDirection);
+    isEntering = facing < 0.0;
+    if (!isInside || facing == 0.0) return kFar;
+    float at = dot(across.xyz, a) / facing;
+    return at > -middleDepth ? at : kFar;
+}
+
+uint objectOf(uint triangle) { return elementOf(shapeTable, trianglesFirst + 6u * triangle + 5u).y; }
+
+bool isDrawnAt(float at);
+
+void findTriangle() {
+    float after = triangleAt;
+    uint last = nextTriangle, object = after > -kFar ? objectOf(last) : 0u;
+    bool wasEntering = triangleEnters;
+    triangleAt = kFar;
+    for (uint n = 0u; n < shapes.z; ++n) {
+        uint number = elementOf(shapeList, shapes.x + shapes.y + n).x & 0x7FFFFFFFu;
+        bool isEntering;
+        float at = meetTriangle(number, isEntering);
+        if (at < after || (at == after && number <= last) || at >= triangleAt) continue;
+        // The edge between two triangles is met once.
+        bool isSame = after > -kFar && at - after <= 1e-6 * (abs(after) + middleDepth) && isEntering == wasEntering &&
+                      objectOf(number) == object;
+        if (isSame || !isDrawnAt(at)) continue;
+        triangleAt = at;
+        nextTriangle = number;
+        triangleEnters = isEntering;
+    }
+}
+
+void beginShapes(vec2 samplePlace) {
+    pixelPlace = samplePlace / samplesAPixel;
+    ivec2 square = clamp(ivec2(pixelPlace * 0.25), ivec2(0), shapeCellCount - 1);
+    shapes = elementOf(shapeCells, uint(square.x + shapeCellCount.x * square.y));
+    vec2 place = samplePlace * perSample - 1.0;
+    worldOrigin = worldOriginRight * place.x - worldOriginUp * place.y;
+    linesLeft = 1.0;
+    lineEnd = triangleAt = -kFar;
+    nextTriangle = 0u;
+    triangleEnters = false;
+    findLine();
+    findTriangle();
+}
+
+#if CLIPS
+bool isDrawnAt(float at) {
+    uint number = 0u;
+    for (uint r = 0u; r < 32u; ++r) {
+        if (r >= clipRegions) break;
+        uvec4 region = elementOf(clips, number++);
+        bool isInside = false;
+        for (uint p = 0u; p < 32u; ++p) {
+            if (p >= region.y) break;
+            Stretch s = stretchOf(number);
+            isInside = isInside || (s.enter <= at && at < s.leave);
+        }
+        if (isInside != (region.x != 0u)) return false;
+    }
+    return at >= raySpan.x && at < raySpan.y;
+}
+#else
+bool isDrawnAt(float at) { return at >= raySpan.x && at < raySpan.y; }
+#endif
+
+void addSurface(uint number, vec3 normal, float at, bool isCap) {
+    uint first = trianglesFirst + 6u * number;
+    vec4 look = floatsOf(shapeTable, first + 4u);
+    uvec4 kind = elementOf(shapeTable, first + 5u);
+    bool isOpen = (kind.x & 4u) == 0u || lightOcclusion <= 0.0;
+    float lit = lightOn(normal, isOpen ? 1.0 : openness(normal, 0.0, at));
+    float share = transmittance * look.a;
+    color += look.rgb * ((1.0 + (lit - 1.0) * uintBitsToFloat(kind.z)) * share * linesLeft);
+    transmittance -= share;
+    if (hasHit() || 1.0 - transmittance <= labelAt) return;
+    hitLabel = kind.w;
+    hitObject = kind.y;
+    hitHatch = kind.x >> 8;
+    hitDepth = at + middleDepth;
+    hitNormal = normal;
+    hitIsCap = isCap;
+}
+
+float nextShape() { return min(lineAt, triangleAt); }
+
+void addShape() {
+    if (lineAt <= triangleAt) {
+        color += nextLineColor * (transmittance * lineOpacity * linesLeft);
+        linesLeft *= 1.0 - lineOpacity;
+        findLine();
+    } else {
+        vec3 normal = floatsOf(shapeTable, trianglesFirst + 6u * nextTriangle + 3u).xyz;
+        addSurface(nextTriangle, triangleEnters ? normal : -normal, triangleAt, false);
+        findTriangle();
+    }
+}
+
+void addShapes(float end) {
+    for (int n = 0; n < 4096; ++n) {
+        if (nextShape() >= kFar || nextShape() > end || isDone()) break;
+        addShape();
+    }
+}
+
+// In a run of a density a metre of depth that the ray is in from t on; returns from where on nothing is added yet.
+float addShapesWithin(float end, float density) {
+    float begin = t;
+    for (int n = 0; n < 4096; ++n) {
+        float at = nextShape();
+        if (at >= kFar || at > end || isDone()) break;
+        add(1.0 - exp(-density * max(at - begin, 0.0)));
+        begin = max(begin, at);
+        if (isDone()) break;
+        addShape();
+    }
+    return begin;
+}
+
+#if CLIPS
+// The body that the ray is in where a clip cuts it open, the one entered last; what the ray does not leave as often as
+// it enters it is no body but a sheet. Draws its cut face, and ends the ray, where it is opaque.
+bool addCutBody(float at, uint cap) {
+    float before = kFar;
+    for (int n = 0; n < 64; ++n) {
+        float latest = -kFar;
+        uint object = 0u;
+        for (uint m = 0u; m < shapes.z; ++m) {
+            uint number = elementOf(shapeList, shapes.x + shapes.y + m).x & 0x7FFFFFFFu;
+            bool isEntering;
+            float met = meetTriangle(number, isEntering);
+            if (met > at || met >= before || met <= latest) continue;
+            latest = met;
+            object = objectOf(number);
+        }
+        if (latest <= -kFar) return false;
+        int balance = 0, inside = 0;
+        float entered = -kFar;
+        uint body = 0u;
+        for (uint m = 0u; m < shapes.z; ++m) {
+            uint number = elementOf(shapeList, shapes.x + shapes.y + m).x & 0x7FFFFFFFu;
+            bool isEntering;
+            float met = meetTriangle(number, isEntering);
+            if (met >= kFar || objectOf(number) != object) continue;
+            int turn = isEntering ? 1 : -1;
+            balance += turn;
+            if (met > at) continue;
+            inside += turn;
+            if (!isEntering || met < entered) continue;
+            entered = met;
+            body = number;
+        }
+        before = latest;
+        if (balance != 0 || inside <= 0) continue;
+        if ((elementOf(shapeTable, trianglesFirst + 6u * body + 5u).x & 3u) != 2u) return false;
+        vec3 normal = worldNormal(capDirection(cap, origin + at * direction));
+        addSurface(body, dot(normal, worldDirection) > 0.0 ? -normal : normal, at, true);
+        return true;
+    }
+    return false;
+}
+#endif
+
+void finishShapes() { addShapes(kFar * 0.5); }
+
+// Over what the ray has ended at: of all lines behind, the strongest.
+void drawHiddenLines(inout float alpha) {
+    float strongest = 0.0;
+    vec3 strongestColor = vec3(0.0);
+    for (int n = 0; n < 4096; ++n) {
+        if (lineAt >= kFar) break;
+        if (lineHidden > strongest) {
+            strongest = lineHidden;
+            strongestColor = nextLineColor;
+        }
+        findLine();
+    }
+    color = color * (1.0 - strongest) + strongestColor * strongest;
+    alpha += (1.0 - alpha) * strongest;
+}

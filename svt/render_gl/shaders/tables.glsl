@@ -1,0 +1,24 @@
+// Arrays in rows of textures, read one element at a time.
+const uint kNone = 0xFFFFFFFFu;
+const float kFar = 3.0e38;  // stands for infinity, which not every driver keeps
+
+uvec4 elementOf(usampler2D table, uint number) {
+    return texelFetch(table, ivec2(int(number & uint((1 << ROW_BITS) - 1)), int(number >> ROW_BITS)), 0);
+}
+vec4 floatsOf(usampler2D table, uint number) { return uintBitsToFloat(elementOf(table, number)); }
+
+// Directions in one word: octahedral, 15 bits a coordinate. Bit 30 is free, bit 31 as well.
+uint packedDirection(vec3 direction) {
+    vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
+    vec2 side = vec2(d.x >= 0.0 ? 1.0 : -1.0, d.y >= 0.0 ? 1.0 : -1.0);
+    vec2 place = d.z >= 0.0 ? d.xy : (1.0 - abs(d.yx)) * side;
+    uvec2 bits = uvec2(clamp(place * 0.5 + 0.5, 0.0, 1.0) * 32767.0 + 0.5);
+    return bits.x | (bits.y << 15);
+}
+vec3 unpackedDirection(uint bits) {
+    vec2 place = vec2(bits & 32767u, (bits >> 15) & 32767u) / 32767.0 * 2.0 - 1.0;
+    vec3 d = vec3(place, 1.0 - abs(place.x) - abs(place.y));
+    vec2 side = vec2(d.x >= 0.0 ? 1.0 : -1.0, d.y >= 0.0 ? 1.0 : -1.0);
+    if (d.z < 0.0) d.xy = (1.0 - abs(d.yx)) * side;
+    return normalize(d);
+}

@@ -1,0 +1,18 @@
+#pragma once
+/// \file
+/// The depth from which shaders count. Internal to render_gl.
+
+#include <svt/render/camera_rays.hpp>
+
+#include <algorithm>
+
+namespace svt::render_gl {
+
+/// Of the middle voxel, metres along the view direction; 0 where it lies behind the eye plane.
+[[nodiscard]] inline double middleDepthOf(const render::Camera& camera, const render::CameraRays& rays,
+                                          const volume::Grid& grid, Vec3i middle) noexcept {
+    const Vec3d place = grid.worldFromIndex(Vec3d{middle.x - 0.5, middle.y - 0.5, middle.z - 0.5});
+    return std::max(0.0, dot(place - camera.eye, rays.forward()));
+}
+
+}  // namespace svt::render_gl
