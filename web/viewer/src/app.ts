@@ -20,7 +20,7 @@ import "./tools/share_tool";
 import { leaveCustom } from "./tools/share_tool";
 import "./tools/views_tool";
 import { kViews, setWalking } from "./tools/views_tool";
-import { bytes, number, t } from "./texts";
+import { number, t } from "./texts";
 import { ofSubtree } from "./state/queries";
 import { subtree } from "./state/visibility";
 import { icon, type IconName } from "./ui/icons";
@@ -428,5 +428,3 @@ export class App extends Part {
   }
 }
 customElements.define("svt-app", App);
-
-export { bytes };

@@ -206,6 +206,7 @@ const kTexts = {
   bookmarkRemove: ["Remove {name}", "{name} entfernen"],
   bookmarkExport: ["{name} as scene JSON", "{name} als Szenen-JSON"],
   notKept: ["This browser keeps nothing for this page.", "Dieser Browser speichert nichts für diese Seite."],
+  passOn: ["Pass on", "Weitergeben"],
   copyLink: ["Copy link", "Link kopieren"],
   copyCommand: ["Copy command", "Befehl kopieren"],
   sceneJson: ["Scene (JSON)", "Szene (JSON)"],

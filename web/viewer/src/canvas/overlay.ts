@@ -1,13 +1,12 @@
-/** What is drawn over the picture: section planes with their handles, the box of the selection, lens, measured points. */
+/** What is drawn over the picture: section planes with their handles, the box of the selection, measured points. */
 
 import { svg, nothing, type SVGTemplateResult } from "lit";
-import { corners, project } from "../camera/camera";
-import { dot } from "../camera/vec";
+import { project } from "../camera/camera";
+import { distance } from "../camera/vec";
 import type { Point } from "../engine";
 import type { Session } from "../session";
 import { boxEdges, keptInside, middleOf, normalOf, planeOutline } from "../tools/plane_outline";
 import { polygonArea } from "../tools/measure";
-import { distance } from "../camera/vec";
 import { number } from "../texts";
 
 export interface View {
@@ -57,12 +56,6 @@ export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
   return svg`<path class="box-under" d=${d}></path><path class="box" d=${d}></path>`;
 }
 
-export function lensRing(view: View): SVGTemplateResult | typeof nothing {
-  const { effect, lens } = view.session.state;
-  if (effect !== "lens") return nothing;
-  return svg`<circle class="lens" cx=${lens.x * view.width} cy=${lens.y * view.height} r=${lens.radius * view.height}></circle>`;
-}
-
 export function measure(view: View): SVGTemplateResult | typeof nothing {
   const points = view.session.measured;
   if (!points.length) return nothing;
@@ -100,13 +93,3 @@ export function compass(view: View): SVGTemplateResult | typeof nothing {
       : svg`<line x1="0" y1="0" x2=${x} y2=${y}></line><text x=${x * 1.4} y=${y * 1.4 + 3.5} text-anchor="middle">${name}</text>`;
   })}</g>`;
 }
-
-/** Whether a plane is seen so nearly from its side that only its line shows. */
-export function isEdgeOn(session: Session, normal: Point): boolean {
-  const camera = session.shownCamera;
-  if (!camera) return false;
-  const ray = camera.target.map((v, i) => v - camera.eye[i]!) as Point;
-  return Math.abs(dot(ray, normal)) < 0.02 * Math.hypot(...ray);
-}
-
-export { corners };

@@ -8,7 +8,7 @@ import { controls, Part } from "../ui/part";
 import { labelOf } from "../state/feature_index";
 import { ofId } from "../state/queries";
 import { dragged, rangeOf } from "../tools/plane_outline";
-import { compass, handleOf, lensRing, measure, place, planes, selectionBox, type View } from "./overlay";
+import { compass, handleOf, measure, place, planes, selectionBox, type View } from "./overlay";
 
 const kHoverEvery = 80;
 
@@ -32,7 +32,6 @@ export class PictureView extends Part {
       .plane { fill: var(--accent); fill-opacity: 0.07; stroke: var(--accent); stroke-width: 1.5; stroke-dasharray: 6 4; }
       .box-under { fill: none; stroke: #fff; stroke-opacity: 0.7; stroke-width: 3; }
       .box { fill: none; stroke: var(--mark); stroke-width: 1.5; }
-      .lens { fill: none; stroke: var(--mark); stroke-width: 2; }
       .measure { fill: var(--mark); fill-opacity: 0.12; stroke: var(--mark); stroke-width: 2; }
       .dot { fill: #fff; stroke: var(--mark); stroke-width: 2; }
       .over text { font: 600 12px var(--sans); fill: #14181b; stroke: #fff; stroke-width: 3.5; paint-order: stroke; font-variant-numeric: tabular-nums; }
@@ -161,7 +160,7 @@ export class PictureView extends Part {
         aria-roledescription=${t("picture")} aria-label=${t("pictureLabel", { name: session.info?.name || t("model") })}></div>
       <svg class="cross" viewBox="0 0 15 15" aria-hidden="true"><path d="M7.5 0v15M0 7.5h15"></path></svg>
       <svg class="over" aria-hidden="true">
-        ${isReady ? svg`${planes(view)}${selectionBox(view)}${lensRing(view)}${measure(view)}${compass(view)}` : nothing}
+        ${isReady ? svg`${planes(view)}${selectionBox(view)}${measure(view)}${compass(view)}` : nothing}
       </svg>
       ${isReady ? session.state.sections.map((_, n) => this.handle(view, n)) : nothing}
       ${this.hover ? this.tip(view) : nothing}

@@ -71,7 +71,8 @@ export class TreePanel extends Part {
       .eye.none { color: var(--text); }
       footer { padding: 8px 10px; border-top: 1px solid var(--line); display: grid; gap: 6px; }
       .classes { list-style: none; margin: 0; padding: 0; }
-      .classes li { position: static; }
+      .classes li { position: static; padding-left: 8px; }
+      .classes button.name { flex: 1; justify-content: flex-start; overflow: hidden; }
       .note { display: flex; gap: 8px; align-items: center; justify-content: space-between; }
     `,
   ];

@@ -1,7 +1,7 @@
 /** A section plane where it meets the building's box: what the picture shows of it, and how it is dragged. */
 
 import type { Point } from "../engine";
-import { corners, project, toWorld, type Box } from "../camera/camera";
+import { corners, kWorldAxes, project, type Box } from "../camera/camera";
 import { add, cross, dot, scale, sub } from "../camera/vec";
 import { freeNormal } from "../state/scene_of";
 import type { Camera, Section } from "../state/view_state";
@@ -68,8 +68,6 @@ export function dragged(camera: Camera, size: [number, number], handle: Point, n
 }
 
 export const boxEdges = (box: { low: Point; high: Point }): [Point, Point][] => {
-  const at = corners({ ...box, axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] });
+  const at = corners({ ...box, axes: kWorldAxes });
   return kEdges.map(([a, b]) => [at[a]!, at[b]!]);
 };
-
-export { toWorld };

@@ -60,7 +60,7 @@ export class ShareTool extends Part {
       <h3>${t("bookmarks")}</h3>
       <ul>${this.bookmarks.map((bookmark, n) => this.bookmark(bookmark, n))}</ul>
       <button id="keep-view" @click=${() => this.keep()}>${icon("bookmark", 16)}${t("keepView")}</button>
-      <h3>${t("share")}</h3>
+      <h3>${t("passOn")}</h3>
       <div class="row">
         <button id="copy-link" @click=${() => void this.copyLink()}>${icon("copy", 16)}${t("copyLink")}</button>
         <button id="copy-command" @click=${() => void this.copyCommand()}>${icon("code", 16)}${t("copyCommand")}</button>
@@ -186,7 +186,8 @@ export class ShareTool extends Part {
 }
 customElements.define("svt-share-tool", ShareTool);
 
-const pretty = (scene: Scene) => `${JSON.stringify(scene, null, 2)}\n`;
+/** Points on one line, the rest as usual. */
+const pretty = (scene: Scene) => `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;
 
 /** Out of a scene that was written by hand. */
 export function leaveCustom(state: ViewState): Partial<ViewState> {

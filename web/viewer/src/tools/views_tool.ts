@@ -22,7 +22,8 @@ export function setWalking(session: Session, isWalking: boolean): void {
 
 export class ViewsTool extends Part {
   static override styles = [controls, css`
-    .views { display: grid; grid-template-columns: repeat(4, 1fr); gap: 6px; }
+    .views { display: grid; grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 5px; margin-bottom: 6px; }
+    .views button { padding: 4px 2px; gap: 4px; }
     .views kbd { font: inherit; font-size: 11px; color: var(--quiet); }
     .line { display: grid; grid-template-columns: 84px 1fr 44px; gap: 10px; align-items: center; min-height: 36px; }
     output { text-align: right; font-variant-numeric: tabular-nums; }
