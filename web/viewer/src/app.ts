@@ -104,9 +104,13 @@ export class App extends Part {
     .note { padding: 6px 10px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; display: grid; gap: 6px; max-width: 300px; }
     @media (max-width: 759px) {
       .brand, .title .quiet, .status { display: none; }
-      .dock { left: 6px; right: 6px; transform: none; max-width: none; justify-content: space-between; bottom: 8px; }
-      .dock button { min-width: 0; padding: 5px 3px; flex: 1; font-size: 10.5px; }
-      .card { left: 0; right: 0; top: auto; width: auto; bottom: 66px; border-radius: 14px; margin: 0 6px; max-height: 52%; }
+      main { display: grid; grid-template-rows: minmax(0, 1fr) auto; }
+      main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
+      .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
+      .dock { order: 2; justify-content: space-between; }
+      .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
+      .card { order: 1; max-height: 42dvh; }
+      .sheet { height: 50dvh; }
       header { padding: 4px 6px; gap: 0; }
     }
   `];

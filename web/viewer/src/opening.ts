@@ -53,7 +53,8 @@ export async function openModel(session: Session, name: string, state: ViewState
     return session.fail(error, t("failedTitle"));
   }
   const fileName = model.file.split("/").pop()!.split("?")[0]!;
-  if (await session.open(data, fileName, state)) session.modelName = model.name;
+  const again = async () => (await fetch(model.file)).arrayBuffer();
+  if (await session.open(data, fileName, again, state)) session.modelName = model.name;
   session.changed();
 }
 
@@ -81,7 +82,7 @@ export async function openFile(session: Session, file: File): Promise<void> {
   session.changed();
   try {
     const data = await file.arrayBuffer();
-    if (await session.open(data, file.name)) session.modelName = "";
+    if (await session.open(data, file.name, () => file.arrayBuffer())) session.modelName = "";
   } catch (error) {
     session.fail(error, t("failedTitle"));
   }

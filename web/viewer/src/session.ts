@@ -84,7 +84,10 @@ export class Session extends EventTarget {
       describe: (size, samples) => (this.info ? this.describe(size, samples) : null),
       take: () => this.state,
       shown: (report, quality, token) => this.shown(report, quality, token as ViewState),
-      failed: (error) => this.fail(error),
+      failed: (error) => {
+        this.fail(error);
+        if (isDeadly(error)) void this.reopen(error);
+      },
     });
     if (this.status === "starting") this.status = "empty";
     this.changed();
@@ -174,8 +177,28 @@ export class Session extends EventTarget {
     this.dispatchEvent(new CustomEvent("said", { detail: text }));
   }
 
-  /** Opens a model; what was open stays where that fails. */
-  async open(bytes: ArrayBuffer, fileName: string, state: ViewState | null = null): Promise<boolean> {
+  /** How the bytes of what is open are had again, for a library that had to be started anew. */
+  private source: (() => Promise<ArrayBuffer>) | null = null;
+  private restartedAt = -Infinity;
+
+  /** The library has died and with it its volume: opens that again, unless that just failed. */
+  private async reopen(error: EngineError): Promise<void> {
+    if (!this.source || !this.engine || performance.now() - this.restartedAt < 20_000) return;
+    this.restartedAt = performance.now();
+    try {
+      await this.engine.open(await this.source(), this.modelFile, () => undefined);
+      this.tell(t("reopened", { error: error.message }));
+      this.redraw();
+    } catch (again) {
+      this.fail(again);
+    }
+  }
+
+  /**
+   * Opens a model; what was open stays where that fails.
+   * @param source  gives the bytes once more
+   */
+  async open(bytes: ArrayBuffer, fileName: string, source: () => Promise<ArrayBuffer>, state: ViewState | null = null): Promise<boolean> {
     if (!this.engine) return false;
     const before = this.status;
     this.status = "loading";
@@ -183,11 +206,13 @@ export class Session extends EventTarget {
     try {
       const info = await this.engine.open(bytes, fileName, (step, share) => this.report_(step, share));
       this.modelFile = fileName;
+      this.source = source;
       this.take(info, state ?? { ...initialState(this.state.look), wireframe: null });
       return true;
     } catch (error) {
       this.status = before === "loading" ? "empty" : before;
       this.fail(error, t("failedTitle"));
+      if (isDeadly(error)) await this.reopen(error as EngineError);
       return false;
     } finally {
       this.progress = null;
@@ -334,6 +359,11 @@ export class Session extends EventTarget {
   toolText(tool: Tool): string {
     return t(tool as TextKey);
   }
+}
+
+/** After these the worker is a new one, without a volume. */
+function isDeadly(error: unknown): boolean {
+  return (error as EngineError).code === "E999";
 }
 
 function isDrawnDifferently(a: ViewState, b: ViewState): boolean {

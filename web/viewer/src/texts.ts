@@ -1,7 +1,7 @@
 /** All that the page says, English and German side by side. `{x}` stands for a value. */
 
 const kTexts = {
-  appName: ["SVT viewer", "SVT-Betrachter"],
+  appName: ["Viewer", "Betrachter"],
   tagline: ["Buildings, cut open", "Gebäude, aufgeschnitten"],
   open: ["Open a model", "Modell öffnen"],
   openHint: ["Open a file (.svt, .gml, .json)", "Datei öffnen (.svt, .gml, .json)"],
@@ -38,6 +38,7 @@ const kTexts = {
     "Pictures come from the server, since the library cannot run in this browser. Views, sections and looks work; tree and picking do not.",
     "Die Bilder kommen vom Server, weil die Bibliothek in diesem Browser nicht läuft. Ansichten, Schnitte und Stile gehen; Baum und Auswahl im Bild nicht.",
   ],
+  reopened: ["The library had stopped and was started again. {error}", "Die Bibliothek war stehen geblieben und wurde neu gestartet. {error}"],
   dismiss: ["Dismiss", "Schließen"],
   close: ["Close", "Schließen"],
   cpuKind: ["drawn without a graphics card", "ohne Grafikkarte gezeichnet"],
