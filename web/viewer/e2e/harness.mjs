@@ -61,7 +61,7 @@ export async function browse(options = {}) {
       "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
       "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
     ],
-    viewport: { width: 1440, height: 900 },
+    viewport: { width: 1200, height: 640 },
     acceptDownloads: true,
     ...options,
   });

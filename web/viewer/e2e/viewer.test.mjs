@@ -55,7 +55,7 @@ async function open(query = "?model=house", options = {}) {
 
 before(async () => {
   svt("sample", "house", "-o", at("house.gml"));
-  svt("build", at("house.gml"), "-o", at("house.svt"), "--spacing", "0.1", "--vectors", "edges,meshes");
+  svt("build", at("house.gml"), "-o", at("house.svt"), "--spacing", "0.12", "--vectors", "edges,meshes");
   const models = [{ name: "house", path: at("house.svt"), title: "Sample house" }];
   if (hasFzk) {
     svt("build", fzk, "-o", at("fzk.svt"), "--vectors", "edges,meshes");
@@ -434,8 +434,11 @@ describe("keeping", () => {
 
   it("gives a link that opens the same view", async () => {
     await page.click("#copy-link");
-    await page.waitForFunction(() => location.hash.includes("&view="));
-    const link = await page.evaluate(() => navigator.clipboard.readText());
+    const link = await eventually(async () => {
+      const text = await page.evaluate(() => navigator.clipboard.readText());
+      assert.match(text, /^http.*&view=/);
+      return text;
+    });
     const wanted = await state();
     const { inflateRawSync } = await import("node:zlib");
     const scene = inflateRawSync(Buffer.from(new URLSearchParams(new URL(link).hash.slice(1)).get("scene"), "base64url"));

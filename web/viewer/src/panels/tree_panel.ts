@@ -210,7 +210,6 @@ export class TreePanel extends Part {
     return html`<div id="row-${i}" role="treeitem" class="item ${isSelected ? "selected" : ""} ${this.active === i ? "active" : ""} ${seen === "none" ? "gone" : ""}"
       data-top=${row * kRow} data-depth=${index.depth[i]!} aria-level=${index.depth[i]! + 1} aria-posinset=${row + 1} aria-setsize=${this.rows.shown.length}
       aria-selected=${isSelected} aria-expanded=${isParent ? String(this.rows.isOpen(i)) : nothing}
-      aria-label="${labelOf(feature)}, ${feature.class}${seen === "none" ? `, ${t("hiddenCount", { n: "" })}` : ""}"
       @click=${(e: MouseEvent) => this.picked(i, e)} @dblclick=${() => void this.session.goTo(ofSubtree(feature.id), null)}>
       ${isParent
         ? html`<button class="bare twist" tabindex="-1" aria-hidden="true" @click=${(e: Event) => this.toggle(i, e)}>${icon(this.rows.isOpen(i) ? "down" : "right", 14)}</button>`
@@ -218,8 +217,9 @@ export class TreePanel extends Part {
       ${feature.count > 0
         ? html`<button class="bare" tabindex="-1" aria-hidden="true" title=${t("styleOf", { name: labelOf(feature) })} @click=${(e: Event) => this.edit(i, e)}><span class="swatch" data-color=${color}></span></button>`
         : nothing}
-      <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)}<span class="quiet">${feature.class}</span></span>
+      <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.class}</span></span>
       ${isParent ? html`<span class="count">${index.solids[i]}</span>` : nothing}
+      ${seen === "none" ? html`<span class="visually-hidden">${t("isHidden")}</span>` : nothing}
       <button class="bare eye ${seen}" tabindex="-1" aria-hidden="true" title=${seen === "none" ? t("show") : t("hide")} @click=${(e: Event) => this.see(i, seen, e)}>${eyeOf(seen)}</button>
     </div>`;
   }
