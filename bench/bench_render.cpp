@@ -3,6 +3,7 @@
 #include <bench/drawable.hpp>
 #include <bench/machine.hpp>
 #include <bench/peers.hpp>
+#include <svt/pipeline/vector_parts.hpp>
 #include <svt/render/color.hpp>
 #include <svt/render/png.hpp>
 #include <svt/render/ray_caster.hpp>
@@ -80,6 +81,7 @@ public:
         if (auto done = frames(*drawable, nullptr); !done) return done;
         if (auto done = edits(*drawable); !done) return done;
         if (auto done = illustrations(*drawable); !done) return done;
+        if (auto done = wireframes(*drawable); !done) return done;
         if (options_.isQuick || (scene_.name != kHouse && scene_.name != kTurnedHouse)) return {};
         const auto larger = makeDrawable(scene_, kLargeGrid);
         return larger ? frames(*larger, &*drawable) : larger.error();
@@ -303,6 +305,41 @@ private:
             row.beside.push_back({measured[0], "one pass, the model as it is", Json::object(), false});
             report_.rows.push_back(std::move(row));
         }
+        return {};
+    }
+
+    // The feature edges of all meshes, and of rooms alone, inside the volume; rooms are 5 % air, all else is opaque.
+    Result<void> wireframes(const Drawable& drawable) {
+        auto plain = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
+        if (!plain) return plain.error();
+        std::vector<render::Style>& styles = plain->passes[0].styles;
+        for (std::size_t scalar = 1; scalar < styles.size(); ++scalar)
+            if (styles[scalar].opacity == 0) styles[scalar].opacity = 0.05f;
+        const auto parts = pipeline::makeVectorParts(scene_.meshes, scene_.labels.labelOfObject, drawable.grid,
+                                                     {.edges = true, .meshes = false});
+        if (!parts) return parts.error();
+        const auto& labels = scene_.labels.table.labels;
+        render::LineSet all, rooms;
+        for (const auto& segment : parts->segments) {
+            const auto end = [&](std::size_t n) { return parts->position(segment.ends[n], drawable.grid.origin()); };
+            const render::Line line{end(0), end(1), labels[segment.label].first};
+            all.lines.push_back(line);
+            if (labels[segment.label].className == "BuildingRoom") rooms.lines.push_back(line);
+        }
+        render::FrameSpec withAll = *plain, withRooms = *plain;
+        withAll.passes[0].lines = {all};
+        withRooms.passes[0].lines = {rooms};
+        const std::vector<Contestant> contestants{{"SVT, wireframe", [&] { cast(drawable, withAll); }},
+                                                  {"SVT, edges of rooms", [&] { cast(drawable, withRooms); }},
+                                                  {"SVT, without lines", [&] { cast(drawable, *plain); }}};
+        const auto measured = measureInTurns(contestants, options_.measure);
+        Row row = newRow("wireframe", fmt::format("{}, 1280 x 720 pixels", sizeText(drawable.grid.dimension())));
+        row.ours = measured[0];
+        row.extra["edges"] = all.lines.size();
+        row.extra["room_edges"] = rooms.lines.size();
+        row.beside.push_back({measured[1], "the edges of rooms alone", Json::object(), false});
+        row.beside.push_back({measured[2], "the same frame", Json::object(), false});
+        report_.rows.push_back(std::move(row));
         return {};
     }
 

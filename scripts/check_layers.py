@@ -17,6 +17,7 @@ ALLOWED = {
     "illustrate": {"core", "model", "volume", "render"},
     "writers": {"core", "model", "volume", "illustrate"},
     "samples": {"core"},
+    "serve": {"core"},
     "pipeline": {"core", "model", "readers", "mesh", "volume", "voxelize", "render", "illustrate", "writers"},
 }
 # Tests may reach one layer further where they compare whole chains.

@@ -86,5 +86,8 @@ Run addSectionCommand(CLI::App& app);
 Run addQueryCommand(CLI::App& app);
 Run addShellCommand(CLI::App& app);
 Run addConvertCommand(CLI::App& app);
+Run addServeCommand(CLI::App& app);
+Run addViewCommand(CLI::App& app);
+Run addPublishCommand(CLI::App& app);
 
 }  // namespace svt::cli

@@ -62,6 +62,9 @@ int run(int argc, char** argv) {
     commands.emplace_back("query", addQueryCommand(app));
     commands.emplace_back("shell", addShellCommand(app));
     commands.emplace_back("convert", addConvertCommand(app));
+    commands.emplace_back("serve", addServeCommand(app));
+    commands.emplace_back("view", addViewCommand(app));
+    commands.emplace_back("publish", addPublishCommand(app));
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp& help) {

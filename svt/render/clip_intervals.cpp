@@ -55,13 +55,13 @@ void Clipper::Stretch::meet(double from, double to, CapFace face) noexcept {
 }
 
 // Where a t^2 + 2 b t + c < 0, of a cone only before its tip.
-void Clipper::meetRound(const Round& round, const IndexRay& ray, Stretch& stretch) noexcept {
+void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) noexcept {
     const RoundBody& body = round.body;
-    const Vec3d from = ray.origin - body.center;
+    const Vec3d from = line.origin - body.center;
     const auto inFrame = [&](Vec3d v) {
         return Vec3d{dot(body.frame[0], v), dot(body.frame[1], v), dot(body.frame[2], v)};
     };
-    const Vec3d o = inFrame(from), d = inFrame(ray.direction);
+    const Vec3d o = inFrame(from), d = inFrame(line.direction);
     const double along = body.kind == RoundBody::Kind::Ball ? 1 : body.kind == RoundBody::Kind::Cylinder ? 0 : -1;
     const double a = d.x * d.x + d.y * d.y + along * d.z * d.z;
     const double b = o.x * d.x + o.y * d.y + along * o.z * d.z;
@@ -88,11 +88,11 @@ void Clipper::meetRound(const Round& round, const IndexRay& ray, Stretch& stretc
     stretch.meet(t0, t1, face);
 }
 
-Clipper::Stretch Clipper::within(const Part& part, const IndexRay& ray) noexcept {
+Clipper::Stretch Clipper::within(const Part& part, const Line& line) noexcept {
     Stretch stretch{-kInfinity, kInfinity, {}, {}};
     for (const Plane& plane : part.planes) {
-        const double at = dot(plane.normal, ray.origin) + plane.offset;
-        const double slope = dot(plane.normal, ray.direction);
+        const double at = dot(plane.normal, line.origin) + plane.offset;
+        const double slope = dot(plane.normal, line.direction);
         const CapFace face{plane.source, nullptr};
         if (slope == 0)
             stretch.meet(-kInfinity, at > 0 ? kInfinity : -kInfinity, face);
@@ -101,15 +101,15 @@ Clipper::Stretch Clipper::within(const Part& part, const IndexRay& ray) noexcept
         else
             stretch.meet(-kInfinity, -at / slope, face);
     }
-    for (const Round& round : part.rounds) meetRound(round, ray, stretch);
+    for (const Round& round : part.rounds) meetRound(round, line, stretch);
     return stretch;
 }
 
 // The stretches within any part, ascending and apart; their count.
-std::size_t Clipper::within(const Region& region, const IndexRay& ray, Stretches& stretches) noexcept {
+std::size_t Clipper::within(const Region& region, const Line& line, Stretches& stretches) noexcept {
     std::size_t count = 0;
     for (const Part& part : region.parts) {
-        const Stretch stretch = within(part, ray);
+        const Stretch stretch = within(part, line);
         if (!(stretch.enter < stretch.exit)) continue;
         std::size_t at = count++;
         for (; at > 0 && stretches[at - 1].enter > stretch.enter; --at) stretches[at] = stretches[at - 1];
@@ -127,12 +127,14 @@ std::size_t Clipper::within(const Region& region, const IndexRay& ray, Stretches
     return kept;
 }
 
-DrawnIntervals Clipper::cut(const IndexRay& ray, RaySpan span) const noexcept {
+DrawnIntervals Clipper::cut(Vec3d origin, Vec3d direction, RaySpan span) const noexcept {
+    const Line line{origin, direction};
     DrawnIntervals drawn;
     drawn.add({span.from, span.to, {}});
     Stretches stretches;
     for (const Region& region : regions_) {
-        const std::size_t count = within(region, ray, stretches);
+        if (drawn.isEmpty()) break;
+        const std::size_t count = within(region, line, stretches);
         DrawnIntervals next;
         for (const DrawnInterval& interval : drawn) {
             DrawnInterval rest = interval;

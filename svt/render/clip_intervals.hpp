@@ -6,16 +6,18 @@
 #include <svt/render/index_ray.hpp>
 #include <svt/volume/grid.hpp>
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
 namespace svt::render {
 
-/// The plane or round surface that cuts something open; neither: nothing does.
+/// The plane or round surface that cuts something open; neither: nothing does. CapFace{} is none; nothing is set
+/// without the braces, since rays have room for many.
 struct CapFace {
-    const HalfSpace* plane = nullptr;
-    const RoundBody* round = nullptr;
+    const HalfSpace* plane;
+    const RoundBody* round;
 
     [[nodiscard]] explicit operator bool() const noexcept { return plane != nullptr || round != nullptr; }
     /// At a point of world space, length 1, to either side.
@@ -33,6 +35,14 @@ struct DrawnInterval {
 /// The intervals of one ray, ascending. Each part of a clip adds one at most.
 class DrawnIntervals {
 public:
+    DrawnIntervals() = default;
+    DrawnIntervals(const DrawnIntervals& other) noexcept { *this = other; }
+    DrawnIntervals& operator=(const DrawnIntervals& other) noexcept {
+        std::copy(other.begin(), other.end(), items_.begin());
+        count_ = other.count_;
+        return *this;
+    }
+    [[nodiscard]] bool isEmpty() const noexcept { return count_ == 0; }
     [[nodiscard]] const DrawnInterval* begin() const noexcept { return items_.data(); }
     [[nodiscard]] const DrawnInterval* end() const noexcept { return items_.data() + count_; }
     void add(const DrawnInterval& interval) noexcept {
@@ -50,8 +60,11 @@ public:
     Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid);
 
     [[nodiscard]] bool isEmpty() const noexcept { return regions_.empty(); }
-    /// What is left of `span`.
-    [[nodiscard]] DrawnIntervals cut(const IndexRay& ray, RaySpan span) const noexcept;
+    /// What is left of `span` on a ray of voxel space.
+    [[nodiscard]] DrawnIntervals cut(Vec3d origin, Vec3d direction, RaySpan span) const noexcept;
+    [[nodiscard]] DrawnIntervals cut(const IndexRay& ray, RaySpan span) const noexcept {
+        return cut(ray.origin, ray.direction, span);
+    }
     /// Is this point (voxel space) drawn?
     [[nodiscard]] bool keeps(Vec3d point) const noexcept;
 
@@ -81,9 +94,12 @@ private:
     };
     using Stretches = std::array<Stretch, Pass::kMaxClipParts>;
 
-    static Stretch within(const Part& part, const IndexRay& ray) noexcept;
-    static void meetRound(const Round& round, const IndexRay& ray, Stretch& stretch) noexcept;
-    static std::size_t within(const Region& region, const IndexRay& ray, Stretches& stretches) noexcept;
+    struct Line {
+        Vec3d origin, direction;
+    };
+    static Stretch within(const Part& part, const Line& line) noexcept;
+    static void meetRound(const Round& round, const Line& line, Stretch& stretch) noexcept;
+    static std::size_t within(const Region& region, const Line& line, Stretches& stretches) noexcept;
 
     std::vector<Region> regions_;
 };

@@ -20,10 +20,19 @@ OcclusionField::Level emptyLevel(Vec3i count, double cellSize, double weight) {
     return level;
 }
 
+// A block is so many times doubled bricks along each axis.
+int blockShift(double voxelSize) noexcept {
+    constexpr double kWidest = 0.2;  // metres
+    int shift = 0;
+    while (shift < 6 && voxelSize * (16 << shift) <= kWidest) ++shift;
+    return shift;
+}
+
 }  // namespace
 
-OcclusionField::OcclusionField(const volume::BrickVolume& volume, const std::function<bool(volume::Scalar)>& isOpaque,
-                               const Clipper& clipper, int threads) {
+OcclusionField::OcclusionField(const volume::BrickVolume& volume, double voxelSize,
+                               const std::function<bool(volume::Scalar)>& isOpaque, const Clipper& clipper,
+                               int threads) {
     // Once per distinct brick, then once per brick.
     std::vector<std::uint32_t> ofPaletteBrick(volume.paletteBrickCount());
     parallelFor(ofPaletteBrick.size(), 512, threads, [&](std::size_t begin, std::size_t end) {
@@ -38,15 +47,42 @@ OcclusionField::OcclusionField(const volume::BrickVolume& volume, const std::fun
     std::vector<std::uint32_t> ofBox(volume.boxes().size());
     for (std::size_t n = 0; n < ofBox.size(); ++n) ofBox[n] = isOpaque(volume.boxes()[n].scalar) ? 512 : 0;
 
-    Level level = emptyLevel(volume.brickCount(), 8, kWeights[0]);
+    const int shift = blockShift(voxelSize);
+    const auto voxelsIn = [&](Vec3i block) {
+        Vec3i from, to;  // bricks
+        for (int axis = 0; axis < 3; ++axis) {
+            from[axis] = block[axis] << shift;
+            to[axis] = std::min(from[axis] + (1 << shift), volume.brickCount()[axis]);
+        }
+        // Most blocks lie in a box of one label.
+        const auto first = volume.entry(from.x, from.y, from.z);
+        if (!first.isMixed()) {
+            const volume::SameLabelBox& box = volume.boxes()[volume.boxNumber(first)];
+            if (to.x * 8 <= box.max[0] + 7 && to.y * 8 <= box.max[1] + 7 && to.z * 8 <= box.max[2] + 7)
+                return ofBox[volume.boxNumber(first)] *
+                       static_cast<std::uint32_t>((to.x - from.x) * (to.y - from.y) * (to.z - from.z));
+        }
+        std::uint32_t sum = 0;
+        for (std::int32_t z = from.z; z < to.z; ++z)
+            for (std::int32_t y = from.y; y < to.y; ++y)
+                for (std::int32_t x = from.x; x < to.x; ++x) {
+                    const auto entry = volume.entry(x, y, z);
+                    sum += entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
+                                           : ofBox[volume.boxNumber(entry)];
+                }
+        return sum;
+    };
+    const double size = 8 << shift;
+    const auto blocks = [&](std::int32_t bricks) { return (bricks + (1 << shift) - 1) >> shift; };
+    const Vec3i bricks = volume.brickCount();
+    Level level = emptyLevel({blocks(bricks.x), blocks(bricks.y), blocks(bricks.z)}, size, kWeights[0]);
     parallelFor(static_cast<std::size_t>(level.count.z), 4, threads, [&](std::size_t begin, std::size_t end) {
         for (auto z = static_cast<std::int32_t>(begin); z < static_cast<std::int32_t>(end); ++z)
             for (std::int32_t y = 0; y < level.count.y; ++y)
                 for (std::int32_t x = 0; x < level.count.x; ++x) {
-                    const auto entry = volume.entry(x, y, z);
-                    std::uint32_t voxels = entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
-                                                           : ofBox[volume.boxNumber(entry)];
-                    if (voxels > 0 && !clipper.isEmpty() && !clipper.keeps({8.0 * x + 4, 8.0 * y + 4, 8.0 * z + 4}))
+                    std::uint32_t voxels = voxelsIn({x, y, z});
+                    if (voxels > 0 && !clipper.isEmpty() &&
+                        !clipper.keeps({size * (x + 0.5), size * (y + 0.5), size * (z + 0.5)}))
                         voxels = 0;
                     level.voxels[level.at(x, y, z)] = voxels;
                 }

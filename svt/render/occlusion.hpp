@@ -13,16 +13,20 @@
 
 namespace svt::render {
 
-/// Opaque voxels per brick, and per ever larger blocks of bricks.
+/// Opaque voxels per block of bricks, and per ever larger blocks.
 class OcclusionField {
 public:
     OcclusionField() = default;
 
-    /// \param isOpaque  by scalar
-    /// \param clipper   bricks whose middle is cut away count as empty
-    /// Cost: O(bricks), a millisecond or two per million; parallel. Memory: 4.6 bytes a brick.
-    OcclusionField(const volume::BrickVolume& volume, const std::function<bool(volume::Scalar)>& isOpaque,
-                   const Clipper& clipper, int threads);
+    /// Blocks are bricks, or larger where voxels are small: about 10 to 20 cm, so that corners are as wide and dark
+    /// whatever the voxel size, and a fine volume costs no more.
+    /// \param voxelSize  metres, the largest spacing
+    /// \param isOpaque   by scalar
+    /// \param clipper    blocks whose middle is cut away count as empty
+    /// Cost: O(blocks + bricks that hold several labels), a millisecond or two per million; parallel. Memory: 4.6 bytes
+    /// a block.
+    OcclusionField(const volume::BrickVolume& volume, double voxelSize,
+                   const std::function<bool(volume::Scalar)>& isOpaque, const Clipper& clipper, int threads);
 
     /// Share of the surroundings before a surface that is taken, 0..1.
     /// \param point      on the surface, voxel space
@@ -34,7 +38,7 @@ public:
     /// One block size.
     struct Level {
         Vec3i count;          ///< blocks
-        double cellSize = 8;  ///< voxels, along each axis
+        double cellSize = 0;  ///< voxels, along each axis
         double gain = 0;      ///< occlusion by one opaque voxel
         double weight = 0;
         /// Opaque voxels by block, x fastest, then y, then z, with an empty block all around; one more element behind,

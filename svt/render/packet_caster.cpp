@@ -138,11 +138,10 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
     for (std::size_t n = 0; n < count_; ++n) {
         const std::size_t begin = first[n] % kPacketRays;
         // Nothing is left of what is before it.
-        Sample joined = ofPasses_[begin * kPacketRays + n];
-        if (begin > 0) joined = joinPass(scene_.passes[begin].join, begin, joined, {});
-        for (std::size_t pass = begin + 1; pass <= last; ++pass)
-            joined = joinPass(scene_.passes[pass].join, pass, ofPasses_[pass * kPacketRays + n], joined);
-        samples[places_[n]] = joined;
+        Sample& joined = samples[places_[n]];
+        joined = begin > 0 ? Sample() : ofPasses_[n];
+        for (std::size_t pass = std::max<std::size_t>(begin, 1); pass <= last; ++pass)
+            joinPass(scene_.passes[pass].join, pass, ofPasses_[pass * kPacketRays + n], joined);
     }
 }
 
@@ -243,7 +242,10 @@ void PacketCaster::findParts(std::size_t ray) {
     if (!(span.from < span.to)) return;
     const Clipper& clipper = scene_.passes[pass_].clipper;
     const std::size_t first = parts_.size();
-    const DrawnIntervals drawn = clipper.cut(scene_.volumeOf(pass_).rays.at(rays_.u[ray], rays_.v[ray]).index, span);
+    const auto of = [ray](const Lanes<double>(&lanes)[3]) {
+        return Vec3d{lanes[0][ray], lanes[1][ray], lanes[2][ray]};
+    };
+    const DrawnIntervals drawn = clipper.cut(of(rays_.origin), of(rays_.direction), span);
     parts_.insert(parts_.end(), drawn.begin(), drawn.end());
     if (!scene_.passes[pass_].shapes.hasTriangles()) return;
     const double end = findSurfaces(ray, std::span(parts_).subspan(first));

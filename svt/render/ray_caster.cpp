@@ -93,7 +93,8 @@ Result<PreparedPass> preparedPass(const Pass& pass, const Scene& scene, const Dr
     if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
         const PassTable& table = prepared.table;
         prepared.occlusion = OcclusionField(
-            volume.bricks, [&table](volume::Scalar scalar) { return table[scalar].isBody; }, prepared.clipper, threads);
+            volume.bricks, volume.voxelSize, [&table](volume::Scalar scalar) { return table[scalar].isBody; },
+            prepared.clipper, threads);
     }
     return prepared;
 }

@@ -148,27 +148,22 @@ private:
     double transmittance_ = 1, lines_ = 1;  // of voxels and surfaces, of lines
 };
 
-// `front` drawn over `back`; label and depth are the front's where it has any.
-Sample over(const Sample& front, const Sample& back) noexcept {
-    Sample joined = front.hasHit() ? front : back;
-    joined.color = front.color + back.color * (1 - front.alpha);
-    joined.alpha = front.alpha + back.alpha * (1 - front.alpha);
-    return joined;
-}
-
 }  // namespace
 
-Sample joinPass(Pass::Join join, std::size_t number, const Sample& pass, const Sample& before) noexcept {
-    switch (join) {
-        case Pass::Join::Replace: {
-            Sample joined = pass.alpha > 0 ? pass : before;
-            if (pass.alpha > 0) joined.lens = static_cast<std::uint8_t>(number);
-            return joined;
-        }
-        case Pass::Join::Depth: return pass.depth <= before.depth ? over(pass, before) : over(before, pass);
-        case Pass::Join::Over: break;
+void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& joined) noexcept {
+    if (join == Pass::Join::Replace) {
+        if (!(pass.alpha > 0)) return;
+        joined = pass;
+        joined.lens = static_cast<std::uint8_t>(number);
+        return;
     }
-    return over(pass, before);
+    // One over the other; label and depth are those of the front where it has any.
+    const bool isInFront = join == Pass::Join::Over || pass.depth <= joined.depth;
+    const Sample before = joined;
+    const Sample &front = isInFront ? pass : before, &back = isInFront ? before : pass;
+    joined = front.hasHit() ? front : back;
+    joined.color = front.color + back.color * (1 - front.alpha);
+    joined.alpha = front.alpha + back.alpha * (1 - front.alpha);
 }
 
 SampleCaster::SampleCaster(const Scene& scene)
@@ -206,7 +201,10 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
         Sample sample = shader.result();
         sample.volume = pass.volume;
         if (sample.isCap) hatchCap(scene_, n, u, v, sample);
-        joined = n == 0 ? sample : joinPass(pass.join, n, sample, joined);
+        if (n == 0)
+            joined = sample;
+        else
+            joinPass(pass.join, n, sample, joined);
     }
     return joined;
 }

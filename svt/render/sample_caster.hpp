@@ -46,8 +46,8 @@ inline void finishSample(Vec3d color, double transmittance, const CastOptions& o
     sample.alpha = isOpaque ? 1 : static_cast<float>(alpha);
 }
 
-/// What pass `number` has seen, joined with what the passes before it have.
-[[nodiscard]] Sample joinPass(Pass::Join join, std::size_t number, const Sample& pass, const Sample& before) noexcept;
+/// Joins what pass `number` has seen to what the passes before it have.
+void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& joined) noexcept;
 
 /// Whether nothing of the passes before is left in joinPass().
 [[nodiscard]] inline bool hidesAllBefore(Pass::Join join, const Sample& pass) noexcept {

@@ -1,6 +1,6 @@
 // Every command that the documents show works as it stands there. Blocks of ```sh in README.md and docs/user/*.md are
 // run line by line in one folder per document; lines that do not start with the command (or with build/release/bin/svt)
-// are left out.
+// are left out. A command that serves runs until it has said its address, and must then end well when it is told to.
 #include "run_command.hpp"
 
 #include <algorithm>
@@ -41,6 +41,32 @@ std::vector<ShownCommand> commandsOf(const fs::path& document) {
     return commands;
 }
 
+// The command as it would be installed: with a page for the browser, here a stand-in, and a browser, here none.
+class Installed {
+public:
+    Installed() {
+        fs::create_directories(folder_ / "bin");
+        fs::create_directories(folder_ / "share/svt/viewer");
+        std::error_code error;
+        fs::create_hard_link(SVT_COMMAND, folder_ / "bin/svt", error);
+        if (error) fs::copy_file(SVT_COMMAND, folder_ / "bin/svt");
+        writeText(folder_ / "bin/xdg-open", "#!/bin/sh\n");
+        fs::permissions(folder_ / "bin/xdg-open", fs::perms::owner_all);
+        writeText(folder_ / "share/svt/viewer/index.html", "<!doctype html>");
+    }
+    [[nodiscard]] std::string bin() const { return (folder_ / "bin").string(); }
+
+private:
+    TemporaryFolder folder_;
+};
+
+// A script that starts what serves, waits for its address, and stops it.
+std::string untilItServes(const std::string& text) {
+    return "( exec " + text + "\n) > address 2> messages &\nserver=$!\n" +
+           "until grep -q ^http address; do kill -0 $server || break; sleep 0.02; done\n" +
+           "kill -TERM $server\nwait $server\ncode=$?\ncat address messages\nexit $code\n";
+}
+
 // Runs a line in a shell that knows `svt`, as a reader would. A comment `# exit N` behind it names another exit code
 // than 0.
 void expectWorks(const fs::path& folder, const ShownCommand& command, const fs::path& document) {
@@ -50,8 +76,9 @@ void expectWorks(const fs::path& folder, const ShownCommand& command, const fs::
     std::string text = command.text;
     constexpr std::string_view kBuilt = "build/release/bin/svt ";
     if (text.rfind(kBuilt, 0) == 0) text = "svt " + text.substr(kBuilt.size());
-    const fs::path bin = fs::path(SVT_COMMAND).parent_path();
-    writeText(folder / "run.sh", "PATH='" + bin.string() + "':$PATH\ncd '" + folder.string() + "'\n" + text + "\n");
+    static const Installed installed;
+    if (text.rfind("svt serve ", 0) == 0 || text.rfind("svt view ", 0) == 0) text = untilItServes(text);
+    writeText(folder / "run.sh", "PATH='" + installed.bin() + "':$PATH\ncd '" + folder.string() + "'\n" + text + "\n");
     const std::string log = (folder / "run.log").string();
     const int status =
         std::system(("timeout 60 sh '" + (folder / "run.sh").string() + "' > '" + log + "' 2>&1").c_str());

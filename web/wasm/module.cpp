@@ -79,6 +79,7 @@ private:
 };
 
 illustrate::Context contextOf(const Json& value) {
+    if (value == "shell") return illustrate::Context::Shell;
     if (value == "solid") return illustrate::Context::Solid;
     if (value == "none") return illustrate::Context::None;
     return illustrate::Context::Ghost;

@@ -63,7 +63,8 @@ export interface Effects {
   highlight?: { queries: string[]; context: Context };
   cutaway?: { query: string; margin: number };
 }
-export type Context = "ghost" | "solid" | "none";
+/** `shell`: the outer hull of the building as glass. */
+export type Context = "ghost" | "solid" | "shell" | "none";
 
 /** A feature of the model, with or without voxels; in tree order. */
 export interface Feature {

@@ -1,0 +1,247 @@
+#include <svt/serve/http_client_test.hpp>
+
+#include <atomic>
+#include <csignal>
+#include <future>
+
+namespace svt::serve {
+namespace {
+
+using test::TemporaryFolder;
+
+Site smallSite() {
+    Site site;
+    site.add("/index.html", Bytes::of("<!doctype html>"));
+    site.add("/data.svt", Bytes::of(std::string(3000000, 'd')));
+    return site;
+}
+
+Route echo() {
+    Route route;
+    route.path = "/api/echo";
+    route.handle = [](const Request& request, const Progress&) {
+        Reply reply;
+        reply.type = "text/plain";
+        reply.body = Bytes::of(std::string(request.parameter("name")) + ":" + request.body);
+        return reply;
+    };
+    return route;
+}
+
+TEST(HttpServer, AnswersWithTheHeadersOfSafety) {
+    const RunningServer server(smallSite());
+    const auto answer = server.ask("GET /");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(answer.body, "<!doctype html>");
+    EXPECT_EQ(answer.header("Content-Type"), "text/html; charset=utf-8");
+    EXPECT_EQ(answer.header("Cross-Origin-Opener-Policy"), "same-origin");
+    EXPECT_EQ(answer.header("Cross-Origin-Embedder-Policy"), "require-corp");
+    EXPECT_EQ(answer.header("Cross-Origin-Resource-Policy"), "same-origin");
+    EXPECT_EQ(answer.header("X-Content-Type-Options"), "nosniff");
+    const std::string policy = answer.header("Content-Security-Policy");
+    EXPECT_NE(policy.find("default-src 'none'"), std::string::npos);
+    EXPECT_NE(policy.find("script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'"), std::string::npos);
+    EXPECT_EQ(policy.find("http"), std::string::npos);
+    // Refusals have them as well.
+    EXPECT_EQ(server.ask("GET /missing").header("X-Content-Type-Options"), "nosniff");
+}
+
+TEST(HttpServer, MethodsAndPaths) {
+    const RunningServer server(smallSite(), {echo()});
+    EXPECT_EQ(server.ask("GET /missing").status, 404);
+    EXPECT_EQ(server.ask("GET /missing").body, "{\"code\":\"HTTP404\",\"message\":\"nothing is here\"}\n");
+    const auto head = server.ask("HEAD /data.svt");
+    EXPECT_EQ(head.status, 200);
+    EXPECT_EQ(head.header("Content-Length"), "3000000");
+    EXPECT_EQ(head.body, "");
+    for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "BREW"})
+        EXPECT_EQ(server.ask(method + std::string(" /")).status, 405) << method;
+    EXPECT_EQ(server.ask("GET /api/echo").status, 405);
+    EXPECT_EQ(server.ask("GET /api/echo").header("Allow"), "POST");
+    EXPECT_EQ(server.ask("POST /", "Content-Length: 5\r\n", "12345").status, 413);
+    EXPECT_EQ(server.ask("GET /data.svt").body.size(), 3000000u);
+    EXPECT_EQ(server.ask("GET /data.svt", "Range: bytes=2999990-\r\n").body, "dddddddddd");
+}
+
+TEST(HttpServer, OneConnectionTakesManyRequests) {
+    const RunningServer server(smallSite(), {echo()});
+    Client client = server.client();
+    for (int i = 0; i < 5; ++i) {
+        ASSERT_TRUE(client.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"));
+        EXPECT_EQ(client.receive().status, 200);
+    }
+    // All at once, a call with its body among them; replies come in their order.
+    std::string all;
+    for (int i = 0; i < 50; ++i) {
+        const std::string number = std::to_string(i);
+        all += "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n\r\n";
+        all += "POST /api/echo?name=" + number + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4\r\n\r\nbody";
+    }
+    ASSERT_TRUE(client.send(all));
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_EQ(client.receive().body, "<!doctype html>");
+        EXPECT_EQ(client.receive().body, std::to_string(i) + ":body");
+    }
+    ASSERT_TRUE(client.send("GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"));
+    EXPECT_EQ(client.receive().header("Connection"), "close");
+    EXPECT_TRUE(client.isClosed(2));
+}
+
+TEST(HttpServer, RequestsMayComeByteByByte) {
+    const RunningServer server(smallSite(), {echo()});
+    Client client = server.client();
+    for (const char c :
+         std::string("POST /api/echo?name=a HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n\r\nxyz")) {
+        ASSERT_TRUE(client.send(std::string(1, c)));
+        std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    EXPECT_EQ(client.receive().body, "a:xyz");
+}
+
+TEST(HttpServer, PagesOfOthersMayNotCall) {
+    const RunningServer server(smallSite(), {echo()});
+    const auto status = [&](const std::string& headers) {
+        return server.ask("POST /api/echo", headers + "Content-Length: 1\r\n", "x").status;
+    };
+    EXPECT_EQ(status(""), 200);
+    EXPECT_EQ(status("Origin: http://localhost\r\nSec-Fetch-Site: same-origin\r\n"), 200);
+    EXPECT_EQ(status("Origin: http://evil.example\r\n"), 403);
+    EXPECT_EQ(status("Origin: null\r\n"), 403);
+    EXPECT_EQ(status("Origin: http://localhost:1\r\n"), 403);
+    EXPECT_EQ(status("Sec-Fetch-Site: cross-site\r\n"), 403);
+    Client client = server.client();
+    client.send("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n");
+    EXPECT_EQ(client.receive().status, 421);
+}
+
+TEST(HttpServer, BodiesGoToFilesThatAreRemoved) {
+    const TemporaryFolder folder;
+    Route route;
+    route.path = "/api/size";
+    route.isBodyInFile = true;
+    route.maxBodyBytes = 10000000;
+    route.handle = [](const Request& request, const Progress&) {
+        Reply reply;
+        reply.body = Bytes::of(std::to_string(std::filesystem::file_size(request.bodyFile)));
+        EXPECT_TRUE(request.body.empty());
+        return reply;
+    };
+    ServerOptions options;
+    options.bodyFolder = folder.path();
+    const RunningServer server(smallSite(), {route}, options);
+    EXPECT_EQ(server.ask("POST /api/size", "Content-Length: 5000000\r\n", std::string(5000000, 'b')).body, "5000000");
+    EXPECT_EQ(server.ask("POST /api/size", "Content-Length: 10000001\r\n").status, 413);
+    {
+        Client client = server.client();  // goes away in the middle
+        client.send("POST /api/size HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nhalf");
+    }
+    for (int i = 0; i < 500 && folder.count() != 0; ++i) ::usleep(10000);
+    EXPECT_EQ(folder.count(), 0);
+}
+
+TEST(HttpServer, ClientIsToldToGoOnWithItsBody) {
+    const RunningServer server(smallSite(), {echo()});
+    Client client = server.client();
+    client.send(
+        "POST /api/echo?name=a HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n");
+    EXPECT_EQ(client.receive().status, 100);
+    client.send("ab");
+    EXPECT_EQ(client.receive().body, "a:ab");
+    Client large = server.client();
+    large.send("POST /api/echo HTTP/1.1\r\nHost: localhost\r\nExpect: 100-continue\r\nContent-Length: 2000000\r\n\r\n");
+    EXPECT_EQ(large.receive().status, 413);
+}
+
+// A call that works until it is told to stop.
+struct Slow {
+    std::atomic<int> begun{0}, stopped{0};
+    Route route() {
+        Route route;
+        route.path = "/api/slow";
+        route.maxWaiting = 2;
+        route.handle = [this](const Request&, const Progress& stop) {
+            ++begun;
+            while (!stop.cancel) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            ++stopped;
+            return Reply{};
+        };
+        return route;
+    }
+    void await(const std::atomic<int>& count, int value) const {
+        for (int i = 0; i < 5000 && count < value; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_EQ(count, value);
+    }
+};
+
+TEST(HttpServer, CallsWaitInAShortQueueAndEndWithTheirClient) {
+    Slow slow;
+    RunningServer server(smallSite(), {slow.route()});
+    const std::string call = "POST /api/slow HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n";
+    std::vector<Client> clients;
+    for (int i = 0; i < 3; ++i) {
+        clients.push_back(server.client());
+        clients.back().send(call);
+    }
+    slow.await(slow.begun, 1);
+    EXPECT_EQ(server.ask("GET /").status, 200);  // others are not held up
+    for (int i = 0; i < 100 && server.ask("POST /api/slow", "Content-Length: 0\r\n").status != 503; ++i) ::usleep(1000);
+    EXPECT_EQ(server.ask("POST /api/slow", "Content-Length: 0\r\n").status, 503);
+    clients.clear();  // all go away: the one at work stops, the others are not begun
+    slow.await(slow.stopped, 1);
+    for (int i = 0; i < 100; ++i) ::usleep(1000);
+    EXPECT_EQ(slow.begun, 1);
+    Client again = server.client();
+    again.send(call);
+    slow.await(slow.begun, 2);
+    EXPECT_LT(server.stop(), 2.0);
+    EXPECT_EQ(slow.stopped, 2);
+}
+
+TEST(HttpServer, FailuresOfAHandlerAreReplies) {
+    Route route;
+    route.path = "/api/throw";
+    route.handle = [](const Request& request, const Progress&) -> Reply {
+        if (request.body == "memory") throw std::bad_alloc();
+        throw std::runtime_error("broken");
+    };
+    const RunningServer server(smallSite(), {route});
+    EXPECT_EQ(server.ask("POST /api/throw", "Content-Length: 6\r\n", "memory").status, 503);
+    const auto answer = server.ask("POST /api/throw", "Content-Length: 1\r\n", "x");
+    EXPECT_EQ(answer.status, 500);
+    EXPECT_EQ(answer.body, "{\"code\":\"E999\",\"message\":\"broken\"}\n");
+}
+
+TEST(HttpServer, StopsFromASignalAndInBoundedTime) {
+    ServerOptions options;
+    options.stopSeconds = 0.5;
+    RunningServer server(smallSite(), {}, options);
+    Client idle = server.client(), half = server.client(), deaf = server.client();
+    idle.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(idle.receive().status, 200);
+    half.send("GET / HT");
+    for (int i = 0; i < 20; ++i) deaf.send("GET /data.svt HTTP/1.1\r\nHost: localhost\r\n\r\n");  // never reads
+    ::usleep(100000);
+    EXPECT_LT(server.stop(), 1.5);
+    EXPECT_TRUE(idle.isClosed(1));
+}
+
+TEST(HttpServer, PortsThatAreTakenAreSaidOrPassedBy) {
+    ServerOptions options;
+    options.port = 0;
+    const auto first = HttpServer::listen(smallSite(), {}, options);
+    ASSERT_TRUE(first);
+    options.port = first->port();
+    const auto second = HttpServer::listen(smallSite(), {}, options);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code(), Code::BadArgument);
+    EXPECT_NE(second.error().message().find(std::to_string(options.port)), std::string::npos);
+    options.mayTakeOtherPort = true;
+    const auto other = HttpServer::listen(smallSite(), {}, options);
+    ASSERT_TRUE(other) << other.error().toString();
+    EXPECT_GT(other->port(), first->port());
+    options.host = "no such host";
+    EXPECT_EQ(HttpServer::listen(smallSite(), {}, options).error().code(), Code::BadArgument);
+}
+
+}  // namespace
+}  // namespace svt::serve

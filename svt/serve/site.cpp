@@ -1,0 +1,346 @@
+#include <svt/serve/site.hpp>
+
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <zlib.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <system_error>
+
+namespace svt::serve {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Type {
+    std::string_view extension, name;
+    bool isCompressible;
+};
+constexpr std::array kTypes{
+    Type{".html", "text/html; charset=utf-8", true},
+    Type{".js", "text/javascript; charset=utf-8", true},
+    Type{".mjs", "text/javascript; charset=utf-8", true},
+    Type{".css", "text/css; charset=utf-8", true},
+    Type{".json", "application/json", true},
+    Type{".map", "application/json", true},
+    Type{".webmanifest", "application/manifest+json", true},
+    Type{".wasm", "application/wasm", true},
+    Type{".svg", "image/svg+xml", true},
+    Type{".txt", "text/plain; charset=utf-8", true},
+    Type{".md", "text/plain; charset=utf-8", true},
+    Type{".svt", "application/vnd.svt+zip", false},
+    Type{".png", "image/png", false},
+    Type{".jpg", "image/jpeg", false},
+    Type{".webp", "image/webp", false},
+    Type{".ico", "image/x-icon", false},
+    Type{".woff2", "font/woff2", false},
+    Type{".ttf", "font/ttf", true},
+};
+constexpr Type kOtherType{"", "application/octet-stream", false};
+
+constexpr std::size_t kMinCompressed = 1000;
+
+std::string lowerExtension(std::string_view path) {
+    const std::size_t slash = path.rfind('/'), dot = path.rfind('.');
+    if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash)) return {};
+    std::string extension(path.substr(dot));
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+const Type& typeOf(std::string_view path) {
+    const std::string extension = lowerExtension(path);
+    if (extension.empty()) return kTypes[4];  // what the server itself names, such as /api
+    const auto* found =
+        std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& type) { return type.extension == extension; });
+    return found == kTypes.end() ? kOtherType : *found;
+}
+
+// FNV-1a, 64 bits.
+std::uint64_t hashOf(std::span<const std::byte> bytes) noexcept {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const std::byte byte : bytes) hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+    return hash;
+}
+
+// One gzip member; empty where it saves less than a tenth.
+Bytes compressed(std::span<const std::byte> bytes) {
+    constexpr int kGzip = 15 + 16, kMemory = 8;
+    if (bytes.size() < kMinCompressed || bytes.size() > UINT32_MAX / 2) return {};
+    z_stream stream{};
+    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) return {};
+    std::string out(bytes.size() - bytes.size() / 10, '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    const bool isWhole = deflate(&stream, Z_FINISH) == Z_STREAM_END;
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    if (!isWhole) return {};
+    out.shrink_to_fit();
+    return Bytes::of(std::move(out));
+}
+
+// What Vite names by its content: assets/index-BX3k9a1_.js. Such a file never changes.
+bool isNamedByContent(std::string_view path) noexcept {
+    constexpr std::size_t kHash = 8;
+    if (path.find("/assets/") == std::string_view::npos) return false;
+    const std::string_view name = path.substr(path.rfind('/') + 1);
+    const std::string_view stem = name.substr(0, name.rfind('.'));
+    if (stem.size() < kHash + 2 || stem[stem.size() - kHash - 1] != '-') return false;
+    return std::all_of(stem.end() - kHash, stem.end(),
+                       [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; });
+}
+
+bool acceptsGzip(std::string_view header) {
+    bool isAccepted = false;
+    while (!header.empty()) {
+        std::string item(header.substr(0, header.find(',')));
+        header.remove_prefix(std::min(header.size(), item.size() + 1));
+        item.erase(std::remove(item.begin(), item.end(), ' '), item.end());
+        const std::string name = item.substr(0, item.find(';'));
+        if (name != "gzip" && name != "*") continue;
+        const std::size_t q = item.find(";q=");
+        const bool isRefused = q != std::string::npos && item.find_first_of("123456789", q) == std::string::npos;
+        if (name == "gzip") return !isRefused;
+        isAccepted = !isRefused;
+    }
+    return isAccepted;
+}
+
+// Tags of If-None-Match are compared weakly: W/ does not count, nor whether the bytes were compressed.
+bool namesTag(std::string_view header, std::string_view tag) {
+    return header == "*" || (!header.empty() && header.find(tag) != std::string_view::npos);
+}
+
+// A file of the folder, and its path in the site.
+struct Found {
+    fs::path file;
+    std::string path;
+};
+
+bool leadsOut(const fs::path& file, const fs::path& root) {
+    std::error_code error;
+    const fs::path real = fs::canonical(file, error);
+    if (error) return true;
+    return std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end();
+}
+
+Error cannotOpen(const fs::path& path, std::string message) {
+    return Error(Code::CannotOpen, std::move(message), Place{path.string(), 0, 0, {}});
+}
+
+Result<std::vector<Found>> filesOf(const fs::path& folder) {
+    std::error_code error;
+    const fs::path root = fs::canonical(folder, error);
+    if (error || !fs::is_directory(root, error)) return cannotOpen(folder, "this is no folder; check the spelling");
+    std::vector<Found> found;
+    auto at = fs::recursive_directory_iterator(root, error);
+    for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+        const std::string name = at->path().filename().string();
+        std::error_code ignored;
+        if (name.front() == '.') {
+            at.disable_recursion_pending();
+            continue;
+        }
+        if (!at->is_regular_file(ignored) || leadsOut(at->path(), root)) continue;
+        if (found.size() == Site::kMaxFiles)
+            return Error(Code::InputTooBig,
+                         fmt::format("over {} files; is this the folder of the viewer?", found.size()),
+                         Place{folder.string(), 0, 0, {}});
+        found.push_back({at->path(), "/" + at->path().lexically_relative(root).generic_string()});
+    }
+    if (error) return cannotOpen(folder, "the folder cannot be read: " + error.message());
+    return found;
+}
+
+Error cannotWrite(const fs::path& path, std::string message) {
+    return Error(Code::CannotWrite, std::move(message), Place{path.string(), 0, 0, {}});
+}
+
+// A folder that goes with all it holds.
+struct Staging {
+    fs::path path;
+    ~Staging() {
+        std::error_code ignored;
+        if (!path.empty()) fs::remove_all(path, ignored);
+    }
+};
+
+Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std::string& path) {
+    std::error_code error;
+    const fs::path target = folder / path.substr(1);
+    fs::create_directories(target.parent_path(), error);
+    if (!error) fs::rename(staging / path.substr(1), target, error);
+    if (error) return cannotWrite(target, error.message());
+    return {};
+}
+
+}  // namespace
+
+void Site::add(const std::string& path, Bytes bytes) {
+    const Type& type = typeOf(path);
+    Resource resource;
+    resource.type = type.name;
+    resource.tag = fmt::format("\"{:x}-{:016x}\"", bytes.data.size(), hashOf(bytes.data));
+    resource.isImmutable = isNamedByContent(path);
+    if (type.isCompressible) resource.gzip = compressed(bytes.data);
+    resource.bytes = std::move(bytes);
+    resources_.insert_or_assign(path, std::move(resource));
+}
+
+Result<void> Site::addFolder(const fs::path& folder) {
+    const auto files = filesOf(folder);
+    if (!files) return files.error();
+    std::uint64_t total = 0;
+    for (const Found& found : *files) {
+        const auto file = MappedFile::open(found.file);
+        if (!file) return file.error();
+        total += file->bytes().size();
+        if (total > kMaxFolderBytes)
+            return Error(Code::InputTooBig,
+                         fmt::format("over {} MiB; is this the folder of the viewer?", kMaxFolderBytes >> 20),
+                         Place{folder.string(), 0, 0, {}});
+        add(found.path, Bytes::of(std::string(file->text())));
+    }
+    return {};
+}
+
+const Resource* Site::find(std::string_view path) const noexcept {
+    const auto at = resources_.find(path == "/" ? std::string_view("/index.html") : path);
+    return at == resources_.end() ? nullptr : &at->second;
+}
+
+Reply Site::reply(const Request& request) const {
+    const Resource* resource = find(request.path);
+    if (resource == nullptr) return Reply::refusal(404, "nothing is here");
+    const bool isHead = request.method == "HEAD";
+    if (request.method != "GET" && !isHead) {
+        Reply reply = Reply::refusal(405, "only GET and HEAD are possible here");
+        reply.headers.emplace_back("Allow", "GET, HEAD");
+        return reply;
+    }
+    Reply reply;
+    reply.headers = {{"Cache-Control", resource->isImmutable ? "public, max-age=31536000, immutable" : "no-cache"},
+                     {"ETag", resource->tag},
+                     {"Accept-Ranges", "bytes"}};
+    if (!resource->gzip.data.empty()) reply.headers.emplace_back("Vary", "Accept-Encoding");
+    if (namesTag(request.header("if-none-match"), resource->tag)) {
+        reply.status = 304;
+        return reply;
+    }
+    reply.type = resource->type;
+    reply.body = resource->bytes;
+
+    ByteRange range;
+    const std::uint64_t size = resource->bytes.data.size();
+    const std::string_view ifRange = request.header("if-range");
+    const bool isRangeMeant = !isHead && (ifRange.empty() || ifRange == resource->tag);
+    switch (isRangeMeant ? parseRange(request.header("range"), size, range) : RangeKind::Whole) {
+        case RangeKind::Unsatisfiable: {
+            Reply refused = Reply::refusal(416, fmt::format("the range begins behind the {} bytes there are", size));
+            refused.headers.emplace_back("Content-Range", fmt::format("bytes */{}", size));
+            return refused;
+        }
+        case RangeKind::Part:
+            reply.status = 206;
+            reply.body.data = reply.body.data.subspan(range.first, range.last - range.first + 1);
+            reply.headers.emplace_back("Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.last, size));
+            break;
+        case RangeKind::Whole:
+            if (resource->gzip.data.empty() || !acceptsGzip(request.header("accept-encoding"))) break;
+            reply.body = resource->gzip;
+            reply.headers.emplace_back("Content-Encoding", "gzip");
+            // Other bytes, so another strong tag; the first part is what If-None-Match is compared with.
+            reply.headers[1].second = "W/" + resource->tag;
+            break;
+    }
+    if (isHead) {
+        reply.skippedBody = reply.body.data.size();
+        reply.body = {};
+    }
+    return reply;
+}
+
+Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> models) {
+    Site site;
+    if (auto added = site.addFolder(viewer); !added) return added.error();
+    if (site.find("/index.html") == nullptr)
+        return cannotOpen(viewer, "the folder has no index.html, so it is no viewer; `make viewer` builds one");
+    nlohmann::ordered_json list = nlohmann::json::array();
+    for (const SiteModel& model : models) {
+        const std::string file = "models/" + model.name + ".svt";
+        list.push_back(
+            {{"name", model.name}, {"file", file}, {"bytes", model.svt.data.size()}, {"title", model.title}});
+        site.add("/" + file, model.svt);
+    }
+    const nlohmann::ordered_json json{{"models", std::move(list)}};
+    site.add("/models.json", Bytes::of(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
+    return site;
+}
+
+std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
+    static const std::set<std::string, std::less<>> kExtensions{".svt",  ".gml",   ".xml", ".citygml",
+                                                                ".json", ".jsonl", ".gz",  ".city"};
+    std::vector<std::string> names;
+    std::set<std::string> taken;  // in lower case: some file systems do not tell a from A
+    for (const fs::path& file : files) {
+        fs::path bare = file.filename();
+        while (kExtensions.count(lowerExtension(bare.string())) != 0) bare = bare.stem();
+        std::string name;
+        for (const char c : bare.string()) {
+            const bool isKept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_';
+            if (isKept || name.empty() || name.back() != '_') name += isKept ? c : '_';
+        }
+        if (name.find_first_not_of("._") == std::string::npos) name = "model";
+        const auto isTaken = [&](std::string text) {
+            std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+            return !taken.insert(text).second;
+        };
+        std::string unique = name;
+        for (int number = 2; isTaken(unique); ++number) unique = fmt::format("{}-{}", name, number);
+        names.push_back(unique);
+    }
+    return names;
+}
+
+Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool mayReplace) {
+    std::error_code error;
+    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+        return cannotWrite(folder, "this is a file; give the name of a folder");
+    const bool isThere = fs::exists(folder, error);
+    if (isThere && !mayReplace && !fs::is_empty(folder, error))
+        return cannotWrite(folder, "the folder is not empty; choose another one, or --force to write into it");
+    fs::create_directories(folder, error);
+    if (error) return cannotWrite(folder, "the folder cannot be made: " + error.message());
+
+    std::string pattern = (folder / ".svt-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+        return cannotWrite(folder, "no permission to write here; change the permissions or choose another folder");
+    std::uint64_t total = 0;
+    const auto write = [&]() -> Result<void> {
+        const Staging staging{pattern};
+        for (const auto& [path, resource] : site.resources()) {
+            const fs::path file = staging.path / path.substr(1);
+            fs::create_directories(file.parent_path(), error);
+            const auto written = writeFileAtomically(file, resource.bytes.data);
+            if (!written) return written.error();
+            total += *written;
+        }
+        for (const auto& [path, resource] : site.resources())
+            if (path != "/index.html")
+                if (auto moved = moveInto(staging.path, folder, path); !moved) return moved;
+        return site.find("/") == nullptr ? Result<void>() : moveInto(staging.path, folder, "/index.html");
+    };
+    if (auto done = write(); !done) {
+        if (!isThere) fs::remove_all(folder, error);
+        return done.error();
+    }
+    return total;
+}
+
+}  // namespace svt::serve

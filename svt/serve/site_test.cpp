@@ -1,0 +1,266 @@
+#include <svt/serve/http_client_test.hpp>
+#include <svt/serve/site.hpp>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <zlib.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace svt::serve {
+namespace {
+
+namespace fs = std::filesystem;
+using test::readText;
+using test::TemporaryFolder;
+using test::writeText;
+
+Request get(const std::string& path, Fields headers = {}) { return {"GET", path, {}, std::move(headers), {}, {}}; }
+
+std::string headerOf(const Reply& reply, const std::string& name) {
+    for (const auto& [key, value] : reply.headers)
+        if (key == name) return value;
+    return "";
+}
+
+std::string unpacked(std::string_view gzip) {
+    std::string out(1 << 20, '\0');
+    z_stream stream{};
+    EXPECT_EQ(inflateInit2(&stream, 15 + 16), Z_OK);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(gzip.data()));
+    stream.avail_in = static_cast<uInt>(gzip.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
+    out.resize(stream.total_out);
+    inflateEnd(&stream);
+    return out;
+}
+
+std::string longScript() {
+    std::string text;
+    for (int i = 0; i < 500; ++i)
+        text += "export const value" + std::to_string(i) + " = " + std::to_string(i * i) + ";\n";
+    return text;
+}
+
+// A page as the viewer's build makes it, with what must not be served around it.
+void makeViewer(const fs::path& folder) {
+    fs::create_directories(folder / "viewer/assets");
+    writeText(folder / "viewer/index.html", "<!doctype html><title>page</title>");
+    writeText(folder / "viewer/assets/index-BX3k9a1_.js", longScript());
+    writeText(folder / "viewer/assets/svt-Qa81bZ-x.wasm", std::string("\0asm\1\0\0\0", 8));
+    writeText(folder / "viewer/.hidden", "hidden");
+    writeText(folder / "secret.txt", "secret");
+}
+
+TEST(Site, FolderBecomesATable) {
+    const TemporaryFolder folder;
+    makeViewer(folder.path());
+    fs::create_directories(folder / "viewer/.git");
+    writeText(folder / "viewer/.git/config", "hidden");
+    fs::create_symlink("../secret.txt", folder / "viewer/out.txt");
+    fs::create_directory_symlink("..", folder / "viewer/up");
+    fs::create_symlink("index.html", folder / "viewer/alias.html");
+    fs::create_symlink("nowhere", folder / "viewer/dangling.html");
+    ASSERT_EQ(::mkfifo((folder / "viewer/pipe.txt").c_str(), 0600), 0);
+    Site site;
+    ASSERT_TRUE(site.addFolder(folder / "viewer"));
+    std::vector<std::string> paths;
+    for (const auto& [path, resource] : site.resources()) paths.push_back(path);
+    EXPECT_EQ(paths, (std::vector<std::string>{"/alias.html", "/assets/index-BX3k9a1_.js", "/assets/svt-Qa81bZ-x.wasm",
+                                               "/index.html"}));
+    EXPECT_EQ(site.find("/")->bytes.text(), "<!doctype html><title>page</title>");
+    EXPECT_EQ(site.addFolder(folder / "missing").error().code(), Code::CannotOpen);
+    EXPECT_EQ(site.addFolder(folder / "secret.txt").error().code(), Code::CannotOpen);
+}
+
+TEST(Site, TypesAndCachingFollowTheName) {
+    const TemporaryFolder folder;
+    makeViewer(folder.path());
+    Site site;
+    ASSERT_TRUE(site.addFolder(folder / "viewer"));
+    site.add("/models/house.svt", Bytes::of("PK"));
+    site.add("/api", Bytes::of("{}"));
+    const auto typeOf = [&](const std::string& path) { return site.reply(get(path)).type; };
+    EXPECT_EQ(typeOf("/"), "text/html; charset=utf-8");
+    EXPECT_EQ(typeOf("/assets/index-BX3k9a1_.js"), "text/javascript; charset=utf-8");
+    EXPECT_EQ(typeOf("/assets/svt-Qa81bZ-x.wasm"), "application/wasm");
+    EXPECT_EQ(typeOf("/models/house.svt"), "application/vnd.svt+zip");
+    EXPECT_EQ(typeOf("/api"), "application/json");
+    const auto caching = [&](const std::string& path) { return headerOf(site.reply(get(path)), "Cache-Control"); };
+    EXPECT_EQ(caching("/assets/index-BX3k9a1_.js"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(caching("/assets/svt-Qa81bZ-x.wasm"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(caching("/"), "no-cache");
+    EXPECT_EQ(caching("/models/house.svt"), "no-cache");
+}
+
+TEST(Site, WhatTheClientHasIsNotSentAgain) {
+    Site site;
+    site.add("/a.js", Bytes::of(longScript()));
+    const Reply first = site.reply(get("/a.js", {{"accept-encoding", "gzip"}}));
+    const std::string tag = headerOf(first, "ETag");
+    ASSERT_EQ(tag.substr(0, 3), "W/\"");
+    for (const std::string& said : {tag, tag.substr(2), "\"x\", " + tag, std::string("*")}) {
+        const Reply again = site.reply(get("/a.js", {{"if-none-match", said}}));
+        EXPECT_EQ(again.status, 304) << said;
+        EXPECT_TRUE(again.body.data.empty());
+    }
+    EXPECT_EQ(site.reply(get("/a.js", {{"if-none-match", "\"other\""}})).status, 200);
+    site.add("/a.js", Bytes::of(longScript() + " "));
+    EXPECT_EQ(site.reply(get("/a.js", {{"if-none-match", tag}})).status, 200);
+}
+
+TEST(Site, CompressedWhereItHelpsAndIsAccepted) {
+    Site site;
+    site.add("/a.js", Bytes::of(longScript()));
+    site.add("/small.js", Bytes::of("1"));
+    site.add("/models/a.svt", Bytes::of(longScript()));
+    const auto encoding = [&](const std::string& path, const std::string& accepted) {
+        return headerOf(site.reply(get(path, {{"accept-encoding", accepted}})), "Content-Encoding");
+    };
+    for (const char* accepted : {"gzip", "br, gzip;q=0.5", "deflate,gzip", "*"})
+        EXPECT_EQ(encoding("/a.js", accepted), "gzip") << accepted;
+    for (const char* accepted : {"", "br", "gzip;q=0", "*;q=0.0", "gzip;q=0, *", "xgzip"})
+        EXPECT_EQ(encoding("/a.js", accepted), "") << accepted;
+    EXPECT_EQ(encoding("/small.js", "gzip"), "");
+    EXPECT_EQ(encoding("/models/a.svt", "gzip"), "");
+    const Reply reply = site.reply(get("/a.js", {{"accept-encoding", "gzip"}}));
+    EXPECT_LT(reply.body.data.size(), longScript().size() / 2);
+    EXPECT_EQ(unpacked(reply.body.text()), longScript());
+    EXPECT_EQ(headerOf(reply, "Vary"), "Accept-Encoding");
+}
+
+TEST(Site, RangesAreOfThePlainBytes) {
+    Site site;
+    const std::string text = longScript();
+    site.add("/a.js", Bytes::of(text));
+    const Reply part = site.reply(get("/a.js", {{"range", "bytes=10-19"}, {"accept-encoding", "gzip"}}));
+    EXPECT_EQ(part.status, 206);
+    EXPECT_EQ(part.body.text(), text.substr(10, 10));
+    EXPECT_EQ(headerOf(part, "Content-Range"), "bytes 10-19/" + std::to_string(text.size()));
+    EXPECT_EQ(headerOf(part, "Content-Encoding"), "");
+    const std::string tag = headerOf(part, "ETag");
+    EXPECT_EQ(site.reply(get("/a.js", {{"range", "bytes=1-2"}, {"if-range", tag}})).status, 206);
+    EXPECT_EQ(site.reply(get("/a.js", {{"range", "bytes=1-2"}, {"if-range", "\"old\""}})).status, 200);
+    const Reply behind = site.reply(get("/a.js", {{"range", "bytes=99999-"}}));
+    EXPECT_EQ(behind.status, 416);
+    EXPECT_EQ(headerOf(behind, "Content-Range"), "bytes */" + std::to_string(text.size()));
+    EXPECT_EQ(site.reply(get("/a.js", {{"range", "bytes=0-1,5-6"}})).body.data.size(), text.size());
+}
+
+TEST(Site, ModelsAreListedInTheirOrder) {
+    const TemporaryFolder folder;
+    makeViewer(folder.path());
+    const std::vector<SiteModel> models{{"tower", "T\xC3\xBCrme \"A\"", Bytes::of("1234")},
+                                        {"house", "House", Bytes::of("12")}};
+    const auto site = viewerSite(folder / "viewer", models);
+    ASSERT_TRUE(site) << site.error().toString();
+    const auto json = nlohmann::json::parse(site->find("/models.json")->bytes.text());
+    EXPECT_EQ(json, nlohmann::json::parse(R"({"models":[
+        {"name":"tower","file":"models/tower.svt","bytes":4,"title":"T\u00fcrme \"A\""},
+        {"name":"house","file":"models/house.svt","bytes":2,"title":"House"}]})"));
+    EXPECT_EQ(site->find("/models/tower.svt")->bytes.text(), "1234");
+    EXPECT_EQ(viewerSite(folder.path(), models).error().code(), Code::CannotOpen);
+}
+
+TEST(Site, NamesAreToldApart) {
+    const std::vector<fs::path> files{"a/house.gml", "b/House.svt", "house.city.json", "Geb\xC3\xA4ude 1.gml.gz",
+                                      "..svt",       "x/"};
+    EXPECT_EQ(uniqueNames(files),
+              (std::vector<std::string>{"house", "House-2", "house-3", "Geb_ude_1", "model", "model-2"}));
+}
+
+TEST(PublishedSite, FolderHoldsWhatIsServed) {
+    const TemporaryFolder folder;
+    makeViewer(folder.path());
+    const std::vector<SiteModel> models{{"house", "House", Bytes::of(std::string(100000, 'v'))}};
+    const auto site = viewerSite(folder / "viewer", models);
+    ASSERT_TRUE(site);
+    const fs::path out = folder / "new/site";
+    const auto written = writeSite(*site, out, false);
+    ASSERT_TRUE(written) << written.error().toString();
+    std::uint64_t total = 0;
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out)) {
+        if (!entry.is_regular_file()) continue;
+        const std::string path = "/" + entry.path().lexically_relative(out).generic_string();
+        ASSERT_NE(site->find(path), nullptr) << path;
+        EXPECT_TRUE(readText(entry.path()) == site->find(path)->bytes.text()) << path;
+        total += entry.file_size();
+        ++files;
+    }
+    EXPECT_EQ(files, site->resources().size());
+    EXPECT_EQ(total, *written);
+
+    // Not again, unless it may; and then only what is of the site is touched.
+    EXPECT_EQ(writeSite(*site, out, false).error().code(), Code::CannotWrite);
+    writeText(out / "mine.txt", "mine");
+    writeText(out / "index.html", "old");
+    ASSERT_TRUE(writeSite(*site, out, true));
+    EXPECT_EQ(readText(out / "mine.txt"), "mine");
+    EXPECT_EQ(readText(out / "index.html"), site->find("/")->bytes.text());
+    EXPECT_EQ(std::count_if(fs::directory_iterator(out), fs::directory_iterator(),
+                            [](const auto& entry) { return entry.path().filename().string().front() == '.'; }),
+              0);
+}
+
+TEST(PublishedSite, FailureLeavesNothing) {
+    const TemporaryFolder folder;
+    Site site;
+    site.add("/index.html", Bytes::of("new"));
+    site.add("/models/a.svt", Bytes::of("a"));
+    writeText(folder / "file", "");
+    EXPECT_EQ(writeSite(site, folder / "file", true).error().code(), Code::CannotWrite);
+    EXPECT_EQ(writeSite(site, folder / "file/site", false).error().code(), Code::CannotWrite);
+    // A file stands where a folder is needed: the page that was there stays.
+    fs::create_directories(folder / "site");
+    writeText(folder / "site/models", "");
+    writeText(folder / "site/index.html", "old");
+    EXPECT_EQ(writeSite(site, folder / "site", true).error().code(), Code::CannotWrite);
+    EXPECT_EQ(readText(folder / "site/index.html"), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "site"), fs::directory_iterator()), 2);
+}
+
+// Any web server shows a published folder.
+TEST(PublishedSite, PythonServesIt) {
+    if (std::system("command -v python3 >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
+    const TemporaryFolder folder;
+    makeViewer(folder.path());
+    const std::vector<SiteModel> models{{"house", "House", Bytes::of(std::string(300000, 'v'))}};
+    const auto site = viewerSite(folder / "viewer", models);
+    ASSERT_TRUE(site && writeSite(*site, folder / "site", false));
+    const std::string log = (folder / "log").string(), out = (folder / "site").string();
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const int file = ::open(log.c_str(), O_CREAT | O_WRONLY, 0600);
+        ::dup2(file, 1);
+        ::dup2(file, 2);
+        ::execlp("python3", "python3", "-u", "-m", "http.server", "0", "--bind", "127.0.0.1", "--directory",
+                 out.c_str(), nullptr);
+        ::_exit(1);
+    }
+    int port = 0;
+    for (int i = 0; i < 500 && port == 0; ++i) {
+        ::usleep(20000);
+        const std::string said = readText(log);
+        if (const std::size_t at = said.find(" port "); at != std::string::npos)
+            port = std::atoi(said.c_str() + at + 6);
+    }
+    EXPECT_NE(port, 0) << readText(log);
+    for (const auto& [path, resource] : site->resources()) {
+        Client client(port);
+        client.send("GET " + path + " HTTP/1.0\r\nHost: localhost\r\n\r\n");
+        const Client::Answer answer = client.receive();
+        EXPECT_EQ(answer.status, 200) << path;
+        EXPECT_EQ(answer.body, resource.bytes.text()) << path;
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+}
+
+}  // namespace
+}  // namespace svt::serve

@@ -1,0 +1,230 @@
+// The viewer's page and its data from the real command, with a stand-in for the page.
+#include "run_command.hpp"
+
+#include <svt/serve/http_client_test.hpp>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+
+#include <csignal>
+
+namespace svt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool hasSanitizer = true;  // which needs more address space than a conversion may have
+#else
+constexpr bool hasSanitizer = false;
+#endif
+
+void makePage(const fs::path& folder) {
+    fs::create_directories(folder / "page/assets");
+    writeText(folder / "page/index.html", "<!doctype html>");
+    writeText(folder / "page/assets/index-BX3k9a1_.js", "1");
+}
+
+// `svt <arguments>` that runs until it is told to stop.
+class Serving {
+public:
+    Serving(const fs::path& folder, std::vector<std::string> arguments, const std::string& path = {})
+        : folder_(folder) {
+        arguments.insert(arguments.begin(), "svt");
+        std::vector<char*> pointers;
+        for (std::string& text : arguments) pointers.push_back(text.data());
+        pointers.push_back(nullptr);
+        fs::create_directories(folder / "tmp");
+        child_ = ::fork();
+        if (child_ == 0) {
+            ::dup2(::open((folder / "out").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), 1);
+            ::dup2(::open((folder / "err").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), 2);
+            ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
+            if (!path.empty()) ::setenv("PATH", path.c_str(), 1);
+            ::setenv("DISPLAY", ":99", 1);
+            if (::chdir(folder.c_str()) == 0) ::execv(SVT_COMMAND, pointers.data());
+            ::_exit(126);
+        }
+        for (int i = 0; i < 3000 && port_ == 0; ++i) {
+            ::usleep(10000);
+            const std::string said = out();
+            const std::size_t colon = said.rfind(':');
+            if (said.find("/\n") != std::string::npos) port_ = std::atoi(said.c_str() + colon + 1);
+        }
+        EXPECT_NE(port_, 0) << out() << err();
+    }
+    ~Serving() {
+        if (child_ > 0) stop(SIGKILL);
+    }
+    Serving(const Serving&) = delete;
+    Serving& operator=(const Serving&) = delete;
+
+    /// \return the exit code; -1 where it had to be killed
+    int stop(int signal) {
+        ::kill(child_, signal);
+        int status = 0;
+        pid_t ended = 0;
+        for (int i = 0; i < 500 && (ended = ::waitpid(child_, &status, WNOHANG)) == 0; ++i) ::usleep(10000);
+        if (ended == 0) {
+            ::kill(child_, SIGKILL);
+            ::waitpid(child_, &status, 0);
+        }
+        child_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    [[nodiscard]] serve::Client::Answer ask(const std::string& line, const std::string& body = {}) const {
+        serve::Client client(port_);
+        client.send(line + " HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) +
+                    "\r\n\r\n" + body);
+        return client.receive(true, 60);
+    }
+    [[nodiscard]] int port() const { return port_; }
+    [[nodiscard]] std::string out() const { return readText(folder_ / "out"); }
+    [[nodiscard]] std::string err() const { return readText(folder_ / "err"); }
+
+private:
+    fs::path folder_;
+    pid_t child_ = 0;
+    int port_ = 0;
+};
+
+struct ServeTest : testing::Test {
+    ServeTest() {
+        makePage(folder.path());
+        runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+        runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "edges"});
+    }
+    const TemporaryFolder folder;
+};
+
+TEST_F(ServeTest, ModelsAreServedAndBuiltWhereNeeded) {
+    Serving serving(folder.path(),
+                    {"serve", "house.svt", "house.gml", "--spacing", "0.2", "--viewer", "page", "--port", "0"});
+    EXPECT_EQ(serving.ask("GET /").body, "<!doctype html>");
+    const std::string volume = readText(folder / "house.svt");
+    const auto list = nlohmann::json::parse(serving.ask("GET /models.json").body);
+    ASSERT_EQ(list["models"].size(), 2u);
+    EXPECT_EQ(list["models"][0]["name"], "house");
+    EXPECT_EQ(list["models"][0]["file"], "models/house.svt");
+    EXPECT_EQ(list["models"][0]["bytes"], volume.size());
+    EXPECT_EQ(list["models"][0]["title"], "Sample house");
+    EXPECT_TRUE(serving.ask("GET /models/house.svt").body == volume);
+    EXPECT_TRUE(serving.ask("GET /models/house-2.svt").body == volume);  // built the same way
+    EXPECT_EQ(serving.ask("GET /api").body, "{\"picture\":true,\"convert\":false}\n");
+    EXPECT_EQ(serving.ask("POST /api/convert", "x").status, 413);
+    EXPECT_EQ(serving.stop(SIGINT), 0) << serving.err();
+    EXPECT_TRUE(fs::is_empty(folder / "tmp"));
+}
+
+TEST_F(ServeTest, PicturesAreThoseOfRender) {
+    const std::string scene =
+        R"({"size":[160,90],"look":"paper","passes":[{"hide":["class=BuildingRoom"],"cut":"y<4","lines":[{}]}]})";
+    writeText(folder / "a.scene.json", scene);
+    runSvtWell(folder.path(), {"render", "house.svt", "-o", "a.png", "--scene", "a.scene.json"});
+    Serving serving(folder.path(), {"serve", "house.svt", "--viewer", "page", "--port", "0"});
+    const auto answer = serving.ask("POST /api/picture", "{\"model\":\"house\",\"scene\":" + scene + "}");
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    EXPECT_EQ(answer.header("Content-Type"), "image/png");
+    EXPECT_TRUE(answer.body == readText(folder / "a.png"));
+
+    EXPECT_TRUE(serving.ask("POST /api/picture", "{\"model\":\"house.svt\",\"scene\":" + scene + "}").body ==
+                answer.body);
+    EXPECT_TRUE(serving.ask("POST /api/picture", "{\"scene\":" + scene + "}").body == answer.body);
+
+    const auto code = [&](const std::string& body) {
+        const auto refused = serving.ask("POST /api/picture", body);
+        EXPECT_EQ(refused.status, 422) << body;
+        const auto json = nlohmann::json::parse(refused.body, nullptr, false);
+        return json.is_object() ? json["code"].get<std::string>() : refused.body;
+    };
+    EXPECT_EQ(code("{"), "E105");
+    EXPECT_EQ(code("[]"), "E105");
+    EXPECT_EQ(code(std::string(200000, '[')), "E105");
+    EXPECT_EQ(code("{\"scene\":" + std::string(60000, '[') + std::string(60000, ']') + "}"), "E504");
+    EXPECT_EQ(code("{\"scene\":{\"sice\":1}}"), "E504");
+    EXPECT_EQ(code("{\"scene\":{\"size\":[16384,16384]}}"), "E502");
+    EXPECT_EQ(code("{\"model\":\"other\",\"scene\":{}}"), "E904");
+    EXPECT_EQ(code("{\"scene\":{\"passes\":[{\"show\":[\"class=Nothing\"]}]}}"), "E902");
+    EXPECT_EQ(serving.ask("POST /api/picture", std::string(300000, ' ')).status, 413);
+    EXPECT_EQ(serving.stop(SIGTERM), 0) << serving.err();
+}
+
+TEST_F(ServeTest, StopsWhileItDraws) {
+    Serving serving(folder.path(), {"serve", "house.svt", "--viewer", "page", "--port", "0"});
+    serve::Client client(serving.port());
+    const std::string body = R"({"scene":{"size":[2000,2000],"samples":4,"ambientOcclusion":1}})";
+    client.send("POST /api/picture HTTP/1.1\r\nHost: localhost\r\nContent-Length: " + std::to_string(body.size()) +
+                "\r\n\r\n" + body);
+    ::usleep(100000);
+    EXPECT_EQ(serving.stop(SIGINT), 0);
+}
+
+TEST_F(ServeTest, UploadsAreConverted) {
+    if (hasSanitizer) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "fine.svt", "--vectors", "edges"});
+    Serving serving(folder.path(),
+                    {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--max-upload", "2"});
+    EXPECT_EQ(serving.ask("GET /models.json").body, "{\n  \"models\": []\n}\n");
+    EXPECT_EQ(serving.ask("GET /api").body, "{\"picture\":true,\"convert\":true,\"maxUploadBytes\":2097152}\n");
+    const auto answer = serving.ask("POST /api/convert?name=house.gml", readText(folder / "house.gml"));
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_TRUE(answer.body == readText(folder / "fine.svt"));
+    EXPECT_EQ(serving.ask("POST /api/convert?name=a.gml", "<a").body.substr(0, 14), "{\"code\":\"E103\"");
+    EXPECT_EQ(serving.ask("POST /api/convert?name=a.gml", std::string(2097153, ' ')).status, 413);
+    EXPECT_EQ(serving.stop(SIGINT), 0);
+    EXPECT_TRUE(fs::is_empty(folder / "tmp"));
+}
+
+TEST_F(ServeTest, ConversionsKeepToTheirLimits) {
+    if (hasSanitizer) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
+    Serving serving(folder.path(),
+                    {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--convert-memory", "64"});
+    const auto answer = serving.ask("POST /api/convert?name=house.gml", readText(folder / "house.gml"));
+    EXPECT_EQ(answer.status, 422);
+    EXPECT_EQ(answer.body.substr(0, 14), "{\"code\":\"E104\"") << answer.body;
+    EXPECT_EQ(serving.ask("GET /").status, 200);
+}
+
+TEST_F(ServeTest, ViewOpensABrowser) {
+    fs::create_directories(folder / "bin");
+    writeText(folder / "bin/xdg-open", "#!/bin/sh\necho \"$1\" > opened\n");
+    fs::permissions(folder / "bin/xdg-open", fs::perms::owner_all);
+    Serving serving(folder.path(), {"view", "house.svt", "--viewer", "page"},
+                    (folder / "bin").string() + ":/usr/bin:/bin");
+    for (int i = 0; i < 500 && readText(folder / "opened").empty(); ++i) ::usleep(10000);
+    EXPECT_EQ(readText(folder / "opened"), serving.out());
+    EXPECT_EQ(serving.stop(SIGTERM), 0);
+}
+
+TEST_F(ServeTest, PublishedFolderIsWhatIsServed) {
+    runSvtWell(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page"});
+    const Serving serving(folder.path(), {"serve", "house.svt", "--viewer", "page", "--port", "0"});
+    int files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "site")) {
+        if (!entry.is_regular_file()) continue;
+        const std::string path = entry.path().lexically_relative(folder / "site").generic_string();
+        EXPECT_TRUE(readText(entry.path()) == serving.ask("GET /" + path).body) << path;
+        ++files;
+    }
+    EXPECT_EQ(files, 4);
+    const CommandResult again = runSvt(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page"});
+    EXPECT_EQ(again.exitCode, 5) << again.toString();
+    runSvtWell(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page", "--force"});
+}
+
+TEST_F(ServeTest, WhatIsMissingIsSaid) {
+    const auto result = [&](const std::vector<std::string>& arguments) { return runSvt(folder.path(), arguments); };
+    const CommandResult noPage = result({"publish", "house.svt", "-o", "site", "--viewer", "nowhere"});
+    EXPECT_EQ(noPage.exitCode, 3);
+    EXPECT_NE(noPage.err.find("make viewer"), std::string::npos) << noPage.err;
+    EXPECT_FALSE(fs::exists(folder / "site"));
+    EXPECT_EQ(result({"serve", "missing.svt", "--viewer", "page"}).exitCode, 3);
+    EXPECT_EQ(result({"serve", "--viewer", "page"}).exitCode, 2);
+    EXPECT_EQ(result({"serve", "house.svt", "--viewer", "page", "--port", "70000"}).exitCode, 2);
+    EXPECT_EQ(result({"serve", "house.svt", "--viewer", "page", "--host", "192.0.2.1"}).exitCode, 2);
+    EXPECT_EQ(result({"publish", "page/index.html", "-o", "site", "--viewer", "page"}).exitCode, 3);
+}
+
+}  // namespace
+}  // namespace svt::test
