@@ -18,7 +18,7 @@ endfunction()
 
 # Headers of Debian's packages fit every target.
 # No threads, since hosts do not always allow them; of OpenGL, Emscripten has what is needed.
-foreach(none TBB::tbb EGL::EGL GLESv2::GLESv2)
+foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2)
   add_library(${none} INTERFACE IMPORTED)
 endforeach()
 add_library(web_fmt INTERFACE)

@@ -125,6 +125,36 @@ void FramePainter::castMiddles(const PixelTile& tile) {
     castGrid({double(tile.x), double(tile.y), 1, tile.width, tile.height});
 }
 
+// Where rays may meet anything: the volume's box as it is seen, a pixel wider. The whole picture where the eye is in it
+// or beside it, or where lines may lie outside.
+void FramePainter::scissorTo(const SampleGrid& samples) const {
+    glScissor(0, 0, samples.width, samples.height);
+    const render::CameraRays rays(parts_->spec, parts_->grid);
+    const Vec3i n = parts_->grid.dimension();
+    double left = samples.width, top = samples.height, right = 0, bottom = 0;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        const Vec3d seen = rays.seenAt(parts_->grid.worldFromIndex(index) - parts_->spec.camera.eye);
+        const double x = (seen.x + 1) / 2 * parts_->spec.width * samples.side - samples.firstX;
+        const double y = (1 - seen.y) / 2 * parts_->spec.height * samples.side - samples.firstY;
+        left = std::min(left, x - samples.side);
+        top = std::min(top, y - samples.side);
+        right = std::max(right, x + samples.side);
+        bottom = std::max(bottom, y + samples.side);
+        nearest = std::min(nearest, seen.z);
+        farthest = std::max(farthest, seen.z);
+    }
+    if (rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest))) return;
+    if (std::any_of(passNeeds_.begin(), passNeeds_.end(), [](unsigned needs) { return (needs & kShapes) != 0; }))
+        return;
+    const auto at = [](double sample, std::int32_t end) {
+        return static_cast<GLint>(std::clamp(sample, 0.0, static_cast<double>(end)));
+    };
+    const GLint x = at(left, samples.width), y = at(top, samples.height);
+    glScissor(x, y, std::max(at(right + 1, samples.width) - x, 0), std::max(at(bottom + 1, samples.height) - y, 0));
+}
+
 void FramePainter::castGrid(const SampleGrid& grid) {
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, grid.width, grid.height);
@@ -134,13 +164,14 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         color_[last_].setTarget(GL_RGBA32UI, grid.width, grid.height);
         hit_[last_].setTarget(GL_RGBA32UI, grid.width, grid.height);
         targets_[last_].bind({color_[last_].name(), hit_[last_].name()});
-        if (passes_.empty()) {
-            const std::array<GLuint, 4> nothing{0, 0, std::bit_cast<GLuint>(kFar), 0};
-            const std::array<GLuint, 4> noColor{};
+        const std::array<GLuint, 4> nothing{0, 0, std::bit_cast<GLuint>(kFar), 0}, noColor{};
+        if (n < 2) {
             glClearBufferuiv(GL_COLOR, 0, noColor.data());
             glClearBufferuiv(GL_COLOR, 1, nothing.data());
-            return;
         }
+        if (passes_.empty()) return;
+        scissorTo(grid);
+        glEnable(GL_SCISSOR_TEST);
         Program& program = *cast_[passNeeds_[n]];
         program.use();
         parts_->textures.setUniforms(program);
@@ -156,6 +187,7 @@ void FramePainter::castGrid(const SampleGrid& grid) {
             program.bind("hitBefore", hit_[1 - last_]);
         }
         drawPicture();
+        glDisable(GL_SCISSOR_TEST);
     }
 }
 

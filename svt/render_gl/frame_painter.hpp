@@ -66,6 +66,7 @@ private:
     [[nodiscard]] Result<void> prepareCast(unsigned needs);
     [[nodiscard]] Result<void> prepareResolve();
     void castGrid(const SampleGrid& grid);
+    void scissorTo(const SampleGrid& samples) const;
     void setView(Program& program) const;
     void setHatches(Program& program, int side) const;
 

@@ -160,6 +160,10 @@ void castPass() {
     }
 #endif
     bool isOpaque = hasEnded && !isDone();
+#if !SHAPES
+    // Where nothing is seen the target says so already; drivers skip what is discarded.
+    if (join == 3u && !isOpaque && transmittance >= 1.0) discard;
+#endif
     if (isOpaque) {
         // Within an object no surface is seen.
         if (!isSameObject) lightSurface();
