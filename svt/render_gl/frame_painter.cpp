@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -77,6 +76,7 @@ unsigned FramePainter::needsOf(const PassTextures& pass) const {
     if (pass.hasTranslucent()) needs |= kTranslucent;
     if (pass.hasOpaque() && parts_->textures.hasVoxels) needs |= kFitted;
     if (pass.hasShapes()) needs |= kShapes;
+    if (pass.hasTriangles()) needs |= kTriangles;
     if (pass.hasHatches() && parts_->spec.hatches.strength > 0) needs |= kHatches;
     return needs;
 }
@@ -89,7 +89,8 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
                                            {"TRANSLUCENT", has(kTranslucent)},
                                            {"FITTED", has(kFitted)},
                                            {"HATCHES", has(kHatches)},
-                                           {"SHAPES", has(kShapes)}});
+                                           {"SHAPES", has(kShapes)},
+                                           {"TRIANGLES", has(kTriangles)}});
     std::vector<std::string_view> sources{shaders::tables(), shaders::ray()};
     if (has(kClips) != 0) sources.push_back(shaders::clips());
     sources.push_back(shaders::light());
@@ -164,7 +165,7 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         color_[last_].setTarget(GL_RGBA32UI, grid.width, grid.height);
         hit_[last_].setTarget(GL_RGBA32UI, grid.width, grid.height);
         targets_[last_].bind({color_[last_].name(), hit_[last_].name()});
-        const std::array<GLuint, 4> nothing{0, 0, std::bit_cast<GLuint>(kFar), 0}, noColor{};
+        const std::array<GLuint, 4> nothing{0, 0, bitsOf(kFar), 0}, noColor{};
         if (n < 2) {
             glClearBufferuiv(GL_COLOR, 0, noColor.data());
             glClearBufferuiv(GL_COLOR, 1, nothing.data());
@@ -182,10 +183,8 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         program.set("samplesAPixel", double(grid.side));
         if ((passNeeds_[n] & kHatches) != 0) setHatches(program, grid.side);
         program.set("join", n == 0 ? 3u : static_cast<GLuint>(spec.passes[n].join));
-        if (n > 0) {
-            program.bind("colorBefore", color_[1 - last_]);
-            program.bind("hitBefore", hit_[1 - last_]);
-        }
+        program.bind("colorBefore", n > 0 ? color_[1 - last_] : parts_->textures.boxes);
+        program.bind("hitBefore", n > 0 ? hit_[1 - last_] : parts_->textures.boxes);
         drawPicture();
         glDisable(GL_SCISSOR_TEST);
     }
@@ -303,7 +302,7 @@ void FramePainter::readHits(const PixelTile& tile,
         for (std::int32_t x = 0; x < tile.width; ++x) {
             const auto& hit =
                 hits[static_cast<std::size_t>(x) + static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(y)];
-            const auto depth = std::bit_cast<float>(hit[2]);
+            const auto depth = floatOf(hit[2]);
             taken(x, y, {hit[0], depth < kFar ? depth : std::numeric_limits<float>::infinity()});
         }
 }

@@ -4,17 +4,14 @@
 #include <svt/render/pass_table.hpp>
 
 #include <algorithm>
-#include <bit>
 
 namespace svt::render_gl {
 namespace {
 
 using render::LinearStyle;
 
-std::uint32_t bitsOf(double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); }
-
 void append(std::vector<std::uint32_t>& words, Vec3d v, double w) {
-    for (const double value : {v.x, v.y, v.z, w}) words.push_back(bitsOf(value));
+    for (const double value : {v.x, v.y, v.z, w}) words.push_back(bitsOf(static_cast<float>(value)));
 }
 
 // dot(direction, p) of world space as a vector of voxel space.
@@ -139,8 +136,9 @@ void PassTextures::setUniforms(Program& program) const {
     if (hasShapes()) shapes_.setUniforms(program);
     // Without anything opaque no corner is dark.
     if (!hasOpaque_) program.set("lightOcclusion", 0.0f);
+    // A sampler must not stay on what may be drawn into meanwhile.
+    program.bind("occlusion", occlusionTexture_.isEmpty() ? styleTexture_ : occlusionTexture_);
     if (occlusionTexture_.isEmpty()) return;
-    program.bind("occlusion", occlusionTexture_);
     program.set("occlusionCell", occlusionCell_);
     program.set("occlusionLevels", GLint{render::OcclusionField::kLevels});
     program.set("occlusionCount[0]", std::span<const Vec3i>(occlusionCounts_));

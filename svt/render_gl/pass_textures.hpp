@@ -28,6 +28,7 @@ public:
     [[nodiscard]] bool hasOpaque() const noexcept { return hasOpaque_; }
     [[nodiscard]] bool hasTranslucent() const noexcept { return hasTranslucent_; }
     [[nodiscard]] bool hasShapes() const noexcept { return !shapes_.isEmpty(); }
+    [[nodiscard]] bool hasTriangles() const noexcept { return shapes_.hasTriangles(); }
     [[nodiscard]] bool hasHatches() const noexcept { return hasHatches_ && hasClips(); }
 
 private:
