@@ -3,19 +3,24 @@
 #   make build    the command at build/release/bin/svt
 #   make demo     a generated house, its volume and pictures under build/demo
 #   make test     all tests
+#   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
+#   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
 #   make check    format, layers, error pages, command pages
 #   make clean    removes build/
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo test bench check clean setup
+.PHONY: build demo test web viewer bench check clean setup
 
 setup:
 	@scripts/setup.sh
 
 build: setup
 	@scripts/build.sh release svt
+
+viewer: web
+	@scripts/viewer.sh
 
 demo: build
 	@scripts/demo.sh
@@ -24,6 +29,11 @@ test: setup
 	@scripts/check.sh
 	@scripts/build.sh release
 	@scripts/test.sh
+
+web:
+	@scripts/setup.sh web
+	@scripts/web_dependencies.sh
+	@scripts/build.sh web svt_web
 
 bench:
 	@scripts/setup.sh peers

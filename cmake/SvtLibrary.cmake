@@ -1,12 +1,14 @@
-# svt_library(<folder> [LINK <folders>...] [PRIVATE_LINK <targets>...])
+# svt_library(<folder> [LINK <folders>...] [PRIVATE_LINK <targets>...] [EXCLUDE <sources>...])
 #   svt/<folder>/*.cpp      -> static library svt_<folder>, alias svt::<folder>
 #   svt/<folder>/*_test.cpp -> test program svt_<folder>_test, its cases registered with ctest
 function(svt_library folder)
-  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK;EXCLUDE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/svt/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/svt/${folder}/*.hpp)
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_test\\.(cpp|hpp)$")
+  list(TRANSFORM ARG_EXCLUDE PREPEND ${PROJECT_SOURCE_DIR}/svt/${folder}/)
+  list(REMOVE_ITEM sources ${ARG_EXCLUDE})
   add_library(svt_${folder} STATIC ${sources})
   add_library(svt::${folder} ALIAS svt_${folder})
   set_target_properties(svt_${folder} PROPERTIES LINKER_LANGUAGE CXX)

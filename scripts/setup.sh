@@ -2,6 +2,7 @@
 # Installs what SVT needs to build and test on Debian 12. Does nothing when all is there.
 #   scripts/setup.sh          what `make build`, `make test` and `make demo` need
 #   scripts/setup.sh peers    also the peers that only `make bench` compares with
+#   scripts/setup.sh web      also what the WebAssembly module and the page are made and tested with
 set -euo pipefail
 
 packages=(
@@ -12,7 +13,12 @@ packages=(
   libgtest-dev libxml2-utils librsvg2-bin gdal-bin unzip python3 ccache
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
+web=(emscripten libfast-float-dev dpkg-dev chromium)
+# A Node.js from elsewhere brings its own npm, beside which Debian's cannot be installed.
+command -v node >/dev/null || web+=(nodejs)
+command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
+[ "${1:-}" = web ] && packages+=("${web[@]}")
 
 missing=()
 for package in "${packages[@]}"; do

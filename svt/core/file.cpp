@@ -229,7 +229,9 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
     return {};
 }
 
-Result<void> AtomicFile::write(std::string_view text) { return write(std::as_bytes(std::span(text))); }
+Result<void> AtomicFile::write(std::string_view text) {
+    return write(std::as_bytes(std::span(text.data(), text.size())));
+}
 
 Result<void> AtomicFile::writeZeros(std::uint64_t count) {
     static constexpr std::byte kZeros[4096]{};
@@ -267,7 +269,7 @@ Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::span<cons
 }
 
 Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::string_view text) {
-    return writeFileAtomically(target, std::as_bytes(std::span(text)));
+    return writeFileAtomically(target, std::as_bytes(std::span(text.data(), text.size())));
 }
 
 }  // namespace svt

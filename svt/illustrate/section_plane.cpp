@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -48,9 +49,8 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
     return extent;
 }
 
-}  // namespace
-
-Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
+Result<std::pair<double, double>> heightsOf(const std::string& storey, const volume::SemanticVolume& volume,
+                                            const std::vector<volume::SampleBox>& boxes) {
     std::string quoted;
     for (const char c : storey) {
         if (c == '"' || c == '\\') quoted += '\\';
@@ -58,7 +58,6 @@ Result<std::pair<double, double>> storeyHeights(const std::string& storey, const
     }
     const auto selected = selectLabels(volume.labels, fmt::format("storey=\"{}\"", quoted));
     if (!selected) return selected.error();
-    const auto boxes = volume::labelBoxes(volume.columns, volume.labels);
     volume::SampleBox rooms, all;
     for (const std::uint32_t l : *selected) {
         all.add(boxes[l]);
@@ -68,6 +67,26 @@ Result<std::pair<double, double>> storeyHeights(const std::string& storey, const
     const volume::SampleBox& box = rooms.isEmpty() ? all : rooms;
     const double spacing = volume.grid.spacing().z;
     return std::pair((box.min.z - 0.5) * spacing, (box.max.z + 0.5) * spacing);
+}
+
+}  // namespace
+
+Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
+    return heightsOf(storey, volume, volume::labelBoxes(volume.columns, volume.labels));
+}
+
+std::vector<StoreyHeights> storeysOf(const volume::SemanticVolume& volume) {
+    const auto boxes = volume::labelBoxes(volume.columns, volume.labels);
+    const auto rows = rowsOf(volume.labels);
+    std::vector<StoreyHeights> storeys;
+    for (std::uint32_t l = 0; l < rows.size(); ++l) {
+        if (!model::query::isStorey(rows[l])) continue;
+        if (const auto heights = heightsOf(volume.labels.labels[l].id, volume, boxes))
+            storeys.push_back({l, heights->first, heights->second});
+    }
+    std::stable_sort(storeys.begin(), storeys.end(),
+                     [](const StoreyHeights& a, const StoreyHeights& b) { return a.floor < b.floor; });
+    return storeys;
 }
 
 bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace svt::illustrate {
 
@@ -35,6 +36,15 @@ struct SectionPlane {
 /// \return NothingSelected where there is no such storey, or none with voxels
 [[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
                                                               const volume::SemanticVolume& volume);
+
+/// A storey, and its heights as storeyHeights() gives them.
+struct StoreyHeights {
+    std::uint32_t label = 0;
+    double floor = 0, ceiling = 0;
+};
+
+/// All storeys with voxels, the lowest first; of one height in the order of labels.
+[[nodiscard]] std::vector<StoreyHeights> storeysOf(const volume::SemanticVolume& volume);
 
 /// The plane of a plan where none is given: 1.1 m above the floor of the lowest storey, or above half of the volume's
 /// height where there is no storey with voxels, or the volume ends below.

@@ -49,6 +49,24 @@ TEST(SectionPlane, AxesCountFromTheLowerCorner) {
     EXPECT_DOUBLE_EQ(parseSectionPlane("x=0.5", volume)->point.x, 100.5);
 }
 
+TEST(SectionPlane, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
+    auto volume = twoStoreys();
+    volume::Label empty;
+    empty.id = empty.name = "attic";
+    empty.className = "Storey";
+    empty.parent = 0;
+    empty.subtreeEnd = 7;
+    volume.labels.labels.push_back(empty);
+    const auto storeys = storeysOf(volume);
+    ASSERT_EQ(storeys.size(), 2u);
+    EXPECT_EQ(storeys[0].label, 1u);
+    EXPECT_EQ(storeys[1].label, 4u);
+    EXPECT_DOUBLE_EQ(storeys[0].floor, 0.375);
+    EXPECT_DOUBLE_EQ(storeys[0].ceiling, 2.375);
+    EXPECT_DOUBLE_EQ(storeys[1].floor, 2.875);
+    EXPECT_DOUBLE_EQ(storeys[1].ceiling, 5.125);
+}
+
 TEST(SectionPlane, StoreysCountFromTheFloorOfTheirRooms) {
     const auto volume = twoStoreys();
     // The room's lowest sample is k = 2, its voxel begins half a spacing lower.

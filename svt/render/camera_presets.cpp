@@ -92,12 +92,8 @@ Camera fitted(const Preset& preset, Vec3d middle, Vec3d size, const Axes& axes, 
     return camera;
 }
 
-Result<Camera> presetCamera(std::string_view name, Vec3d middle, Vec3d size, const Axes& axes,
-                            const PresetOptions& options) {
-    const auto preset = std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
-    if (preset == kPresets.end())
-        return Error(Code::BadCamera,
-                     fmt::format("there is no camera '{}'; possible are {}", name, fmt::join(kNames, ", ")));
+Result<Camera> checkedCamera(const Preset& preset, Vec3d middle, Vec3d size, const Axes& axes,
+                             const PresetOptions& options) {
     if (!(options.aspect > 0) || !std::isfinite(options.aspect) || !(options.margin >= 0 && options.margin <= 0.45) ||
         !(options.verticalFovDegrees > 0 && options.verticalFovDegrees < 180))
         return Error(Code::BadCamera,
@@ -105,16 +101,26 @@ Result<Camera> presetCamera(std::string_view name, Vec3d middle, Vec3d size, con
                      "180 degrees");
     if (!isFinite(middle) || !isFinite(size) || !(length(size) > 0))
         return Error(Code::BadCamera, "the box to show is empty");
-    return fitted(*preset, middle, size, axes, options);
+    return fitted(preset, middle, size, axes, options);
 }
+
+Result<Camera> presetCamera(std::string_view name, Vec3d middle, Vec3d size, const Axes& axes,
+                            const PresetOptions& options) {
+    const auto preset = std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
+    if (preset == kPresets.end())
+        return Error(Code::BadCamera,
+                     fmt::format("there is no camera '{}'; possible are {}", name, fmt::join(kNames, ", ")));
+    return checkedCamera(*preset, middle, size, axes, options);
+}
+
+constexpr Axes kWorldAxes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 
 }  // namespace
 
 std::span<const std::string_view> cameraPresetNames() noexcept { return kNames; }
 
 Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds, const PresetOptions& options) {
-    return presetCamera(name, bounds.center(), bounds.size(), {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}},
-                        options);
+    return presetCamera(name, bounds.center(), bounds.size(), kWorldAxes, options);
 }
 
 Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid, const PresetOptions& options) {
@@ -122,6 +128,12 @@ Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid, con
     const Vec3d spacing = grid.spacing();
     const Vec3d middle = grid.worldFromIndex({(n.x - 1) / 2.0, (n.y - 1) / 2.0, (n.z - 1) / 2.0});
     return presetCamera(name, middle, {n.x * spacing.x, n.y * spacing.y, n.z * spacing.z}, grid.axes(), options);
+}
+
+Result<Camera> cameraAlong(Vec3d view, Vec3d up, const Box3d& bounds, const PresetOptions& options) {
+    if (!isFinite(view) || !isFinite(up) || !(length(cross(view, up)) > 1e-9 * length(view) * length(up)))
+        return Error(Code::BadCamera, "the view direction is zero, not finite or along up");
+    return checkedCamera({"", view, up}, bounds.center(), bounds.size(), kWorldAxes, options);
 }
 
 }  // namespace svt::render

@@ -34,4 +34,10 @@ struct PresetOptions {
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid,
                                           const PresetOptions& options = {});
 
+/// A camera that shows all of `bounds`, looking along `view`.
+/// \param view  world space, any length but zero
+/// \param up    world space; not along `view`
+/// \return the camera, or BadCamera where the directions span no view, the box is empty or an option is out of range
+[[nodiscard]] Result<Camera> cameraAlong(Vec3d view, Vec3d up, const Box3d& bounds, const PresetOptions& options = {});
+
 }  // namespace svt::render

@@ -27,6 +27,21 @@ double reach(const Camera& camera, const Box3d& box, std::int32_t width, std::in
     return most;
 }
 
+TEST(CameraPreset, AnyDirectionShowsTheWholeBoxAndIsThatOfThePreset) {
+    for (const auto projection : {Camera::Projection::Perspective, Camera::Projection::Orthographic}) {
+        PresetOptions options;
+        options.projection = projection;
+        const auto camera = cameraAlong({0.3, 1.7, -0.4}, {0, 0, 1}, kHouse, options);
+        ASSERT_TRUE(camera.hasValue());
+        EXPECT_NEAR(reach(*camera, kHouse, 1280, 720), 1 - 2 * options.margin, 1e-6);
+        const Vec3d view = normalized(camera->target - camera->eye);
+        EXPECT_LT(length(view - normalized(Vec3d{0.3, 1.7, -0.4})), 1e-12);
+        EXPECT_EQ(*cameraAlong({0, 1, 0}, {0, 0, 1}, kHouse, options), *cameraPreset("front", kHouse, options));
+    }
+    EXPECT_EQ(cameraAlong({0, 0, -2}, {0, 0, 1}, kHouse).error().code(), Code::BadCamera);
+    EXPECT_EQ(cameraAlong({0, 0, 0}, {0, 0, 1}, kHouse).error().code(), Code::BadCamera);
+}
+
 TEST(CameraPreset, EveryViewShowsTheWholeBoxAndFillsThePicture) {
     for (const std::string_view name : cameraPresetNames())
         for (const auto projection : {Camera::Projection::Perspective, Camera::Projection::Orthographic})

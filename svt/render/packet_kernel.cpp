@@ -955,7 +955,8 @@ private:
         for (std::size_t n = 1; n < kWalks; ++n) least = hn::Min(least, walks_[n].times());
         least = hn::MinOfLanes(d, least);
         const double t = hn::GetLane(least);
-        if (!(t < kInfinity)) return false;
+        // Of infinities, Highway's portable vectors give the largest finite number as the least.
+        if (!(t < std::numeric_limits<double>::max())) return false;
         for (const Walk& walk : walks_) {
             const M isLast = hn::Eq(walk.times(), least);
             if (!any(isLast)) continue;

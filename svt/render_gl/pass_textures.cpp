@@ -3,6 +3,8 @@
 #include <svt/render/pass_shapes.hpp>
 #include <svt/render/pass_table.hpp>
 
+#include <algorithm>
+
 namespace svt::render_gl {
 namespace {
 
@@ -104,13 +106,16 @@ Result<void> PassTextures::updateClips(const render::Pass& pass, const volume::G
 Result<void> PassTextures::updateOcclusion(const volume::BrickVolume& volume, const volume::Grid& grid,
                                            const GlLimits& limits, int threads) {
     if (!occlusionTexture_.isEmpty() && bodies_ == occludingBodies_ && clips_ == occludingClips_) return {};
+    const Vec3d spacing = grid.spacing();
     const render::OcclusionField field(
-        volume, [&](volume::Scalar scalar) { return scalar < bodies_.size() && bodies_[scalar] != 0; },
+        volume, std::max({spacing.x, spacing.y, spacing.z}),
+        [&](volume::Scalar scalar) { return scalar < bodies_.size() && bodies_[scalar] != 0; },
         render::Clipper(clips_, grid), threads);
     std::vector<std::uint32_t> voxels;
     occlusionCounts_.clear();
     occlusionFirsts_.clear();
     occlusionGains_.clear();
+    occlusionCell_ = field.levels().empty() ? 8 : static_cast<float>(field.levels().front().cellSize);
     for (const render::OcclusionField::Level& level : field.levels()) {
         occlusionCounts_.push_back(level.count);
         occlusionFirsts_.push_back(static_cast<GLuint>(voxels.size()));
@@ -137,6 +142,7 @@ void PassTextures::setUniforms(Program& program) const {
     // A sampler must not stay on what may be drawn into meanwhile.
     program.bind("occlusion", occlusionTexture_.isEmpty() ? styleTexture_ : occlusionTexture_);
     if (occlusionTexture_.isEmpty()) return;
+    program.set("occlusionCell", occlusionCell_);
     program.set("occlusionLevels", GLint{render::OcclusionField::kLevels});
     program.set("occlusionCount[0]", std::span<const Vec3i>(occlusionCounts_));
     program.set("occlusionFirst[0]", std::span<const GLuint>(occlusionFirsts_));

@@ -46,6 +46,7 @@ private:
     std::vector<Vec3i> occlusionCounts_;
     std::vector<GLuint> occlusionFirsts_;
     std::vector<float> occlusionGains_;
+    float occlusionCell_ = 8;  // voxels along a block of the finest level
     // What the textures were made of.
     std::vector<render::Style> styles_;
     std::vector<std::uint32_t> objects_;

@@ -90,7 +90,7 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
     const render::CameraRays rays(spec, grid);
     lineSamples_ = std::round(std::sqrt(spec.samplesPerPixel));
     const auto shapes =
-        PassShapes::make(pass, spec, rays, grid, render::Clipper(pass.clips, grid), lineSamples_, threads);
+        PassShapes::make(pass, spec, rays, grid, render::Clipper(pass.clips, grid), lineSamples_, 0, threads);
     if (!shapes) return shapes.error();
     if (shapes->isEmpty()) return {};
     const Vec3d spacing = grid.spacing();

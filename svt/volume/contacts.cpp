@@ -270,6 +270,16 @@ std::vector<Contact> contactsOf(const ColumnVolume& columns, const Grid& grid, c
     return contacts;
 }
 
+std::vector<Neighbor> neighborsOf(std::uint32_t label, const std::vector<Contact>& contacts) {
+    std::vector<Neighbor> neighbors;
+    for (const std::size_t c : contactsWith(label, contacts))
+        neighbors.push_back({contacts[c].a == label ? contacts[c].b : contacts[c].a, contacts[c].area});
+    std::sort(neighbors.begin(), neighbors.end(), [](const Neighbor& a, const Neighbor& b) {
+        return a.area != b.area ? a.area > b.area : a.label < b.label;
+    });
+    return neighbors;
+}
+
 std::vector<std::size_t> contactsWith(std::uint32_t label, const std::vector<Contact>& contacts) {
     std::vector<std::size_t> with;
     for (std::size_t c = 0; c < contacts.size(); ++c)

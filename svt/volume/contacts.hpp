@@ -50,6 +50,16 @@ struct Contact {
 [[nodiscard]] std::vector<Contact> contactsOf(const ColumnVolume& columns, const Grid& grid, const LabelTable& labels,
                                               int threads = 0);
 
+/// Who touches a label, and with how much area.
+struct Neighbor {
+    std::uint32_t label = kNoLabel;  ///< kNoLabel: background
+    double area = 0;                 ///< m2
+    friend bool operator==(const Neighbor&, const Neighbor&) = default;
+};
+
+/// The neighbours of `label`, the largest area first; those of equal areas by label. Cost: O(contacts).
+[[nodiscard]] std::vector<Neighbor> neighborsOf(std::uint32_t label, const std::vector<Contact>& contacts);
+
 /// The contacts of one label among those of all, by index, ascending. Cost: O(contacts).
 [[nodiscard]] std::vector<std::size_t> contactsWith(std::uint32_t label, const std::vector<Contact>& contacts);
 

@@ -244,5 +244,12 @@ TEST(Contacts, AreThoseOfEveryVoxel) {
     }
 }
 
+TEST(Contacts, NeighborsComeByArea) {
+    const std::vector<Contact> contacts{{0, 1, 2.0, {}}, {0, 2, 5.0, {}}, {0, kNoLabel, 2.0, {}}, {1, 2, 9.0, {}}};
+    EXPECT_EQ(neighborsOf(0, contacts), (std::vector<Neighbor>{{2, 5.0}, {1, 2.0}, {kNoLabel, 2.0}}));
+    EXPECT_EQ(neighborsOf(2, contacts), (std::vector<Neighbor>{{1, 9.0}, {0, 5.0}}));
+    EXPECT_TRUE(neighborsOf(7, contacts).empty());
+}
+
 }  // namespace
 }  // namespace svt::volume

@@ -63,7 +63,8 @@ export interface Effects {
   highlight?: { queries: string[]; context: Context };
   cutaway?: { query: string; margin: number };
 }
-export type Context = "ghost" | "solid" | "none";
+/** `shell`: the outer hull of the building as glass. */
+export type Context = "ghost" | "solid" | "shell" | "none";
 
 /** A feature of the model, with or without voxels; in tree order. */
 export interface Feature {
@@ -89,6 +90,8 @@ export interface VolumeInfo {
   spacing: Point;
   /** Edge lengths of the grid's box in world axes. */
   size: Point;
+  /** The grid's axes in world axes; without them they are the same. Sections along x, y and z follow the grid. */
+  axes?: [Point, Point, Point];
   storeys: { id: string; name: string; floor: number; top: number }[];
   features: Feature[];
   /** Whether wireframes and meshes can be drawn. */

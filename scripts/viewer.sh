@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Builds the viewer page into build/release/share/svt/viewer. Does nothing when it is newer than all it is made of.
+# Needs node with npm (scripts/setup.sh web) and the library as WebAssembly (build/web, `make web`).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+page=build/release/share/svt/viewer
+module=build/web/svt.wasm
+command -v npm >/dev/null || { echo "viewer: npm is missing; scripts/setup.sh web installs it" >&2; exit 1; }
+[ -f "$module" ] || { echo "viewer: $module is missing; 'make web' builds it" >&2; exit 1; }
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+quietly() {
+  if ! "$@" >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "viewer: '$*' failed; see above" >&2
+    exit 1
+  fi
+}
+
+cd web/viewer
+lock=node_modules/.package-lock.json
+if [ ! -f "$lock" ] || [ package-lock.json -nt "$lock" ]; then
+  echo "viewer: installing npm packages"
+  quietly npm ci --no-audit --no-fund --ignore-scripts
+  touch "$lock"
+fi
+if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
+  exit 0
+fi
+quietly npx --no-install tsc
+quietly npx --no-install vite build
+touch "../../$page/index.html"
+echo "viewer: built in $page"

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Sources of the libraries that the WebAssembly module is made with, into build/web-sources/<library>: Debian's own, of
+# the release that is installed, since Debian compiles them for no browser. The user's list of package sources stays as
+# it is. Each archive is checked against the SHA-256 that Debian's signed index states. Does nothing when all is there.
+#   scripts/web_dependencies.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+sources=$PWD/build/web-sources
+# package=folder it unpacks to
+packages=(libzstd=zstd pugixml=pugixml simdjson=simdjson highway=highway freetype=freetype libglu=glu zlib=zlib libpng1.6=libpng)
+headers=(fmt nlohmann fast_float)  # of Debian's packages of headers, which fit every target
+
+missing=()
+for pair in "${packages[@]}"; do [ -e "$sources/${pair#*=}/.complete" ] || missing+=("$pair"); done
+mkdir -p "$sources/include" "$sources/lists/partial" "$sources/archives"
+for header in "${headers[@]}"; do ln -sfn "/usr/include/$header" "$sources/include/$header"; done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+echo "web: fetching the sources of ${#missing[@]} libraries"
+release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+key=/usr/share/keyrings/debian-archive-keyring.gpg
+cat >"$sources/debian.list" <<LIST
+deb-src [signed-by=$key] http://deb.debian.org/debian $release main
+deb-src [signed-by=$key] http://deb.debian.org/debian $release-updates main
+deb-src [signed-by=$key] http://deb.debian.org/debian-security $release-security main
+LIST
+apt=(-q -o "Dir::Etc::SourceList=$sources/debian.list" -o Dir::Etc::SourceParts=/dev/null
+     -o "Dir::State::Lists=$sources/lists" -o "Dir::Cache=$sources" -o APT::Sandbox::User=root)
+log=$sources/fetch.log
+apt-get "${apt[@]}" update >"$log" 2>&1 || { cat "$log" >&2; echo "web: no package index; see above" >&2; exit 1; }
+
+# One archive, unless it is there; wrong bytes count as none.
+fetch() { # uri, name, "SHA256:..."
+  (cd "$sources/archives" && echo "${3#SHA256:}  $2" | sha256sum --check --status 2>/dev/null) && return 0
+  /usr/lib/apt/apt-helper "${apt[@]}" download-file "$1" "$sources/archives/$2" "$3" >>"$log" 2>&1
+}
+
+# All archives of a package: what Debian publishes and its changes. Sets description and original; fails where one is
+# missing, as a mirror may have dropped it.
+fetch_package() { # package, with /release where only that will do
+  description='' original=''
+  local uri name hash isWhole=yes
+  while read -r uri name _ hash; do
+    case $name in *.asc) continue ;; esac
+    if ! fetch "${uri//\'/}" "$name" "$hash"; then isWhole=no; continue; fi
+    case $name in
+      *.dsc) description=$name ;;
+      *.orig-*) ;;
+      *.orig.tar.*) original=$name ;;
+    esac
+  done < <(apt-get "${apt[@]}" --print-uris -qq source --only-source "$1" 2>>"$log")
+  [ $isWhole = yes ]
+}
+
+for pair in "${missing[@]}"; do
+  package=${pair%%=*} folder=$sources/${pair#*=}
+  rm -rf "$folder"
+  if fetch_package "$package" || fetch_package "$package/$release"; then
+    (cd "$sources/archives" && dpkg-source --no-check -x "$description" "$folder") >>"$log" 2>&1
+  elif [ -n "$original" ]; then
+    echo "web: Debian's changes to $package are not to be had; taking it as its authors publish it"
+    mkdir -p "$folder"
+    tar -xf "$sources/archives/$original" -C "$folder" --strip-components=1
+  else
+    cat "$log" >&2
+    echo "web: the source of $package cannot be fetched; see above" >&2
+    exit 1
+  fi
+  touch "$folder/.complete"
+done

@@ -1,0 +1,91 @@
+#include <svt/illustrate/view.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::illustrate {
+namespace {
+
+// Two cubes of 1 m (labels a and b), 6 m apart along x.
+volume::SemanticVolume twoCubes() {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({16, 4, 4}, {0.5, 0.5, 0.5}, {1000, 2000, 30},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    for (const char* const id : {"a", "b"}) {
+        volume::Label label;
+        label.id = id;
+        label.className = "Furniture";
+        label.first = volume.labels.scalarCount();
+        label.count = 1;
+        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
+        volume.labels.labels.push_back(label);
+    }
+    std::vector<volume::Scalar> dense(256, 0);
+    for (std::size_t k = 1; k < 3; ++k)
+        for (std::size_t j = 1; j < 3; ++j)
+            for (std::size_t i = 0; i < 2; ++i) {
+                dense[i + 1 + 16 * (j + 4 * k)] = 1;
+                dense[i + 13 + 16 * (j + 4 * k)] = 2;
+            }
+    volume.columns = volume::ColumnVolume::fromDense({16, 4, 4}, dense);
+    return volume;
+}
+
+void expectSameView(const SceneCamera& camera, const SceneCamera& expected, const volume::SemanticVolume& volume) {
+    Scene a, b;
+    a.camera = camera;
+    b.camera = expected;
+    const auto first = frameOf(a, volume), second = frameOf(b, volume);
+    ASSERT_TRUE(first && second);
+    EXPECT_LT(length(first->camera.eye - second->camera.eye), 1e-6);
+    EXPECT_LT(length(first->camera.target - second->camera.target), 1e-6);
+    if (!camera.isParallel) return;
+    EXPECT_NEAR(first->camera.orthographicHeight, second->camera.orthographicHeight, 1e-6);
+}
+
+TEST(View, IsThatOfThePreset) {
+    const auto volume = twoCubes();
+    for (const bool isParallel : {false, true}) {
+        SceneCamera wanted;
+        wanted.preset = "front";
+        wanted.around = "id=b";
+        wanted.isParallel = isParallel;
+        SceneCamera now;
+        now.isParallel = isParallel;
+        now.zoom = 3;
+        const auto view = viewOf("id=b", "front", now, 16.0 / 9, volume);
+        ASSERT_TRUE(view) << view.error().toString();
+        ASSERT_TRUE(view->eye && view->target);
+        expectSameView(*view, wanted, volume);
+    }
+}
+
+TEST(View, GoesOnFromWhereTheCameraLooks) {
+    const auto volume = twoCubes();
+    for (const bool isParallel : {false, true}) {
+        SceneCamera front;
+        front.preset = "front";
+        front.isParallel = isParallel;
+        front.zoom = 2;
+        SceneCamera expected = front;
+        expected.zoom = 1;
+        expected.around = "id=a";
+        SceneCamera now = front;
+        // The same direction from elsewhere, told by points, under another preset.
+        now.preset = "iso";
+        now.target = Vec3d{3, 1, 1};
+        now.eye = Vec3d{3, -9, 1};
+        const auto view = viewOf("id=a", "", now, 16.0 / 9, volume);
+        ASSERT_TRUE(view) << view.error().toString();
+        expectSameView(*view, expected, volume);
+    }
+}
+
+TEST(View, TellsWhatIsWrong) {
+    const auto volume = twoCubes();
+    EXPECT_EQ(viewOf("id=c", "front", {}, 1, volume).error().code(), Code::NothingSelected);
+    EXPECT_EQ(viewOf("", "sideways", {}, 1, volume).error().code(), Code::BadCamera);
+    EXPECT_EQ(viewOf("", "front", {}, 0, volume).error().code(), Code::BadCamera);
+}
+
+}  // namespace
+}  // namespace svt::illustrate

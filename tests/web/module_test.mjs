@@ -1,0 +1,174 @@
+// The WebAssembly module against the command: the same bytes for the same questions. Run by ctest, or by
+//   node tests/web/module_test.mjs COMMAND MODULE_FOLDER
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { after, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const [command, moduleFolder] = process.argv.slice(2).map((path) => resolve(path));
+if (!existsSync(join(moduleFolder, "svt.js"))) {
+  console.log(`no module at ${moduleFolder}; 'make web' builds it`);
+  process.exit(77);
+}
+globalThis.self = { location: { href: pathToFileURL(join(moduleFolder, "svt.js")).href } };
+const { default: createSvt } = await import(pathToFileURL(join(moduleFolder, "svt.js")));
+const wasm = readFileSync(join(moduleFolder, "svt.wasm"));
+
+const folder = mkdtempSync(join(tmpdir(), "svt-web-"));
+after(() => rmSync(folder, { recursive: true }));
+const at = (name) => join(folder, name);
+const run = (...args) => execFileSync(command, args, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], maxBuffer: 1 << 28 });
+const rows = (...args) => JSON.parse(run(...args, "--json"));
+
+const steps = [];
+const svt = await createSvt({ wasmBinary: wasm, onProgress: (step, done) => steps.push([step, done]) });
+const text = (name, ...args) => new TextDecoder().decode(svt.call(name, args));
+const ask = (name, ...args) => JSON.parse(text(name, ...args));
+const bytes = (name, ...args) => Buffer.from(svt.call(name, args));
+const open = (file) => JSON.parse(new TextDecoder().decode(svt.call("open", [file.split("/").pop()], readFileSync(file))));
+
+svt.call("font", [], readFileSync(join(moduleFolder, "DejaVuSans.ttf")));
+
+const kScenes = {
+  plain: {},
+  cut: {
+    look: "paper", samples: 4, camera: { preset: "iso-sw" }, hatches: { show: true },
+    passes: [{ hide: ["class=BuildingRoom"], cut: "z>1.4" }],
+  },
+  glass: {
+    look: "dark", samples: 1, camera: { eye: [-8, -6, 9], target: [4, 4, 1.5] },
+    passes: [{ styles: [{ select: "all", ghost: true }] }, { show: ["class=BuildingRoom"], join: "depth" }],
+  },
+  named: { camera: { preset: "front", parallel: true }, passes: [{ hide: ["class=BuildingRoom"] }], names: ["class=Window"] },
+};
+
+function makeHouse() {
+  run("sample", "house", "-o", at("house.gml"));
+  run("build", at("house.gml"), "-o", at("house.svt"));
+  return [at("house.gml"), at("house.svt")];
+}
+const [houseModel, houseVolume] = makeHouse();
+
+function comparePictures(file, names = Object.keys(kScenes)) {
+  for (const name of names) {
+    const scene = { size: [320, 200], ...kScenes[name] };
+    writeFileSync(at("s.scene.json"), JSON.stringify({ format: "svt-scene", version: 1, ...scene }));
+    run("render", file, "-o", at("p.png"), "--scene", at("s.scene.json"), "--labels", at("l.png"));
+    assert.ok(bytes("labels", scene).equals(readFileSync(at("l.png"))), `labels of '${name}'`);
+    assert.ok(bytes("picture", scene).equals(readFileSync(at("p.png"))), `picture of '${name}'`);
+  }
+}
+
+test("a volume has the features that the command lists", () => {
+  const info = open(houseVolume);
+  const listed = rows("info", houseVolume);
+  const all = new Map([...listed.objects, ...listed.features].map((feature) => [feature.id, feature]));
+  assert.equal(info.features.length, all.size);
+  for (const feature of info.features) {
+    const other = all.get(feature.id);
+    assert.deepEqual([feature.class, feature.name, feature.parent, feature.first, feature.count],
+      [other.class, other.name, other.parent ?? "", other.first, other.count]);
+  }
+  assert.deepEqual(info.dimension, listed.grid.dimension);
+  assert.deepEqual(info.spacing, listed.grid.spacing);
+  assert.ok(info.storeys.length > 0 && info.storeys.every((storey) => storey.top > storey.floor));
+  assert.equal(info.hasEdges, false);
+});
+
+test("pictures and labels are those of the command, byte by byte", () => {
+  open(houseVolume);
+  comparePictures(houseVolume);
+});
+
+test("a model gives the volume that the command builds of it, with its edges", () => {
+  steps.length = 0;
+  const info = open(houseModel);
+  assert.ok(info.hasEdges);
+  assert.ok(steps.some(([step]) => step === "voxelize") && steps.every(([, done]) => done >= 0 && done <= 1));
+  comparePictures(houseModel, ["plain", "cut"]);
+  const listed = rows("info", houseModel);
+  const counts = new Map(listed.objects.map((object) => [object.id, object.voxels * voxelVolume(listed.grid)]));
+  for (const feature of info.features.filter(({ count }) => count > 0).slice(0, 12))
+    assert.equal(ask("properties", feature.id).voxelVolume, counts.get(feature.id));
+});
+
+const voxelVolume = ({ spacing: [x, y, z] }) => x * y * z;
+
+test("properties, neighbours and selections are rows of 'svt query'", () => {
+  open(houseVolume);
+  const { grid } = rows("info", houseVolume);
+  const selected = rows("query", houseVolume, "class=BuildingRoom", "--with", "volume,surface,box");
+  assert.deepEqual(ask("select", "class=BuildingRoom"), selected.map(({ id }) => id));
+  for (const row of selected) {
+    const properties = ask("properties", row.id);
+    assert.equal(properties.surface, row.surface.area);
+    assert.equal(properties.voxelVolume, row.voxelVolume);
+    assert.equal(properties.modelVolume, row.closed ? row.volume : null);
+    assert.deepEqual(properties.box.low, row.box.min.map((x, axis) => x - grid.origin[axis]));
+    const neighbours = rows("query", houseVolume, `id="${row.id}"`, "--neighbours").filter((n) => n.neighbour !== null);
+    assert.deepEqual(properties.neighbours,
+      neighbours.map((n) => ({ id: n.neighbour, class: n.neighbourClass, name: n.neighbourName, area: n.area })));
+  }
+});
+
+test("what is picked is what the label buffer has there, and lies on the ray", () => {
+  open(houseVolume);
+  const scene = { ...kScenes.plain, size: [64, 40], samples: 1 };
+  assert.equal(ask("pick", 0.5, 0.5), null, "nothing is drawn yet");
+  assert.equal(svt.call("draw", [scene, 64, 40]).length, 64 * 40 * 4);
+  const hit = ask("pick", 0.5, 0.5);
+  const line = ask("along", 0.5, 0.5);
+  assert.equal(line[0].id, hit.id);
+  assert.ok(line.every(({ from, to }, n) => to > from && (n === 0 || from >= line[n - 1].to - 1e-9)));
+  const { features, size } = open(houseVolume);
+  const owner = features.find(({ id }) => id === hit.id);
+  assert.ok(hit.scalar >= owner.first && hit.scalar < owner.first + owner.count);
+  assert.ok(hit.point.every((x, axis) => x > -1 && x < size[axis] + 1));
+});
+
+test("effects and drawings are those of the command", () => {
+  open(houseVolume);
+  const lens = { region: "view(0.5,0.5,0.3)", cut: "y<4", context: "ghost" };
+  run("render", houseVolume, "-o", at("p.png"), "--size", "64x40", "--lens", lens.region, "--section", lens.cut,
+    "--write-scene", at("lens.json"));
+  const scene = { size: [64, 40] };
+  assert.deepEqual(ask("compose", scene, { lens }), JSON.parse(readFileSync(at("lens.json"), "utf8")));
+  for (const format of ["svg", "dxf", "geojson"]) {
+    run("section", houseVolume, "-o", at(`d.${format}`), "--plane", "z=1.2");
+    assert.equal(text("drawing", "z=1.2", format), readFileSync(at(`d.${format}`), "utf8"));
+  }
+  run("section", houseVolume, "--table", at("d.csv"), "--plane", "z=1.2");
+  assert.equal(text("drawing", "z=1.2", "csv"), readFileSync(at("d.csv"), "utf8"));
+});
+
+test("a view shows what is selected", () => {
+  open(houseVolume);
+  const seen = ask("view", "class=BuildingRoom", "front", { parallel: true });
+  const again = ask("view", "class=BuildingRoom", null, seen);
+  for (const member of ["eye", "target"])
+    again[member].forEach((x, axis) => assert.ok(Math.abs(x - seen[member][axis]) < 1e-6, `${member} ${x}`));
+});
+
+test("errors have their codes, and leave what was open as it was", () => {
+  const before = open(houseVolume);
+  const fails = (code, act) => assert.throws(act, (error) => error.code === code && error.message.length > 10);
+  fails("E103", () => svt.call("open", ["bad.gml"], new TextEncoder().encode("not a model")));
+  const damaged = readFileSync(houseVolume);
+  damaged.fill(0x55, damaged.length >> 1, (damaged.length >> 1) + 64);
+  assert.throws(() => svt.call("open", ["bad.svt"], damaged), ({ code }) => code === "E401" || code === "E402");
+  fails("E901", () => svt.call("select", ["class=="]));
+  fails("E902", () => svt.call("properties", ["nobody"]));
+  fails("E502", () => svt.call("draw", [{}, 0, 10]));
+  fails("E504", () => svt.call("picture", [{ passes: [{ hidden: [] }] }]));
+  assert.equal(ask("select", "all").length, before.features.length);
+});
+
+const real = join(process.env.SVT_DATA_DIR ?? "../shared/data", "fzk_haus_citygml3.gml");
+test("a real house is the same", { skip: !existsSync(real) && `no ${real}` }, () => {
+  run("build", real, "-o", at("real.svt"));
+  open(at("real.svt"));
+  comparePictures(at("real.svt"), ["plain", "cut"]);
+});

@@ -1,0 +1,76 @@
+// A static server and a browser for tests of the built page. The headers are as strict as `svt serve` sends them.
+import { spawnSync } from "node:child_process";
+import { createReadStream, existsSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join, normalize, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const here = fileURLToPath(new URL(".", import.meta.url));
+export const repository = resolve(here, "../../..");
+export const page = process.env.SVT_VIEWER_DIR ?? join(repository, "build/release/share/svt/viewer");
+export const command = process.env.SVT_COMMAND ?? join(repository, "build/release/bin/svt");
+export const dataDir = process.env.SVT_DATA_DIR ?? resolve(repository, "../shared/data");
+export const browserPath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium";
+
+const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".wasm": "application/wasm", ".json": "application/json" };
+export const policy =
+  "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/** Serves the page and, from `files`, named files beside it. Resolves to { url, close }. */
+export function serve(files = {}) {
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/^\/+/, "") || "index.html";
+    const file = path in files ? files[path] : join(page, normalize(path));
+    const isText = typeof file === "object";
+    if (!isText && (!file.startsWith(page) && !(path in files) || !existsSync(file) || !statSync(file).isFile())) {
+      response.writeHead(404).end("not here");
+      return;
+    }
+    response.writeHead(200, {
+      "Content-Type": kTypes[extname(path)] ?? "application/octet-stream",
+      "Content-Security-Policy": policy,
+      "X-Content-Type-Options": "nosniff",
+      "Cache-Control": "no-cache",
+    });
+    if (isText) response.end(JSON.stringify(file));
+    else createReadStream(file).pipe(response);
+  });
+  return new Promise((done) =>
+    server.listen(0, "127.0.0.1", () =>
+      done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))) }),
+    ),
+  );
+}
+
+/** A model list as `svt serve` makes it. */
+export function withModels(models) {
+  const files = { "models.json": { models: models.map(({ name, path, title }) => ({ name, title, file: `data/${name}.svt`, bytes: statSync(path).size })) } };
+  for (const { name, path } of models) files[`data/${name}.svt`] = path;
+  return files;
+}
+
+/** A browser with software graphics and nothing kept. */
+export async function browse(options = {}) {
+  const profile = mkdtempSync(join(tmpdir(), "svt-viewer-"));
+  const context = await chromium.launchPersistentContext(profile, {
+    executablePath: browserPath,
+    headless: true,
+    args: [
+      "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+      "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    ],
+    viewport: { width: 1200, height: 640 },
+    acceptDownloads: true,
+    ...options,
+  });
+  return { context, close: async () => (await context.close(), rmSync(profile, { recursive: true, force: true })) };
+}
+
+/** Runs `svt`; throws with what it said where it fails. */
+export function svt(...words) {
+  const done = spawnSync(command, words, { encoding: "buffer", maxBuffer: 64 << 20 });
+  if (done.status !== 0) throw new Error(`svt ${words.join(" ")}: exit ${done.status}: ${done.stderr}`);
+  return done.stdout;
+}

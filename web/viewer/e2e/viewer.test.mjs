@@ -1,0 +1,576 @@
+// The built page in a real browser, used as people use it; what it says is checked against the `svt` command.
+import assert from "node:assert/strict";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, describe, it } from "node:test";
+import { gzipSync } from "node:zlib";
+import { browse, dataDir, page as pageFolder, repository, serve, svt, withModels } from "./harness.mjs";
+import { readPng } from "./png.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "svt-viewer-test-"));
+const at = (name) => join(folder, name);
+const fzk = join(dataDir, "fzk_haus_citygml3.gml");
+const hasFzk = existsSync(fzk);
+let server, empty, browser, page, problems;
+
+/** In the page, with its session as `s`. */
+const inPage = (body, value) => page.evaluate(([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v), [body, value]);
+const state = () => inPage("s.state");
+/** The finest picture of what is shown now stands there. */
+const settled = (timeout = 30_000) => page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout });
+const firstImage = () => page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 20_000 });
+const stage = async () => (await page.locator("svt-picture").boundingBox());
+/** Tries again until it holds: what depends on a picture takes as long as the machine needs. */
+async function eventually(check, seconds = 20) {
+  for (const end = Date.now() + seconds * 1000; ; await page.waitForTimeout(50)) {
+    try {
+      return await check();
+    } catch (error) {
+      if (Date.now() > end) throw error;
+    }
+  }
+}
+const tool = async (name) => {
+  if (!(await page.locator(`#tool-${name}[aria-expanded=true]`).count())) await page.click(`#tool-${name}`);
+};
+/** What a click saves. */
+async function saved(click) {
+  const [download] = await Promise.all([page.waitForEvent("download"), click()]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+async function open(query = "?model=house", options = {}) {
+  await page?.context().close().catch(() => {});
+  await browser?.close().catch(() => {});
+  browser = await browse({ locale: "en-US", colorScheme: "light", permissions: ["clipboard-read", "clipboard-write"], ...options });
+  page = await browser.context.newPage();
+  problems = [];
+  page.on("pageerror", (error) => problems.push(`error: ${error.message}`));
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && problems.push(`${message.type()}: ${message.text()}`));
+  page.on("request", (request) => !/^(http:\/\/127\.0\.0\.1:|blob:|data:)/.test(request.url()) && problems.push(`asks ${request.url()}`));
+  await page.goto(server.url + query);
+  await firstImage();
+}
+
+before(async () => {
+  svt("sample", "house", "-o", at("house.gml"));
+  svt("build", at("house.gml"), "-o", at("house.svt"), "--spacing", "0.12", "--vectors", "edges,meshes");
+  const models = [{ name: "house", path: at("house.svt"), title: "Sample house" }];
+  if (hasFzk) {
+    svt("build", fzk, "-o", at("fzk.svt"), "--vectors", "edges,meshes");
+    models.push({ name: "fzk", path: at("fzk.svt"), title: "FZK-Haus" });
+  }
+  server = await serve(withModels(models));
+  empty = await serve();
+  await open();
+});
+
+after(async () => {
+  await browser?.close();
+  await server?.close();
+  await empty?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+describe("start", () => {
+  it("shows the first image soon", async (t) => {
+    const cases = [["house", "?model=house"], ...(hasFzk ? [["FZK-Haus", "?model=fzk"]] : [])];
+    for (const [name, query] of cases) {
+      await open(query);
+      const first = await page.evaluate(() => performance.getEntriesByName("svt-first-image")[0].startTime);
+      t.diagnostic(`${name}: first image ${Math.round(first)} ms after navigation`);
+      assert.ok(first < 3000, `${name}: first image after ${Math.round(first)} ms, expected less than 3000`);
+    }
+  });
+
+  it("keeps the budget of bytes", (t) => {
+    // Without the font, which is fetched when names are drawn first.
+    const files = readdirSync(join(pageFolder, "assets")).filter((name) => !name.endsWith(".ttf")).map((name) => ({ name, size: gzipSync(readFileSync(join(pageFolder, "assets", name)), { level: 9 }).length }));
+    const isModule = ({ name }) => /\.wasm$|^worker/.test(name);
+    const sum = (of) => of.reduce((all, { size }) => all + size, 0);
+    const own = sum(files.filter((file) => !isModule(file))), all = sum(files);
+    t.diagnostic(`own ${Math.round(own / 1000)} kB, all ${Math.round(all / 1000)} kB, compressed`);
+    assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
+    assert.ok(all <= 1_500_000, `all: ${all} bytes compressed, at most 1500000`);
+  });
+
+  it("without a model invites to open one, and takes a dropped file", async () => {
+    await open();
+    await page.goto(empty.url);
+    await page.getByRole("heading", { name: "Drop a building here" }).waitFor();
+    await drop("house.svt", readFileSync(at("house.svt")));
+    await firstImage();
+    assert.equal(await inPage("s.info.name"), "Sample house");
+  });
+});
+
+/** A file dropped onto the page. */
+async function drop(name, bytes) {
+  await page.evaluate(async ([fileName, base64]) => {
+    const data = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([data], fileName));
+    for (const kind of ["dragover", "drop"]) window.dispatchEvent(new DragEvent(kind, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+  }, [name, bytes.toString("base64")]);
+}
+
+describe("files", () => {
+  before(() => open());
+
+  it("that are bad leave what is open, and say why", async () => {
+    for (const [name, bytes, expected] of [
+      ["broken.svt", readFileSync(at("house.svt")).subarray(0, 5000), /E4\d\d/],
+      ["noise.gml", Buffer.from("this is no XML"), /E1\d\d/],
+      ["picture.png", Buffer.from("x"), /neither a .svt/],
+    ]) {
+      await drop(name, bytes);
+      await page.locator("#message").waitFor();
+      assert.match(await page.locator("#message").innerText(), expected);
+      assert.equal(await inPage("s.info.name"), "Sample house");
+      await page.getByRole("button", { name: "Dismiss" }).click();
+    }
+    assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0);
+  });
+
+  it("of models are built in the page", async () => {
+    await drop("house.gml", readFileSync(at("house.gml")));
+    await page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "house.gml", null, { timeout: 60_000 });
+    await settled(60_000);
+    assert.equal(await inPage("s.info.features.length"), JSON.parse(svt("info", at("house.gml"), "--json", "--tree")).features.length + (await inPage("s.index.firstScalars.length")));
+  });
+});
+
+describe("tree and query", () => {
+  before(() => open());
+
+  it("finds by name and selects", async () => {
+    await page.fill("#search", "hidden beam");
+    await page.getByRole("treeitem", { name: /Hidden beam/ }).click();
+    assert.deepEqual((await state()).selection, ["house_hidden_beam"]);
+    await page.getByRole("heading", { name: "Hidden beam" }).waitFor();
+    const [row] = JSON.parse(svt("query", at("house.svt"), "id=house_hidden_beam", "--with", "volume,surface", "--json"));
+    await page.getByText(`${row.voxelVolume.toFixed(3)} m³`).waitFor();
+    await page.fill("#search", "");
+  });
+
+  it("hides what is chosen, and a class", async () => {
+    const item = page.getByRole("treeitem", { name: /Hidden beam/ });
+    await item.locator("button.eye").click();
+    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    await item.locator("button.eye").click();
+    assert.deepEqual((await state()).hide, []);
+    await page.getByRole("tab", { name: "Classes" }).click();
+    await page.getByRole("button", { name: "Hide: BuildingRoom" }).click();
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
+    await page.getByRole("button", { name: "Show all" }).click();
+    assert.deepEqual((await state()).hide, []);
+    await page.getByRole("tab", { name: "Structure" }).click();
+  });
+
+  it("asks queries, and shows what is wrong with them", async () => {
+    await page.fill("#query", "class=BuildingRoom and volume>");
+    await page.keyboard.press("Enter");
+    await page.locator("#query-answer.error").waitFor();
+    assert.match(await page.locator("#query-answer").innerText(), /column|expected|value/i);
+    await page.fill("#query", "class=BuildingRoom and volume>20");
+    await page.keyboard.press("Enter");
+    const expected = JSON.parse(svt("query", at("house.svt"), "class=BuildingRoom and volume>20", "--json")).map((row) => row.id);
+    await page.getByText(`${expected.length} selected`).first().waitFor();
+    assert.deepEqual((await state()).selection, expected);
+  });
+
+  it("keeps 100,000 rows light", async () => {
+    const rows = await page.locator("[role=treeitem]").count();
+    assert.ok(rows < 80, `${rows} rows in the page`);
+  });
+});
+
+describe("picture", () => {
+  before(() => open());
+
+  it("picks what the command sees there", async () => {
+    await settled();
+    const [width, height] = await inPage("s.pictureSize");
+    writeFileSync(at("pick.scene.json"), JSON.stringify(await inPage("s.composed(s.pictureSize)")));
+    svt("render", at("house.svt"), "-o", at("pick.png"), "--scene", at("pick.scene.json"), "--labels", at("labels.png"));
+    const labels = readPng(readFileSync(at("labels.png")));
+    assert.deepEqual([labels.width, labels.height], [width, height]);
+    let checked = 0;
+    for (let n = 0; n < 60; ++n) {
+      const x = Math.floor(((n * 0.618) % 1) * (width - 4)) + 2, y = Math.floor(((n * 0.382 + 0.1) % 1) * (height - 4)) + 2;
+      const around = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => labels.data[(y + dy) * width + x + dx]));
+      if (around.some((label) => label !== around[0])) continue;
+      const pick = await inPage("s.engine.pick(v[0], v[1])", [(x + 0.5) / width, (y + 0.5) / height]);
+      assert.equal(pick?.scalar ?? 0, around[0], `at ${x}, ${y}`);
+      ++checked;
+    }
+    assert.ok(checked > 20, `only ${checked} places`);
+  });
+
+  it("selects by click and lists by Alt-click", async () => {
+    const box = await stage();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.click(x, y);
+    await page.waitForFunction(() => document.querySelector("svt-app").session.state.selection.length === 1);
+    const pick = await inPage("s.engine.pick(0.5, 0.5)");
+    assert.deepEqual((await state()).selection, [pick.id]);
+    assert.match(await page.locator("#said").innerText(), /^Selected: /);
+    await page.keyboard.down("Alt");
+    await page.mouse.click(x, y);
+    await page.keyboard.up("Alt");
+    await page.getByRole("heading", { name: "Along this ray" }).waitFor();
+    const stretches = await inPage("s.along.stretches");
+    assert.ok(stretches.length > 1);
+    assert.equal(stretches.find((s) => s.class !== "BuildingRoom").id, pick.id);
+    assert.ok(stretches.every((s, i) => s.from <= s.to && (i === 0 || s.from >= stretches[i - 1].from - 1e-6)));
+    await page.locator("svt-properties .along button").nth(1).click();
+    assert.deepEqual((await state()).selection, [stretches[1].id]);
+  });
+
+  it("is turned, moved and zoomed by mouse", async () => {
+    const box = await stage();
+    const [x, y] = [box.x + box.width * 0.4, box.y + box.height * 0.4];
+    const cameras = [(await state()).camera];
+    const step = async (act) => {
+      await act();
+      await eventually(async () => assert.notDeepEqual((await state()).camera, cameras.at(-1)));
+      cameras.push((await state()).camera);
+    };
+    const drag = async (options = {}) => {
+      await page.mouse.move(x, y);
+      await page.mouse.down(options);
+      await page.mouse.move(x + 60, y + 20, { steps: 4 });
+      await page.mouse.up(options);
+    };
+    await step(() => drag());
+    await step(() => drag({ button: "right" }));
+    await step(() => page.mouse.wheel(0, -240));
+    const distance = (c) => Math.hypot(...c.eye.map((e, i) => e - c.target[i]));
+    assert.ok(Math.abs(distance(cameras[1]) - distance(cameras[0])) < 1e-6, "turning keeps the distance");
+    assert.notDeepEqual(cameras[1].eye, cameras[0].eye);
+    assert.notDeepEqual(cameras[2].target, cameras[1].target);
+    assert.ok(distance(cameras[3]) < distance(cameras[2]), "the wheel comes nearer");
+  });
+
+  it("frames what is double-clicked, and goes to named views by key", async () => {
+    await page.keyboard.press("2");
+    const target = await eventually(async () => {
+      const { eye, target } = (await state()).camera;
+      assert.ok(Math.abs(eye[0] - target[0]) < 1e-6 && eye[1] < target[1], "from the front");
+      return target;
+    });
+    await settled();
+    const box = await stage();
+    await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
+    await page.waitForFunction((before) => document.querySelector("svt-app").session.state.camera.target.some((v, i) => Math.abs(v - before[i]) > 0.01), target);
+  });
+});
+
+describe("tools", () => {
+  before(() => open());
+
+  it("cut with planes that are dragged, slid and flipped", async () => {
+    await tool("section");
+    await page.click("#add-plane");
+    const before = (await state()).sections[0];
+    assert.equal(before.axis, "y");
+    const handle = page.locator("svt-picture .handle");
+    await handle.focus();
+    await page.keyboard.press("ArrowUp");
+    assert.ok(Math.abs((await state()).sections[0].at - before.at - 0.05) < 1e-9);
+    await settled();
+    const box = await handle.boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 - 40, box.y + box.height / 2 + 30, { steps: 5 });
+    await page.mouse.up();
+    await eventually(async () => assert.notEqual((await state()).sections[0].at, before.at + 0.05));
+    await page.getByRole("button", { name: "Other side" }).click();
+    assert.equal((await state()).sections[0].flip, false);
+    await page.getByRole("button", { name: "Other side" }).click();
+    await page.getByRole("button", { name: "Cut Ground floor at 1.1 m" }).click();
+    assert.deepEqual((await state()).sections.map((s) => s.axis), ["y", "z"]);
+    assert.match((await inPage("s.composed([640, 360])")).passes[0].cut, /^y<[\d.]+ or z>[\d.]+$/);
+    await page.getByRole("button", { name: "Remove plane 1" }).click();
+  });
+
+  it("export drawings as the command makes them", async () => {
+    const { at: height } = (await state()).sections[0];
+    for (const format of ["SVG", "DXF", "GEOJSON", "CSV"]) {
+      const { bytes } = await saved(() => page.getByRole("button", { name: `Export as ${format}` }).click());
+      const file = at(`plan.${format.toLowerCase()}`);
+      svt("section", at("house.svt"), ...(format === "CSV" ? ["-o", at("x.svg"), "--table", file] : ["-o", file]), "--plane", `z>${Number(height.toFixed(4))}`);
+      assert.deepEqual(bytes.toString("utf8"), readFileSync(file, "utf8"), format);
+    }
+    await page.getByRole("button", { name: "Remove plane 1" }).click();
+  });
+
+  it("move a lens with the mouse and pin it", async () => {
+    await tool("lens");
+    const box = await stage();
+    await page.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.5);
+    let lens;
+    await eventually(async () => {
+      lens = (await state()).lens;
+      assert.ok(Math.abs(lens.x - 0.7) < 0.01 && Math.abs(lens.y - 0.5) < 0.01);
+    });
+    assert.equal((await state()).effect, "lens");
+    await page.keyboard.down("Shift");
+    await page.mouse.wheel(0, 200);
+    await page.keyboard.up("Shift");
+    await eventually(async () => assert.ok((await state()).lens.radius < lens.radius));
+    await page.mouse.click(box.x + box.width * 0.7, box.y + box.height * 0.5);
+    await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.6);
+    ({ lens } = await eventually(async () => (assert.ok((await state()).lens.pinned), await state())));
+    assert.ok(lens.pinned && Math.abs(lens.x - 0.7) < 0.01);
+    const scene = await inPage("s.composed([640, 360])");
+    assert.equal(scene.passes.length, 2);
+    assert.match(scene.passes[1].keep, /^view\(/);
+    await settled();
+    await page.locator("#lens-on").click();
+  });
+
+  it("highlight, cut away to the selection, and leave hulls", async () => {
+    await inPage("s.select(['house_hidden_beam'])");
+    await tool("focus");
+    await page.getByRole("radio", { name: "Highlight" }).click();
+    let scene = await inPage("s.composed([640, 360])");
+    assert.deepEqual(scene.passes[1].show, ['id="house_hidden_beam"']);
+    await settled();
+    await page.getByRole("radio", { name: "Cut away" }).click();
+    scene = await inPage("s.composed([640, 360])");
+    assert.match(scene.passes[0].cut, /^cutaway\(/);
+    await settled();
+    await page.fill("#focus-query", "class=Nonsense");
+    await page.keyboard.press("Enter");
+    await page.locator("svt-focus-tool .error").waitFor();
+    await page.getByRole("radio", { name: "Off" }).click();
+    await page.selectOption("#shell", "storey");
+    assert.equal((await inPage("s.describe([640, 360])")).scene.passes[0].shell, "storey");
+    await settled();
+    assert.equal(await inPage("s.message"), null);
+    await page.selectOption("#shell", "");
+  });
+
+  it("change look, lines, names and legend", async () => {
+    await tool("look");
+    await page.getByRole("radio", { name: "Blueprint" }).click();
+    await page.selectOption("#wireframe", "dashed");
+    await page.locator("#names").check();
+    await page.locator("#legend").check();
+    await page.locator("svt-legend li").first().waitFor();
+    const scene = await inPage("s.composed([640, 360])");
+    assert.equal(scene.look, "blueprint");
+    assert.deepEqual(scene.passes[0].lines, [{ hidden: "dashed" }]);
+    assert.deepEqual(scene.names, ['id="house_hidden_beam"']);
+    await settled();
+    assert.equal(await inPage("s.message"), null);
+    await page.getByRole("radio", { name: "Plain" }).click();
+    await page.selectOption("#wireframe", "off");
+    await page.locator("#names").uncheck();
+    await page.locator("#legend").uncheck();
+  });
+
+  it("measure between picked points", async () => {
+    await tool("measure");
+    const box = await stage();
+    await settled();
+    const places = [[0.45, 0.5], [0.5, 0.55], [0.55, 0.5]];
+    for (const [n, [x, y]] of places.entries()) {
+      await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+      await page.waitForFunction((count) => document.querySelector("svt-app").session.measured.length === count, n + 1);
+    }
+    const [a, b, c] = await inPage("s.measured");
+    const apart = (p, q) => Math.hypot(...p.map((v, i) => v - q[i]));
+    assert.equal(await page.locator("#measured-length").innerText(), `${(apart(a, b) + apart(b, c)).toFixed(3)} m`);
+    assert.match(await page.locator("#measured-area").innerText(), /^\d+\.\d{3} m²$/);
+    await page.getByRole("button", { name: "Clear" }).click();
+  });
+
+  it("colour a class and make it glass", async () => {
+    await page.getByRole("tab", { name: "Classes" }).click();
+    await page.getByRole("button", { name: "Colour and opacity of BuildingConstructiveElement" }).click();
+    const slider = page.getByRole("slider", { name: "Opacity of BuildingConstructiveElement" });
+    await slider.focus();
+    await page.keyboard.press("Home");
+    assert.deepEqual((await state()).styles, [{ select: "class=BuildingConstructiveElement", opacity: 0 }]);
+    await settled();
+    await page.getByRole("button", { name: "As in the model" }).click();
+    assert.deepEqual((await state()).styles, []);
+    await page.getByRole("tab", { name: "Structure" }).click();
+  });
+});
+
+describe("keeping", () => {
+  before(async () => {
+    await open();
+    await inPage(`s.set({ hide: ["class=BuildingRoom"], look: "paper", sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], selection: ["house_hidden_beam"], effect: "highlight" })`);
+    await settled();
+  });
+
+  it("saves the picture that the command draws of the same scene, byte for byte", async () => {
+    await tool("share");
+    await page.getByLabel("Width").fill("480");
+    await page.getByLabel("Height").fill("270");
+    await page.keyboard.press("Tab");
+    const { bytes } = await saved(() => page.click("#save-picture"));
+    writeFileSync(at("view.scene.json"), JSON.stringify(await inPage("s.composed([480, 270])")));
+    svt("render", at("house.svt"), "--scene", at("view.scene.json"), "-o", at("view.png"));
+    assert.ok(bytes.equals(readFileSync(at("view.png"))));
+  });
+
+  it("gives a command that draws the same", async () => {
+    await page.click("#copy-command");
+    await page.locator("#message").waitFor();
+    const command = await page.evaluate(() => navigator.clipboard.readText());
+    assert.match(command, /^svt render house\.svt -o view\.png --size 480x270 /);
+    const words = [...command.matchAll(/'((?:[^'])*)'|(\S+)/g)].map((m) => m[1] ?? m[2]).slice(1);
+    words[1] = at("house.svt");
+    words[3] = at("by-command.png");
+    svt(...words);
+    assert.ok(readFileSync(at("by-command.png")).equals(readFileSync(at("view.png"))));
+  });
+
+  it("gives a link that opens the same view", async () => {
+    await page.click("#copy-link");
+    const link = await eventually(async () => {
+      const text = await page.evaluate(() => navigator.clipboard.readText());
+      assert.match(text, /^http.*&view=/);
+      return text;
+    });
+    const wanted = await state();
+    const { inflateRawSync } = await import("node:zlib");
+    const scene = inflateRawSync(Buffer.from(new URLSearchParams(new URL(link).hash.slice(1)).get("scene"), "base64url"));
+    writeFileSync(at("link.scene.json"), scene);
+    svt("render", at("house.svt"), "--scene", at("link.scene.json"), "-o", at("link.png"));
+    const second = await browser.context.newPage();
+    await second.goto(link);
+    await second.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine");
+    const opened = await second.evaluate(() => document.querySelector("svt-app").session.state);
+    assert.deepEqual(opened, wanted);
+    const base64 = await second.evaluate(async (text) => {
+      const s = document.querySelector("svt-app").session;
+      const bytes = new Uint8Array(await s.engine.picture(await s.composed(JSON.parse(text).size)));
+      return btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join(""));
+    }, scene.toString());
+    assert.ok(Buffer.from(base64, "base64").equals(readFileSync(at("link.png"))));
+    await second.close();
+  });
+
+  it("keeps views, and gives them back as scenes", async () => {
+    await page.click("#keep-view");
+    const kept = await state();
+    await inPage(`s.set({ look: "dark", sections: [], effect: "none" })`);
+    await page.getByRole("button", { name: "View 1", exact: true }).click();
+    await eventually(async () => assert.deepEqual(await state(), kept));
+    const { bytes } = await saved(() => page.getByRole("button", { name: "View 1 as scene JSON" }).click());
+    writeFileSync(at("kept.scene.json"), bytes);
+    svt("render", at("house.svt"), "--scene", at("kept.scene.json"), "-o", at("kept.png"), "--size", "160x90");
+    await page.getByRole("button", { name: "Remove View 1" }).click();
+  });
+
+  it("shows the scene as JSON, takes it changed, and says what is wrong", async () => {
+    await page.click("#show-scene");
+    const text = await page.locator("#scene-json").inputValue();
+    const scene = JSON.parse(text);
+    await page.fill("#scene-json", "{");
+    await page.click("#apply-scene");
+    await page.getByText("This is no JSON").waitFor();
+    await page.fill("#scene-json", JSON.stringify({ ...scene, passes: [{ cut: 4 }] }));
+    await page.click("#apply-scene");
+    await page.getByText(/passes\/0\/cut/).waitFor();
+    await page.fill("#scene-json", JSON.stringify({ ...scene, passes: [{ cut: "ball(6,3,3,3)" }] }));
+    await page.click("#apply-scene");
+    await page.getByRole("button", { name: "Back to the tools" }).waitFor();
+    assert.deepEqual((await inPage("s.describe([640, 360])")).scene.passes, [{ cut: "ball(6,3,3,3)" }]);
+    await page.getByRole("button", { name: "Back to the tools" }).click();
+    assert.equal((await state()).custom, null);
+  });
+});
+
+describe("access", () => {
+  const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8");
+  async function findings() {
+    // Evaluated by the debugger, since the page's policy allows no foreign script.
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+    return violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.target.flat().join(" ")).join(" | ")}`);
+  }
+
+  it("works by keyboard alone", async () => {
+    await open();
+    await page.keyboard.press("?");
+    await page.getByRole("dialog").waitFor();
+    await page.keyboard.press("Escape");
+    await page.getByRole("dialog").waitFor({ state: "hidden" });
+    await page.keyboard.press("/");
+    await page.keyboard.type("hidden beam");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => document.querySelector("svt-app").session.state.selection[0] === "house_hidden_beam");
+    await page.keyboard.press(" ");
+    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    await page.keyboard.press(" ");
+    await page.keyboard.press("x");
+    await page.locator("#card").waitFor();
+    await page.locator("#add-plane").focus();
+    await page.keyboard.press("Enter");
+    assert.equal((await state()).sections.length, 1);
+    await page.keyboard.press("Escape");
+    await page.evaluate(() => (document.activeElement?.blur?.(), window.focus()));
+    let isPicture = false;
+    for (let n = 0; n < 60 && !isPicture; ++n) {
+      await page.keyboard.press("Tab");
+      isPicture = await page.evaluate(() => {
+        let active = document.activeElement;
+        while (active?.shadowRoot?.activeElement) active = active.shadowRoot.activeElement;
+        return active?.classList.contains("stage") ?? false;
+      });
+    }
+    assert.ok(isPicture, "Tab reaches the picture");
+    const before = (await state()).camera.eye;
+    await page.keyboard.press("ArrowLeft");
+    assert.notDeepEqual((await state()).camera.eye, before);
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => document.querySelector("svt-app").session.state.selection[0] !== "house_hidden_beam");
+  });
+
+  for (const [colorScheme, width, height] of [["light", 1440, 900], ["dark", 1440, 900], ["light", 360, 740], ["dark", 360, 740]])
+    it(`has no serious findings in ${colorScheme} at ${width} px`, async () => {
+      await open("?model=house", { colorScheme, viewport: { width, height }, locale: "de-DE" });
+      await inPage("s.select(['house_hidden_beam'])");
+      await page.waitForTimeout(300);
+      const found = await findings();
+      const tools = width < 700 ? ["section", "share"] : ["section", "lens", "focus", "look", "measure", "views", "share"];
+      for (const name of tools) {
+        await tool(name);
+        await page.waitForTimeout(100);
+        found.push(...(await findings()).map((finding) => `${name}: ${finding}`));
+        await page.click(`#tool-${name}`);
+      }
+      if (width < 700) {
+        await page.getByRole("button", { name: "Zeigen oder verbergen: Teile" }).click();
+        found.push(...(await findings()).map((finding) => `parts: ${finding}`));
+      }
+      assert.deepEqual(found, []);
+    });
+
+  it("speaks German, and is dark, when asked", async () => {
+    await open();
+    await page.click("#language");
+    await page.getByRole("tab", { name: "Aufbau" }).waitFor();
+    assert.equal(await page.evaluate(() => document.documentElement.lang), "de");
+    await page.click("#theme");
+    assert.equal((await state()).look, "dark");
+  });
+
+  it("keeps its policy: nothing inline, nothing from elsewhere, no errors", async () => {
+    await open();
+    await tool("section");
+    await page.click("#add-plane");
+    await inPage("s.select(['house_hidden_beam'])");
+    await page.keyboard.press("?");
+    await settled();
+    assert.deepEqual(problems, []);
+  });
+});

@@ -1,0 +1,434 @@
+/** The page: bar, panels, picture, tools; and the keys that work everywhere. */
+
+import { css, html, nothing, type PropertyValues } from "lit";
+import "./canvas/picture";
+import type { PictureView } from "./canvas/picture";
+import "./panels/help_dialog";
+import type { HelpDialog } from "./panels/help_dialog";
+import "./panels/legend";
+import "./panels/properties_panel";
+import "./panels/start_panel";
+import "./panels/tree_panel";
+import type { TreePanel } from "./panels/tree_panel";
+import type { Tool } from "./session";
+import "./tools/focus_tool";
+import "./tools/lens_tool";
+import "./tools/look_tool";
+import "./tools/measure_tool";
+import "./tools/section_tool";
+import "./tools/share_tool";
+import { leaveCustom } from "./tools/share_tool";
+import "./tools/views_tool";
+import { kViews, setWalking } from "./tools/views_tool";
+import { number, t } from "./texts";
+import { ofSubtree } from "./state/queries";
+import { subtree } from "./state/visibility";
+import { icon, type IconName } from "./ui/icons";
+import { controls, Part } from "./ui/part";
+import { theme, toggleTheme } from "./ui/theme";
+
+const kTools: { tool: Tool; icon: IconName; key: string }[] = [
+  { tool: "section", icon: "section", key: "x" },
+  { tool: "lens", icon: "lens", key: "c" },
+  { tool: "focus", icon: "focus", key: "v" },
+  { tool: "look", icon: "look", key: "k" },
+  { tool: "measure", icon: "measure", key: "m" },
+  { tool: "views", icon: "view", key: "n" },
+  { tool: "share", icon: "share", key: "b" },
+];
+
+/** Below this width, panels are sheets over the picture. */
+const kNarrow = "(max-width: 759px)";
+const kSmall = "(max-width: 1179px)";
+
+export class App extends Part {
+  static override properties = {
+    ...Part.properties, canvas: { attribute: false },
+    isNarrow: { state: true }, isSmall: { state: true }, isTreeShown: { state: true }, isSelectionShown: { state: true },
+    isDropping: { state: true }, spoken: { state: true },
+  };
+  declare canvas: HTMLCanvasElement;
+  declare isNarrow: boolean;
+  declare isSmall: boolean;
+  declare isTreeShown: boolean;
+  declare isSelectionShown: boolean;
+  declare isDropping: boolean;
+  declare spoken: string;
+  /** What the page does with a file, and with a model of the list. */
+  onFile: (file: File) => void = () => {};
+  onModel: (name: string) => void = () => {};
+  private seenSelection: unknown = null;
+
+  static override styles = [controls, css`
+    :host { display: grid; grid-template-rows: auto 1fr; height: 100dvh; overflow: hidden; }
+    header { display: flex; align-items: center; gap: 6px; padding: 6px 10px; border-bottom: 1px solid var(--line); background: var(--panel); min-width: 0; position: relative; z-index: 6; }
+    .brand { display: flex; align-items: center; gap: 8px; font-weight: 650; letter-spacing: 0.01em; margin-right: 6px; color: var(--text); }
+    .brand svg { color: var(--accent); }
+    .title { flex: 1; min-width: 0; display: flex; align-items: center; gap: 8px; }
+    .title h1 { margin: 0; font-size: 14px; font-weight: 600; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+    .title .quiet { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; min-width: 0; }
+    .title select { max-width: 260px; font-weight: 600; }
+    header button.bare { min-width: 36px; min-height: 36px; }
+    main { position: relative; min-height: 0; min-width: 0; overflow: hidden; }
+    wa-split-panel { height: 100%; --divider-width: 1px; --divider-hit-area: 12px; --min: 200px; --max: 50%; --wa-color-surface-border: var(--line); }
+    wa-split-panel::part(divider) { background: var(--line); }
+    wa-split-panel::part(divider):focus-visible { outline: 2px solid var(--focus); background: var(--focus); }
+    .side { height: 100%; min-width: 0; overflow: hidden; background: var(--panel); }
+    .side nav { height: 100%; min-height: 0; }
+    .side.shared { display: grid; grid-template: minmax(0, 1fr) minmax(0, 1fr) / minmax(0, 1fr); }
+    .side.shared aside { min-height: 0; border-top: 1px solid var(--line); }
+    .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
+    .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
+    .floating svt-properties { height: auto; }
+    .sheet { position: absolute; left: 0; right: 0; bottom: 0; height: 62%; background: var(--panel); border-top: 1px solid var(--line); border-radius: 14px 14px 0 0; box-shadow: var(--shadow); z-index: 5; overflow: hidden; display: grid; grid-template-rows: auto 1fr; }
+    .sheet > .bar { display: flex; justify-content: space-between; align-items: center; padding: 4px 6px 4px 14px; border-bottom: 1px solid var(--line); }
+    .sheet > :last-child { min-height: 0; }
+    .dock { position: absolute; left: 50%; bottom: 12px; transform: translateX(-50%); display: flex; gap: 2px; padding: 4px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; max-width: calc(100% - 12px); }
+    .dock button { flex-direction: column; gap: 2px; font-size: 11px; padding: 5px 8px; min-width: 56px; border-color: transparent; background: transparent; border-radius: 10px; position: relative; }
+    .dock button:hover { background: var(--hover); }
+    .dock button[aria-expanded="true"] { background: var(--accent-soft); color: var(--accent-text); }
+    .dock button.used::after { content: ""; position: absolute; top: 4px; right: 8px; width: 7px; height: 7px; border-radius: 50%; background: var(--accent); }
+    .card { position: absolute; left: 10px; top: 10px; width: min(330px, calc(100% - 20px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
+    .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
+    .corner { position: absolute; right: 10px; top: 10px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
+    .status { position: absolute; right: 10px; bottom: 10px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
+    .message { position: absolute; left: 50%; top: 12px; transform: translateX(-50%); max-width: min(560px, calc(100% - 24px)); padding: 10px 8px 10px 14px; border-radius: 12px; border: 1px solid var(--line); background: var(--panel); box-shadow: var(--shadow); z-index: 8; display: flex; gap: 10px; align-items: start; font-size: 13px; line-height: 1.45; }
+    .message.bad { border-color: var(--error); }
+    .message div { overflow-wrap: anywhere; max-height: 40vh; overflow: auto; }
+    .progress { position: absolute; inset: 0; display: grid; place-items: center; z-index: 7; pointer-events: none; }
+    .progress > div { width: min(320px, calc(100% - 40px)); padding: 16px 18px; border-radius: 14px; background: var(--panel); border: 1px solid var(--line); box-shadow: var(--shadow); font-size: 13px; display: grid; gap: 8px; }
+    progress { width: 100%; height: 6px; accent-color: var(--accent); }
+    .dropping { position: absolute; inset: 10px; border: 3px dashed var(--accent); border-radius: 18px; display: grid; place-items: center; background: color-mix(in srgb, var(--panel) 75%, transparent); font-size: 20px; font-weight: 600; z-index: 9; pointer-events: none; }
+    .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }
+    .skip:focus { top: 6px; }
+    .note { padding: 6px 10px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; display: grid; gap: 6px; max-width: 300px; }
+    @media (max-width: 759px) {
+      .brand, .title .quiet, .status { display: none; }
+      main { display: grid; grid-template-rows: minmax(0, 1fr) auto; }
+      main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
+      .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
+      .dock { order: 2; justify-content: space-between; }
+      .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
+      .card { order: 1; max-height: 42dvh; }
+      .sheet { height: 50dvh; }
+      header { padding: 4px 6px; gap: 0; }
+    }
+  `];
+
+  constructor() {
+    super();
+    this.isNarrow = matchMedia(kNarrow).matches;
+    this.isSmall = matchMedia(kSmall).matches;
+    this.isTreeShown = !this.isNarrow;
+    this.isSelectionShown = true;
+    this.isDropping = false;
+    this.spoken = "";
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    for (const query of [kNarrow, kSmall]) matchMedia(query).addEventListener("change", () => this.fitWidth());
+    addEventListener("keydown", (event) => this.keyDown(event));
+    addEventListener("dragover", (event) => this.draggedOver(event));
+    addEventListener("dragleave", (event) => !event.relatedTarget && (this.isDropping = false));
+    addEventListener("drop", (event) => this.dropped(event));
+    this.addEventListener("svt-choose", () => this.choose());
+    this.session.addEventListener("said", (event) => (this.spoken = (event as CustomEvent<string>).detail));
+  }
+
+  private fitWidth(): void {
+    const wasNarrow = this.isNarrow;
+    this.isNarrow = matchMedia(kNarrow).matches;
+    this.isSmall = matchMedia(kSmall).matches;
+    if (wasNarrow !== this.isNarrow) this.isTreeShown = !this.isNarrow;
+  }
+
+  protected override uses() {
+    const { session: s } = this;
+    const { state } = s;
+    return [
+      s.status, s.progress, s.message, s.models, s.modelName, s.info, s.tool, s.along, state.selection, s.report, s.isServerOnly, s.isLegendShown, state.custom,
+      state.sections.length, state.effect, state.shell, state.wireframe, state.look, s.measured.length, s.isWalking, s.engine,
+    ];
+  }
+
+  override willUpdate(_: PropertyValues): void {
+    const { session } = this;
+    const what = session.along ?? session.state.selection;
+    if (this.seenSelection === what) return;
+    this.seenSelection = what;
+    const isEmpty = !session.along && !session.state.selection.length;
+    if (!isEmpty && !this.isNarrow) this.isSelectionShown = true;
+    if (!isEmpty && this.isNarrow && session.along) this.isSelectionShown = true;
+    if (this.isNarrow && !session.along) this.isSelectionShown = false;
+  }
+
+  private get hasSelection(): boolean {
+    return this.session.along !== null || this.session.state.selection.length > 0;
+  }
+
+  override render() {
+    const { session } = this;
+    const hasModel = session.info !== null;
+    const isEmpty = session.status === "empty" && !hasModel;
+    return html`
+      <button class="skip" @click=${() => this.picture?.focus()}>${t("skipToPicture")}</button>
+      ${this.bar()}
+      <main>
+        ${isEmpty ? html`<svt-start .session=${session}></svt-start>` : hasModel && !this.isNarrow ? this.wide() : this.middle()}
+        ${this.isNarrow && hasModel ? this.sheets() : nothing}
+        ${session.progress ? this.progress() : nothing}
+        ${session.message ? this.message() : nothing}
+        ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
+      </main>
+      <div class="visually-hidden" role="status" aria-live="polite" id="said">${this.spoken}</div>
+      <input type="file" id="file" hidden accept=".svt,.gml,.xml,.json,.citygml,.cityjson" aria-label=${t("openHint")} @change=${this.chosen} />
+      <svt-help .session=${session}></svt-help>
+    `;
+  }
+
+  private bar() {
+    const { session } = this;
+    const { info, models } = session;
+    const hasModel = info !== null;
+    return html`<header>
+      <div class="brand">${icon("section", 24)}<span>SVT</span></div>
+      <div class="title">
+        ${models.length > 1
+          ? html`<select aria-label=${t("models")} @change=${(e: Event) => this.onModel((e.target as HTMLSelectElement).value)}>
+              ${models.map((m) => html`<option value=${m.name} ?selected=${m.name === session.modelName}>${m.title || m.name}</option>`)}
+              ${hasModel && !session.modelName ? html`<option selected value="">${info.name || session.modelFile}</option>` : nothing}</select>`
+          : html`<h1>${hasModel ? info.name || info.source || session.modelFile : t("appName")}</h1>`}
+        <span class="quiet small">${hasModel ? t("parts", { n: session.index.firstScalars.length }) : t("tagline")}</span>
+      </div>
+      ${hasModel
+        ? html`${this.toggle("tree", t("panelTree"), this.isTreeShown, () => this.showSheet("tree"))}
+            ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (this.hasSelection || !this.isSmall), () => this.showSheet("selection"))}`
+        : nothing}
+      <button class="bare" id="open" aria-label=${t("openHint")} title=${t("openHint")} @click=${() => this.choose()}>${icon("open")}</button>
+      <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
+      <button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>
+      <button class="bare" id="help" aria-label=${t("help")} title="${t("help")} (?)" @click=${() => this.help()}>${icon("help")}</button>
+    </header>`;
+  }
+
+  private toggle(name: IconName, panel: string, isOn: boolean, act: () => void) {
+    return html`<button class="bare" aria-pressed=${isOn} aria-label=${t("showPanel", { panel })} title=${panel} @click=${act}>${icon(name)}</button>`;
+  }
+
+  private showSheet(which: "tree" | "selection"): void {
+    const isTree = which === "tree";
+    const isOn = isTree ? !this.isTreeShown : !this.isSelectionShown;
+    if (this.isNarrow && isOn) {
+      this.isTreeShown = this.isSelectionShown = false;
+      this.session.tool = null;
+    }
+    if (isTree) this.isTreeShown = isOn;
+    else this.isSelectionShown = isOn;
+  }
+
+  private wide() {
+    const properties = html`<svt-properties .session=${this.session}></svt-properties>`;
+    const hasColumn = !this.isSmall && this.isSelectionShown;
+    // Where there is no room for a third column, the selection stands below the parts.
+    const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && this.hasSelection;
+    const middle = hasColumn
+      ? html`<wa-split-panel position-in-pixels="300" primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
+      : html`<div class="middle">${this.middle()}${this.isSelectionShown && this.hasSelection && !isBelow ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
+    if (!this.isTreeShown) return middle;
+    const tree = html`<svt-tree .session=${this.session}></svt-tree>`;
+    return html`<wa-split-panel position-in-pixels=${this.isSmall ? 260 : 310} primary="start">
+      <div slot="start" class="side ${isBelow ? "shared" : ""}"><nav aria-label=${t("panelTree")}>${tree}</nav>
+        ${isBelow ? html`<aside aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>
+      <div slot="end" class="middle">${middle}</div></wa-split-panel>`;
+  }
+
+  private sheets() {
+    const { session } = this;
+    const sheet = (title: string, close: () => void, content: unknown) => html`<section class="sheet" aria-label=${title}>
+      <div class="bar"><h2>${title}</h2><button class="bare" aria-label=${t("close")} @click=${close}>${icon("close", 18)}</button></div><div>${content}</div></section>`;
+    if (this.isTreeShown) return sheet(t("panelTree"), () => (this.isTreeShown = false), html`<svt-tree .session=${session}></svt-tree>`);
+    if (this.isSelectionShown) return sheet(t("panelProperties"), () => (this.isSelectionShown = false), html`<svt-properties .session=${session}></svt-properties>`);
+    return nothing;
+  }
+
+  private middle() {
+    const { session } = this;
+    return html`<div class="middle">
+      <svt-picture .session=${session} .canvas=${this.canvas}></svt-picture>
+      ${session.info ? html`
+        <div class="corner">
+          ${session.state.custom ? html`<div class="note">${t("customScene")}<button @click=${() => session.set(leaveCustom(session.state))}>${t("leaveCustom")}</button></div>` : nothing}
+          ${session.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
+          ${session.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
+        </div>
+        ${this.status()}
+        ${session.tool ? this.card(session.tool) : nothing}
+        ${this.dock()}` : nothing}
+    </div>`;
+  }
+
+  private status() {
+    const { report } = this.session;
+    if (!report) return nothing;
+    const { width, height, milliseconds, engine } = report;
+    return html`<div class="status">${t(engine === "cpu" ? "cpuKind" : "glKind")}<br />${t("frame", { width, height, ms: number(milliseconds, 0) })}</div>`;
+  }
+
+  private dock() {
+    const { session } = this;
+    const { state } = session;
+    const used: Record<Tool, boolean> = {
+      section: state.sections.length > 0,
+      lens: state.effect === "lens",
+      focus: state.effect === "highlight" || state.effect === "cutaway" || state.shell !== null,
+      look: state.wireframe !== null,
+      measure: session.measured.length > 0,
+      views: session.isWalking,
+      share: false,
+    };
+    return html`<div class="dock" role="toolbar" aria-label=${t("tools")}>${kTools.map(
+      ({ tool, icon: name, key }) => html`<button id="tool-${tool}" class=${used[tool] ? "used" : ""} aria-expanded=${session.tool === tool} aria-keyshortcuts=${key}
+        title="${session.toolText(tool)} (${key.toUpperCase()})" @click=${() => this.useTool(tool)}>${icon(name, 22)}<span>${session.toolText(tool)}</span></button>`,
+    )}</div>`;
+  }
+
+  private card(tool: Tool) {
+    const { session } = this;
+    const content = {
+      section: html`<svt-section-tool .session=${session}></svt-section-tool>`,
+      lens: html`<svt-lens-tool .session=${session}></svt-lens-tool>`,
+      focus: html`<svt-focus-tool .session=${session}></svt-focus-tool>`,
+      look: html`<svt-look-tool .session=${session}></svt-look-tool>`,
+      measure: html`<svt-measure-tool .session=${session}></svt-measure-tool>`,
+      views: html`<svt-views-tool .session=${session}></svt-views-tool>`,
+      share: html`<svt-share-tool .session=${session}></svt-share-tool>`,
+    }[tool];
+    return html`<section class="card" id="card" aria-label=${session.toolText(tool)}>
+      <div class="bar"><h2>${session.toolText(tool)}</h2><button class="bare" aria-label=${t("close")} @click=${() => this.useTool(tool)}>${icon("close", 18)}</button></div>${content}</section>`;
+  }
+
+  private useTool(tool: Tool): void {
+    const { session } = this;
+    session.tool = session.tool === tool ? null : tool;
+    if (session.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
+    if (session.tool === "lens" && session.state.effect !== "lens") session.set({ effect: "lens", lens: { ...session.state.lens, pinned: false } });
+    if (session.tool === "section" && !session.state.sections.length && !session.info?.storeys.length) {
+      void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#card button, #card input")?.focus());
+    }
+    session.changed();
+  }
+
+  private progress() {
+    const { text, share } = this.session.progress!;
+    return html`<div class="progress"><div role="status">${text}<progress aria-label=${text} max="1" .value=${share >= 0 ? share : 0}></progress></div></div>`;
+  }
+
+  private message() {
+    const { title, text, isError } = this.session.message!;
+    return html`<div class="message ${isError ? "bad" : ""}" id="message" role=${isError ? "alert" : "status"}>
+      <div>${title ? html`<strong>${title}</strong><br />` : nothing}${text}</div>
+      <button class="bare" aria-label=${t("dismiss")} @click=${() => this.dismiss()}>${icon("close", 18)}</button></div>`;
+  }
+
+  private dismiss(): void {
+    this.session.message = null;
+    this.session.changed();
+  }
+
+  private get picture(): PictureView | null {
+    return this.renderRoot.querySelector("svt-picture");
+  }
+
+  private help(): void {
+    this.renderRoot.querySelector<HelpDialog>("svt-help")?.show();
+  }
+
+  private switchTheme(): void {
+    const { session } = this;
+    const now = toggleTheme();
+    const { look } = session.state;
+    // Light and dark looks go with the page's; paper and blueprint are meant.
+    if (look === "plain" || look === "dark") session.set({ look: now === "dark" ? "dark" : "plain" });
+    this.requestUpdate();
+  }
+
+  private choose(): void {
+    this.renderRoot.querySelector<HTMLInputElement>("#file")!.click();
+  }
+
+  private readonly chosen = (event: Event): void => {
+    const input = event.target as HTMLInputElement;
+    const file = input.files?.[0];
+    input.value = "";
+    if (file) this.onFile(file);
+  };
+
+  private draggedOver(event: DragEvent): void {
+    if (!event.dataTransfer?.types.includes("Files")) return;
+    event.preventDefault();
+    this.isDropping = true;
+  }
+
+  private dropped(event: DragEvent): void {
+    event.preventDefault();
+    this.isDropping = false;
+    const file = event.dataTransfer?.files[0];
+    if (file) this.onFile(file);
+  }
+
+  private keyDown(event: KeyboardEvent): void {
+    const target = event.composedPath()[0] as HTMLElement;
+    const isTyping = target.matches?.("input:not([type=checkbox]), textarea, select") || target.isContentEditable;
+    if (event.key === "Escape") return this.leave(isTyping ? target : null);
+    if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (event.key === "?") this.help();
+    else if (!this.session.info || !this.shortcut(event)) return;
+    event.preventDefault();
+  }
+
+  private shortcut(event: KeyboardEvent): boolean {
+    const { session } = this;
+    const key = event.key.toLowerCase();
+    const tool = kTools.find((entry) => entry.key === key)?.tool;
+    const view = kViews[Number(key) - 1];
+    if (tool) this.useTool(tool);
+    else if (view) void session.goTo("", view);
+    else if (key === "0") void session.goTo("", null);
+    else if (key === "f") void session.goTo(session.state.selection.map(ofSubtree).join(" or "), null);
+    else if (key === "g") setWalking(session, !session.isWalking);
+    else if (key === "h") this.hideSelection(event.shiftKey);
+    else if (key === "/") this.search();
+    else return false;
+    return true;
+  }
+
+  private hideSelection(showAll: boolean): void {
+    const { session } = this;
+    if (showAll) return session.set({ hide: [], show: [] });
+    const { index, hidden } = session;
+    const members = session.state.selection.flatMap((id) => {
+      const i = index.byId.get(id);
+      return i === undefined ? [] : [...subtree(index, i)];
+    });
+    if (members.length) session.hide(members, members.some((i) => !hidden[i]));
+  }
+
+  private search(): void {
+    if (!this.isTreeShown) this.showSheet("tree");
+    void this.updateComplete.then(() => this.renderRoot.querySelector<TreePanel>("svt-tree")?.focusSearch());
+  }
+
+  private leave(typing: HTMLElement | null): void {
+    const { session } = this;
+    if (typing) typing.blur();
+    else if (session.message) this.dismiss();
+    else if (session.tool) this.useTool(session.tool);
+    else if (session.isWalking) setWalking(session, false);
+    else if (this.hasSelection) {
+      session.along = null;
+      session.select([]);
+    }
+  }
+}
+customElements.define("svt-app", App);

@@ -1,0 +1,95 @@
+/** What is drawn over the picture: section planes with their handles, the box of the selection, measured points. */
+
+import { svg, nothing, type SVGTemplateResult } from "lit";
+import { project } from "../camera/camera";
+import { distance } from "../camera/vec";
+import type { Point } from "../engine";
+import type { Session } from "../session";
+import { boxEdges, keptInside, middleOf, normalOf, planeOutline } from "../tools/plane_outline";
+import { polygonArea } from "../tools/measure";
+import { number } from "../texts";
+
+export interface View {
+  session: Session;
+  width: number;
+  height: number;
+}
+
+type Seen = { x: number; y: number };
+
+export function place({ session, width, height }: View, p: Point): Seen | null {
+  const camera = session.shownCamera;
+  const seen = camera && project(camera, width / height, p, session.box.axes);
+  return seen && { x: seen.x * width, y: seen.y * height };
+}
+
+function pathOf(view: View, points: Point[], isClosed: boolean): string | null {
+  const seen = points.map((p) => place(view, p));
+  if (seen.some((p) => p === null)) return null;
+  const text = (seen as Seen[]).map((p) => `${p.x.toFixed(1)},${p.y.toFixed(1)}`).join("L");
+  return `M${text}${isClosed ? "Z" : ""}`;
+}
+
+export function planes(view: View): SVGTemplateResult[] {
+  const { state, box } = view.session;
+  return state.sections.map((section) => {
+    const path = pathOf(view, planeOutline(keptInside(section, box), box), true);
+    return path ? svg`<path class="plane" d=${path}></path>` : svg``;
+  });
+}
+
+/** Where the handle of a plane is: the middle of its outline. */
+export function handleOf(session: Session, n: number): { at: Point; normal: Point } | null {
+  const section = session.state.sections[n];
+  if (!section) return null;
+  const outline = planeOutline(keptInside(section, session.box), session.box);
+  if (!outline.length) return null;
+  return { at: middleOf(outline), normal: normalOf(section, session.box) };
+}
+
+export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
+  const box = view.session.properties?.box;
+  if (!box) return nothing;
+  const lines = boxEdges(box).map(([a, b]) => pathOf(view, [a, b], false));
+  if (lines.some((line) => line === null)) return nothing;
+  const d = lines.join("");
+  return svg`<path class="box-under" d=${d}></path><path class="box" d=${d}></path>`;
+}
+
+export function measure(view: View): SVGTemplateResult | typeof nothing {
+  const points = view.session.measured;
+  if (!points.length) return nothing;
+  const path = pathOf(view, points, points.length > 2);
+  const dots = points.map((p) => place(view, p)).filter((p) => p !== null);
+  const labels = points.slice(1).map((p, i) => label(view, [points[i]!, p], `${number(distance(points[i]!, p), 3)} m`));
+  const area = points.length > 2 ? label(view, points, `${number(polygonArea(points), 2)} m²`) : nothing;
+  return svg`${path ? svg`<path class="measure" d=${path}></path>` : nothing}
+    ${dots.map((p) => svg`<circle class="dot" cx=${p.x} cy=${p.y} r="4"></circle>`)}${labels}${area}`;
+}
+
+function label(view: View, of: Point[], text: string): SVGTemplateResult {
+  const at = place(view, middleOf(of));
+  return at ? svg`<text x=${at.x} y=${at.y - 7} text-anchor="middle">${text}</text>` : svg``;
+}
+
+/** Arms of the grid's axes in the corner. */
+export function compass(view: View): SVGTemplateResult | typeof nothing {
+  const camera = view.session.shownCamera;
+  if (!camera) return nothing;
+  const { axes } = view.session.box;
+  const at: Point = camera.target;
+  const from = project(camera, 1, at, axes);
+  const reach = camera.parallel ? camera.height * 0.1 : distance(camera.eye, camera.target) * 0.05;
+  if (!from) return nothing;
+  const arms = (["x", "y", "z"] as const).map((name, i) => {
+    const to = project(camera, 1, at.map((v, k) => v + axes[i]![k]! * reach) as Point, axes);
+    return { name, dx: (to?.x ?? 0) - from.x, dy: (to?.y ?? 0) - from.y };
+  });
+  const longest = Math.max(1e-9, ...arms.map((arm) => Math.hypot(arm.dx, arm.dy)));
+  return svg`<g class="compass" transform="translate(34 ${view.height - 34})">${arms.map(({ name, dx, dy }) => {
+    const [x, y] = [(dx / longest) * 20, (dy / longest) * 20];
+    return Math.hypot(x, y) < 4
+      ? nothing
+      : svg`<line x1="0" y1="0" x2=${x} y2=${y}></line><text x=${x * 1.4} y=${y * 1.4 + 3.5} text-anchor="middle">${name}</text>`;
+  })}</g>`;
+}

@@ -1,0 +1,102 @@
+/**
+ * Draws what the session describes, again whenever it changes: coarse while it moves, then all pixels, then four rays a
+ * pixel. One frame is asked for at a time, always the newest.
+ */
+
+import type { Engine, EngineError, FrameReport } from "../engine";
+import type { Described } from "../state/scene_of";
+import { pixelsAt, Resolution } from "./resolution";
+
+/** Coarse while moving, then full, then fine. */
+export type Quality = "moving" | "full" | "fine";
+
+export interface PictureHost {
+  engine: Engine;
+  /** Of the canvas, device pixels. */
+  size(): [number, number];
+  describe(size: [number, number], samples: 1 | 4): Described | null;
+  /** Called when a frame stands in the canvas; `token` is what take() gave when it was described. */
+  shown(report: FrameReport, quality: Quality, token: unknown): void;
+  take(): unknown;
+  failed(error: EngineError): void;
+}
+
+const kStillAfter = 140;
+const kFineAfter = 350;
+
+export class PictureLoop {
+  private readonly resolution = new Resolution();
+  private quality: Quality | null = null;
+  private isRunning = false;
+  private changedAt = 0;
+  private timer = 0;
+
+  constructor(private readonly host: PictureHost) {}
+
+  /** Something changed. */
+  invalidate(): void {
+    this.changedAt = performance.now();
+    this.quality = null;
+    this.wake();
+  }
+
+  private wake(): void {
+    clearTimeout(this.timer);
+    if (!this.isRunning) void this.run();
+  }
+
+  private async run(): Promise<void> {
+    this.isRunning = true;
+    try {
+      for (;;) {
+        const next = this.next();
+        if (next === null) return;
+        if (typeof next === "number") {
+          this.timer = window.setTimeout(() => this.wake(), next);
+          return;
+        }
+        await this.draw(next);
+      }
+    } finally {
+      this.isRunning = false;
+    }
+  }
+
+  /** What to draw now, or after how many milliseconds to ask again; null: nothing more. */
+  private next(): Quality | number | null {
+    const still = performance.now() - this.changedAt;
+    if (this.quality === null) return "moving";
+    if (this.quality === "moving") {
+      if (still < kStillAfter) return kStillAfter - still;
+      return this.resolution.share === 1 ? this.afterFull(still) : "full";
+    }
+    return this.quality === "full" ? this.afterFull(still) : null;
+  }
+
+  private afterFull(still: number): Quality | number {
+    return still < kFineAfter ? kFineAfter - still : "fine";
+  }
+
+  private async draw(quality: Quality): Promise<void> {
+    const size = pixelsAt(this.host.size(), quality === "moving" ? this.resolution.share : 1);
+    const described = this.host.describe(size, quality === "fine" ? 4 : 1);
+    const before = this.quality;
+    this.quality = quality;
+    if (!described) return;
+    const token = this.host.take();
+    const start = performance.now();
+    try {
+      const { engine } = this.host;
+      const hasEffect = Object.keys(described.effects).length > 0;
+      const scene = hasEffect ? await engine.compose(described.scene, described.effects) : described.scene;
+      const report = await engine.draw(scene, size[0], size[1]);
+      if (!report) return;
+      if (quality === "moving" && before !== "moving") this.resolution.learn(performance.now() - start);
+      this.host.shown(report, quality, token);
+    } catch (error) {
+      // As it is now it cannot be drawn; the next change tries again.
+      if (this.quality === quality) this.quality = "fine";
+      this.host.failed(error as EngineError);
+    }
+  }
+}

@@ -1,0 +1,157 @@
+/** The engine on the page's side: passes requests to the worker and puts its pictures on the canvas. */
+import type {
+  DrawingFormat, Effects, Engine, EngineError, EngineKind, FeatureProperties, FrameReport, Pick, Scene, SceneCamera,
+  Stretch, VolumeInfo,
+} from "../engine";
+import type { Answer, Calls, Request } from "./protocol";
+
+type Name = keyof Calls;
+
+/** A request that waits for its answer. */
+interface Waiting {
+  resolve: (result: never) => void;
+  reject: (error: EngineError) => void;
+  onProgress?: (step: string, done: number) => void;
+}
+
+/** A picture that is asked for while another is drawn. */
+interface WaitingDraw {
+  args: Calls["draw"]["args"];
+  resolve: (report: FrameReport | null) => void;
+  reject: (error: EngineError) => void;
+}
+
+class WorkerEngine implements Engine {
+  kind: EngineKind = "cpu";
+  private worker: Worker;
+  private readonly waiting = new Map<number, Waiting>();
+  private lastId = 0;
+  /** Whether the worker that runs now has ever answered: one that never did would fail again. */
+  private isAlive = false;
+  private isDrawing = false;
+  private nextDraw: WaitingDraw | null = null;
+  private readonly screen: ImageBitmapRenderingContext;
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly wanted: EngineKind | null,
+  ) {
+    const screen = canvas.getContext("bitmaprenderer");
+    if (!screen) throw { code: "E904", message: "the canvas has another context already" } satisfies EngineError;
+    this.screen = screen;
+    this.worker = this.startWorker();
+  }
+
+  /** Resolves when the library is there. */
+  async start(): Promise<void> {
+    this.kind = await this.ask("start", [this.wanted]);
+  }
+
+  open(bytes: ArrayBuffer, fileName: string, onProgress: (step: string, done: number) => void): Promise<VolumeInfo> {
+    return this.ask("open", [bytes, fileName], [bytes], onProgress);
+  }
+
+  draw(scene: Scene, width: number, height: number): Promise<FrameReport | null> {
+    return new Promise((resolve, reject) => {
+      this.nextDraw?.resolve(null);
+      this.nextDraw = { args: [scene, width, height], resolve, reject };
+      this.drawNext();
+    });
+  }
+
+  compose(scene: Scene, effects: Effects): Promise<Scene> {
+    return this.ask("compose", [scene, effects]);
+  }
+  pick(x: number, y: number): Promise<Pick | null> {
+    return this.ask("pick", [x, y]);
+  }
+  along(x: number, y: number): Promise<Stretch[]> {
+    return this.ask("along", [x, y]);
+  }
+  select(query: string): Promise<string[]> {
+    return this.ask("select", [query]);
+  }
+  properties(id: string): Promise<FeatureProperties> {
+    return this.ask("properties", [id]);
+  }
+  view(query: string, preset: string | null, camera: SceneCamera): Promise<SceneCamera> {
+    return this.ask("view", [query, preset, camera]);
+  }
+  picture(scene: Scene): Promise<ArrayBuffer> {
+    return this.ask("picture", [scene]);
+  }
+  drawing(plane: string, format: DrawingFormat): Promise<ArrayBuffer> {
+    return this.ask("drawing", [plane, format]);
+  }
+
+  private drawNext(): void {
+    const next = this.nextDraw;
+    if (this.isDrawing || !next) return;
+    this.nextDraw = null;
+    this.isDrawing = true;
+    this.ask("draw", next.args)
+      .then(({ bitmap, report }) => {
+        this.kind = report.engine;
+        this.screen.transferFromImageBitmap(bitmap);
+        next.resolve(report);
+      }, next.reject)
+      .finally(() => {
+        this.isDrawing = false;
+        this.drawNext();
+      });
+  }
+
+  private ask<N extends Name>(
+    name: N, args: Calls[N]["args"], transfer: Transferable[] = [], onProgress?: Waiting["onProgress"],
+  ): Promise<Calls[N]["result"]> {
+    return new Promise((resolve, reject) => {
+      const id = ++this.lastId;
+      this.waiting.set(id, { resolve, reject, ...(onProgress ? { onProgress } : {}) });
+      this.worker.postMessage({ id, name, args } as Request, transfer);
+    });
+  }
+
+  private startWorker(): Worker {
+    this.isAlive = false;
+    const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+    worker.onmessage = (event: MessageEvent<Answer>) => this.take(event.data);
+    worker.onerror = (event) => {
+      event.preventDefault();
+      this.restart({ code: "E999", message: `the library cannot run here (${event.message})` });
+    };
+    return worker;
+  }
+
+  private take(answer: Answer): void {
+    this.isAlive = this.isAlive || !("error" in answer);
+    const request = this.waiting.get(answer.id);
+    if (!request) return;
+    if ("step" in answer) return request.onProgress?.(answer.step, answer.done);
+    this.waiting.delete(answer.id);
+    if ("result" in answer) return request.resolve(answer.result as never);
+    request.reject(answer.error);
+    if (answer.isDead) this.restart(answer.error);
+  }
+
+  /** A worker that has failed is given up with all that it was asked; a new one knows no volume. */
+  private restart(error: EngineError): void {
+    this.worker.terminate();
+    const lost = [...this.waiting.values()];
+    this.waiting.clear();
+    if (this.isAlive) {
+      this.worker = this.startWorker();
+      this.start().catch(() => undefined);
+    }
+    for (const request of lost) request.reject(error);
+  }
+}
+
+/**
+ * The library in a worker of its own, drawing into `canvas`. Rejects with an EngineError where it cannot run.
+ * @param wanted  the kind of drawing, for tests and measurements; else the faster one is found out, see drawer.ts
+ */
+export async function createEngine(canvas: HTMLCanvasElement, wanted: EngineKind | null = null): Promise<Engine> {
+  const engine = new WorkerEngine(canvas, wanted);
+  await engine.start();
+  return engine;
+}

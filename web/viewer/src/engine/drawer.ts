@@ -1,0 +1,137 @@
+/**
+ * Pictures of the volume that is open, by the CPU caster or by WebGL2. Both draw the same; the faster one is found by
+ * a trial, once, when the page has been still for a moment after its first picture: the last scene, small, is drawn twice
+ * by WebGL2, since the first time makes the shaders, and once by the CPU; the later times are compared. Where WebGL2 runs
+ * in software, which is slower (see web/wasm/README.md) and makes shaders for seconds, there is no trial.
+ */
+import type { SvtModule } from "../../../../build/web/svt.js";
+import type { EngineKind, Scene } from "../engine";
+import { isEngineError } from "./errors";
+import type { Drawn } from "./protocol";
+
+/** What a driver without a graphics card calls itself. */
+const softwareNames = /swiftshader|llvmpipe|softpipe|software|basic render/i;
+
+/** Pixels of a trial along x, at most. */
+const trialWidth = 320;
+
+interface Last {
+  scene: Scene;
+  width: number;
+  height: number;
+}
+
+export class Drawer {
+  kind: EngineKind = "cpu";
+  private gl: WebGL2RenderingContext | null = null;
+  private canvas: OffscreenCanvas | null = null;
+  private last: Last | null = null;
+  private hasFont = false;
+
+  /** @param wanted  this kind alone, as far as it can; else the faster one */
+  constructor(
+    private readonly svt: SvtModule,
+    private readonly wanted: EngineKind | null,
+  ) {
+    if (wanted === "webgl2" && this.startGl()) this.kind = "webgl2";
+  }
+
+  /** Whether a trial is due. */
+  get isUndecided(): boolean {
+    return this.wanted === null && !this.isDecided && this.last !== null;
+  }
+  private isDecided = false;
+
+  async draw(scene: Scene, width: number, height: number): Promise<Drawn> {
+    await this.prepare(scene);
+    const byGl = this.kind === "webgl2" ? this.drawGl(scene, width, height) : null;
+    this.last = { scene, width, height };
+    return byGl ?? (await this.drawCpu(scene, width, height));
+  }
+
+  /** The font is fetched when names are first drawn. */
+  async prepare(scene: Scene): Promise<void> {
+    if (this.hasFont || !scene.names?.length) return;
+    const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
+    if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
+    this.svt.call("font", [], new Uint8Array(await response.arrayBuffer()));
+    this.hasFont = true;
+  }
+
+  /** Another volume is open. */
+  forgetPicture(): void {
+    this.last = null;
+  }
+
+  /** Decides which kind draws from now on. */
+  decide(): void {
+    this.isDecided = true;
+    if (this.last && this.startGl() && !this.isSoftware() && this.isGlFaster(this.last)) this.kind = "webgl2";
+    else this.stopGl();
+  }
+
+  private isSoftware(): boolean {
+    const info = this.gl?.getExtension("WEBGL_debug_renderer_info");
+    return info ? softwareNames.test(String(this.gl?.getParameter(info.UNMASKED_RENDERER_WEBGL))) : false;
+  }
+
+  private isGlFaster({ scene, width, height }: Last): boolean {
+    const scale = Math.min(1, trialWidth / width);
+    const size: [number, number] = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
+    const small: Scene = { ...scene, samples: 1, size };
+    if (!this.drawGl(small, ...size, true)) return false;
+    const byGl = this.drawGl(small, ...size, true);
+    // The labels of a picture, as a file: drawn as a picture is, and no picture that could be picked.
+    const start = performance.now();
+    this.svt.call("labels", [small]);
+    return byGl !== null && byGl.report.milliseconds < performance.now() - start;
+  }
+
+  private startGl(): boolean {
+    const canvas = new OffscreenCanvas(1, 1);
+    if (!this.svt.startGl(canvas)) return false;
+    this.canvas = canvas;
+    this.gl = canvas.getContext("webgl2");
+    canvas.addEventListener("webglcontextlost", () => this.stopGl());
+    return this.gl !== null;
+  }
+
+  private stopGl(): void {
+    if (!this.gl) return;
+    this.kind = "cpu";
+    const loss = this.gl.isContextLost() ? null : this.gl.getExtension("WEBGL_lose_context");
+    this.gl = this.canvas = null;
+    this.svt.call("dropGl", []);
+    loss?.loseContext();
+  }
+
+  private async drawCpu(scene: Scene, width: number, height: number): Promise<Drawn> {
+    const start = performance.now();
+    const pixels = new Uint8ClampedArray(this.svt.call("draw", [scene, width, height]));
+    const bitmap = await createImageBitmap(new ImageData(pixels, width, height));
+    return { bitmap, report: { width, height, milliseconds: performance.now() - start, engine: "cpu" } };
+  }
+
+  /** Null where the CPU has to draw: a scene that WebGL2 cannot, or a context that is gone. */
+  private drawGl(scene: Scene, width: number, height: number, isTrial = false): Drawn | null {
+    if (!this.gl || !this.canvas) return null;
+    const start = performance.now();
+    try {
+      if (this.canvas.width !== width) this.canvas.width = width;
+      if (this.canvas.height !== height) this.canvas.height = height;
+      this.svt.call("drawGl", [scene, width, height, isTrial]);
+    } catch (error) {
+      if (!isEngineError(error)) throw error;
+      return null;
+    }
+    // Reading waits for the picture, so that the time is that of drawing it.
+    const pixel = new Uint8Array(4);
+    this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
+    if (this.gl.isContextLost()) {
+      this.stopGl();
+      return null;
+    }
+    const bitmap = this.canvas.transferToImageBitmap();
+    return { bitmap, report: { width, height, milliseconds: performance.now() - start, engine: "webgl2" } };
+  }
+}

@@ -1,0 +1,30 @@
+/** What the page and the worker tell each other. A request has one answer, by its id; open() is told progress before. */
+import type { Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
+import type { DrawingFormat, FeatureProperties, FrameReport, VolumeInfo } from "../engine";
+
+/** Arguments and result of each call. */
+export interface Calls {
+  start: { args: [wanted: EngineKind | null]; result: EngineKind };
+  open: { args: [bytes: ArrayBuffer, fileName: string]; result: VolumeInfo };
+  draw: { args: [scene: Scene, width: number, height: number]; result: Drawn };
+  compose: { args: [scene: Scene, effects: Effects]; result: Scene };
+  pick: { args: [x: number, y: number]; result: Pick | null };
+  along: { args: [x: number, y: number]; result: Stretch[] };
+  select: { args: [query: string]; result: string[] };
+  properties: { args: [id: string]; result: FeatureProperties };
+  view: { args: [query: string, preset: string | null, camera: SceneCamera]; result: SceneCamera };
+  picture: { args: [scene: Scene]; result: ArrayBuffer };
+  drawing: { args: [plane: string, format: DrawingFormat]; result: ArrayBuffer };
+}
+
+export interface Drawn {
+  bitmap: ImageBitmap;
+  report: FrameReport;
+}
+
+export type Request = { [Name in keyof Calls]: { id: number; name: Name; args: Calls[Name]["args"] } }[keyof Calls];
+
+export type Answer =
+  | { id: number; result: Calls[keyof Calls]["result"] }
+  | { id: number; error: EngineError; isDead: boolean }
+  | { id: number; step: string; done: number };

@@ -1,0 +1,53 @@
+/**
+ * Where the library cannot run in the browser and a server draws (`svt serve`, POST /api/picture): pictures alone.
+ * What needs the volume in the page is refused with a clear error.
+ */
+
+import type { Engine, EngineError, Scene } from "./engine";
+
+const kNotHere: EngineError = { code: "E904", message: "only pictures come from the server" };
+
+/** null: there is no such server. */
+export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Engine | null> {
+  let model = "";
+  const drawn = async (scene: Scene): Promise<Blob> => {
+    const response = await fetch("api/picture", {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ model, scene }),
+    });
+    if (response.ok) return response.blob();
+    const error = (await response.json().catch(() => null)) as EngineError | null;
+    throw error ?? { code: "E999", message: `the server answers ${response.status}` };
+  };
+  const probe = await fetch("api/picture", { method: "POST", headers: { "Content-Type": "application/json" }, body: "{}" }).catch(() => null);
+  if (!probe || probe.status === 404 || probe.status === 405 || probe.status === 501) return null;
+
+  const refuse = () => Promise.reject(kNotHere);
+  return {
+    kind: "cpu",
+    async open(_, fileName) {
+      model = fileName;
+      return {
+        name: fileName, source: fileName, crs: "", dimension: [2, 2, 2], spacing: [1, 1, 1], size: [10, 10, 10],
+        storeys: [], features: [], hasEdges: true, hasMeshes: false, findings: [],
+      };
+    },
+    async draw(scene, width, height) {
+      const start = performance.now();
+      const bitmap = await createImageBitmap(await drawn({ ...scene, size: [width, height] }));
+      canvas.width = width;
+      canvas.height = height;
+      canvas.getContext("2d")!.drawImage(bitmap, 0, 0);
+      return { width, height, milliseconds: performance.now() - start, engine: "cpu" };
+    },
+    compose: (scene) => Promise.resolve(scene),
+    pick: () => Promise.resolve(null),
+    along: () => Promise.resolve([]),
+    select: refuse,
+    properties: refuse,
+    view: refuse,
+    picture: async (scene) => (await drawn(scene)).arrayBuffer(),
+    drawing: refuse,
+  };
+}

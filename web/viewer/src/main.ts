@@ -1,0 +1,83 @@
+/** Start: engine and model are fetched at once, the page is built while they come. */
+
+import "./ui/theme.css";
+import "./app";
+import type { App } from "./app";
+import { createEngine } from "./engine/client";
+import { openModel, openFile, readModels } from "./opening";
+import { Session } from "./session";
+import { stateOfHash } from "./state/link";
+import { initialState, type ViewState } from "./state/view_state";
+import { t } from "./texts";
+import { startTheme, theme } from "./ui/theme";
+import { createServerEngine } from "./engine_server";
+import type { Engine, EngineError } from "./engine";
+
+const session = new Session();
+const canvas = document.createElement("canvas");
+canvas.setAttribute("aria-hidden", "true");
+const starting = startEngine();
+const listing = readModels(new URLSearchParams(location.search).get("model"));
+void import("./ui/components");
+
+startTheme(() => session.set({ look: theme() === "dark" ? "dark" : "plain" }));
+session.setLanguage();
+session.state = initialState(theme() === "dark" ? "dark" : "plain");
+
+const app = document.createElement("svt-app") as App;
+app.session = session;
+app.canvas = canvas;
+app.onFile = (file) => void openFile(session, file);
+app.onModel = (name) => void openModel(session, name);
+document.body.append(app);
+addEventListener("hashchange", () => void follow());
+void start();
+
+/** The library in the browser; else pictures by the server. */
+async function startEngine(): Promise<Engine> {
+  try {
+    return await createEngine(canvas);
+  } catch (error) {
+    const server = await createServerEngine(canvas);
+    if (!server) throw error;
+    session.isServerOnly = true;
+    return server;
+  }
+}
+
+async function start(): Promise<void> {
+  const linked = linkedState();
+  const list = await listing;
+  session.models = list.models;
+  if (list.chosen) {
+    session.status = "loading";
+    session.progress = { text: t("starting"), share: -1 };
+    session.changed();
+  }
+  let engine: Engine;
+  try {
+    engine = await starting;
+  } catch (error) {
+    session.progress = null;
+    session.status = "empty";
+    return session.fail({ message: `${t("cannotRun")} ${(error as EngineError).message ?? ""}` });
+  }
+  session.start(engine);
+  if (list.chosen) await openModel(session, list.chosen.name, await linked, list.bytes);
+  if (list.note) session.tell(list.note);
+}
+
+async function linkedState(): Promise<ViewState | null> {
+  try {
+    return await stateOfHash(location.hash, session.state);
+  } catch {
+    session.fail({ message: t("badLink") });
+    return null;
+  }
+}
+
+/** A link pasted into the open page. */
+async function follow(): Promise<void> {
+  const state = await linkedState();
+  if (state && session.info) session.set(state);
+}

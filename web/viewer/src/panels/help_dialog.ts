@@ -1,0 +1,35 @@
+/** Mouse, touch and keys. */
+
+import { css, html } from "lit";
+import { t } from "../texts";
+import { controls, Part } from "../ui/part";
+
+const kRows = [
+  ["keyOrbit", "keyOrbitHow"], ["keyPan", "keyPanHow"], ["keyZoom", "keyZoomHow"], ["keyPick", "keyPickHow"], ["keyAlong", "keyAlongHow"],
+  ["keyFrame", "keyFrameHow"], ["keyFit", "keyFitHow"], ["keyViews", "keyViewsHow"], ["keyTools", "keyToolsHow"], ["keyHide", "keyHideHow"],
+  ["keySearch", "keySearchHow"], ["keyTree", "keyTreeHow"], ["walk", "walkHint"], ["keyLeave", "keyLeaveHow"],
+] as const;
+
+export class HelpDialog extends Part {
+  static override styles = [controls, css`
+    dl { display: grid; grid-template-columns: minmax(110px, auto) 1fr; gap: 8px 18px; margin: 0; font-size: 13px; line-height: 1.45; }
+    dt { font-weight: 600; }
+    dd { margin: 0; color: var(--quiet); }
+    wa-dialog { --width: 560px; }
+  `];
+
+  protected override uses() {
+    return [];
+  }
+
+  show(): void {
+    (this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean }).open = true;
+  }
+
+  override render() {
+    return html`<wa-dialog label=${t("helpTitle")} light-dismiss>
+      <dl>${kRows.map(([what, how]) => html`<dt>${t(what)}</dt><dd>${t(how)}</dd>`)}</dl>
+    </wa-dialog>`;
+  }
+}
+customElements.define("svt-help", HelpDialog);

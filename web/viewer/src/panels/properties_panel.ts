@@ -1,0 +1,139 @@
+/** What is selected: its properties, its neighbours, and what can be done with it; or what lies along a ray. */
+
+import { css, html, nothing } from "lit";
+import type { FeatureProperties } from "../engine";
+import { labelOf } from "../state/feature_index";
+import { ofId, ofSubtree } from "../state/queries";
+import { subtree } from "../state/visibility";
+import { number, t } from "../texts";
+import { icon } from "../ui/icons";
+import { controls, Part } from "../ui/part";
+import "./style_editor";
+
+export class PropertiesPanel extends Part {
+  static override styles = [
+    controls,
+    css`
+      :host { display: block; height: 100%; overflow: auto; padding: 14px; font-size: 13px; line-height: 1.45; }
+      h2 { font-size: 16px; overflow-wrap: anywhere; }
+      dl { display: grid; grid-template-columns: auto 1fr; gap: 4px 12px; margin: 10px 0 0; }
+      dt { color: var(--quiet); }
+      dd { margin: 0; text-align: right; font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
+      ul { list-style: none; margin: 0; padding: 0; }
+      li button { width: 100%; justify-content: space-between; gap: 10px; border-color: transparent; background: transparent; min-height: 30px; padding: 3px 6px; text-align: left; }
+      li.outside { display: flex; justify-content: space-between; padding: 3px 6px; min-height: 30px; align-items: center; }
+      li button:hover { background: var(--hover); }
+      li span:first-child { overflow: hidden; text-overflow: ellipsis; min-width: 0; }
+      li span:last-child { color: var(--quiet); font-variant-numeric: tabular-nums; flex: none; }
+      .actions { margin: 12px 0 4px; display: flex; flex-wrap: wrap; gap: 6px; }
+      .hint { color: var(--quiet); margin-top: 8px; }
+      .head { display: flex; align-items: start; gap: 8px; justify-content: space-between; }
+      .id { font-family: var(--mono); font-size: 11px; color: var(--quiet); overflow-wrap: anywhere; }
+      .findings li { padding: 4px 0; font-size: 12px; }
+    `,
+  ];
+
+  protected override uses() {
+    const { properties, along, state, info, hidden } = this.session;
+    return [properties, along, state.selection, state.styles, state.show, state.effect, info, hidden];
+  }
+
+  override render() {
+    const { session } = this;
+    if (session.along) return this.alongList();
+    const feature = session.selected();
+    if (feature) return this.one(session.properties);
+    const n = session.state.selection.length;
+    if (n > 1) return this.several(n);
+    return html`<h2>${t("nothingSelected")}</h2><p class="hint">${t("selectHint")}</p>${this.findings()}`;
+  }
+
+  private findings() {
+    const findings = this.session.info?.findings ?? [];
+    if (!findings.length) return nothing;
+    return html`<h3>${t("findingsTitle")}</h3><ul class="findings">${findings.slice(0, 50).map((text) => html`<li>${text}</li>`)}</ul>`;
+  }
+
+  private close() {
+    return html`<button class="bare" aria-label=${t("deselect")} title=${t("deselect")} @click=${() => {
+      this.session.along = null;
+      this.session.select([]);
+    }}>${icon("close", 18)}</button>`;
+  }
+
+  private one(properties: FeatureProperties | null) {
+    const { session } = this;
+    const feature = session.selected()!;
+    return html`
+      <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${feature.class}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
+      ${this.actions()}
+      ${feature.count > 0
+        ? html`<svt-style-editor .session=${session} .query=${ofId(feature.id)} .label=${labelOf(feature)} .color=${feature.color} .opacity=${feature.opacity}></svt-style-editor>`
+        : nothing}
+      ${properties ? this.details(properties) : nothing}
+    `;
+  }
+
+  private details(p: FeatureProperties) {
+    const size = p.box.high.map((high, i) => high - p.box.low[i]!);
+    const attributes = Object.entries(p.attributes);
+    return html`
+      <dl>
+        ${p.voxelVolume > 0 ? html`<dt>${t("volumeByVoxels")}</dt><dd>${number(p.voxelVolume, 3)} m³</dd>` : nothing}
+        ${p.modelVolume !== null ? html`<dt>${t("modelVolume")}</dt><dd>${number(p.modelVolume, 3)} m³</dd>` : nothing}
+        ${p.surface > 0 ? html`<dt>${t("surface")}</dt><dd>${number(p.surface, 2)} m²</dd>` : nothing}
+        ${size.every(Number.isFinite) && p.voxelVolume > 0 ? html`<dt>${t("extent")}</dt><dd>${size.map((v) => number(v, 2)).join(" × ")} m</dd>` : nothing}
+      </dl>
+      <h3>${t("attributes")}</h3>
+      ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${value}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}
+      ${p.neighbours.length
+        ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map(
+            (n) => n.id === "" ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>` : html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
+          )}</ul>`
+        : nothing}
+    `;
+  }
+
+  private several(n: number) {
+    const { index, state } = this.session;
+    return html`
+      <div class="head"><h2>${t("severalSelected", { n })}</h2>${this.close()}</div>
+      ${this.actions()}
+      <ul>${state.selection.slice(0, 200).map((id) => {
+        const feature = index.features[index.byId.get(id) ?? -1];
+        return feature ? html`<li><button @click=${() => this.session.select([id])}><span>${labelOf(feature)}</span><span>${feature.class}</span></button></li>` : nothing;
+      })}</ul>
+    `;
+  }
+
+  private actions() {
+    const { session } = this;
+    const { index, state, hidden } = session;
+    const members = state.selection.flatMap((id) => {
+      const i = index.byId.get(id);
+      return i === undefined ? [] : [...subtree(index, i)];
+    });
+    const isHidden = members.some((i) => index.features[i]!.count > 0) && members.every((i) => hidden[i]);
+    const focus = { ...state.focus, query: "" };
+    return html`<div class="actions">
+      <button @click=${() => void session.goTo(state.selection.map(ofSubtree).join(" or "), null)}>${icon("fit", 16)}${t("frameIt")}</button>
+      <button aria-pressed=${state.effect === "highlight"} @click=${() => session.set({ effect: state.effect === "highlight" ? "none" : "highlight", focus })}>${icon("focus", 16)}${t("highlightIt")}</button>
+      <button aria-pressed=${state.effect === "cutaway"} @click=${() => session.set({ effect: state.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>
+      <button aria-pressed=${isHidden} @click=${() => session.hide(members, !isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
+      <button aria-pressed=${state.show.length > 0} @click=${() => session.set({ show: state.show.length ? [] : state.selection.map(ofSubtree) })}>${icon("only", 16)}${t("onlyThis")}</button>
+    </div>`;
+  }
+
+  private alongList() {
+    const { stretches } = this.session.along!;
+    return html`
+      <div class="head"><h2>${t("alongTitle")}</h2>${this.close()}</div>
+      ${stretches.length ? nothing : html`<p class="hint">${t("alongNothing")}</p>`}
+      <ul class="along">${stretches.map(
+        (s) => html`<li><button @click=${() => this.session.select([s.id])}><span>${labelOf(s)} <span class="quiet">${s.class}</span></span>
+          <span>${t("alongAt", { from: number(s.from, 2), to: number(s.to, 2) })}</span></button></li>`,
+      )}</ul>
+    `;
+  }
+}
+customElements.define("svt-properties", PropertiesPanel);

@@ -1,0 +1,56 @@
+/** Colour and opacity of what a query selects. */
+
+import { css, html, nothing } from "lit";
+import { t } from "../texts";
+import { controls, Part } from "../ui/part";
+import { withStyle } from "../state/view_state";
+
+export class StyleEditor extends Part {
+  static override properties = {
+    ...Part.properties,
+    query: {}, label: {}, color: {}, opacity: { type: Number },
+  };
+  declare query: string;
+  declare label: string;
+  /** As the model has them. */
+  declare color: string;
+  declare opacity: number;
+
+  static override styles = [
+    controls,
+    css`
+      :host { display: block; }
+      .line { display: grid; grid-template-columns: auto 1fr auto; gap: 10px; align-items: center; min-height: 36px; }
+      output { font-variant-numeric: tabular-nums; min-width: 34px; text-align: right; }
+      wa-color-picker { --grid-width: 230px; }
+    `,
+  ];
+
+  override render() {
+    const style = this.session.state.styles.find((s) => s.select === this.query);
+    const color = style?.color ?? this.color, opacity = style?.opacity ?? this.opacity;
+    return html`
+      <div class="line">
+        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} value=${color} without-format-toggle
+          @change=${(e: Event) => this.change({ color: toHex((e.target as HTMLInputElement).value) })}></wa-color-picker>
+        <wa-slider size="s" aria-label=${t("opacityOf", { name: this.label })} label=${t("opacityOf", { name: this.label })} min="0" max="1" step="0.01" .value=${opacity}
+          @input=${(e: Event) => this.change({ opacity: Number((e.target as HTMLInputElement).value) })}></wa-slider>
+        <output>${Math.round(opacity * 100)} %</output>
+      </div>
+      ${style ? html`<button class="bare small" @click=${() => this.reset()}>${t("resetStyle")}</button>` : nothing}
+    `;
+  }
+
+  private change(change: { color?: string; opacity?: number }): void {
+    this.session.set({ styles: withStyle(this.session.state.styles, this.query, change) });
+  }
+  private reset(): void {
+    this.session.set({ styles: this.session.state.styles.filter((style) => style.select !== this.query) });
+  }
+}
+
+/** Pickers may answer in capitals, scenes are written small. */
+function toHex(value: string | null): string {
+  return /^#[0-9a-f]{6}/i.exec(value ?? "")?.[0].toLowerCase() ?? "#808080";
+}
+customElements.define("svt-style-editor", StyleEditor);

@@ -1,0 +1,363 @@
+/**
+ * The parts of the building: as a tree and by class, with search and query. Only the rows that are seen are in the page,
+ * so that 100,000 features are no more work than 30.
+ */
+
+import { css, html, nothing } from "lit";
+import type { EngineError } from "../engine";
+import { ancestors, labelOf } from "../state/feature_index";
+import { ofClass, ofId, ofSubtree } from "../state/queries";
+import { SeenCounts, subtree, type Seen } from "../state/visibility";
+import { t } from "../texts";
+import { icon } from "../ui/icons";
+import { controls, Part } from "../ui/part";
+import { firstOpen, rowsOf, type Rows } from "./tree_rows";
+
+const kRow = 30;
+const kSpare = 6;
+
+export class TreePanel extends Part {
+  static override properties = {
+    ...Part.properties,
+    tab: { state: true }, search: { state: true }, query: { state: true }, answer: { state: true }, error: { state: true },
+    active: { state: true }, edited: { state: true }, top: { state: true }, listHeight: { state: true },
+  };
+  declare tab: "structure" | "classes";
+  declare search: string;
+  declare query: string;
+  declare answer: string;
+  declare error: string;
+  /** Feature that the keyboard is at. */
+  declare active: number;
+  /** Query whose style is edited below the list. */
+  declare edited: { query: string; label: string; color: string; opacity: number } | null;
+  declare top: number;
+  declare listHeight: number;
+  private open = new Set<number>();
+  private seenIndex: unknown = null;
+  private seenSelection: unknown = null;
+  private seenHidden: unknown = null;
+  private counts!: SeenCounts;
+  private rows: Rows = { shown: [], matches: null, isOpen: () => false };
+  private readonly watched = new ResizeObserver(([entry]) => (this.listHeight = entry?.contentRect.height ?? 0));
+
+  static override styles = [
+    controls,
+    css`
+      :host { display: flex; flex-direction: column; height: 100%; min-height: 0; font-size: 13px; }
+      header { padding: 10px 10px 8px; display: grid; gap: 8px; }
+      form { display: grid; grid-template-columns: 1fr auto; gap: 6px; }
+      .field { position: relative; }
+      .field svg { position: absolute; left: 9px; top: 8px; color: var(--quiet); pointer-events: none; }
+      .field input { padding-left: 32px; }
+      #query { font-family: var(--mono); font-size: 12px; }
+      .list { flex: 1; min-height: 0; overflow: auto; position: relative; border-top: 1px solid var(--line); overscroll-behavior: contain; outline-offset: -2px !important; }
+      .space { position: relative; }
+      .item {
+        position: absolute; left: 0; right: 0; height: 30px; display: flex; align-items: center; gap: 4px; padding-right: 6px; cursor: default;
+      }
+      .item:hover { background: var(--hover); }
+      .item.selected { background: var(--accent-soft); color: var(--accent-text); }
+      .list:focus-visible .item.active { box-shadow: inset 0 0 0 2px var(--focus); }
+      .item button { min-height: 26px; min-width: 26px; padding: 2px; border-radius: 6px; flex: none; }
+      .twist { color: var(--quiet); }
+      .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
+      .name .quiet { font-size: 12px; margin-left: 6px; }
+      .item.selected .quiet { color: inherit; }
+      .gone .name { opacity: 0.6; text-decoration: line-through; text-decoration-color: var(--quiet); }
+      .swatch { width: 14px; height: 14px; border-radius: 4px; border: 1px solid #0003; }
+      .count { font-size: 12px; color: var(--quiet); font-variant-numeric: tabular-nums; padding-right: 4px; }
+      .eye { color: var(--quiet); }
+      .eye.none { color: var(--text); }
+      footer { padding: 8px 10px; border-top: 1px solid var(--line); display: grid; gap: 6px; }
+      .classes { list-style: none; margin: 0; padding: 0; }
+      .classes li { position: static; padding-left: 8px; }
+      .classes button.name { flex: 1; justify-content: flex-start; overflow: hidden; }
+      .note { display: flex; gap: 8px; align-items: center; justify-content: space-between; }
+    `,
+  ];
+
+  constructor() {
+    super();
+    this.tab = "structure";
+    this.search = this.query = this.answer = this.error = "";
+    this.active = 0;
+    this.edited = null;
+    this.top = 0;
+    this.listHeight = 400;
+  }
+
+  override disconnectedCallback(): void {
+    this.watched.disconnect();
+    super.disconnectedCallback();
+  }
+
+  protected override uses() {
+    const { index, hidden, state } = this.session;
+    return [index, hidden, state.selection, state.styles, state.show];
+  }
+
+  override willUpdate(): void {
+    const { index, state, hidden } = this.session;
+    if (this.seenHidden !== hidden || this.seenIndex !== index) {
+      this.seenHidden = hidden;
+      this.counts = new SeenCounts(index, hidden);
+    }
+    if (this.seenIndex !== index) {
+      this.seenIndex = index;
+      this.open = firstOpen(index);
+      this.search = this.answer = this.error = "";
+      this.edited = null;
+      this.active = this.top = 0;
+    }
+    if (this.seenSelection !== state.selection) {
+      this.seenSelection = state.selection;
+      const last = index.byId.get(state.selection.at(-1) ?? "");
+      if (last !== undefined) {
+        for (const above of ancestors(index, last)) this.open.add(above);
+        this.active = last;
+      }
+    }
+    this.rows = rowsOf(index, this.open, this.search);
+  }
+
+  override updated(changed: Map<string, unknown>): void {
+    const list = this.renderRoot.querySelector<HTMLElement>(".list");
+    if (list && (changed.has("tab") || !changed.size)) {
+      this.watched.disconnect();
+      this.watched.observe(list);
+    }
+    this.renderRoot.querySelectorAll<HTMLElement>("[data-top]").forEach((e) => {
+      e.style.transform = `translateY(${e.dataset["top"]}px)`;
+      e.style.paddingLeft = `${4 + Number(e.dataset["depth"]) * 14}px`;
+    });
+    const space = this.renderRoot.querySelector<HTMLElement>(".space");
+    if (space) space.style.height = `${this.rows.shown.length * kRow}px`;
+    this.renderRoot.querySelectorAll<HTMLElement>("[data-color]").forEach((e) => (e.style.background = e.dataset["color"]!));
+    if (changed.has("active") || this.lastSeen !== this.seenSelection) this.scrollToActive();
+    this.lastSeen = this.seenSelection;
+  }
+  private lastSeen: unknown = null;
+
+  focusSearch(): void {
+    this.renderRoot.querySelector<HTMLInputElement>("#search")?.focus();
+  }
+
+  override render() {
+    const { session } = this;
+    const { hiddenSolids } = this.counts;
+    return html`
+      <header>
+        <div class="segments" role="tablist" aria-label=${t("panelTree")} @keydown=${this.tabKey}>
+          ${(["structure", "classes"] as const).map(
+            (tab) => html`<button role="tab" id="tab-${tab}" aria-controls="panel" tabindex=${this.tab === tab ? 0 : -1} aria-selected=${this.tab === tab} @click=${() => (this.tab = tab)}>${t(tab)}</button>`,
+          )}
+        </div>
+        ${this.tab === "structure"
+          ? html`<div class="field">${icon("search", 16)}
+              <input id="search" type="search" autocomplete="off" spellcheck="false" aria-label=${t("search")} placeholder=${t("search")}
+                .value=${this.search} @input=${(e: Event) => this.find((e.target as HTMLInputElement).value)} @keydown=${this.searchKey} />
+            </div>`
+          : nothing}
+        ${this.search && this.tab === "structure"
+          ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : t("nothingFound")}</div>`
+          : nothing}
+      </header>
+      <div id="panel" class="list" role="tabpanel" aria-labelledby="tab-${this.tab}" tabindex="-1" @scroll=${this.scrolled}>
+        ${this.tab === "structure" ? this.tree() : this.classes()}
+      </div>
+      <footer>
+        ${this.edited ? this.editor(this.edited) : nothing}
+        ${session.state.show.length
+          ? html`<div class="note small"><span>${t("filterNote", { name: session.state.show.join(", ") })}</span>
+              <button class="small" @click=${() => session.set({ show: [] })}>${t("showAll")}</button></div>`
+          : nothing}
+        ${hiddenSolids
+          ? html`<div class="note small"><span>${t("hiddenCount", { n: hiddenSolids })}</span>
+              <button class="small" @click=${() => session.set({ hide: [] })}>${t("showAll")}</button></div>`
+          : nothing}
+        <form @submit=${this.ask}>
+          <input id="query" autocomplete="off" autocapitalize="off" spellcheck="false" aria-label=${t("queryLabel")} placeholder=${t("queryPlaceholder")}
+            aria-invalid=${this.error ? "true" : "false"} aria-describedby="query-answer" .value=${this.query}
+            @input=${(e: Event) => (this.query = (e.target as HTMLInputElement).value)} />
+          <button type="submit">${t("select")}</button>
+        </form>
+        <div id="query-answer" role="status" class=${this.error ? "error" : "small quiet"}>${this.error || this.answer}</div>
+      </footer>
+    `;
+  }
+
+  private tree() {
+    const { session } = this;
+    const { shown } = this.rows;
+    const from = Math.max(0, Math.floor(this.top / kRow) - kSpare);
+    const to = Math.min(shown.length, Math.ceil((this.top + this.listHeight) / kRow) + kSpare);
+    if (!shown.length) return nothing;
+    const selected = new Set(session.state.selection);
+    return html`<div class="space" role="tree" tabindex="0" aria-label=${t("structure")} aria-multiselectable="true"
+      aria-activedescendant="row-${this.active}" @keydown=${this.treeKey}>
+      ${shown.slice(from, to).map((i, n) => this.item(i, from + n, selected))}
+    </div>`;
+  }
+
+  private item(i: number, row: number, selected: ReadonlySet<string>) {
+    const { index, state } = this.session;
+    const feature = index.features[i]!;
+    const isParent = index.end[i]! > i + 1;
+    const seen = this.counts.ofSubtree(i);
+    const isSelected = selected.has(feature.id);
+    const color = state.styles.find((s) => s.select === ofId(feature.id) && s.color)?.color ?? state.styles.find((s) => s.select === ofClass(feature.class) && s.color)?.color ?? feature.color;
+    return html`<div id="row-${i}" role="treeitem" class="item ${isSelected ? "selected" : ""} ${this.active === i ? "active" : ""} ${seen === "none" ? "gone" : ""}"
+      data-top=${row * kRow} data-depth=${index.depth[i]!} aria-level=${index.depth[i]! + 1} aria-posinset=${row + 1} aria-setsize=${this.rows.shown.length}
+      aria-selected=${isSelected} aria-expanded=${isParent ? String(this.rows.isOpen(i)) : nothing}
+      @click=${(e: MouseEvent) => this.picked(i, e)} @dblclick=${() => void this.session.goTo(ofSubtree(feature.id), null)}>
+      ${isParent
+        ? html`<button class="bare twist" tabindex="-1" aria-hidden="true" @click=${(e: Event) => this.toggle(i, e)}>${icon(this.rows.isOpen(i) ? "down" : "right", 14)}</button>`
+        : html`<span class="twist"><svg width="26" height="1" aria-hidden="true"></svg></span>`}
+      ${feature.count > 0
+        ? html`<button class="bare" tabindex="-1" aria-hidden="true" title=${t("styleOf", { name: labelOf(feature) })} @click=${(e: Event) => this.edit(i, e)}><span class="swatch" data-color=${color}></span></button>`
+        : nothing}
+      <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.class}</span></span>
+      ${isParent ? html`<span class="count">${index.solids[i]}</span>` : nothing}
+      ${seen === "none" ? html`<span class="visually-hidden">${t("isHidden")}</span>` : nothing}
+      <button class="bare eye ${seen}" tabindex="-1" aria-hidden="true" title=${seen === "none" ? t("show") : t("hide")} @click=${(e: Event) => this.see(i, seen, e)}>${eyeOf(seen)}</button>
+    </div>`;
+  }
+
+  private classes() {
+    const { index, state } = this.session;
+    const rows = [...index.classes].map(([name, members]) => ({ name, members, solids: members.filter((i) => index.features[i]!.count > 0) }));
+    return html`<ul class="classes">
+      ${rows.filter((row) => row.solids.length).map(({ name, members, solids }) => {
+        const seen = this.counts.ofMembers(members);
+        const query = ofClass(name);
+        const color = state.styles.find((s) => s.select === query && s.color)?.color ?? index.features[solids[0]!]!.color;
+        return html`<li class="item ${seen === "none" ? "gone" : ""}">
+          <button class="bare" aria-label=${t("styleOf", { name })} aria-expanded=${this.edited?.query === query}
+            @click=${() => this.editQuery(query, name, solids[0]!)}><span class="swatch" data-color=${color}></span></button>
+          <button class="bare name" @click=${(e: MouseEvent) => this.session.select(members.map((i) => index.features[i]!.id), e.ctrlKey)}><span class="name">${name}</span></button>
+          <span class="count">${solids.length}</span>
+          <button class="bare eye ${seen}" aria-pressed=${seen === "none"} aria-label="${t("hide")}: ${name}" @click=${() => this.session.hide(members, seen !== "none")}>${eyeOf(seen)}</button>
+        </li>`;
+      })}
+    </ul>`;
+  }
+
+  private editor(edited: NonNullable<typeof this.edited>) {
+    return html`<div class="note"><strong class="small">${edited.label}</strong>
+        <button class="bare" aria-label=${t("close")} @click=${() => (this.edited = null)}>${icon("close", 16)}</button></div>
+      <svt-style-editor .session=${this.session} .query=${edited.query} .label=${edited.label} .color=${edited.color} .opacity=${edited.opacity}></svt-style-editor>`;
+  }
+
+  private find(text: string): void {
+    this.search = text;
+    this.top = 0;
+    this.renderRoot.querySelector(".list")?.scrollTo(0, 0);
+  }
+
+  private picked(i: number, event: MouseEvent | KeyboardEvent): void {
+    this.active = i;
+    this.session.select([this.session.index.features[i]!.id], event.ctrlKey || event.metaKey);
+  }
+
+  private toggle(i: number, event?: Event): void {
+    event?.stopPropagation();
+    if (this.open.has(i)) this.open.delete(i);
+    else this.open.add(i);
+    this.requestUpdate();
+  }
+
+  private see(i: number, seen: Seen, event?: Event): void {
+    event?.stopPropagation();
+    this.session.hide(subtree(this.session.index, i), seen !== "none");
+  }
+
+  private edit(i: number, event?: Event): void {
+    event?.stopPropagation();
+    const feature = this.session.index.features[i]!;
+    this.editQuery(ofId(feature.id), labelOf(feature), i);
+  }
+
+  private editQuery(query: string, label: string, like: number): void {
+    const { color, opacity } = this.session.index.features[like]!;
+    this.edited = this.edited?.query === query ? null : { query, label, color, opacity };
+  }
+
+  private readonly ask = async (event: Event): Promise<void> => {
+    event.preventDefault();
+    this.error = this.answer = "";
+    const query = this.query.trim();
+    if (!query || !this.session.engine) return;
+    try {
+      const ids = await this.session.engine.select(query);
+      this.session.select(ids);
+      this.answer = t("selectedByQuery", { n: ids.length });
+    } catch (error) {
+      this.error = (error as EngineError).message;
+    }
+  };
+
+  private readonly scrolled = (event: Event): void => {
+    this.top = (event.target as HTMLElement).scrollTop;
+  };
+
+  private scrollToActive(): void {
+    const list = this.renderRoot.querySelector<HTMLElement>(".list");
+    const row = this.rows.shown.indexOf(this.active);
+    if (!list || row < 0 || this.tab !== "structure") return;
+    const top = row * kRow;
+    if (top < list.scrollTop) list.scrollTop = top;
+    else if (top + kRow > list.scrollTop + list.clientHeight) list.scrollTop = top + kRow - list.clientHeight;
+  }
+
+  private readonly tabKey = (event: KeyboardEvent): void => {
+    if (event.key !== "ArrowLeft" && event.key !== "ArrowRight") return;
+    this.tab = this.tab === "structure" ? "classes" : "structure";
+    void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>(`#tab-${this.tab}`)?.focus());
+  };
+
+  private readonly searchKey = (event: KeyboardEvent): void => {
+    if (event.key !== "ArrowDown" && event.key !== "Enter") return;
+    const { index } = this.session;
+    const words = this.search.toLowerCase();
+    const first = this.rows.shown.find((i) => `${labelOf(index.features[i]!)} ${index.features[i]!.class}`.toLowerCase().includes(words)) ?? this.rows.shown[0];
+    if (first === undefined) return;
+    event.preventDefault();
+    this.active = first;
+    if (event.key === "Enter") this.picked(first, event);
+    this.renderRoot.querySelector<HTMLElement>("[role=tree]")?.focus();
+  };
+
+  private readonly treeKey = (event: KeyboardEvent): void => {
+    const { shown } = this.rows;
+    const { index } = this.session;
+    const at = Math.max(0, shown.indexOf(this.active));
+    const i = shown[at]!;
+    const isParent = index.end[i]! > i + 1;
+    const go = (row: number) => (this.active = shown[Math.min(shown.length - 1, Math.max(0, row))]!);
+    const page = Math.max(1, Math.floor(this.listHeight / kRow) - 1);
+    const actions: Record<string, () => void> = {
+      ArrowDown: () => go(at + 1),
+      ArrowUp: () => go(at - 1),
+      Home: () => go(0),
+      End: () => go(shown.length - 1),
+      PageDown: () => go(at + page),
+      PageUp: () => go(at - page),
+      ArrowRight: () => (isParent && !this.rows.isOpen(i) ? this.toggle(i) : go(at + (isParent ? 1 : 0))),
+      ArrowLeft: () => (isParent && this.open.has(i) ? this.toggle(i) : index.parent[i]! >= 0 && (this.active = index.parent[i]!)),
+      Enter: () => this.picked(i, event),
+      " ": () => this.see(i, this.counts.ofSubtree(i)),
+      c: () => this.edit(i),
+    };
+    const action = actions[event.key];
+    if (!action || event.altKey || (event.ctrlKey && event.key !== "Enter")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    action();
+  };
+}
+customElements.define("svt-tree", TreePanel);
+
+function eyeOf(seen: Seen) {
+  return icon(seen === "all" ? "eye" : seen === "none" ? "eyeOff" : "eyePart", 16);
+}

@@ -1,0 +1,53 @@
+/** Which rows of the tree are open or found: indices into the feature index, in tree order. */
+
+import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
+
+export interface Rows {
+  /** Indices of features, top to bottom. */
+  shown: number[];
+  /** How many matched; null: no search. */
+  matches: number | null;
+  isOpen(i: number): boolean;
+}
+
+/** Opens the top until there is something to see, but no more than fits. */
+export function firstOpen(index: FeatureIndex, atMost = 60): Set<number> {
+  const open = new Set<number>();
+  let rows = index.parent.reduce((n, parent) => n + (parent < 0 ? 1 : 0), 0);
+  for (let i = 0; i < index.features.length; ++i) {
+    if (index.parent[i]! >= 0 && !open.has(index.parent[i]!)) continue;
+    const children = childCount(index, i);
+    if (!children || (rows + children > atMost && index.parent[i]! >= 0)) continue;
+    open.add(i);
+    rows += children;
+  }
+  return open;
+}
+
+export function childCount(index: FeatureIndex, i: number): number {
+  let n = 0;
+  for (let at = i + 1; at < index.end[i]!; at = index.end[at]!) ++n;
+  return n;
+}
+
+export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: string): Rows {
+  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+  if (words.length) return found(index, words);
+  const shown: number[] = [];
+  for (let i = 0; i < index.features.length; i = open.has(i) ? i + 1 : index.end[i]!) shown.push(i);
+  return { shown, matches: null, isOpen: (i) => open.has(i) };
+}
+
+/** What has all the words in its name, class or id, with what it is part of. */
+function found(index: FeatureIndex, words: string[]): Rows {
+  const kept = new Set<number>();
+  let matches = 0;
+  index.features.forEach((feature, i) => {
+    const text = `${labelOf(feature)} ${feature.class} ${feature.id}`.toLowerCase();
+    if (!words.every((word) => text.includes(word))) return;
+    ++matches;
+    kept.add(i);
+    for (const above of ancestors(index, i)) kept.add(above);
+  });
+  return { shown: [...kept].sort((a, b) => a - b), matches, isOpen: () => true };
+}

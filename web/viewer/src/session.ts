@@ -1,0 +1,375 @@
+/** What the page is at: the engine, the open model, the state, and what is told to the user. Parts watch it. */
+
+import { boxOf, withProjection, between, type Box } from "./camera/camera";
+import { PictureLoop, type Quality } from "./canvas/picture_loop";
+import type { Engine, EngineError, FeatureProperties, FrameReport, Pick, Point, SceneCamera, Stretch, VolumeInfo } from "./engine";
+import { indexFeatures, labelOf, type FeatureIndex } from "./state/feature_index";
+import { hashOf } from "./state/link";
+import { ofId } from "./state/queries";
+import { sceneCamera, sceneOf, type Described } from "./state/scene_of";
+import { hiddenFlags, hideQueries, switched } from "./state/visibility";
+import { initialState, type Camera, type ViewState } from "./state/view_state";
+import { browserLanguage, setLanguage, t, type Language, type TextKey } from "./texts";
+
+export type Tool = "section" | "lens" | "focus" | "look" | "measure" | "views" | "share";
+export type Status = "starting" | "empty" | "loading" | "ready";
+
+export interface ListedModel {
+  name: string;
+  file: string;
+  bytes: number;
+  title?: string;
+}
+
+export interface Progress {
+  text: string;
+  /** 0 to 1; negative: not known. */
+  share: number;
+}
+
+/** What the page tells at its lower border. */
+export interface Message {
+  title?: string;
+  text: string;
+  isError: boolean;
+}
+
+export interface AlongList {
+  x: number;
+  y: number;
+  stretches: Stretch[];
+}
+
+const kUnitBox: Box = { low: [0, 0, 0], high: [1, 1, 1], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] };
+
+/** Events: "change" when anything changed, "said" when a live region is to speak. */
+export class Session extends EventTarget {
+  engine: Engine | null = null;
+  /** Pictures alone, by the server. */
+  isServerOnly = false;
+  status: Status = "starting";
+  progress: Progress | null = null;
+  message: Message | null = null;
+  models: ListedModel[] = [];
+  modelName = "";
+  /** As commands would name it. */
+  modelFile = "model.svt";
+  info: VolumeInfo | null = null;
+  index: FeatureIndex = indexFeatures([]);
+  hidden: Uint8Array = new Uint8Array(0);
+  box: Box = kUnitBox;
+  state: ViewState = initialState();
+  tool: Tool | null = null;
+  isWalking = false;
+  measured: Point[] = [];
+  along: AlongList | null = null;
+  properties: FeatureProperties | null = null;
+  report: FrameReport | null = null;
+  quality: Quality | null = null;
+  /** Of the picture that is seen, which follows the state by a frame. */
+  shownCamera: Camera | null = null;
+  /** Device pixels of the picture's place in the page. */
+  pictureSize: [number, number] = [640, 360];
+  isLegendShown = false;
+  language: Language = "en";
+  private loop: PictureLoop | null = null;
+  private move = 0;
+  private linkTimer = 0;
+
+  start(engine: Engine): void {
+    this.engine = engine;
+    this.loop = new PictureLoop({
+      engine,
+      size: () => this.pictureSize,
+      describe: (size, samples) => (this.info ? this.describe(size, samples) : null),
+      take: () => this.state,
+      shown: (report, quality, token) => this.shown(report, quality, token as ViewState),
+      failed: (error) => {
+        this.fail(error);
+        if (isDeadly(error)) void this.reopen(error);
+      },
+    });
+    if (this.status === "starting") this.status = "empty";
+    this.changed();
+  }
+
+  setLanguage(language: Language = browserLanguage()): void {
+    this.language = language;
+    setLanguage(language);
+    document.documentElement.lang = language;
+    this.changed();
+  }
+
+  changed(): void {
+    this.dispatchEvent(new Event("change"));
+  }
+
+  get aspect(): number {
+    return this.pictureSize[0] / this.pictureSize[1];
+  }
+
+  describe(size: [number, number], samples: 1 | 4 | 9 | 16 = 4): Described {
+    return sceneOf(this.state, this.box, size, samples);
+  }
+
+  /** Changes the view; the picture follows. */
+  set(change: Partial<ViewState>): void {
+    const before = this.state;
+    this.state = { ...before, ...change };
+    if ("hide" in change) this.hidden = hiddenFlags(this.index, this.state.hide);
+    if ("selection" in change) void this.readProperties();
+    if (isDrawnDifferently(before, this.state)) this.redraw();
+    this.changed();
+  }
+
+  redraw(): void {
+    this.quality = null;
+    this.loop?.invalidate();
+    clearTimeout(this.linkTimer);
+    this.linkTimer = window.setTimeout(() => void this.writeLink(), 500);
+  }
+
+  resize(size: [number, number]): void {
+    if (size[0] === this.pictureSize[0] && size[1] === this.pictureSize[1]) return;
+    this.pictureSize = size;
+    this.redraw();
+    this.changed();
+  }
+
+  private shown(report: FrameReport, quality: Quality, state: ViewState): void {
+    if (!this.report) performance.mark("svt-first-image");
+    this.report = report;
+    this.quality = quality;
+    this.shownCamera = state.camera;
+    this.refit(report.width / report.height);
+    this.changed();
+  }
+
+  /** The view that was found for the whole building, and for which picture; a picture of another shape needs another. */
+  private fitted: { camera: Camera; aspect: number } | null = null;
+
+  private refit(aspect: number): void {
+    const { fitted } = this;
+    if (!fitted || fitted.camera !== this.state.camera || Math.abs(fitted.aspect / aspect - 1) < 0.02) return;
+    this.fitted = null;
+    void this.fit(aspect);
+  }
+
+  private async fit(aspect: number): Promise<void> {
+    await this.goTo("", "iso", false);
+    if (this.state.camera) this.fitted = { camera: this.state.camera, aspect };
+  }
+
+  fail(error: unknown, title?: string): void {
+    const { code, message } = error as Partial<EngineError>;
+    const text = message ?? String(error);
+    this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true };
+    this.changed();
+  }
+
+  tell(text: string): void {
+    this.message = { text, isError: false };
+    this.say(text);
+    this.changed();
+  }
+
+  say(text: string): void {
+    this.dispatchEvent(new CustomEvent("said", { detail: text }));
+  }
+
+  /** How the bytes of what is open are had again, for a library that had to be started anew. */
+  private source: (() => Promise<ArrayBuffer>) | null = null;
+  private restartedAt = -Infinity;
+
+  /** The library has died and with it its volume: opens that again, unless that just failed. */
+  private async reopen(error: EngineError): Promise<void> {
+    if (!this.source || !this.engine || performance.now() - this.restartedAt < 20_000) return;
+    this.restartedAt = performance.now();
+    try {
+      await this.engine.open(await this.source(), this.modelFile, () => undefined);
+      this.tell(t("reopened", { error: error.message }));
+      this.redraw();
+    } catch (again) {
+      this.fail(again);
+    }
+  }
+
+  /**
+   * Opens a model; what was open stays where that fails.
+   * @param source  gives the bytes once more
+   */
+  async open(bytes: ArrayBuffer, fileName: string, source: () => Promise<ArrayBuffer>, state: ViewState | null = null): Promise<boolean> {
+    if (!this.engine) return false;
+    const before = this.status;
+    this.status = "loading";
+    this.message = null;
+    try {
+      const info = await this.engine.open(bytes, fileName, (step, share) => this.report_(step, share));
+      this.modelFile = fileName;
+      this.source = source;
+      this.take(info, state ?? { ...initialState(this.state.look), wireframe: null });
+      return true;
+    } catch (error) {
+      this.status = before === "loading" ? "empty" : before;
+      this.fail(error, t("failedTitle"));
+      if (isDeadly(error)) await this.reopen(error as EngineError);
+      return false;
+    } finally {
+      this.progress = null;
+      this.changed();
+    }
+  }
+
+  private report_(step: string, share: number): void {
+    this.progress = { text: step, share };
+    this.changed();
+  }
+
+  private take(info: VolumeInfo, state: ViewState): void {
+    this.info = info;
+    this.box = boxOf(info);
+    this.index = indexFeatures(info.features);
+    this.state = { ...state, selection: state.selection.filter((id) => this.index.byId.has(id)) };
+    this.hidden = hiddenFlags(this.index, state.hide);
+    this.measured = [];
+    this.along = null;
+    this.properties = null;
+    this.report = null;
+    this.status = "ready";
+    document.title = `${info.name || info.source} - SVT`;
+    this.redraw();
+    void this.readProperties();
+    if (!this.state.camera) void this.fit(0);
+  }
+
+  /** To where a query's features fill the picture; from a named view, or from where the camera looks now. */
+  async goTo(query: string, preset: string | null, isFollowed = true): Promise<void> {
+    if (!this.engine || !this.info) return;
+    const now = this.state.camera;
+    const seen = now ? withProjection(now, false) : null;
+    const from: SceneCamera = seen ? sceneCamera(seen, this.box, this.aspect) : { preset: "iso" };
+    try {
+      const { eye, target, fieldOfView } = await this.engine.view(query, preset, from);
+      if (!eye || !target) return;
+      const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? seen?.fieldOfView ?? 30 };
+      this.moveTo(withProjection(camera, now?.parallel ?? false), isFollowed);
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  /** Flies where people like motion. */
+  moveTo(camera: Camera, isFollowed = true): void {
+    cancelAnimationFrame(this.move);
+    const from = this.state.camera;
+    if (!from || !isFollowed || matchMedia("(prefers-reduced-motion: reduce)").matches) return this.set({ camera });
+    const start = performance.now(), duration = 350;
+    const step = () => {
+      const share = Math.min(1, (performance.now() - start) / duration);
+      const eased = share * share * (3 - 2 * share);
+      this.set({ camera: share === 1 ? camera : between(from, camera, eased) });
+      if (share < 1) this.move = requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  /** By hand: ends a flight. */
+  turn(camera: Camera): void {
+    cancelAnimationFrame(this.move);
+    this.set({ camera });
+  }
+
+  select(ids: string[], isAdded = false): void {
+    const kept = isAdded ? this.state.selection.filter((id) => !ids.includes(id)) : [];
+    const added = isAdded && ids.every((id) => this.state.selection.includes(id)) ? [] : ids;
+    this.along = null;
+    this.set({ selection: [...kept, ...added] });
+    const only = this.selected();
+    if (only) this.say(t("picked", { name: labelOf(only), class: only.class }));
+    else this.say(ids.length ? t("severalSelected", { n: this.state.selection.length }) : t("nothingSelected"));
+  }
+
+  /** The only one selected. */
+  selected() {
+    const [id, second] = this.state.selection;
+    if (id === undefined || second !== undefined) return null;
+    const i = this.index.byId.get(id);
+    return i === undefined ? null : this.index.features[i]!;
+  }
+
+  picked(pick: Pick | null, isAdded: boolean): void {
+    if (pick) return this.select([pick.id], isAdded);
+    if (!isAdded) this.select([]);
+    this.say(t("pickedNothing"));
+  }
+
+  async listAlong(x: number, y: number): Promise<void> {
+    if (!this.engine || !this.info) return;
+    try {
+      this.along = { x, y, stretches: await this.engine.along(x, y) };
+      this.say(t("alongTitle"));
+    } catch (error) {
+      this.fail(error);
+    }
+    this.changed();
+  }
+
+  hide(members: Iterable<number>, hidden: boolean): void {
+    const flags = switched(this.hidden, members, hidden);
+    this.set({ hide: hideQueries(this.index, flags, this.state.hide) });
+  }
+
+  private async readProperties(): Promise<void> {
+    const id = this.state.selection.length === 1 ? this.state.selection[0]! : null;
+    if (this.properties?.id !== id) this.properties = null;
+    if (id === null || !this.engine || !this.info) return;
+    try {
+      const properties = await this.engine.properties(id);
+      if (this.state.selection[0] === id) this.properties = properties;
+      this.changed();
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  /** The scene as `svt render --scene` takes it, with effects. */
+  async composed(size: [number, number], samples: 1 | 4 | 9 | 16 = 4) {
+    const described = this.describe(size, samples);
+    if (!this.engine || Object.keys(described.effects).length === 0) return described.scene;
+    return this.engine.compose(described.scene, described.effects);
+  }
+
+  /** The page's address shows what the page shows. */
+  async writeLink(): Promise<void> {
+    if (!this.info || !this.state.camera) return;
+    const state = this.state;
+    try {
+      const hash = await hashOf(await this.composed(this.pictureSize), state);
+      if (this.state === state) history.replaceState(null, "", hash);
+    } catch {
+      // What cannot be drawn has no link; the picture told why.
+    }
+  }
+
+  /** Selection as queries of the language. */
+  get selectionQuery(): string {
+    return this.state.selection.map(ofId).join(" or ");
+  }
+
+  toolText(tool: Tool): string {
+    return t(tool as TextKey);
+  }
+}
+
+/** After these the worker is a new one, without a volume. */
+function isDeadly(error: unknown): boolean {
+  return (error as EngineError).code === "E999";
+}
+
+function isDrawnDifferently(a: ViewState, b: ViewState): boolean {
+  for (const key of Object.keys(b) as (keyof ViewState)[]) {
+    if (a[key] === b[key]) continue;
+    if (key !== "selection" || b.names || ((b.effect === "highlight" || b.effect === "cutaway") && b.focus.query === "")) return true;
+  }
+  return false;
+}

@@ -1,0 +1,58 @@
+/** A view as a command for the shell: `svt render` with options where they can say it, else with a scene file. */
+
+import type { Scene } from "../engine";
+import { focusQueries, regionOf, type Described } from "./scene_of";
+import type { ViewState } from "./view_state";
+
+/** One word of a POSIX shell. */
+export function shellWord(text: string): string {
+  return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
+}
+
+/** Whether options of `svt render` say all of it. */
+function isSayable(state: ViewState): boolean {
+  if (state.custom || state.hatches === false) return false;
+  if (state.effect === "cutaway" && (state.focus.margin !== 0.15 || focusQueries(state).length !== 1)) return false;
+  return state.styles.every((style) => !style.hatch && !style.ghost);
+}
+
+export function commandOf(state: ViewState, { scene, effects }: Described, model: string): string {
+  const start = ["svt", "render", model, "-o", "view.png"];
+  const words = isSayable(state) ? [...start, ...options(state, scene, effects)] : [...start, "--scene", "view.scene.json"];
+  return words.map(shellWord).join(" ");
+}
+
+function options(state: ViewState, scene: Scene, effects: Described["effects"]): string[] {
+  const camera = scene.camera ?? {};
+  const words = ["--size", (scene.size ?? [1280, 720]).join("x")];
+  const add = (option: string, ...values: string[]) => values.forEach((value) => words.push(option, value));
+  if (camera.preset && camera.preset !== "iso") add("--camera", camera.preset);
+  if (camera.parallel) words.push("--ortho");
+  if (camera.zoom !== undefined && camera.zoom !== 1) add("--zoom", String(camera.zoom));
+  if (camera.eye) add("--eye", camera.eye.join(","));
+  if (camera.target) add("--target", camera.target.join(","));
+  if (camera.fieldOfView !== undefined && camera.fieldOfView !== 30) add("--fov", String(camera.fieldOfView));
+  if (scene.look) add("--look", scene.look);
+  if (state.hatches) words.push("--hatch");
+  add("--show", ...state.show);
+  add("--hide", ...state.hide);
+  for (const style of state.styles) if (style.color) add("--color", `${style.select}:${style.color}`);
+  for (const style of state.styles) if (style.opacity !== undefined) add("--opacity", `${style.select}:${style.opacity}`);
+  if (state.shell) add("--shell", state.shell);
+  if (effects.lens) {
+    add("--lens", effects.lens.region);
+    if (!state.sections.length) add("--section", effects.lens.cut);
+  }
+  add("--section", ...state.sections.map(regionOf));
+  add("--highlight", ...(effects.highlight?.queries ?? []));
+  if (effects.cutaway) add("--cutaway", effects.cutaway.query);
+  const context = effects.lens?.context ?? effects.highlight?.context;
+  if (context && context !== "ghost") add("--context", context);
+  add("--names", ...(scene.names ?? []));
+  // Last, since its query may be left out.
+  if (state.wireframe) {
+    if (state.wireframe !== "faint") add("--hidden-lines", state.wireframe);
+    words.push("--wireframe");
+  }
+  return words;
+}

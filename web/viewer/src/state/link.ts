@@ -1,0 +1,101 @@
+/**
+ * A view as a link: `#scene=...&view=...`, each JSON, deflated, base64url. `scene` is what is drawn, as a scene file has
+ * it; `view` is the page's state, so that its tools come back as they were. A link with a scene alone opens as well.
+ */
+
+import type { Scene } from "../engine";
+import { initialState, type ViewState } from "./view_state";
+
+const kMaxBytes = 4 << 20;
+
+async function through(bytes: Uint8Array, stream: GenericTransformStream, maxBytes: number): Promise<Uint8Array> {
+  const reader = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(stream as ReadableWritablePair<Uint8Array, Uint8Array>).getReader();
+  const parts: Uint8Array[] = [];
+  let size = 0;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    size += value.length;
+    if (size > maxBytes) throw new Error("too long");
+    parts.push(value);
+  }
+  const all = new Uint8Array(size);
+  let at = 0;
+  for (const part of parts) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all;
+}
+
+export async function packed(value: unknown): Promise<string> {
+  const bytes = await through(new TextEncoder().encode(JSON.stringify(value)), new CompressionStream("deflate-raw"), kMaxBytes);
+  let text = "";
+  for (const byte of bytes) text += String.fromCharCode(byte);
+  return btoa(text).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+}
+
+/** Rejects where the text is not what packed() made. */
+export async function unpacked(text: string): Promise<unknown> {
+  const binary = atob(text.replace(/-/g, "+").replace(/_/g, "/"));
+  const bytes = Uint8Array.from(binary, (c) => c.charCodeAt(0));
+  return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), kMaxBytes)));
+}
+
+export async function hashOf(scene: Scene, state: ViewState): Promise<string> {
+  return `#scene=${await packed(scene)}&view=${await packed(changes(state))}`;
+}
+
+/** The state of a link; null where it carries none. Rejects where it is damaged. */
+export async function stateOfHash(hash: string, base: ViewState): Promise<ViewState | null> {
+  const parts = new URLSearchParams(hash.replace(/^#/, ""));
+  const view = parts.get("view"), scene = parts.get("scene");
+  if (view) return restored(await unpacked(view));
+  if (scene) return ofScene((await unpacked(scene)) as Scene, base);
+  return null;
+}
+
+/** What differs from the initial state. */
+function changes(state: ViewState): Partial<ViewState> {
+  const initial = initialState();
+  const entries = Object.entries(state).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(initial[key as keyof ViewState]));
+  return Object.fromEntries(entries) as Partial<ViewState>;
+}
+
+/** Members of the wrong kind are as initially, so that no link can break the page. */
+export function restored(value: unknown): ViewState {
+  const initial = initialState();
+  if (typeof value !== "object" || value === null) return initial;
+  const given = value as Record<string, unknown>;
+  const state: Record<string, unknown> = { ...initial };
+  for (const key of Object.keys(initial)) if (key in given && isLike(initial[key as keyof ViewState], given[key], key)) state[key] = given[key];
+  return state as unknown as ViewState;
+}
+
+const kNullable: Record<string, string> = { camera: "object", hatches: "boolean", shell: "string", wireframe: "string", custom: "object" };
+
+function isLike(initial: unknown, given: unknown, key: string): boolean {
+  if (key in kNullable) return given === null || (typeof given === kNullable[key] && (key !== "camera" || isCamera(given)));
+  if (Array.isArray(initial)) return Array.isArray(given) && given.every((item) => typeof item === (key === "styles" || key === "sections" ? "object" : "string"));
+  if (typeof initial === "object" && initial !== null)
+    return typeof given === "object" && given !== null && Object.entries(initial).every(([k, v]) => typeof (given as Record<string, unknown>)[k] === typeof v);
+  return typeof given === typeof initial;
+}
+
+function isCamera(given: unknown): boolean {
+  const { eye, target, height, fieldOfView } = given as Record<string, unknown>;
+  const isPoint = (p: unknown) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
+  return isPoint(eye) && isPoint(target) && Number(height) > 0 && Number(fieldOfView) > 0 && Number(fieldOfView) < 180;
+}
+
+/** A scene file as state: its passes are drawn as they are; camera, look and hatches become the page's own. */
+export function ofScene(scene: Scene, base: ViewState): ViewState {
+  const { eye, target, parallel, fieldOfView } = scene.camera ?? {};
+  const camera = eye && target && !parallel ? { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? 30 } : base.camera;
+  return {
+    ...initialState(scene.look ?? "plain"),
+    camera,
+    hatches: scene.hatches?.show ?? null,
+    custom: scene,
+  };
+}

@@ -1,0 +1,116 @@
+/** State to scene: a pure function, the only place where the page says what is drawn. */
+
+import type { Effects, Point, Scene, SceneCamera, ScenePass } from "../engine";
+import { parallelZoom, type Box } from "../camera/camera";
+import { add, distance, normalized, scale, sub } from "../camera/vec";
+import { ofId } from "./queries";
+import type { Camera, Section, ViewState } from "./view_state";
+
+/** A scene of one pass, and what `Engine.compose()` makes more of it by. */
+export interface Described {
+  scene: Scene;
+  effects: Effects;
+}
+
+/** At most this many decimals: tenths of a millimetre, which keeps links short. */
+function round(value: number, digits = 4): number {
+  const rounded = Number(value.toFixed(digits));
+  return Object.is(rounded, -0) ? 0 : rounded;
+}
+const roundPoint = (p: Point): Point => [round(p[0]), round(p[1]), round(p[2])];
+
+/** The unit vector that points to what a free plane takes away. */
+export function freeNormal(section: Section): Point {
+  const turn = (section.turn * Math.PI) / 180;
+  const tilt = (section.tilt * Math.PI) / 180;
+  return [Math.cos(turn) * Math.cos(tilt), Math.sin(turn) * Math.cos(tilt), Math.sin(tilt)];
+}
+
+/** The region that a plane takes away (docs/user/regions.md); also what `svt section --plane` takes. */
+export function regionOf(section: Section): string {
+  if (section.axis !== "free") return `${section.axis}${section.flip ? "<" : ">"}${round(section.at)}`;
+  const sign = section.flip ? -1 : 1;
+  const [a, b, c] = freeNormal(section).map((v) => round(v * sign, 6)) as Point;
+  return `${a},${b},${c},${round(-section.at * sign)}`;
+}
+
+export function cutOf(sections: Section[]): string {
+  return sections.map(regionOf).join(" or ");
+}
+
+/** The queries that highlight or cutaway are for; none: nothing to show. */
+export function focusQueries(state: ViewState): string[] {
+  return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
+}
+
+export function sceneCamera(camera: Camera | null, box: Box, aspect: number): SceneCamera {
+  if (!camera) return { preset: "iso" };
+  const preset = presetFor(camera);
+  if (!camera.parallel)
+    return {
+      preset,
+      eye: roundPoint(camera.eye),
+      target: roundPoint(camera.target),
+      fieldOfView: round(camera.fieldOfView, 3),
+    };
+  // Scenes give the height of a parallel view as a zoom of the named one, and the zoom draws the eye nearer.
+  // Its rays begin at the eye, so that stands beyond all there is.
+  const zoom = Number(parallelZoom(preset, box, aspect, camera.height).toPrecision(6));
+  const away = normalized(sub(camera.eye, camera.target));
+  const reach = 2 * distance(box.low, box.high) + distance(camera.target, box.low);
+  const eye = add(camera.target, scale(away, reach * zoom));
+  return { preset, parallel: true, zoom, eye: roundPoint(eye), target: roundPoint(camera.target) };
+}
+
+function presetFor(camera: Camera): "iso" | "top" | "bottom" {
+  const [dx, dy, dz] = camera.target.map((t, i) => t - camera.eye[i]!) as Point;
+  if (Math.hypot(dx, dy) > 1e-4 * Math.abs(dz)) return "iso";
+  return dz < 0 ? "top" : "bottom";
+}
+
+function passOf(state: ViewState): ScenePass {
+  const pass: ScenePass = {};
+  if (state.show.length) pass.show = state.show;
+  if (state.hide.length) pass.hide = state.hide;
+  if (state.styles.length) pass.styles = state.styles;
+  if (state.sections.length && state.effect !== "lens") pass.cut = cutOf(state.sections);
+  if (state.wireframe) pass.lines = [{ hidden: state.wireframe }];
+  if (state.shell) pass.shell = state.shell;
+  return pass;
+}
+
+/** Where the lens cuts when no plane is set: the nearer half of the building goes. */
+export function lensCut(state: ViewState, box: Box): string {
+  if (state.sections.length) return cutOf(state.sections);
+  return `y<${round((box.low[1] + box.high[1]) / 2, 2)}`;
+}
+
+function effectsOf(state: ViewState, box: Box): Effects {
+  if (state.custom) return {};
+  const { lens, focus } = state;
+  if (state.effect === "lens") {
+    const region = `view(${round(lens.x)},${round(lens.y)},${round(lens.radius)})`;
+    return { lens: { region, cut: lensCut(state, box), context: lens.context } };
+  }
+  const queries = focusQueries(state);
+  if (!queries.length) return {};
+  if (state.effect === "highlight") return { highlight: { queries, context: focus.context } };
+  if (state.effect === "cutaway") return { cutaway: { query: queries.join(" or "), margin: focus.margin } };
+  return {};
+}
+
+/**
+ * @param box   of the grid, metres from its lower corner along its axes
+ * @param size  of the picture, pixels
+ */
+export function sceneOf(state: ViewState, box: Box, size: [number, number], samples: 1 | 4 | 9 | 16 = 4): Described {
+  const scene: Scene = { format: "svt-scene", version: 1, size, samples };
+  if (state.look !== "plain") scene.look = state.look;
+  const camera = sceneCamera(state.camera, box, size[0] / size[1]);
+  scene.camera = camera;
+  if (state.hatches !== null) scene.hatches = { show: state.hatches };
+  if (state.names && state.selection.length) scene.names = state.selection.map(ofId);
+  scene.passes = [passOf(state)];
+  if (state.custom) return { scene: { ...state.custom, ...scene, passes: state.custom.passes ?? [{}] }, effects: {} };
+  return { scene, effects: effectsOf(state, box) };
+}

@@ -1,0 +1,73 @@
+/** A section plane where it meets the building's box: what the picture shows of it, and how it is dragged. */
+
+import type { Point } from "../engine";
+import { corners, kWorldAxes, project, type Box } from "../camera/camera";
+import { add, cross, dot, scale, sub } from "../camera/vec";
+import { freeNormal } from "../state/scene_of";
+import type { Camera, Section } from "../state/view_state";
+
+/** Of a plane dot(normal, p) = at, world axes. */
+export function normalOf(section: Section, box: Box): Point {
+  if (section.axis === "free") return freeNormal(section);
+  return box.axes[{ x: 0, y: 1, z: 2 }[section.axis]] as Point;
+}
+
+/** How far the plane can go without leaving the box. */
+export function rangeOf(section: Section, box: Box): [number, number] {
+  const along = corners(box).map((corner) => dot(corner, normalOf(section, box)));
+  return [Math.min(...along), Math.max(...along)];
+}
+
+const kEdges: [number, number][] = [
+  [0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7],
+];
+
+/** The polygon in which a plane cuts the box, around its middle; empty: it does not. */
+export function planeOutline(section: Section, box: Box): Point[] {
+  const normal = normalOf(section, box);
+  const points = corners(box);
+  const side = points.map((p) => dot(p, normal) - section.at);
+  const cut: Point[] = [];
+  for (const [a, b] of kEdges) {
+    const [da, db] = [side[a]!, side[b]!];
+    if (da < 0 === db < 0) continue;
+    cut.push(add(points[a]!, scale(sub(points[b]!, points[a]!), da / (da - db))));
+  }
+  if (cut.length < 3) return [];
+  const middle = middleOf(cut);
+  const across = sub(cut[0]!, middle), upward = cross(normal, across);
+  const angle = (p: Point) => Math.atan2(dot(sub(p, middle), upward), dot(sub(p, middle), across));
+  return cut.sort((p, q) => angle(p) - angle(q));
+}
+
+export function middleOf(points: Point[]): Point {
+  return scale(points.reduce(add, [0, 0, 0] as Point), 1 / Math.max(1, points.length));
+}
+
+/** Where a plane at the border of the box would be gone, it is drawn there all the same. */
+export function keptInside(section: Section, box: Box): Section {
+  const [low, high] = rangeOf(section, box);
+  const inset = (high - low) * 1e-4;
+  return { ...section, at: Math.min(high - inset, Math.max(low + inset, section.at)) };
+}
+
+/**
+ * Metres that the plane moves along its normal when its handle is dragged by (dx, dy) pixels.
+ * @param size  of the picture, pixels
+ */
+export function dragged(camera: Camera, size: [number, number], handle: Point, normal: Point, dx: number, dy: number): number {
+  const aspect = size[0] / size[1];
+  const step = 0.01;
+  const a = project(camera, aspect, handle), b = project(camera, aspect, add(handle, scale(normal, step)));
+  if (!a || !b) return 0;
+  const along: [number, number] = [((b.x - a.x) * size[0]) / step, ((b.y - a.y) * size[1]) / step];
+  const square = along[0] ** 2 + along[1] ** 2;
+  // Seen nearly end on, a pixel would mean metres.
+  if (square < 4) return (-dy * 2 * camera.height) / size[1];
+  return (dx * along[0] + dy * along[1]) / square;
+}
+
+export const boxEdges = (box: { low: Point; high: Point }): [Point, Point][] => {
+  const at = corners({ ...box, axes: kWorldAxes });
+  return kEdges.map(([a, b]) => [at[a]!, at[b]!]);
+};

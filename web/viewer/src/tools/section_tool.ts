@@ -1,0 +1,131 @@
+/** Planes that cut: where they are, and their drawings. */
+
+import { css, html, nothing } from "lit";
+import type { DrawingFormat } from "../engine";
+import { regionOf } from "../state/scene_of";
+import type { Section, SectionAxis } from "../state/view_state";
+import { number, t } from "../texts";
+import { save } from "../ui/files";
+import { icon } from "../ui/icons";
+import { controls, Part } from "../ui/part";
+import { rangeOf } from "./plane_outline";
+
+const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
+const kFormats: DrawingFormat[] = ["svg", "dxf", "geojson", "csv"];
+/** Where plans are cut: above the floor, over window sills. */
+const kPlanHeight = 1.1;
+
+export class SectionTool extends Part {
+  static override styles = [
+    controls,
+    css`
+      .plane { border-top: 1px solid var(--line); padding: 10px 0; display: grid; gap: 6px; }
+      .line { display: grid; grid-template-columns: 64px 1fr 74px; gap: 10px; align-items: center; }
+      output { text-align: right; font-variant-numeric: tabular-nums; }
+      .head { display: flex; gap: 6px; align-items: center; }
+      .head .segments { flex: 1; }
+      .chips { display: flex; flex-wrap: wrap; gap: 6px; margin: 8px 0; }
+    `,
+  ];
+
+  protected override uses() {
+    const { state, info } = this.session;
+    return [state.sections, state.hatches, state.look, info];
+  }
+
+  override render() {
+    const { session } = this;
+    const { sections, hatches, look } = session.state;
+    const isHatched = hatches ?? (look === "paper" || look === "blueprint");
+    return html`
+      ${sections.length ? nothing : html`<p class="quiet">${t("sectionHint")}</p>`}
+      ${this.storeys()}
+      ${sections.map((section, n) => this.plane(section, n))}
+      <div class="row">
+        <button class=${sections.length ? "" : "loud"} id="add-plane" @click=${() => this.add()}>${icon("plus", 16)}${t("addPlane")}</button>
+        <label class="check"><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
+      </div>
+    `;
+  }
+
+  private storeys() {
+    const storeys = this.session.info?.storeys ?? [];
+    if (!storeys.length) return nothing;
+    return html`<div class="chips" role="group" aria-label=${t("storeys")}>${storeys.map(
+      ({ name, id, floor }) => html`<button aria-label=${t("storeyCut", { name: name || id })} @click=${() => this.cutStorey(floor)}>${name || id}</button>`,
+    )}</div>`;
+  }
+
+  private plane(section: Section, n: number) {
+    const [low, high] = rangeOf(section, this.session.box);
+    return html`<div class="plane" role="group" aria-label=${t("planeNumber", { n: n + 1 })}>
+      <div class="head">
+        <div class="segments" role="radiogroup" aria-label=${t("axis")}>${kAxes.map(
+          (axis) => html`<button role="radio" aria-checked=${section.axis === axis} title=${axisText(axis)} aria-label=${axisText(axis)} @click=${() => this.turnTo(n, axis)}>${axis === "free" ? t("axisFree") : axis}</button>`,
+        )}</div>
+        <button aria-pressed=${section.flip} aria-label=${t("flip")} title=${t("flip")} @click=${() => this.change(n, { flip: !section.flip })}>${icon("flip", 16)}</button>
+        <button class="bare" aria-label=${t("removePlane", { n: n + 1 })} title=${t("removePlane", { n: n + 1 })} @click=${() => this.removePlane(n)}>${icon("bin", 16)}</button>
+      </div>
+      ${this.slider(t("position"), section.at, low, high, 0.01, `${number(section.at, 2)} m`, (at) => this.change(n, { at }))}
+      ${section.axis === "free"
+        ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
+            ${this.slider(t("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
+        : nothing}
+      <div class="row small"><span class="quiet">${t("drawing", { n: n + 1 })}</span>${kFormats.map(
+        (format) => html`<button class="small" aria-label=${t("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
+      )}</div>
+    </div>`;
+  }
+
+  private slider(label: string, value: number, low: number, high: number, step: number, text: string, change: (value: number) => void) {
+    return html`<div class="line"><span class="quiet">${label}</span>
+      <wa-slider size="s" label=${label} aria-label=${label} min=${low.toFixed(3)} max=${high.toFixed(3)} step=${step} .value=${value}
+        @input=${(e: Event) => change(Number((e.target as HTMLInputElement).value))}></wa-slider>
+      <output>${text}</output></div>`;
+  }
+
+  private add(): void {
+    const { sections } = this.session.state;
+    const axis = (["y", "z", "x"] as const).find((wanted) => !sections.some((section) => section.axis === wanted)) ?? "free";
+    this.session.set({ sections: [...sections, this.middle({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 })] });
+  }
+
+  /** What is before the middle goes. */
+  private middle(section: Section): Section {
+    const [low, high] = rangeOf(section, this.session.box);
+    return { ...section, at: Number(((low + high) / 2).toFixed(2)) };
+  }
+
+  private turnTo(n: number, axis: SectionAxis): void {
+    const section = this.session.state.sections[n]!;
+    if (section.axis !== axis) this.change(n, this.middle({ ...section, axis, flip: axis === "y" }));
+  }
+
+  private change(n: number, change: Partial<Section>): void {
+    this.session.set({ sections: this.session.state.sections.map((section, i) => (i === n ? { ...section, ...change } : section)) });
+  }
+
+  private removePlane(n: number): void {
+    this.session.set({ sections: this.session.state.sections.filter((_, i) => i !== n) });
+  }
+
+  private cutStorey(floor: number): void {
+    const others = this.session.state.sections.filter((section) => section.axis !== "z");
+    this.session.set({ sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }] });
+  }
+
+  private async export(n: number, format: DrawingFormat): Promise<void> {
+    const { session } = this;
+    try {
+      const bytes = await session.engine!.drawing(regionOf(session.state.sections[n]!), format);
+      save(bytes, `section-${n + 1}.${format}`);
+    } catch (error) {
+      session.fail(error);
+    }
+  }
+}
+customElements.define("svt-section-tool", SectionTool);
+
+function axisText(axis: SectionAxis): string {
+  return t(({ x: "axisX", y: "axisY", z: "axisZ", free: "axisFree" } as const)[axis]);
+}

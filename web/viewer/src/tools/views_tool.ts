@@ -1,0 +1,59 @@
+/** Named views, projection, walking. */
+
+import { css, html, nothing } from "lit";
+import { withProjection } from "../camera/camera";
+import { stepInside } from "../camera/controls";
+import type { Session } from "../session";
+import { number, t, type TextKey } from "../texts";
+import { icon } from "../ui/icons";
+import { controls, Part } from "../ui/part";
+
+/** In the order of the keys 1 to 7. */
+export const kViews = ["iso", "front", "right", "back", "left", "top", "bottom"] as const;
+
+export function setWalking(session: Session, isWalking: boolean): void {
+  const { camera } = session.state;
+  session.isWalking = isWalking;
+  if (!camera) return session.changed();
+  if (!isWalking) return void session.goTo("", "iso");
+  const floor = session.info?.storeys[0]?.floor ?? session.box.low[2];
+  session.moveTo(stepInside(withProjection(camera, false), floor));
+}
+
+export class ViewsTool extends Part {
+  static override styles = [controls, css`
+    .views { display: grid; grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 5px; margin-bottom: 6px; }
+    .views button { padding: 4px 2px; gap: 4px; }
+    .views kbd { font: inherit; font-size: 11px; color: var(--quiet); }
+    .line { display: grid; grid-template-columns: 84px 1fr 44px; gap: 10px; align-items: center; min-height: 36px; }
+    output { text-align: right; font-variant-numeric: tabular-nums; }
+  `];
+
+  protected override uses() {
+    const { camera } = this.session.state;
+    return [camera?.parallel, camera?.fieldOfView, this.session.isWalking];
+  }
+
+  override render() {
+    const { session } = this;
+    const { camera } = session.state;
+    return html`
+      <div class="views">${kViews.map(
+        (view, n) => html`<button @click=${() => void session.goTo("", view)}>${t(`view_${view}` as TextKey)} <kbd>${n + 1}</kbd></button>`,
+      )}<button @click=${() => void session.goTo("", null)}>${icon("fit", 16)} <kbd>0</kbd><span class="visually-hidden">${t("fit")}</span></button></div>
+      <div class="row">
+        <label class="check"><input type="checkbox" id="parallel" .checked=${camera?.parallel ?? false} ?disabled=${session.isWalking}
+          @change=${(e: Event) => camera && session.turn(withProjection(session.state.camera!, (e.target as HTMLInputElement).checked))} />${t("parallel")}</label>
+        <label class="check"><input type="checkbox" id="walk" .checked=${session.isWalking} @change=${(e: Event) => setWalking(session, (e.target as HTMLInputElement).checked)} />${t("walk")}</label>
+      </div>
+      ${camera && !camera.parallel
+        ? html`<div class="line"><span class="quiet">${t("fieldOfView")}</span>
+            <wa-slider size="s" label=${t("fieldOfView")} aria-label=${t("fieldOfView")} min="10" max="100" step="1" .value=${Math.round(camera.fieldOfView)}
+              @input=${(e: Event) => session.turn({ ...session.state.camera!, fieldOfView: Number((e.target as HTMLInputElement).value) })}></wa-slider>
+            <output>${number(camera.fieldOfView, 0)}°</output></div>`
+        : nothing}
+      ${session.isWalking ? html`<p class="small quiet">${t("walkHint")}</p>` : nothing}
+    `;
+  }
+}
+customElements.define("svt-views-tool", ViewsTool);

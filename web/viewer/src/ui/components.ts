@@ -1,0 +1,12 @@
+/** The kept components that the page uses; loaded after the first picture is asked for. */
+
+import "@awesome.me/webawesome/dist/components/color-picker/color-picker.js";
+import "@awesome.me/webawesome/dist/components/dialog/dialog.js";
+import "@awesome.me/webawesome/dist/components/slider/slider.js";
+import "@awesome.me/webawesome/dist/components/split-panel/split-panel.js";
+import "@awesome.me/webawesome/dist/translations/de.js";
+import { registerIconLibrary } from "@awesome.me/webawesome/dist/components/icon/library.js";
+
+// Icons come from the page's own folder, never from elsewhere.
+for (const library of ["default", "system"])
+  registerIconLibrary(library, { resolver: (name: string) => new URL(`icons/${name}.svg`, document.baseURI).href });

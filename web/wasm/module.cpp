@@ -1,0 +1,263 @@
+// What JavaScript calls: one function that takes a call's name, its arguments as a JSON array and bytes, and leaves a
+// reply, JSON or bytes, to be read before the next call. See calls() for the calls.
+#include "font.hpp"
+#include "replies.hpp"
+
+#include <svt/illustrate/section_drawing.hpp>
+#include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/view.hpp>
+#include <svt/writers/dxf_drawing.hpp>
+#include <svt/writers/geojson_drawing.hpp>
+#include <svt/writers/section_table.hpp>
+#include <svt/writers/svg_drawing.hpp>
+
+#include <emscripten.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <new>
+#include <utility>
+
+// What the worker tells the page while a volume is opened.
+EM_JS(void, svt_progress, (const char* stage, int size, double done), {
+    if (Module["onProgress"]) Module["onProgress"](UTF8ToString(stage, size), done);
+});
+
+namespace svt::web {
+namespace {
+
+using Json = nlohmann::json;
+
+/// JSON text or bytes. Pixels stay where they are until the next picture.
+struct Reply {
+    std::vector<std::byte> owned;
+    std::span<const std::byte> bytes;
+
+    Reply() = default;
+    Reply(std::vector<std::byte> data) : owned(std::move(data)), bytes(owned) {}
+    Reply(const std::string& text) : owned(asBytes(text).begin(), asBytes(text).end()), bytes(owned) {}
+    explicit Reply(std::span<const std::byte> elsewhere) : bytes(elsewhere) {}
+    Reply(Reply&&) = default;
+    Reply& operator=(Reply&&) = default;
+
+    static std::span<const std::byte> asBytes(const std::string& text) {
+        return std::as_bytes(std::span(text.data(), text.size()));
+    }
+};
+
+std::unique_ptr<Session> session;
+Reply lastReply;
+
+/// Arguments of a call: the page's own, so a wrong kind is a defect of it, not of a user's file.
+class Arguments {
+public:
+    Arguments(const Json& values, std::span<const std::byte> bytes) : values_(values), bytes_(bytes) {}
+
+    [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
+    [[nodiscard]] const Json& at(std::size_t n) const {
+        static const Json kNone;
+        return n < values_.size() ? values_[n] : kNone;
+    }
+    [[nodiscard]] std::string text(std::size_t n) const {
+        return at(n).is_string() ? at(n).get_ref<const std::string&>() : std::string();
+    }
+    [[nodiscard]] double number(std::size_t n) const { return at(n).is_number() ? at(n).get<double>() : 0; }
+    [[nodiscard]] Result<illustrate::Scene> scene(std::size_t n) const {
+        return illustrate::parseScene(at(n).dump(), "scene");
+    }
+    /// One that is to be drawn.
+    [[nodiscard]] Result<illustrate::Scene> picture(std::size_t n) const {
+        auto parsed = scene(n);
+        if (parsed && !parsed->names.empty() && !hasFont())
+            return Error(Code::BadArgument, "names cannot be drawn without their font; give it first");
+        return parsed;
+    }
+
+private:
+    const Json& values_;
+    std::span<const std::byte> bytes_;
+};
+
+illustrate::Context contextOf(const Json& value) {
+    if (value == "shell") return illustrate::Context::Shell;
+    if (value == "solid") return illustrate::Context::Solid;
+    if (value == "none") return illustrate::Context::None;
+    return illustrate::Context::Ghost;
+}
+
+// (name) and the file's bytes -> VolumeInfo
+Result<Reply> open(const Arguments& arguments) {
+    Progress progress;
+    progress.report = [](std::string_view stage, double done) {
+        svt_progress(stage.data(), static_cast<int>(stage.size()), done);
+    };
+    auto opened = Session::open(arguments.bytes(), arguments.text(0), &progress);
+    if (!opened) return opened.error();
+    session = std::move(*opened);
+    return Reply(infoOf(*session));
+}
+
+// The bytes of DejaVuSans.ttf -> nothing. Needed before names are drawn.
+Result<Reply> font(const Arguments& arguments) {
+    if (auto done = setFont(arguments.bytes()); !done) return done.error();
+    return Reply(std::string("null"));
+}
+
+// (scene, width, height) -> RGBA, row by row from the top
+Result<Reply> draw(const Arguments& arguments) {
+    auto scene = arguments.picture(0);
+    if (!scene) return scene.error();
+    scene->width = static_cast<std::int32_t>(arguments.number(1));
+    scene->height = static_cast<std::int32_t>(arguments.number(2));
+    const auto frame = session->draw(*scene);
+    if (!frame) return frame.error();
+    return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
+}
+
+// (scene, width, height, whether it is a trial that nobody sees) -> nothing; drawn into the context that is current
+Result<Reply> drawGl(const Arguments& arguments) {
+    auto scene = arguments.scene(0);
+    if (!scene) return scene.error();
+    scene->width = static_cast<std::int32_t>(arguments.number(1));
+    scene->height = static_cast<std::int32_t>(arguments.number(2));
+    const auto purpose = arguments.at(3) == true ? Session::Purpose::Trial : Session::Purpose::Shown;
+    if (auto drawn = session->drawGl(*scene, purpose); !drawn) return drawn.error();
+    return Reply(std::string("null"));
+}
+Result<Reply> dropGl(const Arguments&) {
+    session->dropGl();
+    return Reply(std::string("null"));
+}
+
+// (scene, effects) -> scene
+Result<Reply> compose(const Arguments& arguments) {
+    auto scene = arguments.scene(0);
+    if (!scene) return scene.error();
+    const Json& effects = arguments.at(1);
+    const auto textOf = [](const Json& of, const char* member) { return of.value(member, std::string()); };
+    if (const auto lens = effects.find("lens"); lens != effects.end())
+        illustrate::addLens(*scene, textOf(*lens, "region"), textOf(*lens, "cut"),
+                            contextOf(lens->value("context", Json())));
+    if (const auto highlight = effects.find("highlight"); highlight != effects.end())
+        illustrate::addHighlight(*scene, highlight->value("queries", std::vector<std::string>{}),
+                                 contextOf(highlight->value("context", Json())));
+    if (const auto cutaway = effects.find("cutaway"); cutaway != effects.end())
+        illustrate::addCutaway(*scene, textOf(*cutaway, "query"), cutaway->value("margin", 0.15));
+    return Reply(illustrate::writeScene(*scene));
+}
+
+Result<Reply> pick(const Arguments& arguments) {
+    return Reply(pickOf(*session, arguments.number(0), arguments.number(1)));
+}
+
+Result<Reply> replyOf(Result<std::string> text) {
+    if (!text) return text.error();
+    return Reply(*text);
+}
+
+Result<Reply> along(const Arguments& arguments) {
+    return replyOf(stretchesOf(*session, arguments.number(0), arguments.number(1)));
+}
+Result<Reply> select(const Arguments& arguments) { return replyOf(selectionOf(*session, arguments.text(0))); }
+Result<Reply> properties(const Arguments& arguments) { return replyOf(propertiesOf(*session, arguments.text(0))); }
+
+// (query, preset or null, camera) -> camera
+Result<Reply> view(const Arguments& arguments) {
+    const auto now = illustrate::parseScene(Json{{"camera", arguments.at(2)}}.dump(), "camera");
+    if (!now) return now.error();
+    auto camera =
+        illustrate::viewOf(arguments.text(0), arguments.text(1), now->camera, session->aspect(), session->volume());
+    if (!camera) return camera.error();
+    illustrate::Scene scene;
+    scene.camera = std::move(*camera);
+    return Reply(Json::parse(illustrate::writeScene(scene)).value("camera", Json::object()).dump());
+}
+
+// (scene) -> PNG
+Result<Reply> picture(const Arguments& arguments) {
+    const auto scene = arguments.picture(0);
+    if (!scene) return scene.error();
+    auto png = session->picture(*scene);
+    if (!png) return png.error();
+    return Reply(std::move(*png));
+}
+
+// (scene) -> PNG, 16 bits gray: the scalar of each pixel
+Result<Reply> labels(const Arguments& arguments) {
+    const auto scene = arguments.picture(0);
+    if (!scene) return scene.error();
+    auto png = session->labels(*scene);
+    if (!png) return png.error();
+    return Reply(std::move(*png));
+}
+
+// (plane, format) -> the file's bytes
+Result<Reply> drawing(const Arguments& arguments) {
+    const volume::SemanticVolume& volume = session->volume();
+    const auto plane = illustrate::parseSectionPlane(arguments.text(0), volume);
+    if (!plane) return plane.error();
+    const auto drawn = illustrate::drawSection(volume, *plane);
+    if (!drawn) return drawn.error();
+    if (drawn->components.empty())
+        return Error(Code::BadSection,
+                     fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
+    const std::string format = arguments.text(1);
+    if (format == "svg") return replyOf(writers::svgOf(*drawn, volume));
+    if (format == "dxf") return Reply(writers::dxfOf(*drawn, volume));
+    if (format == "geojson") return Reply(writers::geojsonOf(*drawn, volume));
+    if (format == "csv") return Reply(writers::sectionCsvOf(*drawn, volume));
+    return Error(Code::BadArgument,
+                 fmt::format("there is no drawing as '{}'; possible are svg, dxf, geojson, csv", format));
+}
+
+struct Call {
+    std::string_view name;
+    Result<Reply> (*run)(const Arguments& arguments);
+    bool needsVolume = true;
+};
+constexpr Call kCalls[] = {{"open", open, false}, {"font", font, false},       {"draw", draw}, {"drawGl", drawGl},
+                           {"dropGl", dropGl},    {"compose", compose, false}, {"pick", pick}, {"along", along},
+                           {"select", select},    {"properties", properties},  {"view", view}, {"picture", picture},
+                           {"labels", labels},    {"drawing", drawing}};
+
+Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
+    const Json values = Json::parse(json, nullptr, false);
+    if (!values.is_array()) return Error(Code::BadArgument, "the arguments of a call are a JSON array");
+    for (const Call& call : kCalls) {
+        if (call.name != name) continue;
+        if (call.needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
+        return call.run(Arguments(values, bytes));
+    }
+    return Error(Code::BadArgument, fmt::format("there is no call '{}'", name));
+}
+
+Result<Reply> runGuarded(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
+    try {
+        return run(name, json, bytes);
+    } catch (const std::bad_alloc&) {
+        return Error(Code::InputTooBig,
+                     "this needs more than the 2 GB of memory that a page has; build the volume with a coarser spacing "
+                     "by the command, or draw a smaller picture");
+    } catch (const std::exception& defect) {
+        return Error(Code::Internal, defect.what());
+    }
+}
+
+}  // namespace
+}  // namespace svt::web
+
+extern "C" {
+
+/// Runs a call. \return 0: the reply is the result; 1: it is an EngineError
+EMSCRIPTEN_KEEPALIVE int svt_call(const char* name, const char* json, const void* bytes, std::size_t size) {
+    using namespace svt::web;
+    lastReply = {};
+    auto reply = runGuarded(name, json, std::span(static_cast<const std::byte*>(bytes), size));
+    lastReply = reply ? std::move(*reply) : Reply(errorOf(reply.error()));
+    return reply ? 0 : 1;
+}
+
+/// The reply to the last call; valid until the next.
+EMSCRIPTEN_KEEPALIVE const void* svt_reply() { return svt::web::lastReply.bytes.data(); }
+EMSCRIPTEN_KEEPALIVE std::size_t svt_reply_size() { return svt::web::lastReply.bytes.size(); }
+}

@@ -1,0 +1,185 @@
+#include "replies.hpp"
+
+#include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/selection.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string textOf(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Json pointOf(Vec3d p) { return Json::array({p.x, p.y, p.z}); }
+Json pointOf(Vec3i p) { return Json::array({p.x, p.y, p.z}); }
+
+std::string hexOf(Vec3f color) {
+    const auto byte = [](float c) { return static_cast<int>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
+}
+
+// Id, class and name: how the page calls a feature.
+Json namesOf(const volume::Label& label) {
+    return {{"id", label.id}, {"class", label.className}, {"name", label.name}};
+}
+
+Json storeysJson(const volume::SemanticVolume& volume) {
+    Json list = Json::array();
+    for (const illustrate::StoreyHeights& storey : illustrate::storeysOf(volume)) {
+        const volume::Label& label = volume.labels.labels[storey.label];
+        list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.ceiling}});
+    }
+    return list;
+}
+
+Json featuresJson(const volume::LabelTable& table) {
+    Json list = Json::array();
+    std::vector<int> depth(table.labels.size(), 0);
+    for (std::size_t l = 0; l < table.labels.size(); ++l) {
+        const volume::Label& label = table.labels[l];
+        const bool isRoot = label.parent == volume::kNoLabel;
+        if (!isRoot) depth[l] = depth[label.parent] + 1;
+        Json feature = namesOf(label);
+        feature["parent"] = isRoot ? "" : table.labels[label.parent].id;
+        feature["depth"] = depth[l];
+        feature["first"] = label.first;
+        feature["count"] = label.count;
+        feature["color"] = hexOf(label.color);
+        feature["opacity"] = label.opacity;
+        list.push_back(std::move(feature));
+    }
+    return list;
+}
+
+Json findingsJson(const Diagnostics& findings) {
+    std::vector<const Diagnostic*> ordered;
+    for (const Diagnostic& finding : findings.items()) ordered.push_back(&finding);
+    std::stable_sort(ordered.begin(), ordered.end(),
+                     [](const Diagnostic* a, const Diagnostic* b) { return a->severity > b->severity; });
+    Json list = Json::array();
+    for (const Diagnostic* finding : ordered) list.push_back(finding->toString());
+    return list;
+}
+
+// Edge lengths of the box in world axes around the first and last samples.
+Vec3d worldSize(const volume::Grid& grid) {
+    Vec3d size;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Vec3d edge =
+            grid.axes()[static_cast<std::size_t>(axis)] * (grid.spacing()[axis] * (grid.dimension()[axis] - 1));
+        size = size + Vec3d{std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)};
+    }
+    return size;
+}
+
+// Around a feature's voxels; where it has none, around those of all below it.
+Box3d boxOf(Session& session, std::uint32_t index) {
+    const volume::SemanticVolume& volume = session.volume();
+    volume::SampleBox box = session.measures()[index].box;
+    if (box.isEmpty())
+        for (std::uint32_t l = index + 1; l < volume.labels.labels[index].subtreeEnd; ++l)
+            box.add(session.measures()[l].box);
+    Box3d world = volume::worldBox(box, volume.grid);
+    if (world.isEmpty()) return {{}, {}};
+    world.min = world.min - volume.grid.origin();
+    world.max = world.max - volume.grid.origin();
+    return world;
+}
+
+Json neighborsJson(Session& session, std::uint32_t index) {
+    Json list = Json::array();
+    for (const volume::Neighbor& neighbor : volume::neighborsOf(index, session.contacts())) {
+        if (neighbor.label == volume::kNoLabel) continue;
+        Json row = namesOf(session.volume().labels.labels[neighbor.label]);
+        row["area"] = neighbor.area;
+        list.push_back(std::move(row));
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string infoOf(const Session& session) {
+    const volume::SemanticVolume& volume = session.volume();
+    const auto& axes = volume.grid.axes();
+    return textOf({{"name", volume.modelName},
+                   {"source", volume.source},
+                   {"crs", volume.crsName},
+                   {"dimension", pointOf(volume.grid.dimension())},
+                   {"spacing", pointOf(volume.grid.spacing())},
+                   {"size", pointOf(worldSize(volume.grid))},
+                   {"axes", Json::array({pointOf(axes[0]), pointOf(axes[1]), pointOf(axes[2])})},
+                   {"storeys", storeysJson(volume)},
+                   {"features", featuresJson(volume.labels)},
+                   {"hasEdges", !volume.vectors.segments.empty()},
+                   {"hasMeshes", !volume.vectors.triangles.empty()},
+                   {"findings", findingsJson(session.findings())}});
+}
+
+Result<std::string> propertiesOf(Session& session, const std::string& id) {
+    const volume::SemanticVolume& volume = session.volume();
+    const auto& labels = volume.labels.labels;
+    const auto found =
+        std::find_if(labels.begin(), labels.end(), [&](const volume::Label& label) { return label.id == id; });
+    if (found == labels.end())
+        return Error(Code::NothingSelected, fmt::format("there is no feature with the id '{}'", id));
+    const auto index = static_cast<std::uint32_t>(found - labels.begin());
+    const bool isClosed = found->filling == volume::Filling::Solid || found->filling == volume::Filling::TJunctions;
+    const Box3d box = boxOf(session, index);
+    Json json = namesOf(*found);
+    json["attributes"] = Json::object();
+    for (const Attribute& attribute : found->attributes)
+        json["attributes"][attribute.name] =
+            attribute.unit.empty() ? toText(attribute.value) : toText(attribute.value) + " " + attribute.unit;
+    json["voxelVolume"] = double(found->voxels) * volume.grid.voxelVolume();
+    json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
+    json["surface"] = session.measures()[index].area;
+    json["box"] = {{"low", pointOf(box.min)}, {"high", pointOf(box.max)}};
+    json["neighbours"] = neighborsJson(session, index);
+    return textOf(json);
+}
+
+std::string pickOf(Session& session, double x, double y) {
+    const auto picked = session.pick(x, y);
+    if (!picked) return "null";
+    Json json{{"scalar", picked->scalar}};
+    json.update(namesOf(session.volume().labels.labels[picked->label]));
+    json["point"] = pointOf(picked->point);
+    return textOf(json);
+}
+
+Result<std::string> stretchesOf(Session& session, double x, double y) {
+    const auto stretches = session.along(x, y);
+    if (!stretches) return stretches.error();
+    Json list = Json::array();
+    for (const render::RayStretch& stretch : *stretches) {
+        Json row = namesOf(session.volume().labels.labels[stretch.label]);
+        row["from"] = stretch.enter;
+        row["to"] = stretch.leave;
+        list.push_back(std::move(row));
+    }
+    return textOf(list);
+}
+
+Result<std::string> selectionOf(const Session& session, const std::string& query) {
+    const auto& table = session.volume().labels;
+    const auto selected = illustrate::selectLabels(table, query);
+    if (!selected) return selected.error();
+    Json list = Json::array();
+    for (const std::uint32_t l : *selected) list.push_back(table.labels[l].id);
+    return textOf(list);
+}
+
+std::string errorOf(const Error& error) {
+    const std::string place = error.where().toString();
+    return textOf({{"code", codeTag(error.code())},
+                   {"message", place.empty() ? error.message() : place + ": " + error.message()}});
+}
+
+}  // namespace svt::web

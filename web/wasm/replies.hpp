@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// What the page is told, as JSON: the types of web/viewer/src/engine.ts, member by member. Points are metres from the
+/// grid's lower corner.
+
+#include "session.hpp"
+
+#include <svt/illustrate/scene.hpp>
+
+#include <string>
+
+namespace svt::web {
+
+/// VolumeInfo
+[[nodiscard]] std::string infoOf(const Session& session);
+/// FeatureProperties, or NothingSelected where no feature has that id.
+[[nodiscard]] Result<std::string> propertiesOf(Session& session, const std::string& id);
+/// Pick or null
+[[nodiscard]] std::string pickOf(Session& session, double x, double y);
+/// Stretch[]
+[[nodiscard]] Result<std::string> stretchesOf(Session& session, double x, double y);
+/// string[]: ids
+[[nodiscard]] Result<std::string> selectionOf(const Session& session, const std::string& query);
+/// EngineError
+[[nodiscard]] std::string errorOf(const Error& error);
+
+}  // namespace svt::web

@@ -1,0 +1,137 @@
+#include "session.hpp"
+
+#include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/read_model.hpp>
+#include <svt/render/png.hpp>
+#include <svt/render/view_ray.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::web {
+namespace {
+
+Result<volume::SemanticVolume> load(std::span<const std::byte> bytes, const std::string& name, const Progress* progress,
+                                    Diagnostics& findings) {
+    if (volume::looksLikeSvt(bytes)) return volume::readSvt(bytes, name);
+    readers::ReadOptions reading;
+    reading.progress = progress;
+    auto model = readers::readModel(bytes, name, reading, &findings);
+    if (!model) return model.error();
+    pipeline::BuildOptions building;
+    building.vectors.edges = true;
+    building.progress = progress;
+    auto output = pipeline::buildVolume(*model, building, &findings);
+    if (!output) return output.error();
+    return std::move(output->volume);
+}
+
+render::CastOptions castOptions() {
+    render::CastOptions options;
+    options.isAdaptive = true;
+    return options;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Session>> Session::open(std::span<const std::byte> bytes, const std::string& name,
+                                               const Progress* progress) {
+    Diagnostics findings;
+    auto volume = load(bytes, name, progress, findings);
+    if (!volume) return volume.error();
+    std::unique_ptr<Session> session(new Session(std::move(*volume), std::move(findings)));
+    session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
+    return session;
+}
+
+Result<const render::Frame*> Session::draw(const illustrate::Scene& scene) {
+    auto painting = painter_.paint(scene, castOptions());
+    if (!painting) return painting.error();
+    lastSpec_ = std::move(painting->spec);
+    lastFrame_ = std::move(painting->frame);
+    return &*lastFrame_;
+}
+
+Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
+    auto spec = illustrate::frameOf(scene, volume_);
+    if (!spec) return spec.error();
+    const auto forms = illustrate::formsOf(scene);
+    const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
+    if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty())
+        return Error(Code::BadArgument, "names, shells and levels of detail are drawn by the CPU");
+    if (!gl_) {
+        const auto whole = painter_.form({{}, 0}, *spec);
+        if (!whole) return whole.error();
+        auto made = render_gl::GlRenderer::make(whole->bricks(), volume_.grid);
+        if (!made) return made.error();
+        gl_ = std::move(*made);
+    }
+    if (auto drawn = gl_->draw(*spec); !drawn) return drawn;
+    if (purpose == Purpose::Trial) return {};
+    lastSpec_ = std::move(*spec);
+    lastFrame_.reset();
+    return {};
+}
+
+void Session::dropGl() {
+    if (!lastFrame_) lastSpec_.reset();
+    gl_.reset();
+}
+
+double Session::aspect() const noexcept { return lastSpec_ ? double(lastSpec_->width) / lastSpec_->height : 16.0 / 9; }
+
+Result<std::vector<std::byte>> Session::picture(const illustrate::Scene& scene) {
+    const auto painting = painter_.paint(scene, castOptions());
+    if (!painting) return painting.error();
+    return render::encodePng(painting->frame.color);
+}
+
+Result<std::vector<std::byte>> Session::labels(const illustrate::Scene& scene) {
+    const auto painting = painter_.paint(scene, castOptions());
+    if (!painting) return painting.error();
+    const auto gray = render::grayFromLabels(painting->frame.label);
+    if (!gray) return gray.error();
+    return render::encodePng(*gray);
+}
+
+std::optional<Picked> Session::pick(double x, double y) {
+    if (!lastSpec_ || !(x >= 0 && x <= 1) || !(y >= 0 && y <= 1)) return {};
+    const auto [width, height] = std::pair(lastSpec_->width, lastSpec_->height);
+    const auto column = std::min(width - 1, static_cast<std::int32_t>(x * width));
+    const auto row = std::min(height - 1, static_cast<std::int32_t>(y * height));
+    render_gl::PickedPixel pixel;
+    if (lastFrame_) {
+        pixel = {lastFrame_->label.at(column, row), lastFrame_->depth.at(column, row)};
+    } else if (const auto seen = gl_->pick(*lastSpec_, column, row)) {
+        pixel = *seen;
+    }
+    const volume::Scalar scalar = pixel.label;
+    if (scalar == 0 || scalar >= labelOfScalar_.size() || labelOfScalar_[scalar] == volume::kNoLabel ||
+        !std::isfinite(pixel.depth))
+        return {};
+    // Label and depth are those of the pixel's centre.
+    const auto ray = render::viewRay(*lastSpec_, volume_.grid, (column + 0.5) / width, (row + 0.5) / height);
+    return Picked{scalar, labelOfScalar_[scalar],
+                  ray.origin + ray.direction * double(pixel.depth) - volume_.grid.origin()};
+}
+
+Result<std::vector<render::RayStretch>> Session::along(double x, double y) {
+    if (!lastSpec_) return std::vector<render::RayStretch>{};
+    const auto whole = painter_.form({{}, 0}, *lastSpec_);
+    if (!whole) return whole.error();
+    const auto ray = render::viewRay(*lastSpec_, volume_.grid, x, y);
+    return render::labelsAlong(whole->bricks(), volume_.grid, volume_.labels, ray.origin, ray.direction);
+}
+
+const std::vector<volume::Contact>& Session::contacts() {
+    if (!contacts_) contacts_ = volume::contactsOf(volume_.columns, volume_.grid, volume_.labels);
+    return *contacts_;
+}
+
+const std::vector<volume::LabelMeasure>& Session::measures() {
+    if (!measures_) measures_ = volume::measureLabels(volume_, contacts());
+    return *measures_;
+}
+
+}  // namespace svt::web
