@@ -245,6 +245,7 @@ export class Session extends EventTarget {
   /** To where a query's features fill the picture; from a named view, or from where the camera looks now. */
   async goTo(query: string, preset: string | null, isFollowed = true): Promise<void> {
     if (!this.engine || !this.info) return;
+    if (this.isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
     const now = this.state.camera;
     const seen = now ? withProjection(now, false) : null;
     const from: SceneCamera = seen ? sceneCamera(seen, this.box, this.aspect) : { preset: "iso" };
