@@ -386,8 +386,8 @@ void expectSame(const Model& model, GlRenderer& renderer, const Look& look, cons
     EXPECT_EQ(difference.depths, 0u) << place;
     EXPECT_EQ(difference.colors, 0u) << place << ", up to " << difference.largestColor;
     // What is let through at edges is little.
-    EXPECT_LT(difference.edges, cast->label.pixels().size() / 500 + 5);
-    EXPECT_LT(difference.colorEdges, cast->label.pixels().size() / 100 + 5);
+    EXPECT_LE(difference.edges, 10u);
+    EXPECT_LE(difference.colorEdges, 20u);
     if (const char* folder = std::getenv("SVT_TEST_PICTURES"); folder != nullptr) {
         (void)render::writePng(std::string(folder) + "/" + name + "_gl.png", drawn->color);
         (void)render::writePng(std::string(folder) + "/" + name + "_cpu.png", cast->color);

@@ -79,9 +79,10 @@ Result<void> PassTextures::updateStyles(const render::Pass& pass, const render::
         hasHatches_ = hasHatches_ || hatch != 0;
     }
     styleCount_ = static_cast<std::uint32_t>(table.styles().size());
+    if (auto set = styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;
     styles_ = pass.styles;
     objects_ = spec.objectOfScalar;
-    return styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits);
+    return {};
 }
 
 // See clips.glsl.
@@ -96,9 +97,10 @@ Result<void> PassTextures::updateClips(const render::Pass& pass, const volume::G
         for (const render::ConvexPart& part : region.parts) appendPart(words, part, grid, middle);
         words[head + 2] = static_cast<std::uint32_t>(words.size() / 4);
     }
+    if (auto set = clipTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;
     clips_ = pass.clips;
     clipRegions_ = static_cast<std::uint32_t>(pass.clips.size());
-    return clipTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits);
+    return {};
 }
 
 Result<void> PassTextures::updateOcclusion(const volume::BrickVolume& volume, const volume::Grid& grid,
@@ -121,9 +123,10 @@ Result<void> PassTextures::updateOcclusion(const volume::BrickVolume& volume, co
         occlusionGains_.push_back(static_cast<float>(level.weight));
         voxels.insert(voxels.end(), level.voxels.begin(), level.voxels.end());
     }
+    if (auto set = occlusionTexture_.setArray(GL_R32UI, voxels.data(), voxels.size(), limits); !set) return set;
     occludingBodies_ = bodies_;
     occludingClips_ = clips_;
-    return occlusionTexture_.setArray(GL_R32UI, voxels.data(), voxels.size(), limits);
+    return {};
 }
 
 void PassTextures::setUniforms(Program& program) const {

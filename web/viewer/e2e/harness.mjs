@@ -1,5 +1,5 @@
 // A static server and a browser for tests of the built page. The headers are as strict as `svt serve` sends them.
-import { spawnSync } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { createReadStream, existsSync, mkdtempSync, rmSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
@@ -73,4 +73,20 @@ export function svt(...words) {
   const done = spawnSync(command, words, { encoding: "buffer", maxBuffer: 64 << 20 });
   if (done.status !== 0) throw new Error(`svt ${words.join(" ")}: exit ${done.status}: ${done.stderr}`);
   return done.stdout;
+}
+
+/** `svt serve` with the built page. Resolves to { url, close }. */
+export function svtServe(...words) {
+  const child = spawn(command, ["serve", ...words, "--port", "0", "--viewer", page], { stdio: ["ignore", "pipe", "pipe"] });
+  return new Promise((resolve, reject) => {
+    let said = "";
+    const heard = (chunk) => {
+      said += chunk;
+      const url = /http:\/\/[\d.]+:\d+\//.exec(said)?.[0];
+      if (url) resolve({ url, close: () => new Promise((done) => (child.once("exit", done), child.kill("SIGTERM"))) });
+    };
+    child.stdout.on("data", heard);
+    child.stderr.on("data", heard);
+    child.once("exit", (code) => reject(new Error(`svt serve: exit ${code}: ${said}`)));
+  });
 }

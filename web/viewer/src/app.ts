@@ -102,6 +102,10 @@ export class App extends Part {
     .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }
     .skip:focus { top: 6px; }
     .note { padding: 6px 10px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; display: grid; gap: 6px; max-width: 300px; }
+    @media (min-width: 2600px) {
+      header, .dock, .card { zoom: 1.35; }
+      svt-tree, svt-properties { font-size: 16px; }
+    }
     @media (max-width: 759px) {
       .brand, .title .quiet, .status { display: none; }
       main { display: grid; grid-template-rows: minmax(0, 1fr) auto; }
@@ -134,6 +138,10 @@ export class App extends Part {
     addEventListener("drop", (event) => this.dropped(event));
     this.addEventListener("svt-choose", () => this.choose());
     this.session.addEventListener("said", (event) => (this.spoken = (event as CustomEvent<string>).detail));
+  }
+
+  private get isHuge(): boolean {
+    return matchMedia("(min-width: 2600px)").matches;
   }
 
   private fitWidth(): void {
@@ -199,7 +207,7 @@ export class App extends Part {
               ${models.map((m) => html`<option value=${m.name} ?selected=${m.name === session.modelName}>${m.title || m.name}</option>`)}
               ${hasModel && !session.modelName ? html`<option selected value="">${info.name || session.modelFile}</option>` : nothing}</select>`
           : html`<h1>${hasModel ? info.name || info.source || session.modelFile : t("appName")}</h1>`}
-        <span class="quiet small">${hasModel ? t("parts", { n: session.index.firstScalars.length }) : t("tagline")}</span>
+        <span class="quiet small">${!hasModel ? t("tagline") : session.isServerOnly ? "" : t("parts", { n: session.index.firstScalars.length })}</span>
       </div>
       ${hasModel
         ? html`${this.toggle("tree", t("panelTree"), this.isTreeShown, () => this.showSheet("tree"))}
@@ -233,11 +241,11 @@ export class App extends Part {
     // Where there is no room for a third column, the selection stands below the parts.
     const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && this.hasSelection;
     const middle = hasColumn
-      ? html`<wa-split-panel position-in-pixels="300" primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
+      ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 300} primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
       : html`<div class="middle">${this.middle()}${this.isSelectionShown && this.hasSelection && !isBelow ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
-    if (!this.isTreeShown) return middle;
+    if (!this.isTreeShown || this.session.isServerOnly) return middle;
     const tree = html`<svt-tree .session=${this.session}></svt-tree>`;
-    return html`<wa-split-panel position-in-pixels=${this.isSmall ? 260 : 310} primary="start">
+    return html`<wa-split-panel position-in-pixels=${this.isSmall ? 260 : this.isHuge ? 420 : 310} primary="start">
       <div slot="start" class="side ${isBelow ? "shared" : ""}"><nav aria-label=${t("panelTree")}>${tree}</nav>
         ${isBelow ? html`<aside aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>
       <div slot="end" class="middle">${middle}</div></wa-split-panel>`;

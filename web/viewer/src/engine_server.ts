@@ -9,6 +9,9 @@ const kNotHere: EngineError = { code: "E904", message: "only pictures come from 
 
 /** null: there is no such server. */
 export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Engine | null> {
+  // The kind that the engine in the worker uses: a canvas has but one.
+  const screen = canvas.getContext("bitmaprenderer");
+  if (!screen) return null;
   let model = "";
   const drawn = async (scene: Scene): Promise<Blob> => {
     const response = await fetch("api/picture", {
@@ -27,7 +30,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
   return {
     kind: "cpu",
     async open(_, fileName) {
-      model = fileName;
+      model = fileName.replace(/\.[^.]+$/, "");
       return {
         name: fileName, source: fileName, crs: "", dimension: [2, 2, 2], spacing: [1, 1, 1], size: [10, 10, 10],
         storeys: [], features: [], hasEdges: true, hasMeshes: false, findings: [],
@@ -36,9 +39,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     async draw(scene, width, height) {
       const start = performance.now();
       const bitmap = await createImageBitmap(await drawn({ ...scene, size: [width, height] }));
-      canvas.width = width;
-      canvas.height = height;
-      canvas.getContext("2d")!.drawImage(bitmap, 0, 0);
+      screen.transferFromImageBitmap(bitmap);
       return { width, height, milliseconds: performance.now() - start, engine: "cpu" };
     },
     compose: (scene) => Promise.resolve(scene),

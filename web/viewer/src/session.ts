@@ -245,6 +245,7 @@ export class Session extends EventTarget {
   /** To where a query's features fill the picture; from a named view, or from where the camera looks now. */
   async goTo(query: string, preset: string | null, isFollowed = true): Promise<void> {
     if (!this.engine || !this.info) return;
+    if (this.isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
     const now = this.state.camera;
     const seen = now ? withProjection(now, false) : null;
     const from: SceneCamera = seen ? sceneCamera(seen, this.box, this.aspect) : { preset: "iso" };
@@ -339,13 +340,21 @@ export class Session extends EventTarget {
     return this.engine.compose(described.scene, described.effects);
   }
 
+  /** The page with the model that is open, where there is a choice; a file of the user's has no address. */
+  private address(): string {
+    const url = new URL(location.href);
+    if (this.modelName && this.models.length > 1) url.searchParams.set("model", this.modelName);
+    else url.searchParams.delete("model");
+    return url.pathname + url.search;
+  }
+
   /** The page's address shows what the page shows. */
   async writeLink(): Promise<void> {
     if (!this.info || !this.state.camera) return;
     const state = this.state;
     try {
       const hash = await hashOf(await this.composed(this.pictureSize), state);
-      if (this.state === state) history.replaceState(null, "", hash);
+      if (this.state === state) history.replaceState(null, "", `${this.address()}${hash}`);
     } catch {
       // What cannot be drawn has no link; the picture told why.
     }

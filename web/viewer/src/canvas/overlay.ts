@@ -2,7 +2,7 @@
 
 import { svg, nothing, type SVGTemplateResult } from "lit";
 import { project } from "../camera/camera";
-import { distance } from "../camera/vec";
+import { add, distance, scale } from "../camera/vec";
 import type { Point } from "../engine";
 import type { Session } from "../session";
 import { boxEdges, keptInside, middleOf, normalOf, planeOutline } from "../tools/plane_outline";
@@ -38,13 +38,18 @@ export function planes(view: View): SVGTemplateResult[] {
   });
 }
 
-/** Where the handle of a plane is: the middle of its outline. */
+/** Where the handle of a plane is: in the middle of its outline, or to the right of it where a tool's card is at the left. */
 export function handleOf(session: Session, n: number): { at: Point; normal: Point } | null {
   const section = session.state.sections[n];
   if (!section) return null;
   const outline = planeOutline(keptInside(section, session.box), session.box);
   if (!outline.length) return null;
-  return { at: middleOf(outline), normal: normalOf(section, session.box) };
+  const normal = normalOf(section, session.box), middle = middleOf(outline);
+  const camera = session.shownCamera;
+  if (!session.tool || !camera) return { at: middle, normal };
+  const across = (p: Point) => project(camera, 1, p, session.box.axes)?.x ?? -1;
+  const right = outline.reduce((a, b) => (across(a) > across(b) ? a : b));
+  return { at: add(scale(middle, 0.4), scale(right, 0.6)), normal };
 }
 
 export function selectionBox(view: View): SVGTemplateResult | typeof nothing {

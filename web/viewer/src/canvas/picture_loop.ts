@@ -22,7 +22,8 @@ export interface PictureHost {
 }
 
 const kStillAfter = 140;
-const kFineAfter = 350;
+/** A picture cannot be stopped, so a slow one waits until the hand has come to rest. */
+const kFineAfter = 350, kFineAfterSlow = 2500;
 
 export class PictureLoop {
   private readonly resolution = new Resolution();
@@ -30,6 +31,8 @@ export class PictureLoop {
   private isRunning = false;
   private changedAt = 0;
   private timer = 0;
+  /** What the last picture with all pixels took. */
+  private fullMilliseconds = 0;
 
   constructor(private readonly host: PictureHost) {}
 
@@ -74,7 +77,8 @@ export class PictureLoop {
   }
 
   private afterFull(still: number): Quality | number {
-    return still < kFineAfter ? kFineAfter - still : "fine";
+    const after = Math.min(kFineAfterSlow, Math.max(kFineAfter, this.fullMilliseconds));
+    return still < after ? after - still : "fine";
   }
 
   private async draw(quality: Quality): Promise<void> {
@@ -91,6 +95,7 @@ export class PictureLoop {
       const scene = hasEffect ? await engine.compose(described.scene, described.effects) : described.scene;
       const report = await engine.draw(scene, size[0], size[1]);
       if (!report) return;
+      if (quality === "full") this.fullMilliseconds = report.milliseconds;
       if (quality === "moving" && before !== "moving") this.resolution.learn(performance.now() - start);
       this.host.shown(report, quality, token);
     } catch (error) {

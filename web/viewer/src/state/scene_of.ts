@@ -43,8 +43,8 @@ export function focusQueries(state: ViewState): string[] {
   return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
 }
 
-export function sceneCamera(camera: Camera | null, box: Box, aspect: number): SceneCamera {
-  if (!camera) return { preset: "iso" };
+export function sceneCamera(camera: Camera | null, box: Box, aspect: number, named = "iso"): SceneCamera {
+  if (!camera) return { preset: named };
   const preset = presetFor(camera);
   if (!camera.parallel)
     return {
@@ -106,7 +106,7 @@ function effectsOf(state: ViewState, box: Box): Effects {
 export function sceneOf(state: ViewState, box: Box, size: [number, number], samples: 1 | 4 | 9 | 16 = 4): Described {
   const scene: Scene = { format: "svt-scene", version: 1, size, samples };
   if (state.look !== "plain") scene.look = state.look;
-  const camera = sceneCamera(state.camera, box, size[0] / size[1]);
+  const camera = sceneCamera(state.camera, box, size[0] / size[1], state.preset);
   scene.camera = camera;
   if (state.hatches !== null) scene.hatches = { show: state.hatches };
   if (state.names && state.selection.length) scene.names = state.selection.map(ofId);

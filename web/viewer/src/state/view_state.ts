@@ -52,8 +52,10 @@ export interface Focus {
 export type Effect = "none" | "lens" | "highlight" | "cutaway";
 
 export interface ViewState {
-  /** null: not yet known; the named view "iso" is shown. */
+  /** null: not known (yet); `preset` is shown. */
   camera: Camera | null;
+  /** Named view, see render::cameraPresetNames(). */
+  preset: string;
   look: Look;
   /** Queries; what the page writes is short even where much is hidden (visibility.ts). */
   hide: string[];
@@ -80,6 +82,7 @@ export interface ViewState {
 export function initialState(look: Look = "plain"): ViewState {
   return {
     camera: null,
+    preset: "iso",
     look,
     hide: [],
     show: [],
