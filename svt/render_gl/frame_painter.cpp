@@ -14,6 +14,8 @@
 namespace svt::render_gl {
 namespace {
 
+/// Side of the targets, samples: 32 MB for each set.
+constexpr std::int32_t kTargetSamples = 1024;
 /// Stands for infinity in shaders.
 constexpr float kFar = 3.0e38f;
 
@@ -120,10 +122,6 @@ std::int32_t FramePainter::tilePixels() const noexcept { return (kTargetSamples 
 void FramePainter::castSamples(const PixelTile& tile) {
     castGrid({double(tile.x * side_ - margin_), double(tile.y * side_ - margin_), side_,
               tile.width * side_ + 2 * margin_, tile.height * side_ + 2 * margin_});
-}
-
-void FramePainter::castMiddles(const PixelTile& tile) {
-    castGrid({double(tile.x), double(tile.y), 1, tile.width, tile.height});
 }
 
 // Where rays may meet anything: the volume's box as it is seen, a pixel wider. The whole picture where the eye is in it
@@ -291,12 +289,24 @@ void FramePainter::resolve(const PixelTile& tile, const PixelTile& window) {
     glDisable(GL_SCISSOR_TEST);
 }
 
-void FramePainter::readHits(const PixelTile& tile,
-                            const std::function<void(std::int32_t, std::int32_t, const PickedPixel&)>& taken) {
+void FramePainter::readMiddles(const PixelTile& tile, const TakeHit& taken) {
+    // A single sample stands in the middle.
+    if (side_ > 1) return pick(tile, taken);
+    targets_[last_].bind({color_[last_].name(), hit_[last_].name()});
+    readHits(margin_, tile, taken);
+}
+
+void FramePainter::pick(const PixelTile& tile, const TakeHit& taken) {
+    castGrid({double(tile.x), double(tile.y), 1, tile.width, tile.height});
+    readHits(0, tile, taken);
+}
+
+// Of the bound targets, from sample (first, first) on.
+void FramePainter::readHits(std::int32_t first, const PixelTile& tile, const TakeHit& taken) {
     std::vector<std::array<std::uint32_t, 4>> hits(static_cast<std::size_t>(tile.width) *
                                                    static_cast<std::size_t>(tile.height));
     glReadBuffer(GL_COLOR_ATTACHMENT1);
-    glReadPixels(0, 0, tile.width, tile.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, hits.data());
+    glReadPixels(first, first, tile.width, tile.height, GL_RGBA_INTEGER, GL_UNSIGNED_INT, hits.data());
     glReadBuffer(GL_COLOR_ATTACHMENT0);
     for (std::int32_t y = 0; y < tile.height; ++y)
         for (std::int32_t x = 0; x < tile.width; ++x) {

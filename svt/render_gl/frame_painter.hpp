@@ -17,9 +17,6 @@
 
 namespace svt::render_gl {
 
-/// Side of the targets, samples: 32 MB for each set.
-inline constexpr std::int32_t kTargetSamples = 1024;
-
 /// Pixels of the picture; y from the top.
 struct PixelTile {
     std::int32_t x = 0, y = 0, width = 0, height = 0;
@@ -47,11 +44,13 @@ public:
     void castSamples(const PixelTile& tile);
     /// Makes their pixels, in the bound framebuffer, whose pixels are those of `window`.
     void resolve(const PixelTile& tile, const PixelTile& window);
-    /// Casts the rays through the middles of a tile's pixels.
-    void castMiddles(const PixelTile& tile);
-    /// Labels and depths of what castMiddles() has cast: taken(x, y, hit), from the tile's upper left corner.
-    void readHits(const PixelTile& tile,
-                  const std::function<void(std::int32_t, std::int32_t, const PickedPixel&)>& taken);
+    /// Labels and depths of what the rays through the middles of pixels see: taken(x, y, hit), from the tile's upper
+    /// left corner.
+    using TakeHit = std::function<void(std::int32_t, std::int32_t, const PickedPixel&)>;
+    /// Of the tile whose samples were cast last.
+    void readMiddles(const PixelTile& tile, const TakeHit& taken);
+    /// Of any tile.
+    void pick(const PixelTile& tile, const TakeHit& taken);
 
 private:
     // What the shader of a pass must be able to do.
@@ -74,6 +73,7 @@ private:
     [[nodiscard]] Result<void> prepareCast(unsigned needs);
     [[nodiscard]] Result<void> prepareResolve();
     void castGrid(const SampleGrid& grid);
+    void readHits(std::int32_t first, const PixelTile& tile, const TakeHit& taken);
     void scissorTo(const SampleGrid& samples) const;
     void setView(Program& program) const;
     void setHatches(Program& program, int side) const;

@@ -78,6 +78,29 @@ struct GlRenderer::Parts {
         clearGlErrors();
         return painter.prepare({spec, volume, grid, textures, limits, options});
     }
+
+    Result<void> readTiles(const render::FrameSpec& spec, render::Frame& frame, bool withLabels) {
+        if (auto prepared = prepare(spec); !prepared) return prepared;
+        frame.color = render::Image<render::Rgba8>(spec.width, spec.height);
+        if (withLabels) {
+            frame.label = render::Image<volume::Scalar>(spec.width, spec.height);
+            frame.depth = render::Image<float>(spec.width, spec.height);
+        }
+        return forTiles(spec, painter.tilePixels(), [&](const PixelTile& tile) -> Result<void> {
+            painter.castSamples(tile);
+            pixels.setTarget(GL_RGBA8, tile.width, tile.height);
+            pixelTarget.bind({pixels.name()});
+            painter.resolve(tile, tile);
+            readPixels(tile, frame.color);
+            if (withLabels) {
+                painter.readMiddles(tile, [&](std::int32_t x, std::int32_t y, const PickedPixel& hit) {
+                    frame.label.at(tile.x + x, tile.y + y) = hit.label;
+                    frame.depth.at(tile.x + x, tile.y + y) = hit.depth;
+                });
+            }
+            return checkGl("the picture");
+        });
+    }
 };
 
 GlRenderer::GlRenderer(std::unique_ptr<Parts> parts) noexcept : parts_(std::move(parts)) {}
@@ -118,39 +141,17 @@ Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
 }
 
 Result<render::Frame> GlRenderer::read(const render::FrameSpec& spec) {
-    auto color = readColor(spec);
-    if (!color) return color.error();
+    render::Frame frame;
     const KeptBindings bindings;
-    render::Frame frame{std::move(*color), render::Image<volume::Scalar>(spec.width, spec.height),
-                        render::Image<float>(spec.width, spec.height)};
-    FramePainter& painter = parts_->painter;
-    auto drawn = forTiles(spec, kTargetSamples, [&](const PixelTile& tile) -> Result<void> {
-        painter.castMiddles(tile);
-        painter.readHits(tile, [&](std::int32_t x, std::int32_t y, const PickedPixel& hit) {
-            frame.label.at(tile.x + x, tile.y + y) = hit.label;
-            frame.depth.at(tile.x + x, tile.y + y) = hit.depth;
-        });
-        return checkGl("the labels of the picture");
-    });
-    if (!drawn) return drawn.error();
+    if (auto drawn = parts_->readTiles(spec, frame, true); !drawn) return drawn.error();
     return frame;
 }
 
 Result<render::Image<render::Rgba8>> GlRenderer::readColor(const render::FrameSpec& spec) {
+    render::Frame frame;
     const KeptBindings bindings;
-    if (auto prepared = parts_->prepare(spec); !prepared) return prepared.error();
-    FramePainter& painter = parts_->painter;
-    render::Image<render::Rgba8> color(spec.width, spec.height);
-    auto drawn = forTiles(spec, painter.tilePixels(), [&](const PixelTile& tile) -> Result<void> {
-        painter.castSamples(tile);
-        parts_->pixels.setTarget(GL_RGBA8, tile.width, tile.height);
-        parts_->pixelTarget.bind({parts_->pixels.name()});
-        painter.resolve(tile, tile);
-        readPixels(tile, color);
-        return checkGl("the picture");
-    });
-    if (!drawn) return drawn.error();
-    return color;
+    if (auto drawn = parts_->readTiles(spec, frame, false); !drawn) return drawn.error();
+    return std::move(frame.color);
 }
 
 Result<PickedPixel> GlRenderer::pick(const render::FrameSpec& spec, std::int32_t x, std::int32_t y) {
@@ -160,8 +161,7 @@ Result<PickedPixel> GlRenderer::pick(const render::FrameSpec& spec, std::int32_t
     const KeptBindings bindings;
     if (auto prepared = parts_->prepare(spec); !prepared) return prepared.error();
     PickedPixel picked;
-    parts_->painter.castMiddles({x, y, 1, 1});
-    parts_->painter.readHits({x, y, 1, 1}, [&](std::int32_t, std::int32_t, const PickedPixel& hit) { picked = hit; });
+    parts_->painter.pick({x, y, 1, 1}, [&](std::int32_t, std::int32_t, const PickedPixel& hit) { picked = hit; });
     if (auto checked = checkGl("the picked pixel"); !checked) return checked.error();
     return picked;
 }

@@ -358,7 +358,7 @@ const std::vector<Look>& looks() {
              spec.passes[0].clips = {halfOpen(m)};
              spec.borders.strength = 1;
              for (Style& style : spec.passes[0].styles) style.hatch = Hatch::Masonry;
-             spec.hatches.spacing = 0.02 * sizesOf(m).size.x;
+             spec.hatches.spacing = 0.05 * sizesOf(m).size.x;
              return spec;
          }},
         {"Hatches", [](const Model& m) {

@@ -5,7 +5,7 @@ uniform float opaqueAt, labelAt;
 uniform vec2 firstSample, perSample;  // samples from the picture's upper left corner; 2 / samples along it
 
 layout(location = 0) out uvec4 sampleColor;  // linear light, premultiplied, and opacity, as floats
-layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float, kFar: nothing), normal with bit 30: cut face
+layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float; kFar: nothing), normal; bit 30: cut face
 
 const uint kCap = 0x40000000u;
 
@@ -214,7 +214,8 @@ void main() {
     }
 #endif
     ivec2 at = ivec2(gl_FragCoord.xy);
-    uvec4 hit = uvec4(hitLabel, hitObject, floatBitsToUint(hitDepth), packedDirection(hitNormal) | (hitIsCap ? kCap : 0u));
+    uint normal = packedDirection(hitNormal) | (hitIsCap ? kCap : 0u);
+    uvec4 hit = uvec4(hitLabel, hitObject, floatBitsToUint(hitDepth), normal);
     vec4 light = vec4(color, alpha);
     if (join != 3u) {
         vec4 before = uintBitsToFloat(texelFetch(colorBefore, at, 0));

@@ -36,9 +36,11 @@ void meetHalfSpace(inout Stretch s, uint number) {
 // Where a t^2 + 2 b t + c < 0, of a cone only before its tip.
 void meetRound(inout Stretch s, uint number) {
     vec4 body = floatsOf(clips, number);
-    vec3 x = floatsOf(clips, number + 1u).xyz, y = floatsOf(clips, number + 2u).xyz, z = floatsOf(clips, number + 3u).xyz;
+    vec3 x = floatsOf(clips, number + 1u).xyz, y = floatsOf(clips, number + 2u).xyz;
+    vec3 z = floatsOf(clips, number + 3u).xyz;
     vec3 from = origin - body.xyz;
-    vec3 o = vec3(dot(x, from), dot(y, from), dot(z, from)), d = vec3(dot(x, direction), dot(y, direction), dot(z, direction));
+    vec3 o = vec3(dot(x, from), dot(y, from), dot(z, from));
+    vec3 d = vec3(dot(x, direction), dot(y, direction), dot(z, direction));
     float along = body.w;  // 1 ball, 0 cylinder, -1 cone
     // From where the ray is nearest to the center: c would drown in rounding elsewhere.
     float back = dot(d, d) > 0.0 ? -dot(o, d) / dot(d, d) : 0.0;
@@ -136,6 +138,7 @@ vec3 capDirection(uint cap, vec3 point) {
     vec4 head = floatsOf(clips, number);
     if ((cap & 1u) == 0u) return head.xyz;
     vec3 from = point - head.xyz;
-    vec3 x = floatsOf(clips, number + 1u).xyz, y = floatsOf(clips, number + 2u).xyz, z = floatsOf(clips, number + 3u).xyz;
+    vec3 x = floatsOf(clips, number + 1u).xyz, y = floatsOf(clips, number + 2u).xyz;
+    vec3 z = floatsOf(clips, number + 3u).xyz;
     return x * dot(x, from) + y * dot(y, from) + z * (head.w * dot(z, from));
 }

@@ -49,9 +49,12 @@ const uvec2 kDisc = uvec2(0x7F7F3E1Cu, 0x001C3E7Fu);
 const uvec2 kMiddlePlace = uvec2(0x08000000u, 0u);
 const int kFacePlaces = 12;
 
+// The ball of 179 voxels, by layer.
 uvec2 ballOf(int z) {
     int aside = abs(z - 3);
-    return aside == 0 ? kDisc : aside == 1 ? uvec2(0x7F7F3E1Cu, 0x001C3E7Fu) : aside == 2 ? uvec2(0x3E3E3E00u, 0x00003E3Eu) : uvec2(0x1C1C0000u, 0x0000001Cu);
+    return aside < 2    ? kDisc
+           : aside == 2 ? uvec2(0x3E3E3E00u, 0x00003E3Eu)
+                        : uvec2(0x1C1C0000u, 0x0000001Cu);
 }
 
 bool isBody(uint number) { return number < styleCount && (elementOf(styles, 2u * number + 1u).x & 4u) != 0u; }
@@ -180,7 +183,8 @@ vec3 slopesOf(Layers tops) {
     int chp = all.x * heights.y - heights.x * all.y, chq = all.x * heights.z - heights.x * all.z;
     int scale = cpp * cqq - cpq * cpq;
     if (scale <= 0) return vec3(0.0, 0.0, -1.0);
-    return vec3(float(chp * cqq - chq * cpq), float(chq * cpp - chp * cpq), 0.0) / float(scale) + vec3(0.0, 0.0, float(all.x));
+    vec2 slopes = vec2(float(chp * cqq - chq * cpq), float(chq * cpp - chp * cpq)) / float(scale);
+    return vec3(slopes, float(all.x));
 }
 
 vec3 slopeNormal(vec3 slopes, int across, float side) {
@@ -189,7 +193,8 @@ vec3 slopeNormal(vec3 slopes, int across, float side) {
                          : vec3(-slopes.xy, side);
 }
 
-// World space; `crease` says how deep in a corner. Not \p isNeeded: nothing, at little cost where no ray nearby needs it.
+// World space; `crease` says how deep in a corner. Where it is not needed it is nothing, and costs little where no ray
+// nearby needs it.
 vec3 fittedNormal(bool isNeeded, out float crease) {
     int side = -componentOf(stride, axis), layers = isNeeded ? 7 : 0;
     vec3 faceNormal = vec3(axisVector(axis) * side);

@@ -157,8 +157,8 @@ vec2 spanInVolume(out int entry) {
         entry = -1;
     }
     ivec3 place = cellAt(0.0);
-    bvec3 isBeside = bvec3(ivec3(isStill) * (ivec3(lessThan(place, ivec3(0))) + ivec3(greaterThanEqual(place, dimension))));
-    return any(isBeside) ? vec2(0.0) : vec2(from, to);
+    ivec3 isOutside = ivec3(lessThan(place, ivec3(0))) + ivec3(greaterThanEqual(place, dimension));
+    return any(bvec3(ivec3(isStill) * isOutside)) ? vec2(0.0) : vec2(from, to);
 }
 
 void enterAt(float from, int entryAxis) {

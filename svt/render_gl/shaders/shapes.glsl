@@ -20,7 +20,7 @@ float lineAt, lineEnd, lineOpacity, lineHidden;
 vec3 nextLineColor, strongestColor;
 float strongestHidden;
 float triangleAt;
-uint nextTriangle, triangleLast;
+uint nextTriangle;
 bool triangleEnters;
 
 float lineLight() { return linesLeft; }
@@ -95,7 +95,7 @@ float meetTriangle(uint number, out bool isEntering) {
     vec4 corner = floatsOf(shapeTable, first), second = floatsOf(shapeTable, first + 1u);
     vec4 third = floatsOf(shapeTable, first + 2u), across = floatsOf(shapeTable, first + 3u);
     vec3 a = corner.xyz - worldOrigin, b = second.xyz - worldOrigin, c = third.xyz - worldOrigin;
-    vec3 sides = vec3(dot(worldDirection, cross(b, c)), dot(worldDirection, cross(c, a)), dot(worldDirection, cross(a, b)));
+    vec3 sides = worldDirection * mat3(cross(b, c), cross(c, a), cross(a, b));
     bool isInside = all(greaterThanEqual(sides, vec3(0.0))) || all(lessThanEqual(sides, vec3(0.0)));
     float facing = dot(across.xyz, worldDirection);
     isEntering = facing < 0.0;
