@@ -90,8 +90,8 @@ export class App extends Part {
     .dock button.used::after { content: ""; position: absolute; top: 4px; right: 8px; width: 7px; height: 7px; border-radius: 50%; background: var(--accent); }
     .card { position: absolute; left: 10px; top: 10px; width: min(330px, calc(100% - 20px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
     .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
-    .corner { position: absolute; right: 10px; top: 10px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
-    .status { position: absolute; right: 10px; bottom: 10px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
+    .corner { position: absolute; right: 10px; top: 46px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
+    .status { position: absolute; right: 12px; top: 8px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
     .message { position: absolute; left: 50%; top: 12px; transform: translateX(-50%); max-width: min(560px, calc(100% - 24px)); padding: 10px 8px 10px 14px; border-radius: 12px; border: 1px solid var(--line); background: var(--panel); box-shadow: var(--shadow); z-index: 8; display: flex; gap: 10px; align-items: start; font-size: 13px; line-height: 1.45; }
     .message.bad { border-color: var(--error); }
     .message div { overflow-wrap: anywhere; max-height: 40vh; overflow: auto; }
