@@ -386,6 +386,7 @@ export class App extends Part {
   }
 
   private keyDown(event: KeyboardEvent): void {
+    if (this.renderRoot.querySelector<HelpDialog>("svt-help")?.isOpen) return;
     const target = event.composedPath()[0] as HTMLElement;
     const isTyping = target.matches?.("input:not([type=checkbox]), textarea, select") || target.isContentEditable;
     if (event.key === "Escape") return this.leave(isTyping ? target : null);
