@@ -18,7 +18,7 @@ endfunction()
 
 # Headers of Debian's packages fit every target.
 # No threads, since hosts do not always allow them; of OpenGL, Emscripten has what is needed.
-foreach(none TBB::tbb EGL::EGL GLESv2::GLESv2)
+foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2)
   add_library(${none} INTERFACE IMPORTED)
 endforeach()
 add_library(web_fmt INTERFACE)
@@ -55,14 +55,20 @@ web_library(Freetype::Freetype freetype/include freetype/src/base/ftbase.c freet
   freetype/src/base/ftsystem.c freetype/src/base/ftdebug.c freetype/src/base/ftbitmap.c
   freetype/src/sfnt/sfnt.c freetype/src/truetype/truetype.c
   freetype/src/smooth/smooth.c)
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/freetype/ftmodule.h
-  "FT_USE_MODULE(FT_Driver_ClassRec, tt_driver_class)\n"
-  "FT_USE_MODULE(FT_Module_Class, sfnt_module_class)\n"
-  "FT_USE_MODULE(FT_Renderer_Class, ft_smooth_renderer_class)\n")
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/freetype/ftoption.h
-  "#include <freetype/config/ftoption.h>\n"
-  "#undef FT_CONFIG_OPTION_USE_ZLIB\n#undef FT_CONFIG_OPTION_USE_LZW\n#undef FT_CONFIG_OPTION_MAC_FONTS\n"
-  "#undef TT_CONFIG_OPTION_EMBEDDED_BITMAPS\n#undef TT_CONFIG_OPTION_BDF\n#undef TT_CONFIG_OPTION_GX_VAR_SUPPORT\n")
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/freetype/ftmodule.h CONTENT
+"FT_USE_MODULE(FT_Driver_ClassRec, tt_driver_class)
+FT_USE_MODULE(FT_Module_Class, sfnt_module_class)
+FT_USE_MODULE(FT_Renderer_Class, ft_smooth_renderer_class)
+")
+file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/freetype/ftoption.h CONTENT
+"#include <freetype/config/ftoption.h>
+#undef FT_CONFIG_OPTION_USE_ZLIB
+#undef FT_CONFIG_OPTION_USE_LZW
+#undef FT_CONFIG_OPTION_MAC_FONTS
+#undef TT_CONFIG_OPTION_EMBEDDED_BITMAPS
+#undef TT_CONFIG_OPTION_BDF
+#undef TT_CONFIG_OPTION_GX_VAR_SUPPORT
+")
 target_compile_definitions(web_Freetype PRIVATE FT2_BUILD_LIBRARY
   FT_CONFIG_MODULES_H=<${CMAKE_CURRENT_BINARY_DIR}/freetype/ftmodule.h>
   FT_CONFIG_OPTIONS_H=<${CMAKE_CURRENT_BINARY_DIR}/freetype/ftoption.h>)

@@ -4,8 +4,13 @@
 #include <svt/core/file.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/render/png.hpp>
+#include <svt/render_gl/egl_context.hpp>
+#include <svt/render_gl/gl_renderer.hpp>
 
 #include <fmt/format.h>
+
+#include <optional>
+#include <span>
 
 namespace svt::cli {
 namespace {
@@ -15,8 +20,46 @@ struct Arguments {
     BuildArguments build;
     SceneArguments scene;
     int frames = 1;
+    bool gl = false;
     bool verbose = false;
 };
+
+// Draws the finest level of one volume by OpenGL; made when first used.
+class GlDrawer {
+public:
+    explicit GlDrawer(int threads) : threads_(threads) {}
+
+    Result<render::Frame> draw(std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
+        if (volumes.size() > 1 || volumes[0].level() != nullptr)
+            return Error(Code::BadFrame,
+                         "--gl draws one volume at its finest level, and the passes of this scene draw others; leave "
+                         "out --gl");
+        if (!context_) {
+            auto context = render_gl::EglContext::make();
+            if (!context) return context.error();
+            context_.emplace(std::move(*context));
+        }
+        if (drawn_ != &volumes[0].bricks()) {
+            auto renderer = render_gl::GlRenderer::make(volumes[0].bricks(), volumes[0].grid(), {.threads = threads_});
+            if (!renderer) return renderer.error();
+            renderer_.emplace(std::move(*renderer));
+            drawn_ = &volumes[0].bricks();
+        }
+        return renderer_->read(spec);
+    }
+
+private:
+    int threads_;
+    std::optional<render_gl::EglContext> context_;  // goes after what it holds
+    std::optional<render_gl::GlRenderer> renderer_;
+    const volume::BrickVolume* drawn_ = nullptr;
+};
+
+// What each pass of a scene that names no level has by OpenGL.
+void takeFinest(illustrate::Scene& scene) {
+    for (illustrate::ScenePass& pass : scene.passes)
+        if (!pass.form.level) pass.form.level = 0;
+}
 
 // P.png -> P_0007.png
 std::filesystem::path numbered(const std::filesystem::path& file, int frame, int frames) {
@@ -68,10 +111,15 @@ int runRender(const Arguments& arguments) {
     options.progress = progress.get();
     options.isAdaptive = true;
     illustrate::ScenePainter painter(*volume, arguments.build.threads);
+    GlDrawer gl(arguments.build.threads);
+    const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
+        return gl.draw(volumes, spec);
+    };
     for (int frame = 0; frame < arguments.frames; ++frame) {
-        const auto scene = arguments.scene.toScene(frame, arguments.frames);
+        auto scene = arguments.scene.toScene(frame, arguments.frames);
         if (!scene) return fail(scene.error());
-        const auto painting = painter.paint(*scene, options);
+        if (arguments.gl) takeFinest(*scene);
+        const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
         if (!painting) return fail(painting.error());
         if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
         Progress::tell(progress.get(), "render", double(frame + 1) / arguments.frames);
@@ -96,6 +144,9 @@ Run addRenderCommand(CLI::App& app) {
         ->group("Scene")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
+    command->add_flag("--gl", arguments->gl, "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display")
+        ->group("Output")
+        ->excludes(command->get_option("--level"));
     command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")
         ->group("Output")
         ->type_name("L.png");

@@ -74,6 +74,12 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
+    return paint(scene, [&](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
+        return render::castRays(volumes, spec, options);
+    });
+}
+
+Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
     auto spec = frameOf(scene, volume_);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
@@ -82,7 +88,7 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
         if (!made) return made.error();
         drawn.push_back(*made);
     }
-    auto frame = render::castRays(drawn, *spec, options);
+    auto frame = draw(drawn, *spec);
     if (!frame) return frame.error();
     Painting painting{std::move(*frame), std::move(*spec)};
     if (auto named = addNames(scene, volume_, painting); !named) return named.error();

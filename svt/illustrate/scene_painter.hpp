@@ -7,8 +7,10 @@
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace svt::illustrate {
@@ -32,6 +34,10 @@ public:
     /// \return picture and frame, or what frameOf(), extractShell() or castRays() returns
     /// Cost: that of castRays(); and once, of each form.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
+
+    /// The same by another renderer: `draw` is given the volumes that the passes draw and the frame.
+    using Draw = std::function<Result<render::Frame>(std::span<const render::DrawnVolume>, const render::FrameSpec&)>;
+    [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
     /// A form of the volume, for a picture that is `spec`. It lives as long as the painter.
     [[nodiscard]] Result<render::DrawnVolume> form(const VolumeForm& form, const render::FrameSpec& spec);

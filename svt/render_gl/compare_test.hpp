@@ -8,14 +8,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 namespace svt::render_gl::test {
 
-/// The one context of the test program; the reason where there is none.
+/// The one context of the test program; the reason where there is none, or not that of the renderer that
+/// SVT_GL_RENDERER names.
 inline const Result<EglContext>& context() {
-    static const Result<EglContext> made = EglContext::make();
+    static const Result<EglContext> made = []() -> Result<EglContext> {
+        auto context = EglContext::make();
+        const char* wanted = std::getenv("SVT_GL_RENDERER");
+        if (!context || wanted == nullptr || context->renderer().find(wanted) != std::string::npos) return context;
+        return Error(Code::NoGraphics, context->renderer() + " draws, not " + wanted);
+    }();
     return made;
 }
 

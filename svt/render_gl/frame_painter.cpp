@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -77,6 +76,7 @@ unsigned FramePainter::needsOf(const PassTextures& pass) const {
     if (pass.hasTranslucent()) needs |= kTranslucent;
     if (pass.hasOpaque() && parts_->textures.hasVoxels) needs |= kFitted;
     if (pass.hasShapes()) needs |= kShapes;
+    if (pass.hasTriangles()) needs |= kTriangles;
     if (pass.hasHatches() && parts_->spec.hatches.strength > 0) needs |= kHatches;
     return needs;
 }
@@ -89,7 +89,8 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
                                            {"TRANSLUCENT", has(kTranslucent)},
                                            {"FITTED", has(kFitted)},
                                            {"HATCHES", has(kHatches)},
-                                           {"SHAPES", has(kShapes)}});
+                                           {"SHAPES", has(kShapes)},
+                                           {"TRIANGLES", has(kTriangles)}});
     std::vector<std::string_view> sources{shaders::tables(), shaders::ray()};
     if (has(kClips) != 0) sources.push_back(shaders::clips());
     sources.push_back(shaders::light());
@@ -125,6 +126,36 @@ void FramePainter::castMiddles(const PixelTile& tile) {
     castGrid({double(tile.x), double(tile.y), 1, tile.width, tile.height});
 }
 
+// Where rays may meet anything: the volume's box as it is seen, a pixel wider. The whole picture where the eye is in it
+// or beside it, or where lines may lie outside.
+void FramePainter::scissorTo(const SampleGrid& samples) const {
+    glScissor(0, 0, samples.width, samples.height);
+    const render::CameraRays rays(parts_->spec, parts_->grid);
+    const Vec3i n = parts_->grid.dimension();
+    double left = samples.width, top = samples.height, right = 0, bottom = 0;
+    double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        const Vec3d seen = rays.seenAt(parts_->grid.worldFromIndex(index) - parts_->spec.camera.eye);
+        const double x = (seen.x + 1) / 2 * parts_->spec.width * samples.side - samples.firstX;
+        const double y = (1 - seen.y) / 2 * parts_->spec.height * samples.side - samples.firstY;
+        left = std::min(left, x - samples.side);
+        top = std::min(top, y - samples.side);
+        right = std::max(right, x + samples.side);
+        bottom = std::max(bottom, y + samples.side);
+        nearest = std::min(nearest, seen.z);
+        farthest = std::max(farthest, seen.z);
+    }
+    if (rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest))) return;
+    if (std::any_of(passNeeds_.begin(), passNeeds_.end(), [](unsigned needs) { return (needs & kShapes) != 0; }))
+        return;
+    const auto at = [](double sample, std::int32_t end) {
+        return static_cast<GLint>(std::clamp(sample, 0.0, static_cast<double>(end)));
+    };
+    const GLint x = at(left, samples.width), y = at(top, samples.height);
+    glScissor(x, y, std::max(at(right + 1, samples.width) - x, 0), std::max(at(bottom + 1, samples.height) - y, 0));
+}
+
 void FramePainter::castGrid(const SampleGrid& grid) {
     glDisable(GL_SCISSOR_TEST);
     glViewport(0, 0, grid.width, grid.height);
@@ -134,13 +165,14 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         color_[last_].setTarget(GL_RGBA32UI, grid.width, grid.height);
         hit_[last_].setTarget(GL_RGBA32UI, grid.width, grid.height);
         targets_[last_].bind({color_[last_].name(), hit_[last_].name()});
-        if (passes_.empty()) {
-            const std::array<GLuint, 4> nothing{0, 0, std::bit_cast<GLuint>(kFar), 0};
-            const std::array<GLuint, 4> noColor{};
+        const std::array<GLuint, 4> nothing{0, 0, bitsOf(kFar), 0}, noColor{};
+        if (n < 2) {
             glClearBufferuiv(GL_COLOR, 0, noColor.data());
             glClearBufferuiv(GL_COLOR, 1, nothing.data());
-            return;
         }
+        if (passes_.empty()) return;
+        scissorTo(grid);
+        glEnable(GL_SCISSOR_TEST);
         Program& program = *cast_[passNeeds_[n]];
         program.use();
         parts_->textures.setUniforms(program);
@@ -151,11 +183,10 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         program.set("samplesAPixel", double(grid.side));
         if ((passNeeds_[n] & kHatches) != 0) setHatches(program, grid.side);
         program.set("join", n == 0 ? 3u : static_cast<GLuint>(spec.passes[n].join));
-        if (n > 0) {
-            program.bind("colorBefore", color_[1 - last_]);
-            program.bind("hitBefore", hit_[1 - last_]);
-        }
+        program.bind("colorBefore", n > 0 ? color_[1 - last_] : parts_->textures.boxes);
+        program.bind("hitBefore", n > 0 ? hit_[1 - last_] : parts_->textures.boxes);
         drawPicture();
+        glDisable(GL_SCISSOR_TEST);
     }
 }
 
@@ -271,7 +302,7 @@ void FramePainter::readHits(const PixelTile& tile,
         for (std::int32_t x = 0; x < tile.width; ++x) {
             const auto& hit =
                 hits[static_cast<std::size_t>(x) + static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(y)];
-            const auto depth = std::bit_cast<float>(hit[2]);
+            const auto depth = floatOf(hit[2]);
             taken(x, y, {hit[0], depth < kFar ? depth : std::numeric_limits<float>::infinity()});
         }
 }

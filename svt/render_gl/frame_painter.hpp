@@ -55,7 +55,15 @@ public:
 
 private:
     // What the shader of a pass must be able to do.
-    enum Needs : unsigned { kClips = 1, kTranslucent = 2, kFitted = 4, kHatches = 8, kShapes = 16, kNeeds = 32 };
+    enum Needs : unsigned {
+        kClips = 1,
+        kTranslucent = 2,
+        kFitted = 4,
+        kHatches = 8,
+        kShapes = 16,
+        kTriangles = 32,
+        kNeeds = 64
+    };
     struct SampleGrid {
         double firstX, firstY;  // samples from the picture's upper left corner
         int side;               // samples along a pixel
@@ -66,6 +74,7 @@ private:
     [[nodiscard]] Result<void> prepareCast(unsigned needs);
     [[nodiscard]] Result<void> prepareResolve();
     void castGrid(const SampleGrid& grid);
+    void scissorTo(const SampleGrid& samples) const;
     void setView(Program& program) const;
     void setHatches(Program& program, int side) const;
 

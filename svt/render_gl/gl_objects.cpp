@@ -63,10 +63,12 @@ bool isCompiled(GLuint shader) {
 Result<GlLimits> glLimits() {
     const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
     if (version == nullptr) return Error(Code::NoGraphics, "no OpenGL context is current");
-    GLint major = 0;
+    // "OpenGL ES 3.2 ...", also in browsers.
+    constexpr std::string_view kName = "OpenGL ES ";
+    const std::string_view text(version);
+    if (text.substr(0, kName.size()) != kName || text.size() <= kName.size() || text[kName.size()] < '3')
+        return Error(Code::NoGraphics, fmt::format("found '{}', but OpenGL ES 3.0 is needed", version));
     clearGlErrors();
-    glGetIntegerv(GL_MAJOR_VERSION, &major);
-    if (major < 3) return Error(Code::NoGraphics, fmt::format("found '{}', but OpenGL ES 3.0 is needed", version));
     GlLimits limits;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limits.textureSize);
     limits.rowBits = limits.textureSize >= 4096 ? 12 : 11;

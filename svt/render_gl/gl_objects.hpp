@@ -10,6 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <string>
@@ -18,6 +20,19 @@
 #include <vector>
 
 namespace svt::render_gl {
+
+/// A float as shaders read it by uintBitsToFloat(), and back. Not std::bit_cast, which the library of the web build
+/// lacks.
+[[nodiscard]] inline std::uint32_t bitsOf(float value) noexcept {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+[[nodiscard]] inline float floatOf(std::uint32_t bits) noexcept {
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
 
 /// What the current context can do.
 struct GlLimits {

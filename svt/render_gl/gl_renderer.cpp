@@ -99,6 +99,11 @@ Result<GlRenderer> GlRenderer::make(const volume::BrickVolume& volume, const vol
 }
 
 Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
+    const std::int32_t most = parts_->limits.textureSize;
+    if (spec.width > most || spec.height > most)
+        return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels is larger than a framebuffer of this "
+                                                 "graphics driver, {} pixels; draw a smaller one",
+                                                 spec.width, spec.height, most));
     const KeptBindings bindings;
     if (auto prepared = parts_->prepare(spec); !prepared) return prepared;
     FramePainter& painter = parts_->painter;

@@ -33,8 +33,8 @@ struct PickedPixel {
 /// framebuffer bindings are as before.
 ///
 /// The picture is that of render::castRays() with the same options: labels but for pixels whose ray passes within
-/// 1e-3 voxel of an edge (floats against doubles; volumes of up to some 2,000 voxels along a side), colours within
-/// what README.md states. What a ray meets twice, once in draw() and once in pick(), is the same.
+/// 1e-3 voxel of an edge (floats against doubles; volumes of up to some 5,000 voxels along a side), colours within 3 of
+/// 255. What a ray meets twice, once in draw() and once in pick(), is the same.
 class GlRenderer {
 public:
     /// Uploads the bricks, as they are.
@@ -52,7 +52,9 @@ public:
 
     /// Draws into the lower left spec.width x spec.height pixels of the current framebuffer: sRGB, alpha not
     /// premultiplied. What stood there before is overwritten.
-    /// \return nothing; BadFrame or BadCamera as render::checkFrameSpec(), NoGraphics where the driver fails
+    /// \return nothing; BadFrame or BadCamera as render::checkFrameSpec(), BadFrame where a framebuffer of this driver
+    /// is
+    ///         smaller than the picture, NoGraphics where the driver fails
     /// Cost: O(pixels * samples * passes * same-label stretches). Uploaded is only what differs from the frame before:
     /// a camera nothing but numbers, a style or a clip its small table and, with ambient occlusion, coverage by brick.
     [[nodiscard]] Result<void> draw(const render::FrameSpec& spec);

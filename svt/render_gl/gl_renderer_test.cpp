@@ -6,6 +6,8 @@
 #include <svt/render_gl/compare_test.hpp>
 #include <svt/samples/sample.hpp>
 
+#include <GLES3/gl3.h>
+
 #include <cstdlib>
 #include <functional>
 #include <iostream>
@@ -35,19 +37,19 @@ ModelPointer modelOf(const volume::ColumnVolume& columns, const volume::Grid& gr
     return std::make_shared<Model>(Model{*volume::BrickVolume::fromColumns(columns), grid});
 }
 
-ModelPointer modelOf(Vec3i n, Vec3d spacing, const std::function<volume::Scalar(Vec3i)>& labelAt) {
+volume::ColumnVolume columnsOf(Vec3i n, const std::function<volume::Scalar(Vec3i)>& labelAt) {
     std::vector<volume::Scalar> scalars;
     for (std::int32_t k = 0; k < n.z; ++k)
         for (std::int32_t j = 0; j < n.y; ++j)
             for (std::int32_t i = 0; i < n.x; ++i) scalars.push_back(labelAt({i, j, k}));
-    return modelOf(
-        volume::ColumnVolume::fromDense(n, scalars),
-        *volume::Grid::fromParts(n, spacing, spacing * 0.5, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}));
+    return volume::ColumnVolume::fromDense(n, scalars);
 }
 
+constexpr Vec3i kBodies{93, 70, 61};
+
 // A ball over a slab, a slanted roof, a pillar, and small cubes of many labels.
-ModelPointer bodies() {
-    static const ModelPointer made = modelOf({93, 70, 61}, {0.1, 0.12, 0.11}, [](Vec3i v) -> volume::Scalar {
+volume::ColumnVolume columnsOfBodies() {
+    return columnsOf(kBodies, [](Vec3i v) -> volume::Scalar {
         const int x = v.x - 30, y = v.y - 34, z = v.z - 28;
         if (v.z < 6) return 1;
         if (x * x + y * y + z * z < 18 * 18) return x * x + y * y + z * z < 9 * 9 ? 3 : 2;
@@ -57,6 +59,12 @@ ModelPointer bodies() {
             return (v.x / 3 + v.y / 2 + v.z / 5) % 4 == 0 ? 6 + volume::Scalar(v.x / 3 + v.z / 5) % 9 : 0;
         return 0;
     });
+}
+
+ModelPointer bodies() {
+    static const ModelPointer made =
+        modelOf(columnsOfBodies(), *volume::Grid::fromParts(kBodies, {0.1, 0.12, 0.11}, {0.05, 0.06, 0.055},
+                                                            {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}));
     return made;
 }
 
@@ -77,15 +85,6 @@ ModelPointer house(double turnDegrees) {
     build.dimension = Vec3i{240, 210, 150};
     const auto output = *pipeline::buildVolume(model, build);
     return modelOf(output.volume.columns, output.volume.grid);
-}
-
-ModelPointer straightHouse() {
-    static const ModelPointer made = house(0);
-    return made;
-}
-ModelPointer turnedHouse() {
-    static const ModelPointer made = house(30);
-    return made;
 }
 
 // Colours that tell labels apart; 0 hidden.
@@ -126,7 +125,6 @@ FrameSpec frameOf(const Model& model, const char* view = "iso") {
 struct Look {
     const char* name;
     std::function<FrameSpec(const Model&)> frame;
-    int colorBound = kColorBound;
 };
 
 ClipRegion halfOpen(const Model& model) { return ClipRegion::plane({0.2, -1, 0.1}, sizesOf(model).middle); }
@@ -376,51 +374,184 @@ const std::vector<Look>& looks() {
     return all;
 }
 
-void expectSame(const Model& model, const Look& look, const std::string& name) {
+void expectSame(const Model& model, GlRenderer& renderer, const Look& look, const std::string& name) {
     const FrameSpec spec = look.frame(model);
-    auto renderer = GlRenderer::make(model.bricks, model.grid);
-    ASSERT_TRUE(renderer) << renderer.error().toString();
-    const auto drawn = renderer->read(spec);
+    const auto drawn = renderer.read(spec);
     ASSERT_TRUE(drawn) << drawn.error().toString();
     const auto cast = render::castRays(model.bricks, model.grid, spec);
     ASSERT_TRUE(cast) << cast.error().toString();
-    const auto difference = test::compare(model.bricks, model.grid, spec, *drawn, *cast, look.colorBound);
-    EXPECT_EQ(difference.labels, 0u) << "at " << difference.x << ", " << difference.y;
-    EXPECT_EQ(difference.depths, 0u) << "at " << difference.x << ", " << difference.y;
-    EXPECT_EQ(difference.colors, 0u) << "at " << difference.x << ", " << difference.y << ", up to "
-                                     << difference.largestColor;
+    const auto difference = test::compare(model.bricks, model.grid, spec, *drawn, *cast, kColorBound);
+    const auto place = "at " + std::to_string(difference.x) + ", " + std::to_string(difference.y);
+    EXPECT_EQ(difference.labels, 0u) << place;
+    EXPECT_EQ(difference.depths, 0u) << place;
+    EXPECT_EQ(difference.colors, 0u) << place << ", up to " << difference.largestColor;
     // What is let through at edges is little.
-    EXPECT_LT(difference.edges, cast->label.pixels().size() / 500 + 5);
-    EXPECT_LT(difference.colorEdges, cast->label.pixels().size() / 100 + 5);
+    EXPECT_LE(difference.edges, 10u);
+    EXPECT_LE(difference.colorEdges, 20u);
     if (const char* folder = std::getenv("SVT_TEST_PICTURES"); folder != nullptr) {
         (void)render::writePng(std::string(folder) + "/" + name + "_gl.png", drawn->color);
         (void)render::writePng(std::string(folder) + "/" + name + "_cpu.png", cast->color);
     }
 }
 
-class Looks : public testing::TestWithParam<std::size_t> {};
+// One renderer draws all looks, so what a frame leaves behind would show in the next.
+void expectAllSame(const Model& model, const std::string& name) {
+    auto renderer = GlRenderer::make(model.bricks, model.grid);
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    for (const Look& look : looks()) {
+        SCOPED_TRACE(look.name);
+        expectSame(model, *renderer, look, name + look.name);
+    }
+}
 
-TEST_P(Looks, OfBodies) {
+TEST(GlRenderer, DrawsBodiesAsTheCpu) {
     SVT_NEEDS_GL();
-    expectSame(*bodies(), looks()[GetParam()], std::string("bodies") + looks()[GetParam()].name);
+    expectAllSame(*bodies(), "bodies");
 }
-TEST_P(Looks, OfTheHouse) {
+
+TEST(GlRenderer, DrawsTheHouseAsTheCpu) {
     SVT_NEEDS_GL();
-    expectSame(*straightHouse(), looks()[GetParam()], std::string("house") + looks()[GetParam()].name);
+    expectAllSame(*house(0), "house");
 }
-TEST_P(Looks, OfTheTurnedHouse) {
+
+TEST(GlRenderer, DrawsTheTurnedHouseAsTheCpu) {
     SVT_NEEDS_GL();
-    expectSame(*turnedHouse(), looks()[GetParam()], std::string("turned") + looks()[GetParam()].name);
+    expectAllSame(*house(30), "turned");
 }
-TEST_P(Looks, OfTheFzkHaus) {
+
+TEST(GlRenderer, DrawsTheFzkHausAsTheCpu) {
     SVT_NEEDS_GL();
     SVT_NEEDS_DATA(file, "fzk_haus_citygml3.gml");
-    static const ModelPointer made = built(std::span(&file, 1), {400, 350, 200});
-    expectSame(*made, looks()[GetParam()], std::string("fzk") + looks()[GetParam()].name);
+    expectAllSame(*built(std::span(&file, 1), {400, 350, 200}), "fzk");
 }
 
-INSTANTIATE_TEST_SUITE_P(GlRenderer, Looks, testing::Range(std::size_t{0}, looks().size()),
-                         [](const auto& look) { return std::string(looks()[look.param].name); });
+// Where nothing is coded by planes, every normal is fitted to voxels.
+TEST(GlRenderer, DrawsAVolumeOfVoxelsAsTheCpu) {
+    SVT_NEEDS_GL();
+    const volume::ColumnVolume columns = columnsOfBodies();
+    const Model model{*volume::BrickVolume::fromColumns(columns, 0, volume::BrickFaces::Voxels), bodies()->grid};
+    auto renderer = GlRenderer::make(model.bricks, model.grid);
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    expectSame(model, *renderer, looks()[0], "voxelsOpaque");
+    expectSame(model, *renderer, looks()[9], "voxelsMixed");
+}
+
+// Wider than a tile, with lines that reach from one into the next.
+TEST(GlRenderer, LeavesNoSeamsBetweenTiles) {
+    SVT_NEEDS_GL();
+    const Look wide{"Wide", [](const Model& m) {
+                        FrameSpec spec = frameOf(m);
+                        spec.width = 1100;
+                        spec.height = 90;
+                        spec.samplesPerPixel = 4;
+                        spec.camera.verticalFovDegrees = 6;
+                        spec.borders = {1, 3, 6, {}};
+                        spec.passes[0].clips = {halfOpen(m)};
+                        return spec;
+                    }};
+    auto renderer = GlRenderer::make(bodies()->bricks, bodies()->grid);
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    expectSame(*bodies(), *renderer, wide, "bodiesWide");
+}
+
+TEST(GlRenderer, PicksWhatItDraws) {
+    SVT_NEEDS_GL();
+    auto renderer = GlRenderer::make(bodies()->bricks, bodies()->grid);
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    for (const int samples : {1, 4}) {
+        FrameSpec spec = frameOf(*bodies());
+        spec.samplesPerPixel = samples;
+        const auto frame = renderer->read(spec);
+        ASSERT_TRUE(frame) << frame.error().toString();
+        for (std::int32_t y = 5; y < spec.height; y += 34)
+            for (std::int32_t x = 3; x < spec.width; x += 41) {
+                const auto picked = renderer->pick(spec, x, y);
+                ASSERT_TRUE(picked) << picked.error().toString();
+                EXPECT_EQ(picked->label, frame->label.at(x, y));
+                EXPECT_EQ(picked->depth, frame->depth.at(x, y));
+            }
+    }
+    const auto outside = renderer->pick(frameOf(*bodies()), 320, 0);
+    ASSERT_FALSE(outside);
+    EXPECT_EQ(outside.error().code(), Code::BadArgument);
+}
+
+TEST(GlRenderer, LooksThroughGhostsAsTheCpu) {
+    SVT_NEEDS_GL();
+    FrameSpec spec = frameOf(*bodies());
+    spec.passes[0].styles = mixedStyles(*bodies());
+    auto renderer = GlRenderer::make(bodies()->bricks, bodies()->grid, {.labelAt = 0.6f});
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    const auto drawn = renderer->read(spec);
+    ASSERT_TRUE(drawn) << drawn.error().toString();
+    const auto cast = render::castRays(bodies()->bricks, bodies()->grid, spec, {.labelAt = 0.6f});
+    ASSERT_TRUE(cast) << cast.error().toString();
+    std::size_t apart = 0, other = 0;
+    const auto plain = render::castRays(bodies()->bricks, bodies()->grid, spec);
+    for (std::size_t n = 0; n < cast->label.pixels().size(); ++n) {
+        apart += drawn->label.pixels()[n] != cast->label.pixels()[n];
+        other += plain->label.pixels()[n] != cast->label.pixels()[n];
+    }
+    // A ray may reach the share exactly.
+    EXPECT_LE(apart, 5u);
+    EXPECT_GT(other, 1000u);
+}
+
+TEST(GlRenderer, DrawsIntoTheCurrentFramebuffer) {
+    SVT_NEEDS_GL();
+    FrameSpec spec = frameOf(*bodies());
+    auto renderer = GlRenderer::make(bodies()->bricks, bodies()->grid);
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    const auto frame = renderer->read(spec);
+    ASSERT_TRUE(frame) << frame.error().toString();
+    GLuint target = 0, picture = 0;
+    glGenTextures(1, &picture);
+    glBindTexture(GL_TEXTURE_2D, picture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 400, 200, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glGenFramebuffers(1, &target);
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture, 0);
+    glClearColor(0, 1, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ASSERT_TRUE(renderer->draw(spec));
+    GLint bound = 0;
+    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+    EXPECT_EQ(static_cast<GLuint>(bound), target);
+    std::vector<render::Rgba8> rows(400 * 200);
+    glReadPixels(0, 0, 400, 200, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());
+    std::size_t apart = 0, touched = 0;
+    for (std::int32_t y = 0; y < 200; ++y)
+        for (std::int32_t x = 0; x < 400; ++x) {
+            const render::Rgba8 pixel = rows[static_cast<std::size_t>(x + 400 * y)];
+            if (x < spec.width && y < spec.height)
+                apart += pixel != frame->color.at(x, spec.height - 1 - y);
+            else
+                touched += pixel != render::Rgba8{0, 255, 0, 255};
+        }
+    EXPECT_EQ(apart, 0u);
+    EXPECT_EQ(touched, 0u);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &target);
+    glDeleteTextures(1, &picture);
+}
+
+TEST(GlRenderer, SaysWhatIsOutOfRange) {
+    SVT_NEEDS_GL();
+    const auto codeOf = [](const auto& result) { return result ? Code::Internal : result.error().code(); };
+    const auto other = *volume::Grid::fromParts({3, 3, 3}, {1, 1, 1}, {}, bodies()->grid.axes());
+    EXPECT_EQ(codeOf(GlRenderer::make(bodies()->bricks, other)), Code::BadArgument);
+    EXPECT_EQ(codeOf(GlRenderer::make(bodies()->bricks, bodies()->grid, {.labelAt = 1})), Code::BadArgument);
+    auto renderer = GlRenderer::make(bodies()->bricks, bodies()->grid);
+    ASSERT_TRUE(renderer) << renderer.error().toString();
+    FrameSpec spec = frameOf(*bodies());
+    spec.samplesPerPixel = 5;
+    EXPECT_EQ(codeOf(renderer->read(spec)), Code::BadFrame);
+    spec.samplesPerPixel = 1;
+    spec.camera.target = spec.camera.eye;
+    EXPECT_EQ(codeOf(renderer->draw(spec)), Code::BadCamera);
+    // And goes on.
+    EXPECT_TRUE(renderer->read(frameOf(*bodies())));
+}
 
 }  // namespace
 }  // namespace svt::render_gl

@@ -3,17 +3,15 @@
 #include <svt/render/pass_shapes.hpp>
 #include <svt/render/pass_table.hpp>
 
-#include <bit>
+#include <algorithm>
 
 namespace svt::render_gl {
 namespace {
 
 using render::LinearStyle;
 
-std::uint32_t bitsOf(double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); }
-
 void append(std::vector<std::uint32_t>& words, Vec3d v, double w) {
-    for (const double value : {v.x, v.y, v.z, w}) words.push_back(bitsOf(value));
+    for (const double value : {v.x, v.y, v.z, w}) words.push_back(bitsOf(static_cast<float>(value)));
 }
 
 // dot(direction, p) of world space as a vector of voxel space.
@@ -81,9 +79,10 @@ Result<void> PassTextures::updateStyles(const render::Pass& pass, const render::
         hasHatches_ = hasHatches_ || hatch != 0;
     }
     styleCount_ = static_cast<std::uint32_t>(table.styles().size());
+    if (auto set = styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;
     styles_ = pass.styles;
     objects_ = spec.objectOfScalar;
-    return styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits);
+    return {};
 }
 
 // See clips.glsl.
@@ -98,21 +97,25 @@ Result<void> PassTextures::updateClips(const render::Pass& pass, const volume::G
         for (const render::ConvexPart& part : region.parts) appendPart(words, part, grid, middle);
         words[head + 2] = static_cast<std::uint32_t>(words.size() / 4);
     }
+    if (auto set = clipTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;
     clips_ = pass.clips;
     clipRegions_ = static_cast<std::uint32_t>(pass.clips.size());
-    return clipTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits);
+    return {};
 }
 
 Result<void> PassTextures::updateOcclusion(const volume::BrickVolume& volume, const volume::Grid& grid,
                                            const GlLimits& limits, int threads) {
     if (!occlusionTexture_.isEmpty() && bodies_ == occludingBodies_ && clips_ == occludingClips_) return {};
+    const Vec3d spacing = grid.spacing();
     const render::OcclusionField field(
-        volume, [&](volume::Scalar scalar) { return scalar < bodies_.size() && bodies_[scalar] != 0; },
+        volume, std::max({spacing.x, spacing.y, spacing.z}),
+        [&](volume::Scalar scalar) { return scalar < bodies_.size() && bodies_[scalar] != 0; },
         render::Clipper(clips_, grid), threads);
     std::vector<std::uint32_t> voxels;
     occlusionCounts_.clear();
     occlusionFirsts_.clear();
     occlusionGains_.clear();
+    occlusionCell_ = field.levels().empty() ? 8 : static_cast<float>(field.levels().front().cellSize);
     for (const render::OcclusionField::Level& level : field.levels()) {
         occlusionCounts_.push_back(level.count);
         occlusionFirsts_.push_back(static_cast<GLuint>(voxels.size()));
@@ -120,9 +123,10 @@ Result<void> PassTextures::updateOcclusion(const volume::BrickVolume& volume, co
         occlusionGains_.push_back(static_cast<float>(level.weight));
         voxels.insert(voxels.end(), level.voxels.begin(), level.voxels.end());
     }
+    if (auto set = occlusionTexture_.setArray(GL_R32UI, voxels.data(), voxels.size(), limits); !set) return set;
     occludingBodies_ = bodies_;
     occludingClips_ = clips_;
-    return occlusionTexture_.setArray(GL_R32UI, voxels.data(), voxels.size(), limits);
+    return {};
 }
 
 void PassTextures::setUniforms(Program& program) const {
@@ -135,8 +139,10 @@ void PassTextures::setUniforms(Program& program) const {
     if (hasShapes()) shapes_.setUniforms(program);
     // Without anything opaque no corner is dark.
     if (!hasOpaque_) program.set("lightOcclusion", 0.0f);
+    // A sampler must not stay on what may be drawn into meanwhile.
+    program.bind("occlusion", occlusionTexture_.isEmpty() ? styleTexture_ : occlusionTexture_);
     if (occlusionTexture_.isEmpty()) return;
-    program.bind("occlusion", occlusionTexture_);
+    program.set("occlusionCell", occlusionCell_);
     program.set("occlusionLevels", GLint{render::OcclusionField::kLevels});
     program.set("occlusionCount[0]", std::span<const Vec3i>(occlusionCounts_));
     program.set("occlusionFirst[0]", std::span<const GLuint>(occlusionFirsts_));

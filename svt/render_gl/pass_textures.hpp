@@ -28,6 +28,7 @@ public:
     [[nodiscard]] bool hasOpaque() const noexcept { return hasOpaque_; }
     [[nodiscard]] bool hasTranslucent() const noexcept { return hasTranslucent_; }
     [[nodiscard]] bool hasShapes() const noexcept { return !shapes_.isEmpty(); }
+    [[nodiscard]] bool hasTriangles() const noexcept { return shapes_.hasTriangles(); }
     [[nodiscard]] bool hasHatches() const noexcept { return hasHatches_ && hasClips(); }
 
 private:
@@ -45,6 +46,7 @@ private:
     std::vector<Vec3i> occlusionCounts_;
     std::vector<GLuint> occlusionFirsts_;
     std::vector<float> occlusionGains_;
+    float occlusionCell_ = 8;  // voxels along a block of the finest level
     // What the textures were made of.
     std::vector<render::Style> styles_;
     std::vector<std::uint32_t> objects_;

@@ -4,7 +4,6 @@
 #include <svt/render_gl/view_depth.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <vector>
@@ -38,13 +37,12 @@ public:
         addVector({style.color.x, style.color.y, style.color.z}, triangle.opacity);
         const std::uint32_t flags =
             static_cast<std::uint32_t>(style.kind) | std::uint32_t{style.isBody} << 2 | hatch << 8;
-        words_.insert(words_.end(), {flags, style.object, std::bit_cast<std::uint32_t>(style.surface), style.label});
+        words_.insert(words_.end(), {flags, style.object, bitsOf(style.surface), style.label});
     }
 
 private:
     void addFloats(double x, double y, double z, double w) {
-        for (const double value : {x, y, z, w})
-            words_.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+        for (const double value : {x, y, z, w}) words_.push_back(bitsOf(static_cast<float>(value)));
     }
     void addVector(Vec3d v, double w) { addFloats(v.x, v.y, v.z, w); }
 
@@ -114,6 +112,7 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
         table.add(triangle, from, static_cast<std::uint32_t>(pass.styles[triangle.style.label].hatch));
     }
     isEmpty_ = false;
+    hasTriangles_ = sorted.triangleCount > 0;
     if (auto set = cells_.setArray(GL_RGBA32UI, sorted.cells.data(), sorted.cells.size() / 4, limits); !set) return set;
     if (auto set = list_.setArray(GL_R32UI, sorted.list.data(), sorted.list.size(), limits); !set) return set;
     return table_.setArray(GL_RGBA32UI, table.words().data(), table.texels(), limits);

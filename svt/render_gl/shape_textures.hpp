@@ -19,10 +19,11 @@ public:
                                       Vec3i middle, const GlLimits& limits, int threads);
     void setUniforms(Program& program) const;
     [[nodiscard]] bool isEmpty() const noexcept { return isEmpty_; }
+    [[nodiscard]] bool hasTriangles() const noexcept { return !isEmpty_ && hasTriangles_; }
 
 private:
     Texture cells_, list_, table_;
-    bool isEmpty_ = true, isPerspective_ = true;
+    bool isEmpty_ = true, hasTriangles_ = false, isPerspective_ = true;
     std::uint32_t cellsX_ = 0, cellsY_ = 0, looksFirst_ = 0, trianglesFirst_ = 0;
     double lineSamples_ = 1, pixelSize_ = 1, voxelSize_ = 1;
 };

@@ -114,13 +114,14 @@ Result<Reply> draw(const Arguments& arguments) {
     return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
 }
 
-// (scene, width, height) -> nothing; drawn into the context that is current
+// (scene, width, height, whether it is a trial that nobody sees) -> nothing; drawn into the context that is current
 Result<Reply> drawGl(const Arguments& arguments) {
     auto scene = arguments.scene(0);
     if (!scene) return scene.error();
     scene->width = static_cast<std::int32_t>(arguments.number(1));
     scene->height = static_cast<std::int32_t>(arguments.number(2));
-    if (auto drawn = session->drawGl(*scene); !drawn) return drawn.error();
+    const auto purpose = arguments.at(3) == true ? Session::Purpose::Trial : Session::Purpose::Shown;
+    if (auto drawn = session->drawGl(*scene, purpose); !drawn) return drawn.error();
     return Reply(std::string("null"));
 }
 Result<Reply> dropGl(const Arguments&) {

@@ -53,7 +53,7 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene) {
     return &*lastFrame_;
 }
 
-Result<void> Session::drawGl(const illustrate::Scene& scene) {
+Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     auto spec = illustrate::frameOf(scene, volume_);
     if (!spec) return spec.error();
     const auto forms = illustrate::formsOf(scene);
@@ -68,6 +68,7 @@ Result<void> Session::drawGl(const illustrate::Scene& scene) {
         gl_ = std::move(*made);
     }
     if (auto drawn = gl_->draw(*spec); !drawn) return drawn;
+    if (purpose == Purpose::Trial) return {};
     lastSpec_ = std::move(*spec);
     lastFrame_.reset();
     return {};

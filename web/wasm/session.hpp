@@ -40,10 +40,12 @@ public:
 
     /// Draws `scene` as `svt render` does; pick() and along() are of this picture then.
     [[nodiscard]] Result<const render::Frame*> draw(const illustrate::Scene& scene);
+    /// Whether pick() and along() are of a picture.
+    enum class Purpose : std::uint8_t { Shown, Trial };
     /// The same by WebGL2, into the lower left of the framebuffer of the context that is current; always the same one.
     /// \return nothing, or what draw() and GlRenderer return; BadArgument where the scene needs the CPU: names, shells
     ///         beside the volume, levels of detail
-    [[nodiscard]] Result<void> drawGl(const illustrate::Scene& scene);
+    [[nodiscard]] Result<void> drawGl(const illustrate::Scene& scene, Purpose purpose);
     /// Forgets what the context holds, as where it was lost.
     void dropGl();
     /// Width by height of the last picture; 16 : 9 before the first.

@@ -26,12 +26,11 @@ uint object;
 bool isFirst;
 
 #if SHAPES
+float shapeAt;  // t of the line or triangle that comes next; kFar where there is none
 float lineLight();
-void addShapes(float end);
-float addShapesWithin(float end, float density);
+void addShape();
 bool addCutBody(float at, uint cap);
 void beginShapes(vec2 samplePlace);
-void finishShapes();
 void drawHiddenLines(inout float alpha);
 vec2 raySpan;  // inside the volume
 #else
@@ -56,18 +55,22 @@ void add(float alpha) {
 
 bool isDone() { return 1.0 - transmittance >= opaqueAt; }
 
-void castInterval(float from, float to, uint cap) {
-#if SHAPES
-    addShapes(t);
-#if CLIPS
-    if (cap != kNone && !isDone() && addCutBody(from, cap)) hasEnded = true;
+// \p isBeyond: the ray is over, only shapes are left.
+void castInterval(float from, float to, uint cap, bool isBeyond) {
+#if TRIANGLES && CLIPS
+    if (cap != kNone && !isBeyond && addCutBody(from, cap)) hasEnded = true;
+    if (hasEnded && !isBeyond) return;
 #endif
-    hasEnded = hasEnded || isDone();
-    if (hasEnded) return;
-#endif
-    for (int event = 0; event < 4096; ++event) {
+    for (int event = 0; event < 8192; ++event) {
         bool isNew = false;
         for (int steps = 0; steps < 65536; ++steps) {
+#if SHAPES
+            bool meetsShape = isBeyond ? shapeAt < kFar : shapeAt <= t;
+            if (isBeyond || meetsShape) {
+                isNew = meetsShape;
+                break;
+            }
+#endif
             look();
             if (isFirst || scalar != runScalar) {
                 runFrom = t;
@@ -79,33 +82,40 @@ void castInterval(float from, float to, uint cap) {
             uint kind = style.x & 3u;
             if (kind == 0u) {
                 object = kNone;
-#if SHAPES
-                addShapes(min(stepEnd, to));
-#endif
             } else if (style.y != object || kind == 2u) {
                 isSameObject = style.y == object;
                 object = style.y;
                 isNew = true;
                 break;
             }
-#if TRANSLUCENT
-            if (kind == 1u) {
-                float begin = t, end = min(stepEnd, to);
-                float density = floatsOf(styles, 2u * scalar).a * metresPerT;
+            float end = min(stepEnd, to);
 #if SHAPES
-                begin = addShapesWithin(end, density);
-                if (!isDone())
+            meetsShape = shapeAt <= end;
+            if (meetsShape) end = shapeAt;
 #endif
-                    add(1.0 - exp(-density * max(end - begin, 0.0)));
-            }
-#endif
-#if TRANSLUCENT || SHAPES
-            hasEnded = hasEnded || isDone();
+#if TRANSLUCENT
+            if (kind == 1u) add(1.0 - exp(-floatsOf(styles, 2u * scalar).a * metresPerT * max(end - t, 0.0)));
+            hasEnded = isDone();
             if (hasEnded) break;
+#endif
+#if SHAPES
+            if (meetsShape) {
+                t = end;
+                isNew = true;
+                break;
+            }
 #endif
             if (stepEnd >= to || !goOn()) break;
         }
         if (!isNew) break;
+#if SHAPES
+        if (isBeyond ? shapeAt < kFar : shapeAt <= t) {
+            addShape();
+            hasEnded = hasEnded || isDone();
+            if (hasEnded && !isBeyond) break;
+            continue;
+        }
+#endif
         if (isSameObject) {
             hasEnded = true;
             break;
@@ -142,24 +152,29 @@ void castPass() {
     vec2 span = spanInVolume(entryAxis);
     float from = span.x, to = span.y;
 #if CLIPS
-    for (int n = 0; n < 66; ++n) {
+    for (int n = 0; n < 67; ++n) {
         uint cap = kNone;
         float before = from;
         to = span.y;
-        if (!(from < to) || !nextInterval(from, to, cap)) break;
+        bool isBeyond = hasEnded || !(from < to) || !nextInterval(from, to, cap);
         // Parts that touch are one.
-        if (n == 0 || from != before) enterInterval(from, from == span.x ? entryAxis : -1);
-        castInterval(from, to, cap);
-        if (hasEnded) break;
+        if (!isBeyond && (n == 0 || from != before)) enterInterval(from, from == span.x ? entryAxis : -1);
+        if (SHAPES == 1 || !isBeyond) castInterval(from, to, cap, isBeyond);
+        if (isBeyond) break;
         from = to;
     }
 #else
-    if (from < to) {
-        enterInterval(from, entryAxis);
-        castInterval(from, to, kNone);
+    enterInterval(from, entryAxis);
+    for (int n = 0; n < 1 + SHAPES; ++n) {
+        bool isBeyond = n > 0 || !(from < to);
+        if (SHAPES == 1 || !isBeyond) castInterval(from, to, kNone, isBeyond);
     }
 #endif
     bool isOpaque = hasEnded && !isDone();
+#if !SHAPES
+    // Where nothing is seen the target says so already; drivers skip what is discarded.
+    if (join == 3u && !isOpaque && transmittance >= 1.0) discard;
+#endif
     if (isOpaque) {
         // Within an object no surface is seen.
         if (!isSameObject) lightSurface();
@@ -184,9 +199,6 @@ void main() {
     beginShapes(gl_FragCoord.xy + firstSample);
 #endif
     castPass();
-#if SHAPES
-    finishShapes();
-#endif
     float alpha = 1.0 - transmittance * lineLight();
     if (alpha >= opaqueAt && alpha < 1.0) {
         color /= alpha;

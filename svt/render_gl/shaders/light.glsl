@@ -6,6 +6,7 @@ uniform mat3 indexFromWorld;     // of directions
 uniform vec3 towardsLight;
 uniform float lightKey, lightAmbient, lightOcclusion;
 uniform int occlusionLevels;  // 4; a number here keeps compilers from writing the loop out
+uniform float occlusionCell;  // voxels along a block of the finest level; of the next ones twice as many
 uniform ivec3 occlusionCount[4];
 uniform uint occlusionFirst[4];
 uniform vec2 occlusionGain[4];  // gain, weight
@@ -70,7 +71,7 @@ float lightOn(vec3 normal, float open) {
 
 // Opaque voxels around a point, in blocks that are blended.
 float takenAt(int level, vec3 point) {
-    vec3 p = point / float(8 << level) + 0.5;
+    vec3 p = point / (occlusionCell * float(1 << level)) + 0.5;
     ivec3 count = occlusionCount[level];
     if (any(lessThanEqual(p, vec3(0.0))) || any(greaterThanEqual(p, vec3(count + 1)))) return 0.0;
     ivec3 corner = ivec3(p);
@@ -94,6 +95,6 @@ float openness(vec3 normal, float crease, float at) {
     float taken = 0.0;
     for (int level = 0; level < occlusionLevels; ++level)
         taken += occlusionGain[level].y *
-                 min(1.0, takenAt(level, point + away * float(8 << level)) * occlusionGain[level].x);
+                 min(1.0, takenAt(level, point + away * occlusionCell * float(1 << level)) * occlusionGain[level].x);
     return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * crease);
 }

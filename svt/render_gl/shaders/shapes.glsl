@@ -17,7 +17,8 @@ vec3 worldOrigin;
 
 // The line, and the triangle, that come next; their depths are t.
 float lineAt, lineEnd, lineOpacity, lineHidden;
-vec3 nextLineColor;
+vec3 nextLineColor, strongestColor;
+float strongestHidden;
 float triangleAt;
 uint nextTriangle, triangleLast;
 bool triangleEnters;
@@ -67,6 +68,27 @@ void findLine() {
     }
 }
 
+#if TRIANGLES
+#if CLIPS
+bool isDrawnAt(float at) {
+    uint number = 0u;
+    for (uint r = 0u; r < 32u; ++r) {
+        if (r >= clipRegions) break;
+        uvec4 region = elementOf(clips, number++);
+        bool isInside = false;
+        for (uint p = 0u; p < 32u; ++p) {
+            if (p >= region.y) break;
+            Stretch s = stretchOf(number);
+            isInside = isInside || (s.enter <= at && at < s.leave);
+        }
+        if (isInside != (region.x != 0u)) return false;
+    }
+    return at >= raySpan.x && at < raySpan.y;
+}
+#else
+bool isDrawnAt(float at) { return at >= raySpan.x && at < raySpan.y; }
+#endif
+
 // t of a triangle where the ray goes through it; kFar where it does not.
 float meetTriangle(uint number, out bool isEntering) {
     uint first = trianglesFirst + 6u * number;
@@ -83,8 +105,6 @@ float meetTriangle(uint number, out bool isEntering) {
 }
 
 uint objectOf(uint triangle) { return elementOf(shapeTable, trianglesFirst + 6u * triangle + 5u).y; }
-
-bool isDrawnAt(float at);
 
 void findTriangle() {
     float after = triangleAt;
@@ -106,40 +126,6 @@ void findTriangle() {
     }
 }
 
-void beginShapes(vec2 samplePlace) {
-    pixelPlace = samplePlace / samplesAPixel;
-    ivec2 square = clamp(ivec2(pixelPlace * 0.25), ivec2(0), shapeCellCount - 1);
-    shapes = elementOf(shapeCells, uint(square.x + shapeCellCount.x * square.y));
-    vec2 place = samplePlace * perSample - 1.0;
-    worldOrigin = worldOriginRight * place.x - worldOriginUp * place.y;
-    linesLeft = 1.0;
-    lineEnd = triangleAt = -kFar;
-    nextTriangle = 0u;
-    triangleEnters = false;
-    findLine();
-    findTriangle();
-}
-
-#if CLIPS
-bool isDrawnAt(float at) {
-    uint number = 0u;
-    for (uint r = 0u; r < 32u; ++r) {
-        if (r >= clipRegions) break;
-        uvec4 region = elementOf(clips, number++);
-        bool isInside = false;
-        for (uint p = 0u; p < 32u; ++p) {
-            if (p >= region.y) break;
-            Stretch s = stretchOf(number);
-            isInside = isInside || (s.enter <= at && at < s.leave);
-        }
-        if (isInside != (region.x != 0u)) return false;
-    }
-    return at >= raySpan.x && at < raySpan.y;
-}
-#else
-bool isDrawnAt(float at) { return at >= raySpan.x && at < raySpan.y; }
-#endif
-
 void addSurface(uint number, vec3 normal, float at, bool isCap) {
     uint first = trianglesFirst + 6u * number;
     vec4 look = floatsOf(shapeTable, first + 4u);
@@ -156,41 +142,6 @@ void addSurface(uint number, vec3 normal, float at, bool isCap) {
     hitDepth = at + middleDepth;
     hitNormal = normal;
     hitIsCap = isCap;
-}
-
-float nextShape() { return min(lineAt, triangleAt); }
-
-void addShape() {
-    if (lineAt <= triangleAt) {
-        color += nextLineColor * (transmittance * lineOpacity * linesLeft);
-        linesLeft *= 1.0 - lineOpacity;
-        findLine();
-    } else {
-        vec3 normal = floatsOf(shapeTable, trianglesFirst + 6u * nextTriangle + 3u).xyz;
-        addSurface(nextTriangle, triangleEnters ? normal : -normal, triangleAt, false);
-        findTriangle();
-    }
-}
-
-void addShapes(float end) {
-    for (int n = 0; n < 4096; ++n) {
-        if (nextShape() >= kFar || nextShape() > end || isDone()) break;
-        addShape();
-    }
-}
-
-// In a run of a density a metre of depth that the ray is in from t on; returns from where on nothing is added yet.
-float addShapesWithin(float end, float density) {
-    float begin = t;
-    for (int n = 0; n < 4096; ++n) {
-        float at = nextShape();
-        if (at >= kFar || at > end || isDone()) break;
-        add(1.0 - exp(-density * max(at - begin, 0.0)));
-        begin = max(begin, at);
-        if (isDone()) break;
-        addShape();
-    }
-    return begin;
 }
 
 #if CLIPS
@@ -237,20 +188,51 @@ bool addCutBody(float at, uint cap) {
 }
 #endif
 
-void finishShapes() { addShapes(kFar * 0.5); }
+#endif
 
-// Over what the ray has ended at: of all lines behind, the strongest.
-void drawHiddenLines(inout float alpha) {
-    float strongest = 0.0;
-    vec3 strongestColor = vec3(0.0);
-    for (int n = 0; n < 4096; ++n) {
-        if (lineAt >= kFar) break;
-        if (lineHidden > strongest) {
-            strongest = lineHidden;
+void beginShapes(vec2 samplePlace) {
+    pixelPlace = samplePlace / samplesAPixel;
+    ivec2 square = clamp(ivec2(pixelPlace * 0.25), ivec2(0), shapeCellCount - 1);
+    shapes = elementOf(shapeCells, uint(square.x + shapeCellCount.x * square.y));
+    vec2 place = samplePlace * perSample - 1.0;
+    worldOrigin = worldOriginRight * place.x - worldOriginUp * place.y;
+    linesLeft = 1.0;
+    lineOpacity = lineHidden = strongestHidden = 0.0;
+    nextLineColor = strongestColor = vec3(0.0);
+    nextTriangle = 0u;
+    triangleEnters = false;
+    // Nothing comes first; behind it the first ones are looked for.
+    lineEnd = lineAt = shapeAt = shapes.y + shapes.z > 0u ? -kFar : kFar;
+    triangleAt = shapes.z > 0u ? -kFar : kFar;
+}
+
+// Draws what comes next, and looks for what comes then. Of lines behind where the ray has ended the strongest is kept.
+void addShape() {
+    bool isOver = hasEnded || isDone();
+    if (lineAt <= triangleAt) {
+        if (!isOver) {
+            color += nextLineColor * (transmittance * lineOpacity * linesLeft);
+            linesLeft *= 1.0 - lineOpacity;
+        } else if (lineHidden > strongestHidden) {
+            strongestHidden = lineHidden;
             strongestColor = nextLineColor;
         }
         findLine();
+    } else {
+#if TRIANGLES
+        if (!isOver && triangleAt > -kFar) {
+            vec3 normal = floatsOf(shapeTable, trianglesFirst + 6u * nextTriangle + 3u).xyz;
+            addSurface(nextTriangle, triangleEnters ? normal : -normal, triangleAt, false);
+        }
+        findTriangle();
+        if (isOver) triangleAt = kFar;
+#endif
     }
-    color = color * (1.0 - strongest) + strongestColor * strongest;
-    alpha += (1.0 - alpha) * strongest;
+    shapeAt = min(lineAt, triangleAt);
+}
+
+// Over what the ray has ended at.
+void drawHiddenLines(inout float alpha) {
+    color = color * (1.0 - strongestHidden) + strongestColor * strongestHidden;
+    alpha += (1.0 - alpha) * strongestHidden;
 }

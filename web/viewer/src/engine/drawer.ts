@@ -1,8 +1,8 @@
 /**
  * Pictures of the volume that is open, by the CPU caster or by WebGL2. Both draw the same; the faster one is found by
- * a trial, once, when the page has been still for a moment after its first picture: the last scene is drawn twice by
- * WebGL2, since the first time makes the shaders, and the second time is compared with the CPU's. Where WebGL2 runs in
- * software, which is slower (see web/wasm/README.md) and makes shaders for seconds, there is no trial.
+ * a trial, once, when the page has been still for a moment after its first picture: the last scene, small, is drawn twice
+ * by WebGL2, since the first time makes the shaders, and once by the CPU; the later times are compared. Where WebGL2 runs
+ * in software, which is slower (see web/wasm/README.md) and makes shaders for seconds, there is no trial.
  */
 import type { SvtModule } from "../../../../build/web/svt.js";
 import type { EngineKind, Scene } from "../engine";
@@ -12,11 +12,13 @@ import type { Drawn } from "./protocol";
 /** What a driver without a graphics card calls itself. */
 const softwareNames = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
+/** Pixels of a trial along x, at most. */
+const trialWidth = 320;
+
 interface Last {
   scene: Scene;
   width: number;
   height: number;
-  milliseconds: number;
 }
 
 export class Drawer {
@@ -43,9 +45,8 @@ export class Drawer {
   async draw(scene: Scene, width: number, height: number): Promise<Drawn> {
     await this.prepare(scene);
     const byGl = this.kind === "webgl2" ? this.drawGl(scene, width, height) : null;
-    const drawn = byGl ?? (await this.drawCpu(scene, width, height));
-    if (drawn.report.engine === "cpu") this.last = { scene, width, height, milliseconds: drawn.report.milliseconds };
-    return drawn;
+    this.last = { scene, width, height };
+    return byGl ?? (await this.drawCpu(scene, width, height));
   }
 
   /** The font is fetched when names are first drawn. */
@@ -65,19 +66,25 @@ export class Drawer {
   /** Decides which kind draws from now on. */
   decide(): void {
     this.isDecided = true;
-    const last = this.last;
-    if (!last || !this.startGl()) return;
+    if (this.last && this.startGl() && !this.isSoftware() && this.isGlFaster(this.last)) this.kind = "webgl2";
+    else this.stopGl();
+  }
+
+  private isSoftware(): boolean {
     const info = this.gl?.getExtension("WEBGL_debug_renderer_info");
-    const name = info ? String(this.gl?.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
-    const isSlow = softwareNames.test(name);
-    if (!isSlow && this.drawGl(last.scene, last.width, last.height)) {
-      const again = this.drawGl(last.scene, last.width, last.height);
-      if (again && again.report.milliseconds < last.milliseconds) {
-        this.kind = "webgl2";
-        return;
-      }
-    }
-    this.stopGl();
+    return info ? softwareNames.test(String(this.gl?.getParameter(info.UNMASKED_RENDERER_WEBGL))) : false;
+  }
+
+  private isGlFaster({ scene, width, height }: Last): boolean {
+    const scale = Math.min(1, trialWidth / width);
+    const size: [number, number] = [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];
+    const small: Scene = { ...scene, samples: 1, size };
+    if (!this.drawGl(small, ...size, true)) return false;
+    const byGl = this.drawGl(small, ...size, true);
+    // The labels of a picture, as a file: drawn as a picture is, and no picture that could be picked.
+    const start = performance.now();
+    this.svt.call("labels", [small]);
+    return byGl !== null && byGl.report.milliseconds < performance.now() - start;
   }
 
   private startGl(): boolean {
@@ -106,13 +113,13 @@ export class Drawer {
   }
 
   /** Null where the CPU has to draw: a scene that WebGL2 cannot, or a context that is gone. */
-  private drawGl(scene: Scene, width: number, height: number): Drawn | null {
+  private drawGl(scene: Scene, width: number, height: number, isTrial = false): Drawn | null {
     if (!this.gl || !this.canvas) return null;
     const start = performance.now();
     try {
       if (this.canvas.width !== width) this.canvas.width = width;
       if (this.canvas.height !== height) this.canvas.height = height;
-      this.svt.call("drawGl", [scene, width, height]);
+      this.svt.call("drawGl", [scene, width, height, isTrial]);
     } catch (error) {
       if (!isEngineError(error)) throw error;
       return null;

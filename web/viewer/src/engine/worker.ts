@@ -14,6 +14,8 @@ loaded.catch(() => undefined);
 let drawer: Drawer | null = null;
 /** The request that is being answered. */
 let current = 0;
+/** What stopped the library while nobody waited for it; whoever asks next is told. */
+let stopped: unknown = null;
 
 function post(answer: Answer, transfer: Transferable[] = []): void {
   self.postMessage(answer, { transfer });
@@ -35,6 +37,7 @@ function drawerOf(svt: SvtModule): Drawer {
 async function answer(request: Request): Promise<void> {
   const { id, name, args } = request;
   const svt = await loaded;
+  if (stopped) throw stopped;
   current = id;
   switch (name) {
     case "start":
@@ -79,6 +82,14 @@ self.onmessage = (event: MessageEvent<Request>) => {
     .catch((error: unknown) => fail(request.id, error))
     .then(() => {
       clearTimeout(stillTimer);
-      if (drawer?.isUndecided) stillTimer = setTimeout(() => drawer?.decide(), stillMilliseconds);
+      if (drawer?.isUndecided) stillTimer = setTimeout(decide, stillMilliseconds);
     });
 };
+
+function decide(): void {
+  try {
+    drawer?.decide();
+  } catch (error) {
+    stopped = error;
+  }
+}
