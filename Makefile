@@ -1,7 +1,7 @@
 # What people type. Each target sets up what is missing, is quiet, and may be repeated.
 #   make          the same as make build
 #   make build    the command at build/release/bin/svt
-#   make demo     a generated house, its volume and pictures under build/demo
+#   make demo     a generated house, its volume and pictures under build/demo; then the viewer, and how to open it
 #   make test     all tests
 #   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
@@ -24,10 +24,13 @@ viewer: web
 
 demo: build
 	@scripts/demo.sh
+	@$(MAKE) -s viewer
+	@echo "demo: 'build/release/bin/svt view build/demo/house.svt' opens the house in the browser"
 
 test: setup
 	@scripts/check.sh
 	@scripts/build.sh release
+	@$(MAKE) -s viewer
 	@scripts/test.sh
 
 web:

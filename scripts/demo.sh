@@ -11,7 +11,7 @@ step "generating a house and a tower of flats"
 $svt sample house -o "$out/house.gml"
 $svt sample tower -o "$out/tower.gml"
 step "building their volumes"
-$svt build "$out/house.gml" -o "$out/house.svt" --spacing 0.02
+$svt build "$out/house.gml" -o "$out/house.svt" --spacing 0.02 --vectors edges
 $svt build "$out/house.gml" -o "$out/house_patterns.svt" --spacing 0.02 --style examples/styles/drawing.json
 $svt build "$out/tower.gml" -o "$out/tower.svt" --spacing 0.05
 
@@ -33,4 +33,4 @@ draw house_cutaway "$out/house.svt" --look paper --hide class=BuildingRoom --cut
 draw tower_flats "$out/tower.svt" --scene examples/scenes/two_flats_in_their_tower.scene.json
 $svt section "$out/house.svt" -o "$out/house_plan.svg" --plane 'storey=Ground floor+1.2'
 echo "  $out/house_plan.svg"
-echo "demo: done; the pictures are in $out, the volumes beside them ('$svt info $out/house.svt --tree' shows what is inside)"
+echo "demo: the pictures are in $out, the volumes beside them ('$svt info $out/house.svt --tree' shows what is inside)"

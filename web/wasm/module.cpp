@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -62,6 +63,10 @@ public:
         return at(n).is_string() ? at(n).get_ref<const std::string&>() : std::string();
     }
     [[nodiscard]] double number(std::size_t n) const { return at(n).is_number() ? at(n).get<double>() : 0; }
+    /// Pixels; what no picture can have stays out of range.
+    [[nodiscard]] std::int32_t pixels(std::size_t n) const {
+        return static_cast<std::int32_t>(std::clamp(number(n), 0.0, 1e6));
+    }
     [[nodiscard]] Result<illustrate::Scene> scene(std::size_t n) const {
         return illustrate::parseScene(at(n).dump(), "scene");
     }
@@ -107,8 +112,8 @@ Result<Reply> font(const Arguments& arguments) {
 Result<Reply> draw(const Arguments& arguments) {
     auto scene = arguments.picture(0);
     if (!scene) return scene.error();
-    scene->width = static_cast<std::int32_t>(arguments.number(1));
-    scene->height = static_cast<std::int32_t>(arguments.number(2));
+    scene->width = arguments.pixels(1);
+    scene->height = arguments.pixels(2);
     const auto frame = session->draw(*scene);
     if (!frame) return frame.error();
     return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
@@ -118,8 +123,8 @@ Result<Reply> draw(const Arguments& arguments) {
 Result<Reply> drawGl(const Arguments& arguments) {
     auto scene = arguments.scene(0);
     if (!scene) return scene.error();
-    scene->width = static_cast<std::int32_t>(arguments.number(1));
-    scene->height = static_cast<std::int32_t>(arguments.number(2));
+    scene->width = arguments.pixels(1);
+    scene->height = arguments.pixels(2);
     const auto purpose = arguments.at(3) == true ? Session::Purpose::Trial : Session::Purpose::Shown;
     if (auto drawn = session->drawGl(*scene, purpose); !drawn) return drawn.error();
     return Reply(std::string("null"));
