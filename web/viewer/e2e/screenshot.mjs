@@ -9,7 +9,7 @@ const model = join(folder, "house.gml"), volume = join(folder, "house.svt");
 svt("sample", "house", "-o", model);
 svt("build", model, "-o", volume, "--spacing", "0.03", "--vectors", "edges");
 const server = await serve(withModels([{ name: "house", path: volume, title: "Sample house" }]));
-const { context, close } = await browse({ viewport: { width: 1280, height: 800 }, locale: "en-US", colorScheme: "light" });
+const { context, close } = await browse({ viewport: { width: 1440, height: 860 }, locale: "en-US", colorScheme: "light" });
 const page = await context.newPage();
 await page.goto(server.url);
 const finished = () => page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });

@@ -1,6 +1,7 @@
 /** The page: bar, panels, picture, tools; and the keys that work everywhere. */
 
-import { css, html, nothing, type PropertyValues } from "lit";
+import { html, nothing, type PropertyValues } from "lit";
+import { appStyles } from "./app_styles";
 import "./canvas/picture";
 import type { PictureView } from "./canvas/picture";
 import "./panels/help_dialog";
@@ -59,65 +60,7 @@ export class App extends Part {
   onModel: (name: string) => void = () => {};
   private seenSelection: unknown = null;
 
-  static override styles = [controls, css`
-    :host { display: grid; grid-template-rows: auto 1fr; height: 100dvh; overflow: hidden; }
-    header { display: flex; align-items: center; gap: 6px; padding: 6px 10px; border-bottom: 1px solid var(--line); background: var(--panel); min-width: 0; position: relative; z-index: 6; }
-    .brand { display: flex; align-items: center; gap: 8px; font-weight: 650; letter-spacing: 0.01em; margin-right: 6px; color: var(--text); }
-    .brand svg { color: var(--accent); }
-    .title { flex: 1; min-width: 0; display: flex; align-items: center; gap: 8px; }
-    .title h1 { margin: 0; font-size: 14px; font-weight: 600; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
-    .title .quiet { overflow: hidden; text-overflow: ellipsis; white-space: nowrap; min-width: 0; }
-    .title select { max-width: 260px; font-weight: 600; }
-    header button.bare { min-width: 36px; min-height: 36px; }
-    main { position: relative; min-height: 0; min-width: 0; overflow: hidden; }
-    wa-split-panel { height: 100%; --divider-width: 1px; --divider-hit-area: 12px; --min: 200px; --max: 50%; --wa-color-surface-border: var(--line); }
-    wa-split-panel::part(divider) { background: var(--line); }
-    wa-split-panel::part(divider):focus-visible { outline: 2px solid var(--focus); background: var(--focus); }
-    .side { height: 100%; min-width: 0; overflow: hidden; background: var(--panel); }
-    .side nav { height: 100%; min-height: 0; }
-    .side.shared { display: grid; grid-template: minmax(0, 1fr) minmax(0, 1fr) / minmax(0, 1fr); }
-    .side.shared aside { min-height: 0; border-top: 1px solid var(--line); }
-    .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
-    .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
-    .floating svt-properties { height: auto; }
-    .sheet { position: absolute; left: 0; right: 0; bottom: 0; height: 62%; background: var(--panel); border-top: 1px solid var(--line); border-radius: 14px 14px 0 0; box-shadow: var(--shadow); z-index: 5; overflow: hidden; display: grid; grid-template-rows: auto 1fr; }
-    .sheet > .bar { display: flex; justify-content: space-between; align-items: center; padding: 4px 6px 4px 14px; border-bottom: 1px solid var(--line); }
-    .sheet > :last-child { min-height: 0; }
-    .dock { position: absolute; left: 50%; bottom: 12px; transform: translateX(-50%); display: flex; gap: 2px; padding: 4px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; max-width: calc(100% - 12px); }
-    .dock button { flex-direction: column; gap: 2px; font-size: 11px; padding: 5px 8px; min-width: 56px; border-color: transparent; background: transparent; border-radius: 10px; position: relative; }
-    .dock button:hover { background: var(--hover); }
-    .dock button[aria-expanded="true"] { background: var(--accent-soft); color: var(--accent-text); }
-    .dock button.used::after { content: ""; position: absolute; top: 4px; right: 8px; width: 7px; height: 7px; border-radius: 50%; background: var(--accent); }
-    .card { position: absolute; left: 10px; top: 10px; width: min(330px, calc(100% - 20px)); max-height: calc(100% - 96px); overflow: auto; padding: 12px 14px 14px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; font-size: 13px; }
-    .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
-    .corner { position: absolute; right: 10px; top: 10px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
-    .status { position: absolute; right: 10px; bottom: 10px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
-    .message { position: absolute; left: 50%; top: 12px; transform: translateX(-50%); max-width: min(560px, calc(100% - 24px)); padding: 10px 8px 10px 14px; border-radius: 12px; border: 1px solid var(--line); background: var(--panel); box-shadow: var(--shadow); z-index: 8; display: flex; gap: 10px; align-items: start; font-size: 13px; line-height: 1.45; }
-    .message.bad { border-color: var(--error); }
-    .message div { overflow-wrap: anywhere; max-height: 40vh; overflow: auto; }
-    .progress { position: absolute; inset: 0; display: grid; place-items: center; z-index: 7; pointer-events: none; }
-    .progress > div { width: min(320px, calc(100% - 40px)); padding: 16px 18px; border-radius: 14px; background: var(--panel); border: 1px solid var(--line); box-shadow: var(--shadow); font-size: 13px; display: grid; gap: 8px; }
-    progress { width: 100%; height: 6px; accent-color: var(--accent); }
-    .dropping { position: absolute; inset: 10px; border: 3px dashed var(--accent); border-radius: 18px; display: grid; place-items: center; background: color-mix(in srgb, var(--panel) 75%, transparent); font-size: 20px; font-weight: 600; z-index: 9; pointer-events: none; }
-    .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }
-    .skip:focus { top: 6px; }
-    .note { padding: 6px 10px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; display: grid; gap: 6px; max-width: 300px; }
-    @media (min-width: 2600px) {
-      header, .dock, .card { zoom: 1.35; }
-      svt-tree, svt-properties { font-size: 16px; }
-    }
-    @media (max-width: 759px) {
-      .brand, .title .quiet, .status { display: none; }
-      main { display: grid; grid-template-rows: minmax(0, 1fr) auto; }
-      main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
-      .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
-      .dock { order: 2; justify-content: space-between; }
-      .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
-      .card { order: 1; max-height: 42dvh; }
-      .sheet { height: 50dvh; }
-      header { padding: 4px 6px; gap: 0; }
-    }
-  `];
+  static override styles = [controls, appStyles];
 
   constructor() {
     super();
@@ -386,6 +329,7 @@ export class App extends Part {
   }
 
   private keyDown(event: KeyboardEvent): void {
+    if (this.renderRoot.querySelector<HelpDialog>("svt-help")?.isOpen) return;
     const target = event.composedPath()[0] as HTMLElement;
     const isTyping = target.matches?.("input:not([type=checkbox]), textarea, select") || target.isContentEditable;
     if (event.key === "Escape") return this.leave(isTyping ? target : null);

@@ -18,7 +18,6 @@ const canvas = document.createElement("canvas");
 canvas.setAttribute("aria-hidden", "true");
 const starting = startEngine();
 const listing = readModels(new URLSearchParams(location.search).get("model"));
-void import("./ui/components");
 
 startTheme(() => session.set({ look: theme() === "dark" ? "dark" : "plain" }));
 session.setLanguage();
@@ -32,6 +31,19 @@ app.onModel = (name) => void openModel(session, name);
 document.body.append(app);
 addEventListener("hashchange", () => void follow());
 void start();
+loadComponents();
+
+/** Splitters, sliders and such come after the first picture, which they would delay. */
+function loadComponents(): void {
+  const load = () => {
+    clearTimeout(timer);
+    session.removeEventListener("change", look);
+    void import("./ui/components");
+  };
+  const look = () => (session.report || session.status === "empty") && load();
+  const timer = setTimeout(load, 1500);
+  session.addEventListener("change", look);
+}
 
 /** The library in the browser; else pictures by the server. */
 async function startEngine(): Promise<Engine> {

@@ -204,7 +204,7 @@ export class Session extends EventTarget {
     this.status = "loading";
     this.message = null;
     try {
-      const info = await this.engine.open(bytes, fileName, (step, share) => this.report_(step, share));
+      const info = await this.engine.open(bytes, fileName, (step, share) => this.tellProgress(step, share));
       this.modelFile = fileName;
       this.source = source;
       this.take(info, state ?? { ...initialState(this.state.look), wireframe: null });
@@ -220,7 +220,7 @@ export class Session extends EventTarget {
     }
   }
 
-  private report_(step: string, share: number): void {
+  private tellProgress(step: string, share: number): void {
     this.progress = { text: step, share };
     this.changed();
   }

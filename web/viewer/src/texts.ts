@@ -130,7 +130,7 @@ const kTexts = {
   storeys: ["At a storey", "In einem Geschoss"],
   storeyCut: ["Cut {name} at 1.1 m", "{name} auf 1,1 m schneiden"],
   hatches: ["Hatches", "Schraffuren"],
-  drawing: ["Drawing of plane {n}", "Zeichnung von Ebene {n}"],
+  drawing: ["Drawing", "Zeichnung"],
   exportAs: ["Export as {format}", "Als {format} ausgeben"],
   sectionHint: ["Take away what is beyond a plane. Drag its handle in the picture.", "Nimmt weg, was jenseits einer Ebene liegt. Ihr Griff lässt sich im Bild ziehen."],
   handleLabel: ["Plane {n}: arrow keys move it", "Ebene {n}: Pfeiltasten verschieben sie"],

@@ -84,11 +84,9 @@ export class PictureLoop {
   private async draw(quality: Quality): Promise<void> {
     const size = pixelsAt(this.host.size(), quality === "moving" ? this.resolution.share : 1);
     const described = this.host.describe(size, quality === "fine" ? 4 : 1);
-    const before = this.quality;
     this.quality = quality;
     if (!described) return;
     const token = this.host.take();
-    const start = performance.now();
     try {
       const { engine } = this.host;
       const hasEffect = Object.keys(described.effects).length > 0;
@@ -96,7 +94,7 @@ export class PictureLoop {
       const report = await engine.draw(scene, size[0], size[1]);
       if (!report) return;
       if (quality === "full") this.fullMilliseconds = report.milliseconds;
-      if (quality === "moving" && before !== "moving") this.resolution.learn(performance.now() - start);
+      if (quality === "moving") this.resolution.learn(report.milliseconds);
       this.host.shown(report, quality, token);
     } catch (error) {
       // As it is now it cannot be drawn; the next change tries again.

@@ -1,19 +1,25 @@
 /** How many pixels a moving picture may have, so that frames come every 30 to 60 ms. */
 
-const kFast = 30, kSlow = 60, kAim = 45;
+const kAim = 45, kFast = 36, kSlow = 54;
+/** So far off that one frame is enough to tell. */
+const kMuchTooFast = 15, kMuchTooSlow = 120;
 const kCoarsest = 0.2;
 
 /** Share of the picture's width and height; starts small, so that the first image comes soon. */
 export class Resolution {
   share = 0.3;
+  private recent: number[] = [];
 
-  /** Learns from a moving frame that took so long. */
+  /** Learns from a moving frame that took so long. One slow frame may be chance: the middle one of three decides. */
   learn(milliseconds: number): void {
-    if (milliseconds >= kFast && milliseconds <= kSlow) return;
-    const wanted = this.share * Math.sqrt(kAim / Math.max(1, milliseconds));
-    // One slow frame may be chance; the way back is as short.
-    const bounded = Math.min(this.share * 1.5, Math.max(this.share * 0.5, wanted));
-    this.share = Math.min(1, Math.max(kCoarsest, bounded));
+    this.recent.push(milliseconds);
+    const isPlain = milliseconds < kMuchTooFast || milliseconds > kMuchTooSlow;
+    if (this.recent.length < 3 && !isPlain) return;
+    const middle = this.recent.sort((a, b) => a - b)[this.recent.length >> 1]!;
+    this.recent = [];
+    if (middle >= kFast && middle <= kSlow) return;
+    const wanted = this.share * Math.sqrt(kAim / Math.max(1, middle));
+    this.share = Math.min(1, Math.max(kCoarsest, this.share * 0.6, Math.min(this.share * 1.5, wanted)));
   }
 }
 

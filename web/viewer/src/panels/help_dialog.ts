@@ -22,8 +22,14 @@ export class HelpDialog extends Part {
     return [];
   }
 
+  private get dialog() {
+    return this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean };
+  }
+  get isOpen(): boolean {
+    return this.dialog.open;
+  }
   show(): void {
-    (this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean }).open = true;
+    this.dialog.open = true;
   }
 
   override render() {

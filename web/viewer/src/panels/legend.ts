@@ -2,7 +2,6 @@
 
 import { css, html } from "lit";
 import { ofClass } from "../state/queries";
-import { SeenCounts } from "../state/visibility";
 import { t } from "../texts";
 import { Part } from "../ui/part";
 
@@ -11,6 +10,7 @@ export class Legend extends Part {
     :host { display: block; padding: 8px 12px; border: 1px solid var(--line); border-radius: 10px; background: var(--panel); font-size: 12px; max-height: 40vh; overflow: auto; }
     ul { list-style: none; margin: 0; padding: 0; display: grid; gap: 4px; }
     li { display: flex; gap: 8px; align-items: center; }
+    .swatches { display: flex; gap: 2px; width: 54px; flex: none; justify-content: flex-end; }
     span.swatch { width: 12px; height: 12px; border-radius: 3px; border: 1px solid #0003; flex: none; }
   `;
 
@@ -21,14 +21,16 @@ export class Legend extends Part {
 
   override render() {
     const { index, hidden, state } = this.session;
-    const counts = new SeenCounts(index, hidden);
     const rows = [...index.classes].flatMap(([name, members]) => {
-      const first = members.find((i) => index.features[i]!.count > 0);
-      if (first === undefined || counts.ofMembers(members) === "none") return [];
+      const seen = members.filter((i) => index.features[i]!.count > 0 && !hidden[i]);
+      if (!seen.length) return [];
       const style = state.styles.find((s) => s.select === ofClass(name) && s.color);
-      return [{ name, color: style?.color ?? index.features[first]!.color }];
+      const colors = style?.color ? [style.color] : mostUsed(seen.map((i) => index.features[i]!.color));
+      return [{ name, colors }];
     });
-    return html`<ul aria-label=${t("legend")}>${rows.map(({ name, color }) => html`<li><span class="swatch" data-color=${color}></span>${name}</li>`)}</ul>`;
+    return html`<ul aria-label=${t("legend")}>${rows.map(
+      ({ name, colors }) => html`<li><span class="swatches">${colors.map((color) => html`<span class="swatch" data-color=${color}></span>`)}</span>${name}</li>`,
+    )}</ul>`;
   }
 
   override updated(): void {
@@ -36,3 +38,10 @@ export class Legend extends Part {
   }
 }
 customElements.define("svt-legend", Legend);
+
+/** The commonest first, as many as fit. */
+function mostUsed(colors: string[]): string[] {
+  const uses = new Map<string, number>();
+  for (const color of colors) uses.set(color, (uses.get(color) ?? 0) + 1);
+  return [...uses].sort((a, b) => b[1] - a[1]).slice(0, 4).map(([color]) => color);
+}

@@ -24,6 +24,8 @@ export class SectionTool extends Part {
       output { text-align: right; font-variant-numeric: tabular-nums; }
       .head { display: flex; gap: 6px; align-items: center; }
       .head .segments { flex: 1; }
+      .drawings { gap: 4px; }
+      .drawings button { min-height: 28px; padding: 2px 7px; }
       .chips { display: flex; flex-wrap: wrap; gap: 6px; margin: 8px 0; }
     `,
   ];
@@ -71,7 +73,7 @@ export class SectionTool extends Part {
         ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
             ${this.slider(t("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
         : nothing}
-      <div class="row small"><span class="quiet">${t("drawing", { n: n + 1 })}</span>${kFormats.map(
+      <div class="row small drawings"><span class="quiet grow">${t("drawing")}</span>${kFormats.map(
         (format) => html`<button class="small" aria-label=${t("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
       )}</div>
     </div>`;

@@ -1,4 +1,4 @@
-/** The kept components that the page uses; loaded after the first picture is asked for. */
+/** The kept components that the page uses; loaded after the first picture. */
 
 import "@awesome.me/webawesome/dist/components/color-picker/color-picker.js";
 import "@awesome.me/webawesome/dist/components/dialog/dialog.js";
