@@ -55,6 +55,9 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
     passNeeds_.clear();
     for (std::size_t n = 0; n < passes_.size(); ++n) {
         const render::Pass& pass = spec.passes[n];
+        if (pass.volume != 0)
+            return Error(Code::BadFrame, fmt::format("pass {} draws volume {}; by OpenGL all passes draw one volume, 0",
+                                                     n, pass.volume));
         if (auto updated = passes_[n].update(pass, spec, parts.volume, parts.grid, parts.textures.middle, parts.limits,
                                              parts.options.threads);
             !updated)

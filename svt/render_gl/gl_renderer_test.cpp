@@ -271,6 +271,7 @@ const std::vector<Look>& looks() {
              const auto [middle, size] = sizesOf(m);
              const ClipRegion lens{{{{}, {RoundBody::ball(middle, 0.4 * size.z)}}}, ClipRegion::Mode::KeepOnly};
              spec.passes.push_back({mixedStyles(m), {lens, halfOpen(m)}, Pass::Join::Replace});
+             spec.borders = {0.8f, 1, 4, {0.1f, 0.1f, 0.1f}};
              return spec;
          }},
         {"PassesDepth",

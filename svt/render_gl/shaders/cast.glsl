@@ -5,9 +5,9 @@ uniform float opaqueAt, labelAt;
 uniform vec2 firstSample, perSample;  // samples from the picture's upper left corner; 2 / samples along it
 
 layout(location = 0) out uvec4 sampleColor;  // linear light, premultiplied, and opacity, as floats
-layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float; kFar: nothing), normal; bit 30: cut face
+layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float; kFar: nothing), normal; bit 30: cut face, 31: lens
 
-const uint kCap = 0x40000000u;
+const uint kCap = 0x40000000u, kLens = 0x80000000u;
 
 vec3 color;
 float transmittance;
@@ -225,6 +225,8 @@ void main() {
             if (alpha <= 0.0) {
                 light = before;
                 hit = seen;
+            } else {
+                hit.w |= kLens;
             }
         } else {
             bool isFront = join == 0u || hitDepth <= depthBefore;

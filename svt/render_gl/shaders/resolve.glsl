@@ -16,25 +16,32 @@ struct Seen {
     uint object;
     float depth;
     vec3 normal;
-    bool isCap;
+    bool isCap, isLens;
 };
 
 Seen seenAt(ivec2 at) {
     uvec4 hit = texelFetch(hitSamples, at, 0);
-    return Seen(hit.y, uintBitsToFloat(hit.z), unpackedDirection(hit.w), (hit.w & 0x40000000u) != 0u);
+    return Seen(hit.y, uintBitsToFloat(hit.z), unpackedDirection(hit.w), (hit.w & 0x40000000u) != 0u,
+                (hit.w & 0x80000000u) != 0u);
 }
 
 #if BORDERS
-bool isCutLine(Seen a, Seen b) { return a.isCap && (b.depth >= kFar || !b.isCap || a.object != b.object); }
+bool isRim(Seen a, Seen b) { return a.isLens && !b.isLens; }
+
+bool isCutLine(Seen a, Seen b) {
+    if (a.isLens != b.isLens) return isRim(a, b);
+    return a.isCap && (b.depth >= kFar || !b.isCap || a.object != b.object);
+}
 
 int reachBetween(Seen a, Seen b) {
     if (!isCutLine(a, b)) return lineReach;
-    return b.depth < kFar && b.isCap ? cutReach : max(lineReach, margin);
+    return isRim(a, b) || (b.depth < kFar && b.isCap) ? cutReach : max(lineReach, margin);
 }
 
 // How dark the line on `a` is that its border with `b` makes, which lies by `aside` (metres) beside it.
 float lineBetween(Seen a, Seen b, vec3 aside, bool isFirst) {
-    if (b.depth >= kFar) return 1.0;
+    if (b.depth >= kFar || isRim(a, b)) return 1.0;
+    if (isRim(b, a)) return 0.0;
     float difference = b.depth - a.depth;
     float facing = max(-dot(a.normal, cameraForward), 0.02);
     float predicted = dot(a.normal, aside) / facing;
@@ -52,7 +59,7 @@ float lineOn(ivec2 at) {
     Seen a = seenAt(at);
     if (a.depth >= kFar) return 0.0;
     float size = samplePerDepth * a.depth + sampleSize;
-    int most = a.isCap ? margin : lineReach;
+    int most = a.isCap || a.isLens ? margin : lineReach;
     float line = 0.0;
     for (int reach = 1; reach <= 64; ++reach) {
         if (reach > most || line >= 1.0) break;
