@@ -11,7 +11,7 @@ import { initialState, type ViewState } from "./state/view_state";
 import { t } from "./texts";
 import { startTheme, theme } from "./ui/theme";
 import { createServerEngine } from "./engine_server";
-import type { Engine, EngineError } from "./engine";
+import type { Engine, EngineError, EngineKind } from "./engine";
 
 const session = new Session();
 const canvas = document.createElement("canvas");
@@ -45,10 +45,16 @@ function loadComponents(): void {
   session.addEventListener("change", look);
 }
 
+/** `?engine=cpu` or `webgl2` asks for one kind; without it the faster one is found. */
+function wantedEngine(): EngineKind | null {
+  const wanted = new URLSearchParams(location.search).get("engine");
+  return wanted === "cpu" || wanted === "webgl2" ? wanted : null;
+}
+
 /** The library in the browser; else pictures by the server. */
 async function startEngine(): Promise<Engine> {
   try {
-    return await createEngine(canvas);
+    return await createEngine(canvas, wantedEngine());
   } catch (error) {
     const server = await createServerEngine(canvas);
     if (!server) throw error;
