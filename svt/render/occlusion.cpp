@@ -48,7 +48,11 @@ OcclusionField::OcclusionField(const volume::BrickVolume& volume, double voxelSi
     for (std::size_t n = 0; n < ofBox.size(); ++n) ofBox[n] = isOpaque(volume.boxes()[n].scalar) ? 512 : 0;
 
     const int shift = blockShift(voxelSize);
+    const auto voxelsOf = [&](volume::BrickVolume::Entry entry) {
+        return entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)] : ofBox[volume.boxNumber(entry)];
+    };
     const auto voxelsIn = [&](Vec3i block) {
+        if (shift == 0) return voxelsOf(volume.entry(block.x, block.y, block.z));
         Vec3i from, to;  // bricks
         for (int axis = 0; axis < 3; ++axis) {
             from[axis] = block[axis] << shift;
@@ -65,11 +69,7 @@ OcclusionField::OcclusionField(const volume::BrickVolume& volume, double voxelSi
         std::uint32_t sum = 0;
         for (std::int32_t z = from.z; z < to.z; ++z)
             for (std::int32_t y = from.y; y < to.y; ++y)
-                for (std::int32_t x = from.x; x < to.x; ++x) {
-                    const auto entry = volume.entry(x, y, z);
-                    sum += entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)]
-                                           : ofBox[volume.boxNumber(entry)];
-                }
+                for (std::int32_t x = from.x; x < to.x; ++x) sum += voxelsOf(volume.entry(x, y, z));
         return sum;
     };
     const double size = 8 << shift;

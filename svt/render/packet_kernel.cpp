@@ -219,6 +219,12 @@ public:
           crossed_(hn::Set(DI(), -1)),
           light_(hn::Set(D(), 1.0)) {
         areMoving_ = hn::AllTrue(D(), hn::And(hn::And(x_.isMoving, y_.isMoving), z_.isMoving));
+        areSameWay_ = true;
+        const Axis* const axes[3]{&x_, &y_, &z_};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            goBack_[axis] = hn::AllTrue(D(), axes[axis]->isNegative);
+            areSameWay_ = areSameWay_ && (goBack_[axis] || hn::AllFalse(D(), axes[axis]->isNegative));
+        }
         normal_ = away_ = {hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
         isOnCap_ = isAroundEye_ = hn::Lt(light_, light_);
         const D d;
@@ -275,8 +281,16 @@ public:
         inside.lanes = active_;
         const auto leaveTime = [&](const Axis& axis, std::size_t number) {
             const V low = hn::Set(d, box.low[number]), high = hn::Set(d, box.high[number]);
-            const V leave = axis.planeTime(hn::IfThenElse(axis.isNegative, low, high));
-            const V enter = axis.planeTime(hn::IfThenElse(axis.isNegative, high, low));
+            V ahead, behind;
+            if (areSameWay_) {
+                // Mostly so; nothing needs to be chosen by lane.
+                ahead = hn::Set(d, goBack_[number] ? box.low[number] : box.high[number]);
+                behind = hn::Set(d, goBack_[number] ? box.high[number] : box.low[number]);
+            } else {
+                ahead = hn::IfThenElse(axis.isNegative, low, high);
+                behind = hn::IfThenElse(axis.isNegative, high, low);
+            }
+            const V leave = axis.planeTime(ahead), enter = axis.planeTime(behind);
             M isIn = hn::And(hn::Le(enter, t_), hn::Lt(t_, leave));
             if (!areMoving_)
                 isIn =
@@ -917,7 +931,8 @@ private:
     V3 normal_, away_;
     V3 color_;
     V transmittance_, lines_;
-    bool areMoving_;  // all rays along all axes
+    bool areMoving_;               // all rays along all axes
+    bool areSameWay_, goBack_[3];  // all rays to the same side along each axis; which one
     bool hasFragments_ = false;
     M active_, started_, isDone_, isCapped_, isRunTranslucent_;
     M isOpaque_, isUnlit_, isOnCap_, isAroundEye_;
