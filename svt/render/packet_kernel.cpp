@@ -219,8 +219,7 @@ public:
           crossed_(hn::Set(DI(), -1)),
           light_(hn::Set(D(), 1.0)) {
         areMoving_ = hn::AllTrue(D(), hn::And(hn::And(x_.isMoving, y_.isMoving), z_.isMoving));
-        // Two lanes (WebAssembly) save nothing, and Highway's AllTrue() of two doubles does not hold there.
-        areSameWay_ = hn::MaxLanes(D()) > 2;
+        areSameWay_ = true;
         const Axis* const axes[3]{&x_, &y_, &z_};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             goBack_[axis] = hn::AllTrue(D(), axes[axis]->isNegative);

@@ -13,9 +13,13 @@ export const appStyles = css`
   .title select { max-width: 260px; font-weight: 600; }
   header button.bare { min-width: 36px; min-height: 36px; }
   main { position: relative; min-height: 0; min-width: 0; overflow: hidden; }
-  wa-split-panel { height: 100%; --divider-width: 1px; --divider-hit-area: 12px; --min: 200px; --max: 50%; --wa-color-surface-border: var(--line); }
-  wa-split-panel:not(:defined) { display: grid; grid-template: 100% / 310px minmax(0, 1fr); }
-  wa-split-panel[primary="end"]:not(:defined) { grid-template-columns: minmax(0, 1fr) 300px; }
+  wa-split-panel { position: absolute; inset: 0; --divider-width: 1px; --divider-hit-area: 12px; --min: 200px; --max: 50%; --wa-color-surface-border: var(--line); }
+  /* Until it comes, what it will say: half a pixel of the divider is the side's. */
+  wa-split-panel:not(:defined) { display: grid; grid-template: minmax(0, 1fr) / 309.5px minmax(0, 1fr); column-gap: 1px; }
+  wa-split-panel[position-in-pixels="260"]:not(:defined) { grid-template-columns: 259.5px minmax(0, 1fr); }
+  wa-split-panel[position-in-pixels="420"]:not(:defined) { grid-template-columns: 419.5px minmax(0, 1fr); }
+  wa-split-panel[primary="end"]:not(:defined) { grid-template-columns: minmax(0, 1fr) 299.5px; }
+  wa-split-panel[primary="end"][position-in-pixels="420"]:not(:defined) { grid-template-columns: minmax(0, 1fr) 419.5px; }
   wa-split-panel::part(divider) { background: var(--line); }
   wa-split-panel::part(divider):focus-visible { outline: 2px solid var(--focus); background: var(--focus); }
   .side { height: 100%; min-width: 0; overflow: hidden; background: var(--panel); }

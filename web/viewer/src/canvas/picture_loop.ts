@@ -95,7 +95,8 @@ export class PictureLoop {
       if (!report) return;
       if (quality === "full") this.fullMilliseconds = report.milliseconds;
       if (quality === "moving") this.resolution.learn(report.milliseconds);
-      this.host.shown(report, quality, token);
+      // What changed meanwhile is not in this picture.
+      this.host.shown(report, this.quality === quality ? quality : "moving", token);
     } catch (error) {
       // As it is now it cannot be drawn; the next change tries again.
       if (this.quality === quality) this.quality = "fine";

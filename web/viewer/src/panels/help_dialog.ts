@@ -16,6 +16,7 @@ export class HelpDialog extends Part {
     dt { font-weight: 600; }
     dd { margin: 0; color: var(--quiet); }
     wa-dialog { --width: 560px; }
+    wa-dialog:not(:defined) { display: none; }
   `];
 
   protected override uses() {
