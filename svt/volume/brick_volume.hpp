@@ -23,6 +23,7 @@
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
+#include <svt/volume/face_planes.hpp>
 
 #include <array>
 #include <bit>
@@ -38,14 +39,6 @@ struct SameLabelBox {
     std::array<std::uint16_t, 3> min{}, max{};
     Scalar scalar = 0;
     friend bool operator==(const SameLabelBox&, const SameLabelBox&) = default;
-};
-
-/// The points p of voxel space (index space + 1/2) with dot(normal, p) + offset = 0; positive is one side, the rest is
-/// the other. `normal` has length 1, in voxels.
-struct BrickPlane {
-    Vec3d normal{};
-    double offset = 0;
-    friend bool operator==(const BrickPlane&, const BrickPlane&) = default;
 };
 
 /// What stands in for the voxels of mixed bricks while rays go through them.

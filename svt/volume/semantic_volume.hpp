@@ -3,11 +3,13 @@
 /// A semantic volume texture: grid, labels and columns together. What `svt build` makes and a `.svt` file holds.
 
 #include <svt/volume/column_volume.hpp>
+#include <svt/volume/face_planes.hpp>
 #include <svt/volume/grid.hpp>
 #include <svt/volume/label_table.hpp>
 #include <svt/volume/vector_parts.hpp>
 
 #include <string>
+#include <vector>
 
 namespace svt::volume {
 
@@ -19,6 +21,7 @@ struct SemanticVolume {
     std::string modelName;  ///< name of the model, or empty
     std::string source;     ///< file name (without folder) of the model
     VectorParts vectors{};  ///< empty where they were not asked for
+    std::vector<FacePlane> planes{};  ///< that the model's faces lie on, the most used first; none where unknown
 };
 
 }  // namespace svt::volume
