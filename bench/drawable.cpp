@@ -1,6 +1,7 @@
 #include <bench/compare.hpp>
 #include <bench/drawable.hpp>
 #include <svt/render/camera_presets.hpp>
+#include <svt/voxelize/face_planes.hpp>
 #include <svt/voxelize/voxelize.hpp>
 
 #include <utility>
@@ -14,7 +15,8 @@ Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension, int threads) 
     options.threads = threads;
     auto voxels = voxelize::voxelize(scene.meshes, *grid, scene.labels.claims, options);
     if (!voxels) return voxels.error();
-    auto bricks = volume::BrickVolume::fromColumns(voxels->columns, threads);
+    const std::vector<volume::FacePlane> planes = voxelize::findFacePlanes(scene.meshes, *grid);
+    auto bricks = volume::BrickVolume::fromColumns(voxels->columns, {.planes = planes, .threads = threads});
     if (!bricks) return bricks.error();
     return Drawable{*grid, std::move(voxels->columns), std::move(*bricks)};
 }

@@ -66,7 +66,7 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
             return render::DrawnVolume((*forms.levels)[std::min(forms.levels->size(), std::size_t(level)) - 1]);
     }
     if (!forms.bricks) {
-        auto bricks = volume::BrickVolume::fromColumns(volume.columns, threads_);
+        auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads_});
         if (!bricks) return bricks.error();
         forms.bricks = std::move(*bricks);
     }

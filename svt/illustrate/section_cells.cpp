@@ -219,7 +219,7 @@ private:
             Piece piece;
             std::size_t cell = 0;
         };
-        std::array<Part, 32> parts;
+        std::array<Part, std::size_t{1} << BrickVolume::kMostSides> parts;
         parts[0] = {pieceOf(above, low_, high_), 0};
         std::size_t count = 1, bit = 1;
         const auto split = [&](Vec3d normal, double offset) {

@@ -164,7 +164,8 @@ PlaneFrame frameOf(const SectionPlane& plane, const volume::Grid& grid) {
 
 Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                    const SectionOptions& options) {
-    const auto bricks = volume::BrickVolume::fromColumns(volume.columns, options.threads);
+    const auto bricks =
+        volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = options.threads});
     if (!bricks) return bricks.error();
     return drawSection(volume, *bricks, plane, options);
 }

@@ -308,7 +308,7 @@ TEST(SectionDrawing, HouseHasItsAreasAndSharedBorders) {
 TEST(SectionDrawing, EveryPointShowsItsVoxel) {
     // Second implementation: of voxels alone, each point of the plane lies in one voxel, and its label is drawn there.
     const auto volume = volumeOf({}, kHouseClasses, houseAt);
-    const auto bricks = *volume::BrickVolume::fromColumns(volume.columns, 0, volume::BrickFaces::Voxels);
+    const auto bricks = *volume::BrickVolume::fromColumns(volume.columns, {.faces = volume::BrickFaces::Voxels});
     SectionOptions options;
     options.tolerance = 0;
     std::mt19937 random(11);
@@ -409,7 +409,7 @@ TEST(SectionDrawing, IsTheUnionOfItsVoxelsByClipper) {
         if (noise == 0) return 0;
         return std::hypot(p.x - 1.5, p.y - 1.5) < 1.1 ? 1 : noise < 3 ? 1 : 2;
     });
-    const auto bricks = *volume::BrickVolume::fromColumns(volume.columns, 0, volume::BrickFaces::Voxels);
+    const auto bricks = *volume::BrickVolume::fromColumns(volume.columns, {.faces = volume::BrickFaces::Voxels});
     const Vec3d spacing = scene.spacing;
     const int layer = 12;
     const auto drawing = drawSection(volume, bricks, planeAt(volume, {0, 0, 1}, {0, 0, layer * spacing.z + 0.013}));

@@ -316,7 +316,8 @@ Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume
                                             std::span<const std::uint32_t> groupOf, const ShellOptions& options) {
     if (auto checked = checkInput(volume, groupOf, options); !checked) return checked.error();
     const std::vector<bool> isKept = keptLabels(groupOf, options.of);
-    volume::SemanticVolume shell{volume.grid, volume.labels, {}, volume.crsName, volume.modelName, volume.source};
+    volume::SemanticVolume shell{volume.grid,      volume.labels, {}, volume.crsName,
+                                 volume.modelName, volume.source, {}, volume.planes};
     if (options.labels == ShellLabels::Groups) numberGroups(shell.labels, groupOf, isKept);
 
     const std::vector<std::uint32_t> labelOfScalar = volume.labels.labelOfScalar();

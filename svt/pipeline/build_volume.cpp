@@ -3,6 +3,7 @@
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/labels.hpp>
 #include <svt/readers/read_model.hpp>
+#include <svt/voxelize/face_planes.hpp>
 #include <svt/voxelize/bodies.hpp>
 
 #include <fmt/format.h>
@@ -261,6 +262,7 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     auto vectors = makeVectorParts(*scene, labelling->labelOfObject, *grid, options.vectors, options.threads);
     if (!vectors) return vectors.error();
     output.volume.vectors = std::move(*vectors);
+    output.volume.planes = voxelize::findFacePlanes(*scene, *grid);
     report.objects = scene->objects.size();
     report.triangles = scene->triangleCount();
     output.volume.grid = *grid;

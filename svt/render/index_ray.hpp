@@ -128,8 +128,8 @@ struct PlaneCrossing {
 };
 
 /// The planes of a brick; none where it is not coded by any.
-using BrickPlanes = std::array<std::uint32_t, 2>;
-inline constexpr BrickPlanes kNoPlanes{volume::BrickVolume::kNoPlane, volume::BrickVolume::kNoPlane};
+using BrickPlanes = decltype(volume::BrickVolume::BoxCoding::plane);
+inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
 [[nodiscard]] inline BrickPlanes planesOf(const volume::BrickVolume& volume,
                                           volume::BrickVolume::Entry entry) noexcept {
     return entry.isCoded() ? volume.coding(entry).plane : kNoPlanes;
@@ -258,7 +258,7 @@ private:
             int axis;
             std::uint32_t plane;
         };
-        std::array<Side, 5> sides;
+        std::array<Side, volume::BrickVolume::kMostSides> sides;
         std::size_t count = 0;
         forEachAxis([&](auto axis) {
             if (!coding.hasCut(axis)) return;

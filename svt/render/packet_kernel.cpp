@@ -314,7 +314,7 @@ public:
     // Through a coded box, from side to side.
     HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
         const D d;
-        Side sides[5];
+        Side sides[volume::BrickVolume::kMostSides];
         std::size_t count = 0;
         const auto addCut = [&](const Axis& axis, std::size_t number) {
             if (((code.cutAxes >> number) & 1u) == 0) return;
@@ -342,7 +342,8 @@ public:
             case 2: return crossSides<2>(inside, sides, scalars);
             case 3: return crossSides<3>(inside, sides, scalars);
             case 4: return crossSides<4>(inside, sides, scalars);
-            default: return crossSides<5>(inside, sides, scalars);
+            case 5: return crossSides<5>(inside, sides, scalars);
+            default: return crossSides<6>(inside, sides, scalars);
         }
     }
 
@@ -812,20 +813,27 @@ private:
         if (any(special)) askForSurfaces(special, scalar, isVoxel, faceAxis);
     }
 
-    // Two numbers of planes, of each lane's brick; all ones where there is none.
-    HWY_INLINE VI planesOf(M lanes, const V3& brick) const {
+    // The numbers of the planes of each lane's brick; kNoPlane where there is none.
+    struct Planes {
+        VI first, second, third;
+    };
+    HWY_INLINE Planes planesOf(M lanes, const V3& brick) const {
         const DI di;
+        const VI none = hn::Set(di, std::int64_t{volume::BrickVolume::kNoPlane});
         const VI entry = entryAt(brick, lanes);
         const M isBox = hn::And(lanes, isBelow(entry, scene_.volume.boxes.size()));
         const M coded = andNot(isBelow(entry, scene_.volume.uniformBoxes), isBox);
-        if (!any(coded)) return hn::Set(di, -1);
+        if (!any(coded)) return {none, none, none};
         const VI box = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<4>(entry));
         const VI code = hn::IfThenElseZero(
             toInts(coded),
             shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.boxes.data()) + 8, box)));
-        const VI planes = gatherBytes(reinterpret_cast<const std::byte*>(scene_.volume.codes.data()) + 8,
-                                      hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code)));
-        return hn::IfThenElse(toInts(coded), planes, hn::Set(di, -1));
+        const VI place = hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code));
+        static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMostPlanes == 3);
+        const auto* codes = reinterpret_cast<const std::byte*>(scene_.volume.codes.data());
+        const VI both = gatherBytes(codes + 8, place), rest = gatherBytes(codes + 16, place);
+        const auto known = [&](VI planes) { return hn::IfThenElse(toInts(coded), planes, none); };
+        return {known(lowHalf(both)), known(shiftRight<32>(both)), known(lowHalf(rest))};
     }
 
     // seamPlane(): the plane for each of the lanes, crossed_ for the others.
@@ -836,7 +844,8 @@ private:
                        hn::Add(z_.origin, hn::Mul(z_.direction, t_))};
         VI found = crossed_;
         const auto look = [&](VI plane) {
-            const M isThere = hn::And(lanes, toDoubles(hn::Ne(plane, hn::Set(di, 0xFFFFFFFF))));
+            const VI none = hn::Set(di, std::int64_t{volume::BrickVolume::kNoPlane});
+            const M isThere = hn::And(lanes, toDoubles(hn::Ne(plane, none)));
             if (!any(isThere)) return;
             const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
             const auto number = [&](int n) {
@@ -855,18 +864,18 @@ private:
         const V eighth = hn::Set(d, 0.125), one = hn::Set(d, 1.0);
         const auto brickOf = [&](V voxel) { return hn::Floor(hn::Mul(voxel, eighth)); };
         const V3 cell = cells();
-        const VI entered = planesOf(lanes, {brickOf(cell.x), brickOf(cell.y), brickOf(cell.z)});
-        look(lowHalf(entered));
-        look(shiftRight<32>(entered));
+        const auto lookAll = [&](const Planes& planes) {
+            look(planes.first);
+            look(planes.second);
+            look(planes.third);
+        };
+        lookAll(planesOf(lanes, {brickOf(cell.x), brickOf(cell.y), brickOf(cell.z)}));
         if (!any(lanes)) return found;
         const auto brickBefore = [&](const Axis& axis, V voxel, double number) {
             const V before = hn::IfThenElse(axis.isNegative, hn::Add(voxel, one), hn::Sub(voxel, one));
             return brickOf(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, voxel));
         };
-        const VI left =
-            planesOf(lanes, {brickBefore(x_, cell.x, 0), brickBefore(y_, cell.y, 1), brickBefore(z_, cell.z, 2)});
-        look(lowHalf(left));
-        look(shiftRight<32>(left));
+        lookAll(planesOf(lanes, {brickBefore(x_, cell.x, 0), brickBefore(y_, cell.y, 1), brickBefore(z_, cell.z, 2)}));
         return found;
     }
 

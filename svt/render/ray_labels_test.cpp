@@ -30,7 +30,7 @@ TEST(RayLabels, AreThoseAlongAnAxisInMetres) {
         const int i = n % 20;
         dense.push_back(i < 3 ? 0 : i < 7 ? 1 : i < 9 ? 2 : i < 12 ? 3 : i < 15 ? 0 : 1);
     }
-    const auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense({20, 10, 10}, dense), 1);
+    const auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense({20, 10, 10}, dense), {.threads = 1});
     const Grid grid = *Grid::fromParts({20, 10, 10}, {0.5, 0.5, 0.5}, {100, 200, 300},
                                        {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
     const auto along = labelsAlong(*bricks, grid, twoLabels(), {98.75, 202, 302}, {3, 0, 0});
@@ -60,7 +60,7 @@ TEST(RayLabels, MeetASphereWhereItIs) {
                 const Vec3d p{i - 24.2, j - 23.7, k - 24.1};
                 dense.push_back(dot(p, p) < 18 * 18 ? 3 : 0);
             }
-    const auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense({48, 48, 48}, dense), 1);
+    const auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense({48, 48, 48}, dense), {.threads = 1});
     const double turn = 0.6;
     const Grid grid = *Grid::fromParts({48, 48, 48}, {0.1, 0.1, 0.1}, {5, 6, 7},
                                        {Vec3d{turn, 0.8, 0}, Vec3d{-0.8, turn, 0}, Vec3d{0, 0, 1}});

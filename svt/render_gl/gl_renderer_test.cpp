@@ -430,7 +430,7 @@ TEST(GlRenderer, DrawsTheFzkHausAsTheCpu) {
 TEST(GlRenderer, DrawsAVolumeOfVoxelsAsTheCpu) {
     SVT_NEEDS_GL();
     const volume::ColumnVolume columns = columnsOfBodies();
-    const Model model{*volume::BrickVolume::fromColumns(columns, 0, volume::BrickFaces::Voxels), bodies()->grid};
+    const Model model{*volume::BrickVolume::fromColumns(columns, {.faces = volume::BrickFaces::Voxels}), bodies()->grid};
     auto renderer = GlRenderer::make(model.bricks, model.grid);
     ASSERT_TRUE(renderer) << renderer.error().toString();
     expectSame(model, *renderer, looks()[0], "voxelsOpaque");

@@ -68,7 +68,7 @@ std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask
 bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::vector<Scalar>& cells) {
     const std::size_t count = std::size_t{1} << sides.size();
     cells.assign(count, 0);
-    std::uint32_t known = 0;
+    std::uint64_t known = 0;
     for (std::size_t cell = 0; cell < count; ++cell) {
         SideMask mask;
         mask.fill(kAll);
@@ -78,7 +78,7 @@ bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std
         const auto index = indexIn(pattern, mask);
         if (!index) return false;
         cells[cell] = pattern.palette[*index];
-        known |= std::uint32_t{1} << cell;
+        known |= std::uint64_t{1} << cell;
     }
     for (std::size_t cell = 0; cell < count; ++cell) {
         if (((known >> cell) & 1u) != 0) continue;
@@ -102,18 +102,17 @@ Changes changesOf(const BrickPattern& pattern) noexcept {
     return changes;
 }
 
-std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes, const BrickSide* first,
-                                     const BrickSide* second) {
+std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
+                                     std::initializer_list<const BrickSide*> planes) {
     BrickCode code;
-    std::array<SideMask, 5> sides;
+    std::array<SideMask, BrickVolume::kMostSides> sides;
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         SideMask rest = changes[a];  // what no side explains
         std::uint64_t any = 0;
         for (std::size_t k = 0; k < 8; ++k) {
-            if (first != nullptr) rest[k] &= ~first->changes[a][k];
-            if (second != nullptr) rest[k] &= ~second->changes[a][k];
+            for (const BrickSide* plane : planes) rest[k] &= ~plane->changes[a][k];
             any |= rest[k];
         }
         if (any == 0) continue;
@@ -122,8 +121,7 @@ std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes&
         code.cut[a] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
         sides[count++] = cutMask(axis, code.cut[a]);
     }
-    if (first != nullptr) sides[count++] = first->mask;
-    if (second != nullptr) sides[count++] = second->mask;
+    for (const BrickSide* plane : planes) sides[count++] = plane->mask;
     if (!fillCells(pattern, std::span(sides).first(count), code.cells)) return std::nullopt;
     return code;
 }
@@ -247,15 +245,20 @@ constexpr std::array<Vec3i, 26> kNeighbors = makeNeighbors();
 class TileCoder {
 public:
     TileCoder(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
-              const std::vector<std::uint8_t>& isCoded)
+              const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces)
         : places_(places),
           patterns_(patterns),
           isCoded_(isCoded),
+          facePlanes_(faces),
           heights_(patterns.size()),
           faces_(patterns.size()),
           codeOf_(places.patternOf.size(), kNone) {}
 
     TileCodes code() {
+        if (!facePlanes_.empty())
+            forEachPlace([&](Vec3i at) {
+                if (needsCode(at) || isStep(at)) codeByFaces(at);
+            });
         forEachPlace([&](Vec3i at) {
             if (needsCode(at) && patternAt(at).palette.size() == 2) codeSurface(at, true);
         });
@@ -277,6 +280,8 @@ public:
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    // Candidates for a brick: planes of the model, planes where surfaces meet, cuts; and how many are tried by threes.
+    static constexpr std::size_t kMostFaces = 12, kMostAround = 8, kMostCuts = 4, kMostOfThree = 10;
 
     template <class Body>
     void forEachPlace(const Body& body) const {
@@ -341,6 +346,12 @@ private:
         return mask;
     }
 
+    // \param planes  the code's candidates
+    void setCode(Vec3i at, BrickCode code, std::initializer_list<std::size_t> planes) {
+        std::size_t count = 0;
+        for (const std::size_t candidate : planes) code.plane[count++] = numberOf(candidates_[candidate]);
+        setCode(at, std::move(code));
+    }
     void setCode(Vec3i at, BrickCode code) {
         codeOf_[place(at)] = static_cast<std::uint32_t>(result_.codes.size());
         result_.codes.push_back({static_cast<std::uint32_t>(place(at)), std::move(code)});
@@ -350,7 +361,7 @@ private:
         const auto mask = sideMask(result_.planes[plane], at);
         if (!mask) return false;
         const BrickSide side(*mask);
-        auto code = codeBySides(patternAt(at), changesOf(patternAt(at)), &side);
+        auto code = codeBySides(patternAt(at), changesOf(patternAt(at)), {&side});
         if (!code || code->cut != std::array<std::uint8_t, 3>{}) return false;
         code->plane[0] = plane;
         setCode(at, std::move(*code));
@@ -444,12 +455,45 @@ private:
         return false;
     }
 
-    // Where surfaces meet: planes of the bricks around, and second cuts across an axis, alone and in pairs.
-    void codeMeeting(Vec3i at) {
-        constexpr std::size_t kMostAround = 6, kMostCuts = 4;
+    // What the faces of the model around say.
+    void codeByFaces(Vec3i at) {
+        startCandidates(at);
+        addFacePlanes(at, kMostFaces);
+        if (sides_.empty()) return;
+        if (isStep(at)) {
+            // Two cuts say it as well; one plane alone says it better.
+            for (std::size_t a = 0; a < sides_.size(); ++a)
+                if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a]}); code && code->cells.size() == 2)
+                    return setCode(at, std::move(*code), {a});
+            return;
+        }
+        addCuts(at, kMostFaces + kMostCuts);
+        tryCandidates(at, 0);
+    }
+
+    void startCandidates(Vec3i at) {
         candidates_.clear();
         sides_.clear();
         changes_ = changesOf(patternAt(at));
+    }
+
+    void addFacePlanes(Vec3i at, std::size_t most) {
+        const Vec3i low = places_.origin + at * 8;
+        for (const FacePlane& face : facePlanes_) {
+            if (sides_.size() == most) return;
+            bool isBeside = true;
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto a = static_cast<std::size_t>(axis);
+                isBeside = isBeside && face.min[a] <= low[axis] + 8 && face.max[a] >= low[axis];
+            }
+            if (isBeside && cutsBox(face.plane, at)) addCandidate(face.plane, sideMask(face.plane, at));
+        }
+    }
+
+    // Where surfaces meet: planes of the model and of the bricks around, and second cuts across an axis.
+    void codeMeeting(Vec3i at) {
+        startCandidates(at);
+        if (!isStep(at)) addFacePlanes(at, kMostAround - 2);
         forEachNeighbor(at, [&](Vec3i other) {
             const BrickCode* code = codeAt(other);
             if (code == nullptr) return;
@@ -469,21 +513,27 @@ private:
         if (sides_.size() > known) tryCandidates(at, known);
     }
 
-    // One candidate, or two of which one at least is number `from` or later.
+    // One candidate, or two or three of which one at least is number `from` or later.
     bool tryCandidates(Vec3i at, std::size_t from) {
         for (std::size_t a = from; a < sides_.size(); ++a)
-            if (auto code = codeBySides(patternAt(at), changes_, &sides_[a])) {
-                code->plane[0] = numberOf(candidates_[a]);
-                setCode(at, std::move(*code));
+            if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a]})) {
+                setCode(at, std::move(*code), {a});
                 return true;
             }
         for (std::size_t b = std::max<std::size_t>(from, 1); b < sides_.size(); ++b)
             for (std::size_t a = 0; a < b; ++a)
-                if (auto code = codeBySides(patternAt(at), changes_, &sides_[a], &sides_[b])) {
-                    code->plane = {numberOf(candidates_[a]), numberOf(candidates_[b])};
-                    setCode(at, std::move(*code));
+                if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a], &sides_[b]})) {
+                    setCode(at, std::move(*code), {a, b});
                     return true;
                 }
+        const std::size_t end = std::min(sides_.size(), kMostOfThree);
+        for (std::size_t c = std::max<std::size_t>(from, 2); c < end; ++c)
+            for (std::size_t b = 1; b < c; ++b)
+                for (std::size_t a = 0; a < b; ++a)
+                    if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a], &sides_[b], &sides_[c]})) {
+                        setCode(at, std::move(*code), {a, b, c});
+                        return true;
+                    }
         return false;
     }
 
@@ -673,6 +723,7 @@ private:
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& isCoded_;
+    std::span<const FacePlane> facePlanes_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern
     std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // of one axis, with the number of their group
@@ -686,8 +737,8 @@ private:
 }  // namespace
 
 TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
-                   const std::vector<std::uint8_t>& isCoded) {
-    return TileCoder(places, patterns, isCoded).code();
+                   const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces) {
+    return TileCoder(places, patterns, isCoded, faces).code();
 }
 
 }  // namespace svt::volume

@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace svt::volume {
@@ -20,7 +22,8 @@ struct BrickPattern {
 /// How sides of cuts and planes stand for a brick's voxels; see BrickVolume::Coding.
 struct BrickCode {
     std::array<std::uint8_t, 3> cut{};
-    std::array<std::uint32_t, 2> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane};
+    std::array<std::uint32_t, BrickVolume::kMostPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
+                                                              BrickVolume::kNoPlane};
     std::vector<Scalar> cells;
     friend bool operator==(const BrickCode&, const BrickCode&) = default;
 };
@@ -41,11 +44,11 @@ struct BrickSide {
 /// Where the labels of `pattern` change.
 [[nodiscard]] Changes changesOf(const BrickPattern& pattern) noexcept;
 
-/// Codes `pattern` by the sides of up to two planes and at most one cut across each axis, if that is possible.
+/// Codes `pattern` by the sides of planes and at most one cut across each axis, if that is possible.
 /// \param changes  changesOf(pattern)
-/// \param first, second  may be null
+/// \param planes   at most BrickVolume::kMostPlanes
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
-                                                   const BrickSide* first = nullptr, const BrickSide* second = nullptr);
+                                                   std::initializer_list<const BrickSide*> planes = {});
 
 /// One tile's bricks by place, each a number of `patterns` or kUniform.
 struct TilePlaces {
@@ -78,15 +81,16 @@ struct TileCodes {
     std::vector<PlacedCode> codes;  ///< by place, ascending
 };
 
-/// Codes what is not coded yet by planes fitted to the voxels around.
+/// Codes what is not coded yet by planes: first those that the model's faces are known to lie on, alone, in pairs and
+/// by threes, then planes fitted to the voxels around.
 ///
 /// Where a brick of two labels is a surface over one of the axes, its plane is that of least squares through the
 /// surface in the brick and its neighbors, moved as little as its own voxels ask for; a neighbor's plane is taken
-/// first, so that a roof has one plane. Where two surfaces meet, the planes of the bricks around are tried, alone and
-/// in pairs. Uniform bricks beside a sloped surface get its plane where that cuts their rim, the half voxel outside of
-/// their samples. Every code is checked sample by sample; what has none stays a pattern.
-/// \param isCoded  by pattern: a PatternKind
+/// first, so that a roof has one plane. Where surfaces meet, the planes of the bricks around are tried in the same way
+/// as the model's. Uniform bricks beside a sloped surface get its plane where that cuts their rim, the half voxel
+/// outside of their samples. Every code is checked sample by sample; what has none stays a pattern. \param isCoded  by
+/// pattern: a PatternKind \param faces    what faces of the model lie on in the tile
 [[nodiscard]] TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
-                                 const std::vector<std::uint8_t>& isCoded);
+                                 const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces);
 
 }  // namespace svt::volume

@@ -40,7 +40,7 @@ BrickVolume bricksOf(Vec3i n, const LabelAt& labelAt, BrickFaces faces = BrickFa
     for (std::int32_t k = 0; k < n.z; ++k)
         for (std::int32_t j = 0; j < n.y; ++j)
             for (std::int32_t i = 0; i < n.x; ++i) scalars.push_back(labelAt(i, j, k));
-    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(n, scalars), 0, faces);
+    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(n, scalars), {.faces = faces});
     EXPECT_TRUE(bricks.hasValue());
     return std::move(*bricks);
 }
@@ -107,7 +107,7 @@ TEST(BrickCode, ASlabInsideTheBrickNeedsASideBesideTheCut) {
     SideMask above{};
     above.fill(~std::uint64_t{0} << (8 * 5));  // j >= 5
     const BrickSide side(above);
-    const auto code = codeBySides(pattern, changesOf(pattern), &side);
+    const auto code = codeBySides(pattern, changesOf(pattern), {&side});
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{0, 2, 0}));
     EXPECT_EQ(code->cells, (std::vector<Scalar>{0, 9, 0, 0}));

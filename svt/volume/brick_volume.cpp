@@ -229,9 +229,9 @@ public:
 
     // Fills boxes, planes and codedPatterns of the tile. Returns by place: the scalar's number, kCoded and the box, or
     // kVoxels and the pattern.
-    std::vector<std::uint32_t> run(BrickFaces faces) {
+    std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes) {
         codeOf_.assign(places_.patternOf.size(), TileBoxes::kNone);
-        if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks();
+        if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks(planes);
         std::vector<std::uint32_t> index;
         index.reserve(codeOf_.size());
         std::size_t place = 0;
@@ -253,7 +253,7 @@ public:
     }
 
 private:
-    void codeBricks() {
+    void codeBricks(std::span<const FacePlane> planes) {
         std::vector<std::uint8_t> kinds;
         std::vector<BrickCode> codes;
         std::vector<std::uint32_t> byCuts;  // by pattern
@@ -271,7 +271,7 @@ private:
         for (std::size_t place = 0; place < codeOf_.size(); ++place)
             if (places_.patternOf[place] != TilePlaces::kUniform) codeOf_[place] = byCuts[places_.patternOf[place]];
         if (!isAllCoded) {
-            TileCodes found = codeTile(places_, tile_.patterns, kinds);
+            TileCodes found = codeTile(places_, tile_.patterns, kinds, planes);
             tile_.planes = std::move(found.planes);
             for (PlacedCode& placed : found.codes) {
                 codeOf_[placed.place] = static_cast<std::uint32_t>(codes.size());
@@ -413,10 +413,10 @@ public:
         for (const Scalar scalar : tile.scalars) numbers.scalars.push_back(scalarNumber(scalar));
         for (const BrickPattern& pattern : tile.patterns) numbers.patterns.push_back(brickNumber(pattern));
         numbers.firstBox = static_cast<std::uint32_t>(codeBoxes_.size());
-        const auto firstPlane = static_cast<std::uint32_t>(volume_.oblique_.size());
         const auto firstCode = static_cast<std::uint32_t>(volume_.codes_.size());
-        volume_.oblique_.insert(volume_.oblique_.end(), tile.planes.begin(), tile.planes.end());
-        for (const BoxCode& code : tile.boxes.codes) addCode(code, firstPlane);
+        std::vector<std::uint32_t> planes;
+        for (const BrickPlane& plane : tile.planes) planes.push_back(planeNumber(plane));
+        for (const BoxCode& code : tile.boxes.codes) addCode(code, planes);
         const Vec3i first = firstBrick(number);
         for (const CodeBox& found : tile.boxes.boxes)
             codeBoxes_.push_back(boxOf(first + found.min, first + found.max, firstCode + found.code));
@@ -530,15 +530,15 @@ private:
         return box;
     }
 
-    void addCode(const BoxCode& code, std::uint32_t firstPlane) {
+    void addCode(const BoxCode& code, const std::vector<std::uint32_t>& planes) {
         BrickVolume::BoxCoding coding;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (code.cut[axis] == BoxCode::kNoCut) continue;
             coding.cut[axis] = static_cast<std::uint16_t>(code.cut[axis]);
             coding.cutAxes = static_cast<std::uint16_t>(coding.cutAxes | (1u << axis));
         }
-        for (std::size_t p = 0; p < 2; ++p)
-            if (code.plane[p] != BrickVolume::kNoPlane) coding.plane[p] = code.plane[p] + firstPlane;
+        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p)
+            if (code.plane[p] != BrickVolume::kNoPlane) coding.plane[p] = planes[code.plane[p]];
         coding.cells = offsetOf(code.cells, volume_.palettes_, palettes_);
         volume_.codes_.push_back(coding);
     }
@@ -550,6 +550,19 @@ private:
             volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
         }
         return place->second;
+    }
+
+    // A plane of the model is one in all tiles.
+    std::uint32_t planeNumber(const BrickPlane& plane) {
+        std::uint64_t hash = 0;
+        for (const double part : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
+            hash = mix(hash, std::bit_cast<std::uint64_t>(part));
+        const auto next = static_cast<std::uint32_t>(volume_.oblique_.size());
+        const std::uint32_t known =
+            planeNumbers_.find(hash, next, [&](std::uint32_t other) { return volume_.oblique_[other] == plane; });
+        if (known != Numbering::kNew) return known;
+        volume_.oblique_.push_back(plane);
+        return next;
     }
 
     std::uint32_t brickNumber(const BrickPattern& pattern) {
@@ -605,11 +618,57 @@ private:
     std::vector<SameLabelBox> codeBoxes_;
     std::vector<Scalar> scalars_;
     std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
-    Numbering brickNumbers_;
+    Numbering brickNumbers_, planeNumbers_;
     SharedSets palettes_, planeSets_;
 };
 
-Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int threads, BrickFaces faces) {
+namespace {
+
+// Planes with faces around each tile, in their order.
+class PlanesByTile {
+public:
+    PlanesByTile(std::span<const FacePlane> planes, const ColumnVolume& columns) : tilesX_(columns.tilesX()) {
+        // What planes may ask for in all, so that a bad file does not take forever: real ones stay far below.
+        constexpr std::int64_t kMostTests = std::int64_t{1} << 27;
+        constexpr std::size_t kMostPlanes = 256;
+        std::int64_t tests = 0;
+        planes_.resize(columns.tiles().size());
+        for (const FacePlane& plane : planes) {
+            const Vec3i low = tileAt(plane.min, columns, -1), high = tileAt(plane.max, columns, 1);
+            tests += std::int64_t{1} * (high.x - low.x + 1) * (high.y - low.y + 1);
+            if (tests > kMostTests) return;
+            for (std::int32_t y = low.y; y <= high.y; ++y)
+                for (std::int32_t x = low.x; x <= high.x; ++x) {
+                    std::vector<FacePlane>& ofTile = planes_[static_cast<std::size_t>(x + tilesX_ * y)];
+                    if (ofTile.size() < kMostPlanes && isIn(plane, x, y, columns.dimension().z))
+                        ofTile.push_back(plane);
+                }
+        }
+    }
+    [[nodiscard]] std::span<const FacePlane> of(std::size_t tile) const noexcept { return planes_[tile]; }
+
+private:
+    static constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+
+    static Vec3i tileAt(const std::array<std::uint16_t, 3>& corner, const ColumnVolume& columns, std::int32_t beside) {
+        const Vec3i n = columns.dimension();
+        return {std::clamp(corner[0] + beside, 0, n.x - 1) / kTile, std::clamp(corner[1] + beside, 0, n.y - 1) / kTile,
+                0};
+    }
+    static bool isIn(const FacePlane& face, std::int32_t x, std::int32_t y, std::int32_t depth) noexcept {
+        const Vec3d n = face.plane.normal;
+        const double half = kTile / 2.0, middle = dot(n, Vec3d{(x + 0.5) * kTile, (y + 0.5) * kTile, depth / 2.0});
+        const double reach = std::abs(n.x) * half + std::abs(n.y) * half + std::abs(n.z) * (depth / 2.0 + 8);
+        return std::abs(middle + face.plane.offset) <= reach + 8;
+    }
+
+    std::int32_t tilesX_;
+    std::vector<std::vector<FacePlane>> planes_;
+};
+
+}  // namespace
+
+Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const Options& options) {
     BrickVolume volume;
     const Vec3i dimension = columns.dimension();
     std::uint64_t bricks = 1;
@@ -632,14 +691,15 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
     const auto tilesX = static_cast<std::size_t>(columns.tilesX());
     BrickMerger merger(volume, columns.tilesX());
     merger.begin(tiles.size());
-    parallelFor(tiles.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+    const PlanesByTile planes(options.planes, columns);
+    parallelFor(tiles.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const auto x = static_cast<std::int32_t>(n % tilesX), y = static_cast<std::int32_t>(n / tilesX);
             const std::int32_t width = columns.tileWidth(x), height = columns.tileHeight(y);
             tileBricks[n] = TileBricker(tiles[n], width, height, volume.brickCount_.z).make();
             TileCoding coding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
                               {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z});
-            merger.placeTile(n, coding.run(faces));
+            merger.placeTile(n, coding.run(options.faces, planes.of(n)));
         }
     });
     std::uint64_t words = 0;
@@ -653,7 +713,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, int th
                                                      "coarser spacing or a coarser level of detail.",
                                                      words, 0xFFFFFFFFu));
     for (std::size_t n = 0; n < tileBricks.size(); ++n) merger.addTile(n, tileBricks[n]);
-    parallelFor(tiles.size(), 4, threads, [&](std::size_t begin, std::size_t end) {
+    parallelFor(tiles.size(), 4, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) merger.numberTile(n);
     });
     merger.takeBoxes(BoxFinder(volume.wide_, volume.brickCount_));

@@ -12,7 +12,7 @@
 ///                   as bit planes. Plane p, word k, bit i + 8 j is bit p of the palette index of voxel (i, j, k), so a
 ///                   brick of two labels is 64 bytes and "which voxels hold palette entry e" is a few words' logic.
 ///
-/// Most mixed bricks are coded: by at most one cut across each axis, between two voxels, and at most two planes. The
+/// Most mixed bricks are coded: by at most one cut across each axis, between two voxels, and at most three planes. The
 /// sides on which a point lies say its scalar, and they say it of all 512 samples of a brick as its voxels do. Bricks
 /// that one code describes, with the uniform ones beside them, share a box, so a ray crosses a wall in as many steps as
 /// it meets labels, faces stay flat however near the eye, and normals are those of planes. What cuts and planes cannot
@@ -51,6 +51,8 @@ enum class BrickFaces : std::uint8_t {
 class BrickVolume {
 public:
     static constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
+    static constexpr std::size_t kMostPlanes = 3;               ///< of a code
+    static constexpr std::size_t kMostSides = 3 + kMostPlanes;  ///< of a code: cuts and planes
 
     static constexpr std::int32_t kBrickSize = 8;
     static constexpr std::uint64_t kMaxBricks = std::uint64_t{1} << 29;
@@ -70,12 +72,21 @@ public:
 
     BrickVolume() = default;
 
-    /// Bricks of `columns`.
-    /// \param threads  0: all cores; the result does not depend on it
+    struct Options {
+        BrickFaces faces = BrickFaces::Planes;
+        /// That the faces of the model lie on, in the voxel space of `columns`: tried first, in this order.
+        std::span<const FacePlane> planes{};
+        int threads = 0;  ///< 0: all cores; the result does not depend on it
+    };
+
+    /// Bricks of `columns`. Planes that are said to be there are believed where all samples of a brick agree; those
+    /// around a tile's 64 x 64 columns count, 256 of them at most.
     /// \return the bricks, or GridTooLarge where there are more than kMaxBricks of them or a dimension is over 65535
     /// Cost: O(distinct columns' runs + bricks), and for planes O(bricks on oblique surfaces), 1 to 5 us each.
-    [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns, int threads = 0,
-                                                         BrickFaces faces = BrickFaces::Planes);
+    [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns, const Options& options);
+    [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns) {
+        return fromColumns(columns, {});
+    }
 
     [[nodiscard]] Vec3i dimension() const noexcept { return dimension_; }
     [[nodiscard]] Vec3i brickCount() const noexcept { return brickCount_; }
@@ -131,11 +142,10 @@ public:
     struct BoxCoding {
         std::array<std::uint16_t, 3> cut{};  ///< voxels of the volume below the cut across each axis that has one
         std::uint16_t cutAxes = 0;           ///< bit a: there is a cut across axis a
-        std::array<std::uint32_t, 2> plane{kNoPlane, kNoPlane};  ///< indices of oblique()
+        std::array<std::uint32_t, kMostPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< indices of oblique()
         /// First of the scalars by side, in palettes: one bit for each cut (x, y, z) and plane that there is, in this
         /// order from the lowest; 1 is beyond a cut, or a plane's positive side.
         std::uint32_t cells = 0;
-        std::uint32_t unused = 0;
         [[nodiscard]] bool hasCut(int axis) const noexcept { return ((cutAxes >> axis) & 1u) != 0; }
         friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
     };

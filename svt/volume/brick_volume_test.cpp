@@ -20,7 +20,7 @@ std::vector<Scalar> dense(Vec3i dimension, const LabelAt& labelAt) {
 }
 
 BrickVolume bricksOf(Vec3i dimension, const std::vector<Scalar>& scalars, int threads = 0) {
-    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(dimension, scalars), threads);
+    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(dimension, scalars), {.threads = threads});
     EXPECT_TRUE(bricks.hasValue());
     return std::move(*bricks);
 }

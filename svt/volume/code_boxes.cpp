@@ -31,9 +31,9 @@ private:
 
     // Which of the box's sides cut a brick, and on which side of the others it lies.
     struct Sides {
-        std::array<bool, 5> cuts{};
-        std::size_t cell = 0;               // bits of the sides that do not cut
-        std::array<std::size_t, 5> bits{};  // of the sides that do, in order
+        std::array<bool, BrickVolume::kMostSides> cuts{};
+        std::size_t cell = 0;                                     // bits of the sides that do not cut
+        std::array<std::size_t, BrickVolume::kMostSides> bits{};  // of the sides that do, in order
         std::size_t count = 0;
     };
     [[nodiscard]] Sides sidesOf(Vec3i at) const noexcept {
@@ -55,7 +55,7 @@ private:
             const std::int32_t first = low[static_cast<int>(axis)];
             add(axis, cut <= first ? 1 : cut >= first + 8 ? -1 : 0);
         }
-        for (std::size_t p = 0; p < 2; ++p) {
+        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p) {
             if (code_.plane[p] == BrickVolume::kNoPlane) continue;
             const BrickPlane& plane = planes_[code_.plane[p]];
             const Vec3d n = plane.normal;
@@ -84,9 +84,9 @@ private:
             const int cut = code.cut[axis] == 0 ? 0 : low[static_cast<int>(axis)] + code.cut[axis];
             if (cut != (sides.cuts[axis] ? code_.cut[axis] : 0)) return false;
         }
-        std::array<std::uint32_t, 2> planes{BrickVolume::kNoPlane, BrickVolume::kNoPlane};
+        decltype(code.plane) planes = BrickCode().plane;
         std::size_t count = 0;
-        for (std::size_t p = 0; p < 2; ++p)
+        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p)
             if (sides.cuts[3 + p]) planes[count++] = code_.plane[p];
         if (planes != code.plane) return false;
         for (std::size_t cell = 0; cell < code.cells.size(); ++cell) {

@@ -13,7 +13,8 @@ namespace svt::volume {
 /// A code for more than one brick: cuts are planes between voxels of the tile's axes, counted from the volume's corner.
 struct BoxCode {
     std::array<std::int32_t, 3> cut{kNoCut, kNoCut, kNoCut};
-    std::array<std::uint32_t, 2> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane};
+    std::array<std::uint32_t, BrickVolume::kMostPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
+                                                              BrickVolume::kNoPlane};
     std::vector<Scalar> cells;
     static constexpr std::int32_t kNoCut = -1;
     friend bool operator==(const BoxCode&, const BoxCode&) = default;

@@ -217,7 +217,7 @@ Result<LodLevel> makeLevel(const ColumnVolume& fine, const Grid& grid, int level
     }
     result.mixtures = std::move(table.mixtures());
     result.columns = ColumnVolume::fromTiles(dimension, std::move(data));
-    auto bricks = BrickVolume::fromColumns(result.columns, threads, BrickFaces::Voxels);
+    auto bricks = BrickVolume::fromColumns(result.columns, {.faces = BrickFaces::Voxels, .threads = threads});
     if (!bricks) return bricks.error();
     result.bricks = std::move(*bricks);
     return result;

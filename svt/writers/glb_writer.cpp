@@ -222,7 +222,8 @@ Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volum
     volume::BrickVolume bricks;
     std::optional<SlopeVertices> slopes;
     if (options.faces == GlbFaces::Planes) {
-        auto made = volume::BrickVolume::fromColumns(source.columns, options.threads);
+        auto made =
+            volume::BrickVolume::fromColumns(source.columns, {.planes = source.planes, .threads = options.threads});
         if (!made) return made.error();
         bricks = std::move(*made);
         slopes.emplace(bricks, labelOfScalar);

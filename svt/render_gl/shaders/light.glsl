@@ -15,10 +15,11 @@ vec3 view;  // towards the viewer
 
 vec3 worldNormal(vec3 covector) { return normalize(worldFromCovector * covector); }
 
-uvec2 planesOf(ivec3 brick) {
+uvec3 planesOf(ivec3 brick) {
     uint entry = entryAt(brick);
-    if (entry < uniformBoxes || entry >= boxCount) return uvec2(kNone);
-    return elementOf(codes, 3u * elementOf(boxes, entry).w + 1u).xy;
+    if (entry < uniformBoxes || entry >= boxCount) return uvec3(kNone);
+    uint code = 3u * elementOf(boxes, entry).w;
+    return uvec3(elementOf(codes, code + 1u).xy, elementOf(codes, code + 2u).x);
 }
 
 bool isNear(uint number, vec3 point) {
@@ -35,9 +36,10 @@ uint seamPlane() {
     entered += (ivec3(face) - isBack - entered) * onAxis;
     vec3 point = origin + t * direction;
     for (int n = 0; n < 2; ++n) {
-        uvec2 oblique = planesOf(clamp(entered - n * stride * onAxis, ivec3(0), dimension - 1) >> 3);
+        uvec3 oblique = planesOf(clamp(entered - n * stride * onAxis, ivec3(0), dimension - 1) >> 3);
         if (isNear(oblique.x, point)) return oblique.x;
         if (isNear(oblique.y, point)) return oblique.y;
+        if (isNear(oblique.z, point)) return oblique.z;
     }
     return kNone;
 }

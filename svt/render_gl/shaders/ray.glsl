@@ -116,7 +116,8 @@ void look() {
     endsInside = false;
     if (isVoxel || entry < uniformBoxes) return;
     uvec2 cuts = elementOf(codes, 3u * scalar).xy, oblique = elementOf(codes, 3u * scalar + 1u).xy;
-    uint first = elementOf(codes, 3u * scalar + 2u).x, axes = cuts.y >> 16, side = 0u, bit = 1u;
+    uvec2 rest = elementOf(codes, 3u * scalar + 2u).xy;  // third plane, first label
+    uint axes = cuts.y >> 16, side = 0u, bit = 1u;
     ivec3 place = ivec3(cuts.x & 0xFFFFu, cuts.x >> 16, cuts.y & 0xFFFFu);
     vec3 times = planeTimes(place);
     if ((axes & 1u) != 0u) meetCut(times.x, place.x, 0, side, bit);
@@ -124,7 +125,8 @@ void look() {
     if ((axes & 4u) != 0u) meetCut(times.z, place.z, 2, side, bit);
     meetPlane(oblique.x, side, bit);
     meetPlane(oblique.y, side, bit);
-    scalar = elementOf(palettes, first + side).x;
+    meetPlane(rest.x, side, bit);
+    scalar = elementOf(palettes, rest.y + side).x;
 }
 
 // To the end of the step; false where that leaves the volume.
