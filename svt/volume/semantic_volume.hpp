@@ -17,10 +17,10 @@ struct SemanticVolume {
     Grid grid;
     LabelTable labels;
     ColumnVolume columns;
-    std::string crsName;    ///< srsName or referenceSystem of the model, or empty
-    std::string modelName;  ///< name of the model, or empty
-    std::string source;     ///< file name (without folder) of the model
-    VectorParts vectors{};  ///< empty where they were not asked for
+    std::string crsName;              ///< srsName or referenceSystem of the model, or empty
+    std::string modelName;            ///< name of the model, or empty
+    std::string source;               ///< file name (without folder) of the model
+    VectorParts vectors{};            ///< empty where they were not asked for
     std::vector<FacePlane> planes{};  ///< that the model's faces lie on, the most used first; none where unknown
 };
 
