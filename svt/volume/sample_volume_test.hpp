@@ -98,7 +98,7 @@ inline SemanticVolume sampleVolume(Vec3i dimension = {70, 66, 9}) {
 
 inline bool isSame(const SemanticVolume& a, const SemanticVolume& b) {
     return a.grid == b.grid && a.labels == b.labels && a.columns == b.columns && a.crsName == b.crsName &&
-           a.modelName == b.modelName && a.source == b.source;
+           a.modelName == b.modelName && a.source == b.source && a.vectors == b.vectors && a.planes == b.planes;
 }
 
 }  // namespace svt::volume::test

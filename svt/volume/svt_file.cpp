@@ -21,8 +21,10 @@ constexpr std::string_view kHeader = "svt.json";
 constexpr std::string_view kLabels = "labels.json";
 constexpr std::string_view kIndex = "columns/index";
 constexpr std::string_view kBlocks = "columns/blocks";
-constexpr std::string_view kVectors = "meshes/parts";  // only where there are any
-constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors};
+// Only where there are any:
+constexpr std::string_view kVectors = "meshes/parts";
+constexpr std::string_view kPlanes = "meshes/planes";
+constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes};
 
 Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
@@ -44,6 +46,7 @@ Result<void> checkWritable(const SemanticVolume& volume) {
             if (run.scalar >= scalarCount) return wrong(fmt::format("scalar {} belongs to no label", run.scalar));
     if (auto checked = checkVectorParts(volume.vectors, volume.labels.labels.size()); !checked)
         return wrong(checked.error().message());
+    if (auto checked = checkFacePlanes(volume.planes, grid); !checked) return wrong(checked.error().message());
     return {};
 }
 
@@ -137,14 +140,16 @@ Result<SvtBlocks> readTables(const Entries& entries) {
                      std::move(header->source)};
 }
 
-Result<VectorParts> readVectors(const Entries& entries, std::size_t labelCount) {
-    if (!entries.has(kVectors)) return VectorParts();
-    const auto entry = entries.stored(kVectors);
+/// What `read` makes of the frame of an entry that may be missing.
+template <class Content, class Read>
+Result<Content> readOptional(const Entries& entries, std::string_view name, Read read) {
+    if (!entries.has(name)) return Content();
+    const auto entry = entries.stored(name);
     if (!entry) return entry.error();
     std::vector<std::byte> buffer;
     const auto frame = unpack(*entry, entry->size, buffer);
     if (!frame) return frame.error();
-    return readVectorParts(*frame, labelCount);
+    return read(*frame);
 }
 
 Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
@@ -159,15 +164,21 @@ Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
     if (auto others = entries->checkOthers(); !others) return others.error();
     auto columns = tables->blocks.decodeAll(tables->frames);
     if (!columns) return columns.error();
-    auto vectors = readVectors(*entries, tables->labels.labels.size());
+    using Frame = std::span<const std::byte>;
+    auto vectors = readOptional<VectorParts>(
+        *entries, kVectors, [&](Frame frame) { return readVectorParts(frame, tables->labels.labels.size()); });
     if (!vectors) return vectors.error();
+    auto planes = readOptional<std::vector<FacePlane>>(
+        *entries, kPlanes, [&](Frame frame) { return readFacePlanes(frame, tables->grid.dimension()); });
+    if (!planes) return planes.error();
     return SemanticVolume{tables->grid,
                           std::move(tables->labels),
                           std::move(*columns),
                           std::move(tables->crsName),
                           std::move(tables->modelName),
                           std::move(tables->source),
-                          std::move(*vectors)};
+                          std::move(*vectors),
+                          std::move(*planes)};
 }
 
 }  // namespace
@@ -189,13 +200,18 @@ Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesyst
                                                     labels.size(), kMaxLabelsBytes));
     const auto compressed = compressColumns(volume.columns);
     if (!compressed) return compressed.error();
-    std::vector<std::byte> vectors;
+    std::vector<std::byte> vectors, planes;
     if (!volume.vectors.isEmpty()) {
         auto frame = compressVectorParts(volume.vectors);
         if (!frame) return frame.error();
         vectors = std::move(*frame);
     }
-    std::vector<ZipSource> entries(std::size(kUsed) - (vectors.empty() ? 1 : 0));
+    if (!volume.planes.empty()) {
+        auto frame = compressFacePlanes(volume.planes);
+        if (!frame) return frame.error();
+        planes = std::move(*frame);
+    }
+    std::vector<ZipSource> entries(5);
     for (std::size_t e = 0; e < entries.size(); ++e) entries[e].name = kUsed[e];
     entries[0].isAligned = false;
     entries[0].parts = {std::as_bytes(std::span(kMimeType))};
@@ -204,7 +220,8 @@ Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesyst
     entries[2].isDeflated = true;
     entries[3].parts = {std::as_bytes(std::span(compressed->index))};
     entries[4].parts.assign(compressed->frames.begin(), compressed->frames.end());
-    if (!vectors.empty()) entries[5].parts = {std::span<const std::byte>(vectors)};
+    if (!vectors.empty()) entries.push_back({std::string(kVectors), {std::span<const std::byte>(vectors)}});
+    if (!planes.empty()) entries.push_back({std::string(kPlanes), {std::span<const std::byte>(planes)}});
     return writeZip(path, entries);
 }
 

@@ -9,6 +9,7 @@
 ///     columns/index    of the blocks, see column_blocks.hpp
 ///     columns/blocks   zstd frames, one per block
 ///     meshes/parts     lines and triangles by label, see vector_parts.hpp; only where there are any
+///     meshes/planes    planes of the model's faces, see face_planes.hpp; only where there are any
 
 #include <svt/core/result.hpp>
 #include <svt/volume/column_blocks.hpp>
@@ -25,7 +26,8 @@ namespace svt::volume {
 /// Writes `volume` as the file `path`, all or nothing (see AtomicFile). Equal volumes give equal bytes.
 /// Strings that are no valid UTF-8 get U+FFFD for each wrong byte. Cost: that of compressColumns; memory: the file.
 /// \return bytes written, or CannotWrite or DiskFull; BadArgument where grid and columns differ in dimension, a
-///         scalar belongs to no label, the label table breaks its contract (checkLabels), or a limit is broken
+///         scalar belongs to no label, label table, vectors or planes break their contract (checkLabels,
+///         checkVectorParts, checkFacePlanes), or a limit is broken
 [[nodiscard]] Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path);
 
 /// Opens the file `path` and decodes all columns, on all cores.

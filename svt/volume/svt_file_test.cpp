@@ -98,6 +98,76 @@ TEST(SvtFile, KeepsLinesAndMeshesWhereThereAreAny) {
     EXPECT_EQ(refused.error().code(), Code::BadArgument);
 }
 
+/// Of a volume of 8 x 8 x 8 samples: floor, ceiling and a slope.
+std::vector<FacePlane> somePlanes() {
+    return {{{{0, 0, 1}, -1}, {0, 0, 0}, {8, 8, 1}},
+            {{{0, 0, -1}, 7.25}, {0, 1, 7}, {8, 7, 8}},
+            {{{0.6, 0, -0.8}, -0.0}, {1, 2, 3}, {4, 5, 6}}};
+}
+
+TEST(SvtFile, KeepsPlanesOfFacesWhereThereAreAny) {
+    const SemanticVolume bare = sampleVolume({8, 8, 8});
+    EXPECT_TRUE(readBytes(bytesOfVolume(bare))->planes.empty());
+    SemanticVolume volume = bare;
+    volume.planes = somePlanes();
+    const std::string file = bytesOfVolume(volume);
+    const auto read = readBytes(file);
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_EQ(read->planes, volume.planes);
+    EXPECT_EQ(bytesOfVolume(*read), file);
+    // Without them the file has no such entry.
+    EXPECT_EQ(changed(bytesOfVolume(bare), [](EntryTexts& texts) { EXPECT_EQ(texts.count("meshes/planes"), 0u); }),
+              changed(file, [](EntryTexts& texts) { EXPECT_EQ(texts.erase("meshes/planes"), 1u); }));
+    volume.planes[2].max[1] = 9;
+    const TemporaryFolder folder;
+    const auto refused = writeSvt(volume, folder / "v.svt");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code(), Code::BadArgument);
+}
+
+TEST(SvtFile, EntriesStandInTheOrderOfTheFormat) {
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.vectors.points = {{0, 0, 0}, {10000, 0, 0}};
+    volume.vectors.segments = {{0, {0, 1}}};
+    volume.planes = somePlanes();
+    const std::string file = bytesOfVolume(volume);
+    const auto entries = readZip(std::as_bytes(std::span(file)));
+    ASSERT_TRUE(entries);
+    const char* expected[] = {"mimetype",       "svt.json",     "labels.json",  "columns/index",
+                              "columns/blocks", "meshes/parts", "meshes/planes"};
+    ASSERT_EQ(entries->size(), std::size(expected));
+    for (std::size_t e = 0; e < entries->size(); ++e) {
+        EXPECT_EQ((*entries)[e].name, expected[e]);
+        EXPECT_TRUE(!(*entries)[e].isDeflated || (*entries)[e].name == "labels.json");
+    }
+    const auto read = readBytes(file);
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_TRUE(isSame(*read, volume));
+}
+
+TEST(SvtFile, DamagedPlanesAreTold) {
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.planes = somePlanes();
+    const std::string file = bytesOfVolume(volume);
+    expectRefused(changed(file, [](EntryTexts& texts) { texts["meshes/planes"].pop_back(); }), Code::BadVolume,
+                  "face planes");
+    // Planes of a larger volume.
+    volume = sampleVolume({8, 8, 9});
+    volume.planes = somePlanes();
+    volume.planes[0].max[2] = 9;
+    std::string larger;
+    (void)changed(bytesOfVolume(volume), [&](EntryTexts& texts) { larger = texts["meshes/planes"]; });
+    expectRefused(changed(file, [&](EntryTexts& texts) { texts["meshes/planes"] = larger; }), Code::BadVolume,
+                  "plane 0 is within voxels [0, 9) along z, there are 8");
+    const auto entries = readZip(std::as_bytes(std::span(file)));
+    ASSERT_TRUE(entries);
+    ASSERT_EQ(entries->back().name, "meshes/planes");
+    std::string damaged = file;
+    const auto* data = reinterpret_cast<const char*>(entries->back().data.data());
+    damaged[static_cast<std::size_t>(data - file.data()) + 5] ^= 1;
+    expectRefused(damaged, Code::BadChecksum, "'meshes/planes'");
+}
+
 TEST(SvtFile, VolumeComesBackAsWritten) {
     const TemporaryFolder folder;
     for (const Vec3i dimension : {Vec3i{8, 8, 8}, Vec3i{64, 64, 9}, Vec3i{70, 66, 9}, Vec3i{130, 200, 40}}) {
@@ -327,7 +397,8 @@ TEST(SvtFile, MissingAndForeignFilesAreRefused) {
 }
 
 TEST(SvtFile, EveryFlippedByteIsFoundOrHarmless) {
-    const SemanticVolume volume = sampleVolume({8, 8, 8});
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.planes = somePlanes();
     const std::string bytes = bytesOfVolume(volume);
     ASSERT_LT(bytes.size(), 6000u);
     std::size_t refused = 0;
@@ -346,7 +417,9 @@ TEST(SvtFile, EveryFlippedByteIsFoundOrHarmless) {
 }
 
 TEST(SvtFile, EveryTruncationIsRefused) {
-    const std::string bytes = bytesOfVolume(sampleVolume({8, 8, 8}));
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.planes = somePlanes();
+    const std::string bytes = bytesOfVolume(volume);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         const auto read = readBytes(std::string_view(bytes).substr(0, size));
         ASSERT_FALSE(read) << size << " bytes";
