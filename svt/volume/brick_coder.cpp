@@ -228,6 +228,11 @@ bool moveInto(const Heights& heights, Slope& slope) noexcept {
     return true;
 }
 
+// So that a cut between voxels, or none, says the same all along the volume.
+bool isAcrossAxis(Vec3d normal) noexcept {
+    return std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)}) > 1 - 1e-12;
+}
+
 double valueAt(const BrickPlane& plane, Vec3d point) noexcept { return dot(plane.normal, point) + plane.offset; }
 
 constexpr std::array<Vec3i, 26> makeNeighbors() {
@@ -249,10 +254,14 @@ public:
         : places_(places),
           patterns_(patterns),
           isCoded_(isCoded),
-          facePlanes_(faces),
+          knowsFaces_(!faces.empty()),
           heights_(patterns.size()),
           faces_(patterns.size()),
-          codeOf_(places.patternOf.size(), kNone) {}
+          codeOf_(places.patternOf.size(), kNone) {
+        for (const FacePlane& face : faces) {
+            (isAcrossAxis(face.plane.normal) ? cutPlanes_ : facePlanes_).push_back(face);
+        }
+    }
 
     TileCodes code() {
         if (!facePlanes_.empty())
@@ -346,12 +355,6 @@ private:
         return mask;
     }
 
-    // \param planes  the code's candidates
-    void setCode(Vec3i at, BrickCode code, std::initializer_list<std::size_t> planes) {
-        std::size_t count = 0;
-        for (const std::size_t candidate : planes) code.plane[count++] = numberOf(candidates_[candidate]);
-        setCode(at, std::move(code));
-    }
     void setCode(Vec3i at, BrickCode code) {
         codeOf_[place(at)] = static_cast<std::uint32_t>(result_.codes.size());
         result_.codes.push_back({static_cast<std::uint32_t>(place(at)), std::move(code)});
@@ -461,14 +464,40 @@ private:
         addFacePlanes(at, kMostFaces);
         if (sides_.empty()) return;
         if (isStep(at)) {
-            // Two cuts say it as well; one plane alone says it better.
-            for (std::size_t a = 0; a < sides_.size(); ++a)
-                if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a]}); code && code->cells.size() == 2)
-                    return setCode(at, std::move(*code), {a});
+            // Cuts say it as well. Planes say it better, but where it is cuts that the model has.
+            if (const auto own = codeBySides(patternAt(at), changes_); own && !hasCutsOfModel(*own, at))
+                tryCandidates(at, 0, true);
             return;
         }
         addCuts(at, kMostFaces + kMostCuts);
         tryCandidates(at, 0);
+    }
+
+    // Whether faces of the model are where the code's cuts are; yes where no faces are known.
+    [[nodiscard]] bool hasCutsOfModel(const BrickCode& code, Vec3i at) const noexcept {
+        if (!knowsFaces_) return true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            if (code.cut[a] == 0) continue;
+            const double place = (places_.origin + at * 8)[axis] + code.cut[a];
+            // Samples on both sides of the cut have the face between them.
+            if (std::none_of(cutPlanes_.begin(), cutPlanes_.end(), [&](const FacePlane& face) {
+                    return std::abs(face.plane.normal[axis]) > 0.5 &&
+                           std::abs(face.plane.offset * face.plane.normal[axis] + place) <= 0.5 && isBeside(face, at);
+                }))
+                return false;
+        }
+        return true;
+    }
+
+    // Whether faces on the plane are in the brick or beside it.
+    [[nodiscard]] bool isBeside(const FacePlane& face, Vec3i at) const noexcept {
+        const Vec3i low = places_.origin + at * 8;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            if (face.min[a] > low[axis] + 8 || face.max[a] < low[axis]) return false;
+        }
+        return true;
     }
 
     void startCandidates(Vec3i at) {
@@ -478,15 +507,9 @@ private:
     }
 
     void addFacePlanes(Vec3i at, std::size_t most) {
-        const Vec3i low = places_.origin + at * 8;
         for (const FacePlane& face : facePlanes_) {
             if (sides_.size() == most) return;
-            bool isBeside = true;
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto a = static_cast<std::size_t>(axis);
-                isBeside = isBeside && face.min[a] <= low[axis] + 8 && face.max[a] >= low[axis];
-            }
-            if (isBeside && cutsBox(face.plane, at)) addCandidate(face.plane, sideMask(face.plane, at));
+            if (isBeside(face, at) && cutsBox(face.plane, at)) addCandidate(face.plane, sideMask(face.plane, at));
         }
     }
 
@@ -513,28 +536,42 @@ private:
         if (sides_.size() > known) tryCandidates(at, known);
     }
 
-    // One candidate, or two or three of which one at least is number `from` or later.
-    bool tryCandidates(Vec3i at, std::size_t from) {
-        for (std::size_t a = from; a < sides_.size(); ++a)
-            if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a]})) {
-                setCode(at, std::move(*code), {a});
+    // One candidate, or two or three of which one at least is number `from` or later: the first that need no cuts but
+    // those of the model's faces; else, unless `mustBeOfModel`, the first that will do.
+    bool tryCandidates(Vec3i at, std::size_t from, bool mustBeOfModel = false) {
+        std::optional<BrickCode> other;
+        std::vector<std::size_t> planesOfOther;
+        const auto take = [&](BrickCode code, std::span<const std::size_t> planes) {
+            for (std::size_t n = 0; n < planes.size(); ++n) code.plane[n] = numberOf(candidates_[planes[n]]);
+            setCode(at, std::move(code));
+        };
+        const auto isDone = [&](std::initializer_list<std::size_t> planes,
+                                std::initializer_list<const BrickSide*> sides) {
+            auto code = codeBySides(patternAt(at), changes_, sides);
+            if (!code) return false;
+            if (hasCutsOfModel(*code, at)) {
+                take(std::move(*code), std::span(planes.begin(), planes.size()));
                 return true;
             }
+            if (!other && !mustBeOfModel) {
+                other = std::move(code);
+                planesOfOther.assign(planes);
+            }
+            return false;
+        };
+        for (std::size_t a = from; a < sides_.size(); ++a)
+            if (isDone({a}, {&sides_[a]})) return true;
         for (std::size_t b = std::max<std::size_t>(from, 1); b < sides_.size(); ++b)
             for (std::size_t a = 0; a < b; ++a)
-                if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a], &sides_[b]})) {
-                    setCode(at, std::move(*code), {a, b});
-                    return true;
-                }
+                if (isDone({a, b}, {&sides_[a], &sides_[b]})) return true;
         const std::size_t end = std::min(sides_.size(), kMostOfThree);
         for (std::size_t c = std::max<std::size_t>(from, 2); c < end; ++c)
             for (std::size_t b = 1; b < c; ++b)
                 for (std::size_t a = 0; a < b; ++a)
-                    if (auto code = codeBySides(patternAt(at), changes_, {&sides_[a], &sides_[b], &sides_[c]})) {
-                        setCode(at, std::move(*code), {a, b, c});
-                        return true;
-                    }
-        return false;
+                    if (isDone({a, b, c}, {&sides_[a], &sides_[b], &sides_[c]})) return true;
+        if (!other) return false;
+        take(std::move(*other), planesOfOther);
+        return true;
     }
 
     // False where the plane tells no voxels apart, or those that another does.
@@ -723,7 +760,8 @@ private:
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& isCoded_;
-    std::span<const FacePlane> facePlanes_;
+    std::vector<FacePlane> facePlanes_, cutPlanes_;  // of the model; across an axis the latter
+    bool knowsFaces_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern
     std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // of one axis, with the number of their group

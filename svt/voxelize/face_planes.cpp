@@ -47,11 +47,6 @@ volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
     return plane;
 }
 
-// Whether a cut between voxels, or none, says the same all along the volume.
-bool isAcrossAxis(Vec3d normal) noexcept {
-    return std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)}) > 1 - 1e-12;
-}
-
 std::vector<Facet> findFacets(const mesh::MeshScene& scene, const IndexFromLocal& indexFromLocal) {
     std::vector<Facet> facets;
     for (const mesh::ObjectMesh& object : scene.objects)
@@ -64,7 +59,6 @@ std::vector<Facet> findFacets(const mesh::MeshScene& scene, const IndexFromLocal
             if (!(twice > 1e-6)) continue;
             facet.normal = across / twice;
             facet.area = twice / 2;
-            if (isAcrossAxis(facet.normal)) continue;
             if (indexFromLocal.keepsVertical()) facet.plane = triangle.plane;
             facets.push_back(facet);
         }
@@ -135,9 +129,18 @@ volume::BrickPlane sharedPlane(const mesh::Plane& local, const IndexFromLocal& i
     return planeThrough(normal / length(normal), voxelSpace({0, 0, plane.offset / double(kQuanta)}));
 }
 
+// To 1e-6 voxel over 4000 voxels: what lies below is noise, and would be most of the planes' bytes in a file.
+volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
+    constexpr double kNormal = double(std::int64_t{1} << 32), kOffset = double(1 << 20);
+    volume::BrickPlane result;
+    for (int axis = 0; axis < 3; ++axis) result.normal[axis] = std::round(plane.normal[axis] * kNormal) / kNormal + 0.0;
+    result.offset = std::round(plane.offset * kOffset) / kOffset + 0.0;
+    return result;
+}
+
 // Nothing where the faces are outside of the grid.
 std::optional<volume::FacePlane> clipped(const Group& group, Vec3i dimension) noexcept {
-    volume::FacePlane face{group.plane, {}, {}};
+    volume::FacePlane face{rounded(group.plane), {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         const double low = std::floor(group.box.min[axis]), high = std::ceil(group.box.max[axis]);
         const double end = std::min(dimension[axis], 65535);
