@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace svt::render {
@@ -32,6 +33,25 @@ TestVolume makeTurnedHouse() {
                       [](std::int32_t i, std::int32_t j, std::int32_t k) { return turnedHouse(i, j, k); });
 }
 
+// The planes of its faces.
+std::vector<volume::FacePlane> facesOfTurnedHouse() {
+    const Vec3d along{std::cos(kTurn), std::sin(kTurn), 0}, across{-std::sin(kTurn), std::cos(kTurn), 0};
+    const Vec3d middle{48.5, 48.5, 0.5};
+    std::vector<volume::FacePlane> faces;
+    const auto add = [&](Vec3d normal, double height) {
+        volume::FacePlane& face = faces.emplace_back();
+        const double scale = 1 / length(normal);
+        face.plane = {normal * scale, -(dot(normal, middle) + height) * scale};
+        face.max = {96, 96, 72};
+    };
+    for (const double x : {-34.0, -28.0, 4.0, 9.0, 28.0, 34.0}) add(along, x);
+    for (const double y : {-26.0, -20.0, 20.0, 26.0}) add(across, y);
+    for (const double slope : {-0.9, 0.9})
+        for (const double top : {60.0, 66.0}) add(Vec3d{0, 0, 1} + across * slope, top);
+    for (const double z : {2.5, 29.5, 35.5}) add({0, 0, 1}, z);
+    return faces;
+}
+
 std::vector<Style> styles(float opacity) {
     std::vector<Style> result;
     for (int n = 0; n < 5; ++n) result.push_back({{0.2f + 0.15f * float(n), 0.8f - 0.1f * float(n), 0.5f}, opacity});
@@ -58,8 +78,7 @@ void expectSame(const TestVolume& volume, const FrameSpec& spec) {
     EXPECT_EQ(frame.color, reference->color);
 }
 
-TEST(PacketCaster, GivesTheVeryPictureOfThePlainCaster) {
-    const TestVolume volume = makeTurnedHouse();
+void expectThePictureOfThePlainCaster(const TestVolume& volume) {
     for (const char* name : {"iso", "front", "left", "top", "iso-nw"}) {
         if (!cameraPreset(name, volume.grid)) continue;
         for (const float opacity : {1.0f, 0.4f, 0.02f}) {
@@ -85,6 +104,20 @@ TEST(PacketCaster, GivesTheVeryPictureOfThePlainCaster) {
             expectSame(volume, spec);
         }
     }
+}
+
+TEST(PacketCaster, GivesTheVeryPictureOfThePlainCaster) { expectThePictureOfThePlainCaster(makeTurnedHouse()); }
+
+TEST(PacketCaster, GivesItWhereFacesMeetByThrees) {
+    TestVolume volume = makeTurnedHouse();
+    const std::vector<volume::FacePlane> faces = facesOfTurnedHouse();
+    volume.bricks = *volume::BrickVolume::fromColumns(volume.columns, {.planes = faces});
+    const auto codes = volume.bricks.arrays().codes;
+    ASSERT_GT(std::count_if(codes.begin(), codes.end(),
+                            [](const auto& code) { return code.plane[2] != volume::BrickVolume::kNoPlane; }),
+              10);
+    EXPECT_LE(volume.bricks.oblique().size(), faces.size());
+    expectThePictureOfThePlainCaster(volume);
 }
 
 // Passes are cast from the last on, and rays that the last ones hide everything for are left out of the others.

@@ -33,8 +33,9 @@ struct Model {
 };
 using ModelPointer = std::shared_ptr<const Model>;
 
-ModelPointer modelOf(const volume::ColumnVolume& columns, const volume::Grid& grid) {
-    return std::make_shared<Model>(Model{*volume::BrickVolume::fromColumns(columns), grid});
+ModelPointer modelOf(const volume::ColumnVolume& columns, const volume::Grid& grid,
+                     std::span<const volume::FacePlane> planes = {}) {
+    return std::make_shared<Model>(Model{*volume::BrickVolume::fromColumns(columns, {.planes = planes}), grid});
 }
 
 volume::ColumnVolume columnsOf(Vec3i n, const std::function<volume::Scalar(Vec3i)>& labelAt) {
@@ -73,7 +74,7 @@ ModelPointer built(std::span<const std::filesystem::path> files, Vec3i dimension
     options.dimension = dimension;
     const auto output = pipeline::buildVolume(files, options);
     if (!output) throw std::runtime_error(output.error().toString());
-    return modelOf(output->volume.columns, output->volume.grid);
+    return modelOf(output->volume.columns, output->volume.grid, output->volume.planes);
 }
 
 ModelPointer house(double turnDegrees) {
@@ -84,7 +85,7 @@ ModelPointer house(double turnDegrees) {
     pipeline::BuildOptions build;
     build.dimension = Vec3i{240, 210, 150};
     const auto output = *pipeline::buildVolume(model, build);
-    return modelOf(output.volume.columns, output.volume.grid);
+    return modelOf(output.volume.columns, output.volume.grid, output.volume.planes);
 }
 
 // Colours that tell labels apart; 0 hidden.
@@ -430,7 +431,8 @@ TEST(GlRenderer, DrawsTheFzkHausAsTheCpu) {
 TEST(GlRenderer, DrawsAVolumeOfVoxelsAsTheCpu) {
     SVT_NEEDS_GL();
     const volume::ColumnVolume columns = columnsOfBodies();
-    const Model model{*volume::BrickVolume::fromColumns(columns, {.faces = volume::BrickFaces::Voxels}), bodies()->grid};
+    const Model model{*volume::BrickVolume::fromColumns(columns, {.faces = volume::BrickFaces::Voxels}),
+                      bodies()->grid};
     auto renderer = GlRenderer::make(model.bricks, model.grid);
     ASSERT_TRUE(renderer) << renderer.error().toString();
     expectSame(model, *renderer, looks()[0], "voxelsOpaque");

@@ -64,8 +64,11 @@ std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask
     return index;
 }
 
-// Labels of the cells that the sides make, each checked; cells without a sample take the label of the nearest.
-bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::vector<Scalar>& cells) {
+// Labels of the cells that the sides make, each checked. Cells without a sample are slivers between the others: they
+// take the label from beyond as few sides as possible, cuts rather than planes, and of the planes the later ones, which
+// are less sure to be faces of the model.
+bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
+               std::vector<Scalar>& cells) {
     const std::size_t count = std::size_t{1} << sides.size();
     cells.assign(count, 0);
     std::uint64_t known = 0;
@@ -80,12 +83,17 @@ bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std
         cells[cell] = pattern.palette[*index];
         known |= std::uint64_t{1} << cell;
     }
+    const auto distance = [&](std::size_t differing) {
+        std::size_t sum = 0;
+        for (std::size_t s = 0; s < sides.size(); ++s)
+            if (((differing >> s) & 1u) != 0) sum += s < cuts ? 1 : std::size_t{1} << (sides.size() - s);
+        return sum;
+    };
     for (std::size_t cell = 0; cell < count; ++cell) {
         if (((known >> cell) & 1u) != 0) continue;
         std::size_t nearest = count;
         for (std::size_t other = 0; other < count; ++other)
-            if (((known >> other) & 1u) != 0 &&
-                (nearest == count || std::popcount(other ^ cell) < std::popcount(nearest ^ cell)))
+            if (((known >> other) & 1u) != 0 && (nearest == count || distance(other ^ cell) < distance(nearest ^ cell)))
                 nearest = other;
         cells[cell] = cells[nearest];
     }
@@ -121,8 +129,9 @@ std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes&
         code.cut[a] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
         sides[count++] = cutMask(axis, code.cut[a]);
     }
+    const std::size_t cuts = count;
     for (const BrickSide* plane : planes) sides[count++] = plane->mask;
-    if (!fillCells(pattern, std::span(sides).first(count), code.cells)) return std::nullopt;
+    if (!fillCells(pattern, std::span(sides).first(count), cuts, code.cells)) return std::nullopt;
     return code;
 }
 
@@ -466,7 +475,7 @@ private:
         if (isStep(at)) {
             // Cuts say it as well. Planes say it better, but where it is cuts that the model has.
             if (const auto own = codeBySides(patternAt(at), changes_); own && !hasCutsOfModel(*own, at))
-                tryCandidates(at, 0, true);
+                tryCandidates(at, 0);
             return;
         }
         addCuts(at, kMostFaces + kMostCuts);
@@ -536,28 +545,17 @@ private:
         if (sides_.size() > known) tryCandidates(at, known);
     }
 
-    // One candidate, or two or three of which one at least is number `from` or later: the first that need no cuts but
-    // those of the model's faces; else, unless `mustBeOfModel`, the first that will do.
-    bool tryCandidates(Vec3i at, std::size_t from, bool mustBeOfModel = false) {
-        std::optional<BrickCode> other;
-        std::vector<std::size_t> planesOfOther;
-        const auto take = [&](BrickCode code, std::span<const std::size_t> planes) {
-            for (std::size_t n = 0; n < planes.size(); ++n) code.plane[n] = numberOf(candidates_[planes[n]]);
-            setCode(at, std::move(code));
-        };
+    // One candidate, or two or three of which one at least is number `from` or later. Cuts beside them must be of the
+    // model: else they are the steps of an oblique face that is not among the candidates, and voxels look better.
+    bool tryCandidates(Vec3i at, std::size_t from) {
         const auto isDone = [&](std::initializer_list<std::size_t> planes,
                                 std::initializer_list<const BrickSide*> sides) {
             auto code = codeBySides(patternAt(at), changes_, sides);
-            if (!code) return false;
-            if (hasCutsOfModel(*code, at)) {
-                take(std::move(*code), std::span(planes.begin(), planes.size()));
-                return true;
-            }
-            if (!other && !mustBeOfModel) {
-                other = std::move(code);
-                planesOfOther.assign(planes);
-            }
-            return false;
+            if (!code || !hasCutsOfModel(*code, at)) return false;
+            std::size_t count = 0;
+            for (const std::size_t plane : planes) code->plane[count++] = numberOf(candidates_[plane]);
+            setCode(at, std::move(*code));
+            return true;
         };
         for (std::size_t a = from; a < sides_.size(); ++a)
             if (isDone({a}, {&sides_[a]})) return true;
@@ -569,9 +567,7 @@ private:
             for (std::size_t b = 1; b < c; ++b)
                 for (std::size_t a = 0; a < b; ++a)
                     if (isDone({a, b, c}, {&sides_[a], &sides_[b], &sides_[c]})) return true;
-        if (!other) return false;
-        take(std::move(*other), planesOfOther);
-        return true;
+        return false;
     }
 
     // False where the plane tells no voxels apart, or those that another does.
@@ -709,6 +705,9 @@ private:
             if (std::popcount(places) < 2 || std::popcount(places) > 3) continue;
             for (; places != 0 && sides_.size() < most; places &= places - 1) {
                 const auto cut = static_cast<std::uint32_t>(std::countr_zero(places)) + 1;
+                BrickCode alone;
+                alone.cut[std::size_t(axis)] = static_cast<std::uint8_t>(cut);
+                if (!hasCutsOfModel(alone, at)) continue;
                 BrickPlane plane;
                 plane.normal[axis] = 1;
                 plane.offset = -(corner(at)[axis] + cut);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -35,12 +36,13 @@ BrickPattern patternOf(const LabelAt& labelAt) {
 
 std::optional<BrickCode> codeByCuts(const BrickPattern& pattern) { return codeBySides(pattern, changesOf(pattern)); }
 
-BrickVolume bricksOf(Vec3i n, const LabelAt& labelAt, BrickFaces faces = BrickFaces::Planes) {
+BrickVolume bricksOf(Vec3i n, const LabelAt& labelAt, BrickFaces faces = BrickFaces::Planes,
+                     const std::vector<FacePlane>& planes = {}) {
     std::vector<Scalar> scalars;
     for (std::int32_t k = 0; k < n.z; ++k)
         for (std::int32_t j = 0; j < n.y; ++j)
             for (std::int32_t i = 0; i < n.x; ++i) scalars.push_back(labelAt(i, j, k));
-    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(n, scalars), {.faces = faces});
+    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(n, scalars), {.faces = faces, .planes = planes});
     EXPECT_TRUE(bricks.hasValue());
     return std::move(*bricks);
 }
@@ -170,6 +172,122 @@ TEST(BrickCode, AWallAndWhatLiesBesideItShareOneBox) {
     EXPECT_EQ(face.min, (std::array<std::uint16_t, 3>{0, 0, 0}));  // with the air on its left
     EXPECT_EQ(face.max[1], 64);
     EXPECT_EQ(face.max[2], 64);
+}
+
+// A plane through a point, with faces all over a volume.
+FacePlane faceThrough(Vec3d direction, Vec3d point, Vec3i n) {
+    FacePlane face;
+    face.plane.normal = normalized(direction);
+    face.plane.offset = -dot(face.plane.normal, point);
+    face.max = {static_cast<std::uint16_t>(n.x), static_cast<std::uint16_t>(n.y), static_cast<std::uint16_t>(n.z)};
+    return face;
+}
+double heightOver(const FacePlane& face, std::int32_t i, std::int32_t j, std::int32_t k) {
+    return dot(face.plane.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + face.plane.offset;
+}
+
+TEST(FacesOfTheModel, AreTheOnlyPlanesOfARoof) {
+    const Vec3i n{200, 160, 64};
+    const FacePlane south = faceThrough({0.02, -0.5, 0.8}, {100.3, 80.2, 60.1}, n);
+    const FacePlane north = faceThrough({-0.01, 0.5, 0.8}, {100.3, 80.2, 60.1}, n);
+    const LabelAt roof = [&](auto i, auto j, auto k) {
+        return heightOver(south, i, j, k) < 0 && heightOver(north, i, j, k) < 0 ? 1u : 0u;
+    };
+    const BrickVolume fitted = bricksOf(n, roof), known = bricksOf(n, roof, BrickFaces::Planes, {south, north});
+    const Coded found = expectCodesHold(known);
+    EXPECT_GT(found.withPlanes, 500u);
+    for (std::int32_t bz = 0; bz < 8; ++bz)
+        for (std::int32_t by = 0; by < 20; ++by)
+            for (std::int32_t bx = 0; bx < 25; ++bx)
+                EXPECT_TRUE(!known.entry(bx, by, bz).isMixed() || known.entry(bx, by, bz).isCoded());
+    EXPECT_EQ(known.oblique().size(), 2u);
+    for (const BrickPlane& plane : known.oblique()) EXPECT_TRUE(plane == south.plane || plane == north.plane);
+    EXPECT_GT(fitted.oblique().size(), 2u);
+    EXPECT_LT(known.arrays().boxes.size(), fitted.arrays().boxes.size());
+}
+
+TEST(FacesOfTheModel, MeetByThrees) {
+    // A pyramid: four faces, of which three meet in no brick but at the top, and an oblique floor.
+    const Vec3i n{96, 96, 64};
+    const Vec3d top{48.3, 47.6, 60.2};
+    const std::vector<FacePlane> faces{faceThrough({1, 0.2, 0.9}, top, n), faceThrough({-0.3, 1, 0.9}, top, n),
+                                       faceThrough({-1, -0.1, 0.9}, top, n), faceThrough({0.2, -1, 0.9}, top, n),
+                                       faceThrough({0.1, -0.07, -1}, {48, 48, 9.4}, n)};
+    const BrickVolume bricks = bricksOf(
+        n,
+        [&](auto i, auto j, auto k) {
+            return std::all_of(faces.begin(), faces.end(),
+                               [&](const FacePlane& face) { return heightOver(face, i, j, k) < 0; })
+                       ? 3u
+                       : 0u;
+        },
+        BrickFaces::Planes, faces);
+    expectCodesHold(bricks);
+    int uncoded = 0;
+    const auto codes = bricks.arrays().codes;
+    const auto withThree = std::count_if(codes.begin(), codes.end(), [](const BrickVolume::BoxCoding& code) {
+        return code.plane[2] != BrickVolume::kNoPlane;
+    });
+    EXPECT_GE(withThree, 2);  // two would not do there
+    for (std::int32_t bz = 0; bz < 8; ++bz)
+        for (std::int32_t by = 0; by < 12; ++by)
+            for (std::int32_t bx = 0; bx < 12; ++bx)
+                if (const auto entry = bricks.entry(bx, by, bz); entry.isMixed() && !entry.isCoded()) ++uncoded;
+    EXPECT_LE(uncoded, 1);  // the top, where four faces meet
+    EXPECT_EQ(bricks.oblique().size(), 5u);
+}
+
+TEST(FacesOfTheModel, DecideWhatTwoCutsAre) {
+    // One row of voxels at the brim of a brick: the edge of a step, or where a slope leaves the brick.
+    const Vec3i n{64, 64, 64};
+    const LabelAt row = [](auto, auto j, auto k) { return j >= 30 && k < 25 ? 1u : 0u; };
+    const FacePlane slope = faceThrough({0, -0.5, 0.8}, {0, 30.2, 24.7}, n);
+    const FacePlane wall = faceThrough({0, 1, 0}, {0, 30, 0}, n), floor = faceThrough({0, 0, 1}, {0, 0, 25}, n);
+    const auto planeAt = [](const BrickVolume& bricks) { return bricks.coding(bricks.entry(3, 3, 3)).plane[0]; };
+    const BrickVolume asStep = bricksOf(n, row, BrickFaces::Planes, {slope, wall, floor});
+    EXPECT_EQ(planeAt(asStep), BrickVolume::kNoPlane);
+    const LabelAt ramp = [&](auto i, auto j, auto k) { return heightOver(slope, i, j, k) < 0 ? 1u : 0u; };
+    const BrickVolume asSlope = bricksOf(n, ramp, BrickFaces::Planes, {slope});
+    for (std::int32_t by = 0; by < 8; ++by)
+        for (std::int32_t bz = 0; bz < 8; ++bz) {
+            const auto entry = asSlope.entry(4, by, bz);
+            if (!entry.isMixed()) continue;
+            ASSERT_TRUE(entry.isCoded()) << by << ' ' << bz;
+            EXPECT_NE(asSlope.coding(entry).plane[0], BrickVolume::kNoPlane) << by << ' ' << bz;
+        }
+}
+
+TEST(FacesOfTheModel, AreNotBelievedAgainstSamples) {
+    const Vec3i n{80, 72, 64};
+    const FacePlane truth = faceThrough({0.3, -0.5, 0.8}, {40, 36, 32}, n);
+    const LabelAt half = [&](auto i, auto j, auto k) { return heightOver(truth, i, j, k) < 0 ? 1u : 0u; };
+    std::vector<FacePlane> lies;
+    for (int turn = 0; turn < 300; ++turn)
+        lies.push_back(faceThrough({std::sin(turn * 1.7), std::cos(turn * 2.3), 0.1 * turn - 15},
+                                   {40.0 + turn % 7, 36.0 + turn % 5, 32.0 - turn % 3}, n));
+    lies.push_back(faceThrough({0.3, -0.5, 0.8}, {40, 36, 32.8}, n));
+    const BrickVolume bricks = bricksOf(n, half, BrickFaces::Planes, lies);
+    expectCodesHold(bricks);
+    for (std::int32_t k = 0; k < n.z; ++k)
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) ASSERT_EQ(bricks.scalarAt(i, j, k), half(i, j, k));
+}
+
+TEST(FacesOfTheModel, CountNoLongerThanTheyAreNear) {
+    // The plane goes on where its faces have ended: what lies there is fitted.
+    const Vec3i n{128, 64, 64};
+    FacePlane face = faceThrough({0.1, -0.5, 0.8}, {64.234, 32.151, 32.077}, n);
+    face.max[0] = 40;
+    const BrickVolume bricks = bricksOf(
+        n, [&](auto i, auto j, auto k) { return heightOver(face, i, j, k) < 0 ? 1u : 0u; }, BrickFaces::Planes, {face});
+    expectCodesHold(bricks);
+    for (std::int32_t by = 0; by < 8; ++by)
+        for (std::int32_t bz = 0; bz < 8; ++bz)
+            for (const std::int32_t bx : {2, 12}) {
+                const auto entry = bricks.entry(bx, by, bz);
+                if (!entry.isCoded()) continue;
+                EXPECT_EQ(bricks.oblique()[bricks.coding(entry).plane[0]] == face.plane, bx == 2) << by << ' ' << bz;
+            }
 }
 
 }  // namespace
