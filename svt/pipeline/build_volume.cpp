@@ -3,8 +3,8 @@
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/labels.hpp>
 #include <svt/readers/read_model.hpp>
-#include <svt/voxelize/face_planes.hpp>
 #include <svt/voxelize/bodies.hpp>
+#include <svt/voxelize/face_planes.hpp>
 
 #include <fmt/format.h>
 
