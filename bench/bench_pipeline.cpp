@@ -38,7 +38,7 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
     const volume::SemanticVolume& volume = built->volume;
     const auto fileBytes = volume::writeSvt(volume, target);
     if (!fileBytes) return fileBytes.error();
-    const auto bricks = volume::BrickVolume::fromColumns(volume.columns);
+    const auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes});
     if (!bricks) return bricks.error();
     const auto levels = volume::buildLodPyramid(volume.columns, volume.grid);
     if (!levels) return levels.error();
@@ -54,7 +54,8 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
          [&] { done(voxelize::voxelize(scene.meshes, volume.grid, scene.labels.claims)); }},
         {"write .svt", *fileBytes, [&] { done(volume::writeSvt(volume, target)); }},
         {"open .svt", 0, [&] { done(volume::readSvt(target)); }},
-        {"make bricks", bricks->sizeBytes(), [&] { done(volume::BrickVolume::fromColumns(volume.columns)); }},
+        {"make bricks", bricks->sizeBytes(),
+         [&] { done(volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes})); }},
         {"make coarse levels", levelBytes(*levels),
          [&] { done(volume::buildLodPyramid(volume.columns, volume.grid)); }},
         {"model file to .svt", *fileBytes, [&] {

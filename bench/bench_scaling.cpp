@@ -50,11 +50,12 @@ Result<Row> scalingRow(const Scene& scene, Vec3i dimension, const BenchOptions& 
         done(render::castRays(drawable.bricks, drawable.grid, spec));
     });
     if (!outcome) return outcome.error();
-    const auto measured =
-        measureInTurns({{"SVT", [&] { done(voxelize::voxelize(scene.meshes, drawable.grid, scene.labels.claims)); }},
-                        {"make bricks", [&] { done(volume::BrickVolume::fromColumns(drawable.columns)); }},
-                        {"opaque frame", [&] { done(render::castRays(drawable.bricks, drawable.grid, spec)); }}},
-                       fewRuns(options));
+    const auto measured = measureInTurns(
+        {{"SVT", [&] { done(voxelize::voxelize(scene.meshes, drawable.grid, scene.labels.claims)); }},
+         {"make bricks",
+          [&] { done(volume::BrickVolume::fromColumns(drawable.columns, {.planes = drawable.planes})); }},
+         {"opaque frame", [&] { done(render::castRays(drawable.bricks, drawable.grid, spec)); }}},
+        fewRuns(options));
     Row row;
     row.stage = "scaling";
     row.input = scene.name;
@@ -85,7 +86,7 @@ Result<Built> buildAndCast(const Input& input) {
     buildOptions.spacing = Vec3d{0.05, 0.05, 0.05};
     auto output = pipeline::buildVolume(files, buildOptions);
     if (!output) return output.error();
-    auto bricks = volume::BrickVolume::fromColumns(output->volume.columns);
+    auto bricks = volume::BrickVolume::fromColumns(output->volume.columns, {.planes = output->volume.planes});
     if (!bricks) return bricks.error();
     auto spec = frameOf(output->volume.grid, opaqueStyles(output->volume.labels), kWidth, kHeight);
     if (!spec) return spec.error();
@@ -120,10 +121,10 @@ Result<void> benchDistrict(const BenchOptions& options, Report& report) {
     const pipeline::BuildReport& figures = built->output.report;
     MeasureOptions once;
     once.leastRuns = once.mostRuns = 3;
-    const auto measured =
-        measureInTurns({{"make bricks", [&] { done(volume::BrickVolume::fromColumns(volume.columns)); }},
-                        {"opaque frame", [&] { done(render::castRays(built->bricks, volume.grid, built->spec)); }}},
-                       once);
+    const auto measured = measureInTurns(
+        {{"make bricks", [&] { done(volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes})); }},
+         {"opaque frame", [&] { done(render::castRays(built->bricks, volume.grid, built->spec)); }}},
+        once);
     Row row;
     row.stage = "district";
     row.input = input->name;

@@ -15,10 +15,10 @@ Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension, int threads) 
     options.threads = threads;
     auto voxels = voxelize::voxelize(scene.meshes, *grid, scene.labels.claims, options);
     if (!voxels) return voxels.error();
-    const std::vector<volume::FacePlane> planes = voxelize::findFacePlanes(scene.meshes, *grid);
+    std::vector<volume::FacePlane> planes = voxelize::findFacePlanes(scene.meshes, *grid);
     auto bricks = volume::BrickVolume::fromColumns(voxels->columns, {.planes = planes, .threads = threads});
     if (!bricks) return bricks.error();
-    return Drawable{*grid, std::move(voxels->columns), std::move(*bricks)};
+    return Drawable{*grid, std::move(voxels->columns), std::move(planes), std::move(*bricks)};
 }
 
 std::vector<render::Style> opaqueStyles(const volume::LabelTable& labels) {

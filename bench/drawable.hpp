@@ -16,6 +16,7 @@ namespace svt::bench {
 struct Drawable {
     volume::Grid grid;
     volume::ColumnVolume columns;
+    std::vector<volume::FacePlane> planes;
     volume::BrickVolume bricks;
 };
 

@@ -11,8 +11,8 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr double kSmallestArea = 32;  // square voxels
-constexpr double kNearby = 0.02;      // voxels between a plane and the corners of its faces
+constexpr double kSmallestFace = 1, kSmallestArea = 32;  // square voxels, of a triangle and on a plane
+constexpr double kNearby = 0.02;                         // voxels between a plane and the corners of its faces
 
 // A triangle in voxel space.
 struct Facet {
@@ -56,7 +56,7 @@ std::vector<Facet> findFacets(const mesh::MeshScene& scene, const IndexFromLocal
                 facet.corners[c] = voxelSpace(indexFromLocal.point(object.vertices[triangle.corners[c]]));
             const Vec3d across = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
             const double twice = length(across);
-            if (!(twice > 1e-6)) continue;
+            if (!(twice >= 2 * kSmallestFace)) continue;
             facet.normal = across / twice;
             facet.area = twice / 2;
             if (indexFromLocal.keepsVertical()) facet.plane = triangle.plane;
