@@ -299,7 +299,7 @@ public:
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     // Candidates for a brick: planes of the model, planes where surfaces meet, cuts; and how many are tried by threes.
-    static constexpr std::size_t kMostFaces = 12, kMostAround = 8, kMostCuts = 4, kMostOfThree = 10;
+    static constexpr std::size_t kMostFaces = 12, kMostAround = 8, kMostCuts = 4, kMostOfThree = 7;
 
     template <class Body>
     void forEachPlace(const Body& body) const {
