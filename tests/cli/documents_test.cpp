@@ -62,8 +62,9 @@ private:
 
 // A script that starts what serves, waits for its address, and stops it.
 std::string untilItServes(const std::string& text) {
-    return "( exec " + text + "\n) > address 2> messages &\nserver=$!\n" +
-           "until grep -q ^http address; do kill -0 $server || break; sleep 0.02; done\n" +
+    // The file may still hold the address of the server before.
+    return "rm -f address\n( exec " + text + "\n) > address 2> messages &\nserver=$!\n" +
+           "until grep -qs ^http address; do kill -0 $server || break; sleep 0.02; done\n" +
            "kill -TERM $server\nwait $server\ncode=$?\ncat address messages\nexit $code\n";
 }
 
