@@ -267,9 +267,8 @@ public:
           heights_(patterns.size()),
           faces_(patterns.size()),
           codeOf_(places.patternOf.size(), kNone) {
-        for (const FacePlane& face : faces) {
+        for (const FacePlane& face : faces)
             (isAcrossAxis(face.plane.normal) ? cutPlanes_ : facePlanes_).push_back(face);
-        }
     }
 
     TileCodes code() {

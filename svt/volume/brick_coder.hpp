@@ -88,8 +88,9 @@ struct TileCodes {
 /// surface in the brick and its neighbors, moved as little as its own voxels ask for; a neighbor's plane is taken
 /// first, so that a roof has one plane. Where surfaces meet, the planes of the bricks around are tried in the same way
 /// as the model's. Uniform bricks beside a sloped surface get its plane where that cuts their rim, the half voxel
-/// outside of their samples. Every code is checked sample by sample; what has none stays a pattern. \param isCoded  by
-/// pattern: a PatternKind \param faces    what faces of the model lie on in the tile
+/// outside of their samples. Every code is checked sample by sample; what has none stays a pattern.
+/// \param isCoded  by pattern: a PatternKind
+/// \param faces    what faces of the model lie on in the tile; none where they are not known
 [[nodiscard]] TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
                                  const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces);
 

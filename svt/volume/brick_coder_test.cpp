@@ -237,24 +237,40 @@ TEST(FacesOfTheModel, MeetByThrees) {
     EXPECT_EQ(bricks.oblique().size(), 5u);
 }
 
-TEST(FacesOfTheModel, DecideWhatTwoCutsAre) {
-    // One row of voxels at the brim of a brick: the edge of a step, or where a slope leaves the brick.
-    const Vec3i n{64, 64, 64};
-    const LabelAt row = [](auto, auto j, auto k) { return j >= 30 && k < 25 ? 1u : 0u; };
-    const FacePlane slope = faceThrough({0, -0.5, 0.8}, {0, 30.2, 24.7}, n);
-    const FacePlane wall = faceThrough({0, 1, 0}, {0, 30, 0}, n), floor = faceThrough({0, 0, 1}, {0, 0, 25}, n);
-    const auto planeAt = [](const BrickVolume& bricks) { return bricks.coding(bricks.entry(3, 3, 3)).plane[0]; };
-    const BrickVolume asStep = bricksOf(n, row, BrickFaces::Planes, {slope, wall, floor});
-    EXPECT_EQ(planeAt(asStep), BrickVolume::kNoPlane);
-    const LabelAt ramp = [&](auto i, auto j, auto k) { return heightOver(slope, i, j, k) < 0 ? 1u : 0u; };
-    const BrickVolume asSlope = bricksOf(n, ramp, BrickFaces::Planes, {slope});
-    for (std::int32_t by = 0; by < 8; ++by)
-        for (std::int32_t bz = 0; bz < 8; ++bz) {
-            const auto entry = asSlope.entry(4, by, bz);
-            if (!entry.isMixed()) continue;
-            ASSERT_TRUE(entry.isCoded()) << by << ' ' << bz;
-            EXPECT_NE(asSlope.coding(entry).plane[0], BrickVolume::kNoPlane) << by << ' ' << bz;
-        }
+TEST(FacesOfTheModel, DecideWhatARowOfVoxelsIs) {
+    // At the brim of a brick: the edge of a step, or where a slope leaves the brick. Of two labels, one along each
+    // half.
+    const Vec3i n{8, 8, 8};
+    const LabelAt row = [](auto i, auto j, auto k) { return j == 7 && k == 0 ? (i < 4 ? 1u : 2u) : 0u; };
+    const FacePlane slope = faceThrough({0, -0.6, 0.8}, {0, 7.5, 0.875}, n),
+                    between = faceThrough({1, 0, 0}, {4, 0, 0}, n);
+    const FacePlane side = faceThrough({0, 1, 0}, {0, 7, 0}, n), top = faceThrough({0, 0, 1}, {0, 0, 1}, n);
+    const BrickVolume asSlope = bricksOf(n, row, BrickFaces::Planes, {slope, between});
+    expectCodesHold(asSlope);
+    EXPECT_EQ(asSlope.coding(asSlope.entry(0, 0, 0)).cutAxes, 1u);
+    EXPECT_EQ(asSlope.oblique().size(), 1u);
+    const BrickVolume asStep = bricksOf(n, row, BrickFaces::Planes, {slope, between, side, top});
+    expectCodesHold(asStep);
+    EXPECT_EQ(asStep.coding(asStep.entry(0, 0, 0)).cutAxes, 7u);
+    EXPECT_TRUE(asStep.oblique().empty());
+}
+
+TEST(FacesOfTheModel, LetCutsStandBesidePlanesWhereTheyAre) {
+    // A beam over a slope; its two faces are known along the first bricks alone.
+    const Vec3i n{40, 8, 8};
+    const FacePlane slope = faceThrough({0.02, 0.5, 0.8}, {20.2, 4.1, 3.3}, n);
+    FacePlane side = faceThrough({0, 1, 0}, {0, 6, 0}, n), bottom = faceThrough({0, 0, 1}, {0, 0, 6}, n);
+    side.max[0] = bottom.max[0] = 8;
+    const BrickVolume bricks = bricksOf(n,
+                                        [&](auto i, auto j, auto k) {
+                                            return heightOver(slope, i, j, k) < 0 ? 1u : j >= 6 && k >= 6 ? 2u : 0u;
+                                        },
+                                        BrickFaces::Planes, {slope, side, bottom});
+    expectCodesHold(bricks);
+    const auto known = bricks.entry(0, 0, 0), unknown = bricks.entry(4, 0, 0);
+    ASSERT_TRUE(known.isCoded());
+    EXPECT_EQ(bricks.coding(known).cutAxes, 6u);
+    EXPECT_TRUE(!unknown.isCoded() || bricks.coding(unknown).cutAxes == 0);
 }
 
 TEST(FacesOfTheModel, AreNotBelievedAgainstSamples) {

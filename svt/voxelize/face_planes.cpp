@@ -129,7 +129,7 @@ volume::BrickPlane sharedPlane(const mesh::Plane& local, const IndexFromLocal& i
     return planeThrough(normal / length(normal), voxelSpace({0, 0, plane.offset / double(kQuanta)}));
 }
 
-// To 1e-6 voxel over 4000 voxels: what lies below is noise, and would be most of the planes' bytes in a file.
+// To 2e-6 voxel over 4000 voxels: what lies below is noise, and would be most of the planes' bytes in a file.
 volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
     constexpr double kNormal = double(std::int64_t{1} << 32), kOffset = double(1 << 20);
     volume::BrickPlane result;

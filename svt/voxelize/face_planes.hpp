@@ -12,7 +12,8 @@ namespace svt::voxelize {
 
 /// Planes of all faces that are large enough for bricks to be told by them: 32 square voxels on one plane, in triangles
 /// of one at least. Faces of all objects that lie on one plane (to 1/50 voxel) share it, whichever way they look.
-/// \return the planes, those with the largest area first Cost: O(triangles log triangles).
+/// \return the planes, those with the largest area first; none of faces outside of the grid
+/// Cost: O(triangles log triangles).
 [[nodiscard]] std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshScene& scene, const volume::Grid& grid);
 
 }  // namespace svt::voxelize
