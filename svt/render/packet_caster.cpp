@@ -63,6 +63,8 @@ PacketPasses::PacketPasses(const Scene& scene) {
         }
         packetScene.planeDirections = planeDirections_[pass.volume].data();
         packetScene.styleCount = static_cast<std::int64_t>(styles.size());
+        packetScene.hasOpaque = std::any_of(styles.begin(), styles.end(),
+                                            [](const PacketStyle& style) { return (style.kind & kOpaque) != 0; });
         styles.push_back(packetStyle({}));
         packetScene.styles = styles.data();
         const auto& levels = pass.occlusion.levels();
@@ -165,8 +167,10 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     }
     if (hasShapes_ || !scene_.passes[pass].clipper.isEmpty()) return castParts(scene);
     caps_.fill({});
-    from_ = rays_.from;
-    walkPacket(scene, rays_, rays_.from, rays_.to, {}, this, seen_);
+    spans_.from = rays_.from;
+    spans_.to = rays_.to;
+    spans_.capped.fill(0);
+    walkPacket(scene, rays_, spans_, this, seen_);
 }
 
 // The stretches of all rays, one after the other.
@@ -179,14 +183,15 @@ void PacketCaster::castParts(PacketScene& scene) {
         for (std::size_t block = 0; block < count_; block += kLineRays) findLines(block);
     if (scene_.passes[pass_].clipper.isEmpty()) {
         caps_.fill({});
-        from_ = rays_.from;
-        Lanes<double> to = rays_.to;
+        spans_.from = rays_.from;
+        spans_.to = rays_.to;
+        spans_.capped.fill(0);
         for (std::size_t n = 0; n < count_ && hasShapes && shapes.hasTriangles(); ++n) {
-            const DrawnInterval whole{from_[n], to[n], {}};
-            if (whole.from < whole.to) to[n] = std::min(to[n], findSurfaces(n, std::span(&whole, 1)));
+            const DrawnInterval whole{spans_.from[n], spans_.to[n], {}};
+            if (whole.from < whole.to) spans_.to[n] = std::min(whole.to, findSurfaces(n, std::span(&whole, 1)));
         }
         scene.hasFragments = hasShapes_ && !fragments_.items.empty();
-        walkPacket(scene, rays_, rays_.from, to, {}, this, seen_);
+        walkPacket(scene, rays_, spans_, this, seen_);
         addLastFragments();
         return;
     }
@@ -197,19 +202,19 @@ void PacketCaster::castParts(PacketScene& scene) {
         most = std::max(most, rayParts_[n].end - rayParts_[n].next);
     }
     scene.hasFragments = hasShapes_ && !fragments_.items.empty();
-    Lanes<std::int64_t> capped{};
     for (std::size_t part = 0; part < most; ++part) {
-        Lanes<double> to{};
-        from_.fill(0);
+        spans_.from.fill(0);
+        spans_.to.fill(0);
+        spans_.capped.fill(0);
         for (std::size_t n = 0; n < count_; ++n) {
             if (part >= rayParts_[n].end - rayParts_[n].next) continue;
             const DrawnInterval& interval = parts_[rayParts_[n].next + part];
-            from_[n] = interval.from;
-            to[n] = interval.to;
+            spans_.from[n] = interval.from;
+            spans_.to[n] = interval.to;
             caps_[n] = interval.cap;
-            capped[n] = interval.cap ? 1 : 0;
+            spans_.capped[n] = interval.cap ? 1 : 0;
         }
-        walkPacket(scene, rays_, from_, to, capped, this, seen_);
+        walkPacket(scene, rays_, spans_, this, seen_);
     }
     addLastFragments();
 }
@@ -328,7 +333,7 @@ Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
                          surface.axis,
                          static_cast<std::uint32_t>(surface.plane),
                          surface.isVoxel,
-                         surface.from == caster.from_[n] ? caster.caps_[n] : CapFace{}};
+                         surface.from == caster.spans_.from[n] ? caster.caps_[n] : CapFace{}};
     // The kernel lights what is opaque.
     return style.kind == Kind::Opaque ? light.facing(style, hit) : light.at(style, hit);
 }

@@ -67,7 +67,7 @@ private:
     std::size_t pass_ = 0;
     std::size_t volume_ = 0;  // that the rays are set up for
     std::array<CapFace, kPacketRays> caps_{};
-    Lanes<double> from_{};
+    PacketSpans spans_{};
     FragmentFinder finder_;
     std::vector<DrawnInterval> parts_;  // of all rays of the packet, ray by ray
     Fragments fragments_;               // the same

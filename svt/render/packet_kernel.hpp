@@ -84,7 +84,8 @@ struct PacketScene {
     Vec3d towardsLight;
     double ambient = 0, key = 0;
     double opaqueAt = 1, labelAt = 0;
-    bool withColor = true;  ///< false: ends at the first label, without light
+    bool hasOpaque = false;  ///< whether any style is opaque
+    bool withColor = true;   ///< false: ends at the first label, without light
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
     bool hasFragments = false;  ///< rays may come to lines or meshes; else samples.lines and nextFragment are not read
     /// Adds the next fragment of a ray to its samples.
@@ -95,10 +96,14 @@ struct PacketScene {
 /// \return whether any is
 bool setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
 
-/// Walks the rays over [from, to) each, which must lie in rays.from and rays.to, and adds to `samples`.
-/// \param capped   not 0 where a clip plane made the start of the stretch
-/// \param context  handed to scene.surface
-void walkPacket(const PacketScene& scene, const PacketRays& rays, const Lanes<double>& from, const Lanes<double>& to,
-                const Lanes<std::int64_t>& capped, void* context, PacketSamples& samples);
+/// Where the rays of a packet are cast: on [from, to) each, which must lie in PacketRays::from and to.
+struct PacketSpans {
+    Lanes<double> from, to;
+    Lanes<std::int64_t> capped{};  ///< not 0 where a clip made the start
+};
+
+/// Walks the rays over their spans and adds to `samples`. \param context  handed to scene.surface
+void walkPacket(const PacketScene& scene, const PacketRays& rays, const PacketSpans& spans, void* context,
+                PacketSamples& samples);
 
 }  // namespace svt::render
