@@ -25,9 +25,14 @@ public:
     /// The one table.
     [[nodiscard]] static const SrgbBytes& table();
 
-    [[nodiscard]] std::uint8_t fromLinear(float channel) const noexcept {
+    [[nodiscard]] std::uint8_t fromLinear(float channel) const noexcept { return (*this)[place(channel)]; }
+    /// In two steps, for many at once: where in the table a channel stands, and what stands there.
+    [[nodiscard]] static std::int32_t place(float channel) noexcept {
         const float c = std::min(std::max(channel, 0.0f), 1.0f);
-        return bytes_[static_cast<std::size_t>(static_cast<std::int32_t>(c * static_cast<float>(kLast) + 0.5f))];
+        return static_cast<std::int32_t>(c * static_cast<float>(kLast) + 0.5f);
+    }
+    [[nodiscard]] std::uint8_t operator[](std::int32_t place) const noexcept {
+        return bytes_[static_cast<std::size_t>(place)];
     }
 
 private:

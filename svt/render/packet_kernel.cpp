@@ -107,10 +107,11 @@ private:
         bool isShaded = false;
 
         HWY_INLINE Group(const PacketScene& scene, const PacketRays& rays, const PacketSpans& spans, void* context,
-                         PacketSamples& samples, std::size_t first)
+                         PacketSamples& samples, const bool (&goBack)[3], std::size_t first)
             : vectors(scene, rays, first),
               walk(scene, rays, vectors, first, changes),
               shader(scene, rays, vectors, first, context, samples) {
+            vectors.isPlain = vectors.go(goBack);
             changes.clear();
             walk.begin(spans.from, spans.to, samples.isDone);
         }
@@ -121,8 +122,9 @@ private:
                       PacketSamples& samples, std::index_sequence<kNumbers...>)
         : scene_(scene),
           spans_(spans),
+          goBack_{rays.direction[0][0] < 0, rays.direction[1][0] < 0, rays.direction[2][0] < 0},
           mostChanges_(scene.withColor ? ChangeRows::kFull : 1),
-          groups_{Group(scene, rays, spans, context, samples, kNumbers * hn::MaxLanes(D()))...} {}
+          groups_{Group(scene, rays, spans, context, samples, goBack_, kNumbers * hn::MaxLanes(D()))...} {}
 
     // What the group has come to is given to its shader; rays that it ends go no further.
     HWY_NOINLINE void shade(Group& group) {
@@ -181,7 +183,11 @@ private:
     }
     // All rays that are in a box cross it.
     template <class Cross>
-    HWY_INLINE void crossAll(const Bounds& bounds, const Cross& cross) {
+    HWY_INLINE void crossAll(Bounds& bounds, const Cross& cross) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            bounds.ahead[axis] = goBack_[axis] ? bounds.low[axis] : bounds.high[axis];
+            bounds.behind[axis] = goBack_[axis] ? bounds.high[axis] : bounds.low[axis];
+        }
         for (Group& group : groups_) {
             const Walk::Inside inside = group.walk.findInside(bounds);
             if (!any(inside.lanes)) continue;
@@ -189,18 +195,19 @@ private:
             if (group.changes.count() >= mostChanges_) shade(group);
         }
     }
-    HWY_INLINE void crossUniform(const Bounds& bounds, std::int64_t scalar) {
+    HWY_INLINE void crossUniform(Bounds& bounds, std::int64_t scalar) {
         crossAll(bounds, [&](Walk& walk, const Walk::Inside& inside) { walk.crossUniform(inside, scalar); });
     }
-    HWY_INLINE void crossCoded(const Bounds& bounds, const volume::BrickVolume::BoxCoding& code) {
+    HWY_INLINE void crossCoded(Bounds& bounds, const volume::BrickVolume::BoxCoding& code) {
         crossAll(bounds, [&](Walk& walk, const Walk::Inside& inside) { walk.crossCoded(inside, code); });
     }
-    HWY_INLINE void crossVoxels(const Bounds& bounds, const volume::BrickVolume::PaletteBrick& brick) {
+    HWY_INLINE void crossVoxels(Bounds& bounds, const volume::BrickVolume::PaletteBrick& brick) {
         crossAll(bounds, [&](Walk& walk, const Walk::Inside& inside) { walk.crossVoxels(inside, bounds, brick); });
     }
 
     const PacketScene& scene_;
     const PacketSpans& spans_;
+    bool goBack_[3];  // the first ray along each axis; nearly always all do
     std::size_t mostChanges_;
     std::array<Group, kGroups> groups_;
 };

@@ -120,8 +120,8 @@ HWY_INLINE bool isSame(VI numbers, M lanes, std::int64_t& first) {
 struct RayVectors {
     Axis x, y, z;
     V slack;
-    bool areMoving;              // all rays along all axes
-    bool areSameWay, goBack[3];  // all rays to the same side along each axis; which one
+    bool areMoving;        // all rays along all axes
+    bool isPlain = false;  // and to the same side as all of the packet
 
     HWY_INLINE RayVectors(const PacketScene& scene, const PacketRays& rays, std::size_t first)
         : x(axisOf(scene, rays, first, 0)),
@@ -129,12 +129,15 @@ struct RayVectors {
           z(axisOf(scene, rays, first, 2)),
           slack(hn::Load(D(), rays.slack.data() + first)) {
         areMoving = hn::AllTrue(D(), hn::And(hn::And(x.isMoving, y.isMoving), z.isMoving));
-        areSameWay = true;
-        const Axis* const axes[3]{&x, &y, &z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            goBack[axis] = hn::AllTrue(D(), axes[axis]->isNegative);
-            areSameWay = areSameWay && (goBack[axis] || hn::AllFalse(D(), axes[axis]->isNegative));
-        }
+    }
+
+    // Whether all rays move along all axes, and back along those of `goBack` alone.
+    HWY_INLINE bool go(const bool (&goBack)[3]) const {
+        const auto isSo = [&](const Axis& axis, bool back) {
+            return hn::AllTrue(D(), axis.isMoving) &&
+                   (back ? hn::AllTrue(D(), axis.isNegative) : hn::AllFalse(D(), axis.isNegative));
+        };
+        return isSo(x, goBack[0]) && isSo(y, goBack[1]) && isSo(z, goBack[2]);
     }
 
     // The plane between voxels that a ray is nearest to at t, and when it crosses it.

@@ -15,9 +15,10 @@ HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
 namespace {
 
-// Voxels [low, high) of a box.
+// Voxels [low, high) of a box, and the same as rays of one direction come upon them.
 struct Bounds {
     double low[3], high[3];
+    double ahead[3], behind[3];
 };
 
 // Walks as many rays as one vector takes, and writes down where their labels change.
@@ -33,16 +34,12 @@ public:
         t_ = hn::Load(d, from.data() + first_);
         end_ = hn::Load(d, to.data() + first_);
         const M isOver = toDoubles(hn::Ne(hn::Load(DI(), isDone.data() + first_), hn::Zero(DI())));
-        active_ = andNot(isOver, hn::Lt(t_, end_));
-        t_ = hn::IfThenElse(active_, t_, hn::Set(d, kInfinity));
+        t_ = hn::IfThenElse(andNot(isOver, hn::Lt(t_, end_)), t_, hn::Set(d, kInfinity));
         runScalar_ = crossed_ = hn::Set(DI(), -1);
     }
 
     // Ends rays.
-    HWY_INLINE void end(M lanes) {
-        active_ = andNot(lanes, active_);
-        t_ = hn::IfThenElse(lanes, hn::Set(D(), kInfinity), t_);
-    }
+    HWY_INLINE void end(M lanes) { t_ = hn::IfThenElse(lanes, hn::Set(D(), kInfinity), t_); }
 
     // Where the rays are; infinity for those that have ended.
     HWY_INLINE V times() const { return t_; }
@@ -73,30 +70,15 @@ public:
     };
     HWY_INLINE Inside findInside(const Bounds& box) const {
         const D d;
-        Inside inside;
-        inside.lanes = active_;
-        const auto leaveTime = [&](const Axis& axis, std::size_t number) {
-            const V low = hn::Set(d, box.low[number]), high = hn::Set(d, box.high[number]);
-            V ahead, behind;
-            if (vectors_.areSameWay) {
-                // Mostly so; nothing needs to be chosen by lane.
-                ahead = hn::Set(d, vectors_.goBack[number] ? box.low[number] : box.high[number]);
-                behind = hn::Set(d, vectors_.goBack[number] ? box.high[number] : box.low[number]);
-            } else {
-                ahead = hn::IfThenElse(axis.isNegative, low, high);
-                behind = hn::IfThenElse(axis.isNegative, high, low);
-            }
-            const V leave = axis.planeTime(ahead), enter = axis.planeTime(behind);
-            M isIn = hn::And(hn::Le(enter, t_), hn::Lt(t_, leave));
-            if (!vectors_.areMoving)
-                isIn =
-                    hn::Or(isIn, andNot(axis.isMoving, hn::And(hn::Ge(axis.origin, low), hn::Lt(axis.origin, high))));
-            inside.lanes = hn::And(inside.lanes, isIn);
-            return leave;
-        };
-        const V x = leaveTime(vectors_.x, 0), y = leaveTime(vectors_.y, 1), z = leaveTime(vectors_.z, 2);
-        inside.exit = hn::Min(hn::Min(x, y), z);
-        return inside;
+        if (HWY_LIKELY(vectors_.isPlain)) {
+            const auto time = [&](const Axis& axis, double plane) { return axis.planeTime(hn::Set(d, plane)); };
+            const V exit = hn::Min(hn::Min(time(vectors_.x, box.ahead[0]), time(vectors_.y, box.ahead[1])),
+                                   time(vectors_.z, box.ahead[2]));
+            const V entry = hn::Max(hn::Max(time(vectors_.x, box.behind[0]), time(vectors_.y, box.behind[1])),
+                                    time(vectors_.z, box.behind[2]));
+            return {hn::And(hn::Le(entry, t_), hn::Lt(t_, exit)), exit};
+        }
+        return findInsideByLane(box);
     }
 
     // Through a box of one label.
@@ -195,6 +177,24 @@ public:
     }
 
 private:
+    HWY_NOINLINE Inside findInsideByLane(const Bounds& box) const {
+        const D d;
+        Inside inside;
+        inside.lanes = hn::Lt(t_, end_);
+        const auto leaveTime = [&](const Axis& axis, std::size_t number) {
+            const V low = hn::Set(d, box.low[number]), high = hn::Set(d, box.high[number]);
+            const V leave = axis.planeTime(hn::IfThenElse(axis.isNegative, low, high));
+            const V enter = axis.planeTime(hn::IfThenElse(axis.isNegative, high, low));
+            const M isIn = hn::And(hn::Le(enter, t_), hn::Lt(t_, leave));
+            const M stays = andNot(axis.isMoving, hn::And(hn::Ge(axis.origin, low), hn::Lt(axis.origin, high)));
+            inside.lanes = hn::And(inside.lanes, hn::Or(isIn, stays));
+            return leave;
+        };
+        const V x = leaveTime(vectors_.x, 0), y = leaveTime(vectors_.y, 1), z = leaveTime(vectors_.z, 2);
+        inside.exit = hn::Min(hn::Min(x, y), z);
+        return inside;
+    }
+
     // When the rays change sides of a cut or plane; whether they are beyond from then on, or until then.
     struct Side {
         V time;
@@ -243,7 +243,6 @@ private:
         const D d;
         const M goesOn = hn::And(lanes, hn::Lt(t, end_));
         t_ = hn::IfThenElse(lanes, hn::IfThenElse(goesOn, t, hn::Set(d, kInfinity)), t_);
-        active_ = andNot(andNot(goesOn, lanes), active_);
         return goesOn;
     }
 
@@ -255,9 +254,11 @@ private:
         changes_.add(changed, t_, scalar, crossed_, isVoxel);
         if (scene_.hasOpaque) {
             const VI kind = styles_.integer<offsetof(PacketStyle, kind)>(styles_.looksOf(scalar, changed));
-            end(hn::And(changed, toDoubles(isSet(kind, PacketKind::kOpaque))));
+            const M ending = hn::And(changed, toDoubles(isSet(kind, PacketKind::kOpaque)));
+            end(ending);
+            lanes = andNot(ending, lanes);
         }
-        return hn::And(active_, lanes);
+        return lanes;
     }
 
     const PacketScene& scene_;
@@ -268,7 +269,6 @@ private:
     ChangeRows& changes_;
     V t_, end_;
     VI runScalar_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
-    M active_;
 };
 
 }  // namespace

@@ -256,52 +256,58 @@ float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d
 }
 
 void TileRenderer::fillBackground() {
-    for (std::int32_t y = 0; y < tileHeight_; ++y) {
-        const Rgba8 pixel = pixelOf({}, 0, backgroundOf(y));
-        for (std::int32_t x = 0; x < tileWidth_; ++x) frame_.color.at(tileX_ + x, tileY_ + y) = pixel;
-    }
+    for (std::int32_t y = 0; y < tileHeight_; ++y) writeColors(y, {});
 }
 
 void TileRenderer::writePixels() {
     const bool isOdd = layout_.side % 2 == 1;
     const bool isAdaptive = packets_ && scene_.isAdaptive;
     if (!isOdd && !isAdaptive) castCenters();
+    const auto centerOf = [&](std::int32_t x, std::int32_t y) -> const Sample& {
+        if (isOdd) return samples_[at(x * layout_.side + layout_.side / 2, y * layout_.side + layout_.side / 2)];
+        return isAdaptive ? pixels_[middleOf(x, y)] : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
+    };
+    LightRow row{};
     for (std::int32_t y = 0; y < tileHeight_; ++y) {
-        const Vec3f background = backgroundOf(y);
-        const Rgba8 backgroundPixel = pixelOf({}, 0, background);
+        volume::Scalar* labels = &frame_.label.at(tileX_, tileY_ + y);
+        float* depths = &frame_.depth.at(tileX_, tileY_ + y);
         for (std::int32_t x = 0; x < tileWidth_; ++x) {
-            const Sample& center =
-                isOdd        ? samples_[at(x * layout_.side + layout_.side / 2, y * layout_.side + layout_.side / 2)]
-                : isAdaptive ? pixels_[middleOf(x, y)]
-                             : centers_[static_cast<std::size_t>(x + y * tileWidth_)];
-            const auto [color, alpha] = lightOf(x, y);
-            frame_.color.at(tileX_ + x, tileY_ + y) = alpha > 0 ? pixelOf(color, alpha, background) : backgroundPixel;
-            frame_.label.at(tileX_ + x, tileY_ + y) = center.label;
-            frame_.depth.at(tileX_ + x, tileY_ + y) = center.depth;
+            const auto n = static_cast<std::size_t>(x);
+            const Sample& center = centerOf(x, y);
+            labels[n] = center.label;
+            depths[n] = center.depth;
+            const auto [color, alpha] = layout_.side == 1 ? lightOf(at(x, y)) : lightOf(x, y);
+            row.red[n] = color.x;
+            row.green[n] = color.y;
+            row.blue[n] = color.z;
+            row.alpha[n] = alpha;
         }
+        writeColors(y, row);
     }
 }
 
+TileRenderer::PixelLight TileRenderer::lightOf(std::size_t place) const noexcept {
+    const Sample& sample = samples_[place];
+    if (sample.alpha <= 0) return {{}, 0};
+    // Light above 1 must not spill into the neighbours of a pixel.
+    const Vec3f color{std::min(sample.color.x, 1.0f), std::min(sample.color.y, 1.0f), std::min(sample.color.z, 1.0f)};
+    const float line = layout_.margin > 0 ? scene_.spec.borders.strength * lines_[place] : 0;
+    if (line == 0) return {color, sample.alpha};
+    // A line is seen, however thin the glass it borders.
+    const float covered = sample.alpha + (1 - sample.alpha) * line * kGlassLine;
+    return {color * (1 - line) + lineColor_ * (line * covered), covered};
+}
+
 TileRenderer::PixelLight TileRenderer::lightOf(std::int32_t x, std::int32_t y) const noexcept {
-    Vec3f color{};
-    float alpha = 0;
+    PixelLight sum{};
     for (std::int32_t sy = y * layout_.side; sy < (y + 1) * layout_.side; ++sy)
         for (std::int32_t sx = x * layout_.side; sx < (x + 1) * layout_.side; ++sx) {
-            const Sample& sample = samples_[at(sx, sy)];
-            if (sample.alpha <= 0) continue;
-            const float line = layout_.margin > 0 ? scene_.spec.borders.strength * lines_[at(sx, sy)] : 0;
-            // A line is seen, however thin the glass it borders.
-            const float covered = sample.alpha + (1 - sample.alpha) * line * kGlassLine;
-            // Light above 1 must not spill into the neighbours of a pixel.
-            color =
-                color +
-                Vec3f{std::min(sample.color.x, 1.0f), std::min(sample.color.y, 1.0f), std::min(sample.color.z, 1.0f)} *
-                    (1 - line) +
-                lineColor_ * (line * covered);
-            alpha += covered;
+            const PixelLight light = lightOf(at(sx, sy));
+            sum.color = sum.color + light.color;
+            sum.alpha += light.alpha;
         }
     const float share = 1.0f / static_cast<float>(layout_.side * layout_.side);
-    return {color * share, alpha * share};
+    return {sum.color * share, sum.alpha * share};
 }
 
 Vec3f TileRenderer::backgroundOf(std::int32_t y) const noexcept {
@@ -309,17 +315,29 @@ Vec3f TileRenderer::backgroundOf(std::int32_t y) const noexcept {
     return backgroundTop_ + (backgroundBottom_ - backgroundTop_) * down;
 }
 
-Rgba8 TileRenderer::pixelOf(Vec3f color, float alpha, Vec3f background) const noexcept {
-    const float rest = (1 - alpha) * scene_.spec.background.alpha;
-    color = color + background * rest;
-    alpha += rest;
-    Rgba8 pixel;
-    if (alpha <= 0) return pixel;
-    pixel.r = bytes_.fromLinear(color.x / alpha);
-    pixel.g = bytes_.fromLinear(color.y / alpha);
-    pixel.b = bytes_.fromLinear(color.z / alpha);
-    pixel.a = static_cast<std::uint8_t>(std::min(alpha, 1.0f) * 255 + 0.5f);
-    return pixel;
+// Premultiplied linear light over the background.
+void TileRenderer::writeColors(std::int32_t y, const LightRow& row) noexcept {
+    const Vec3f background = backgroundOf(y);
+    const float behind = scene_.spec.background.alpha;
+    const bool isEmpty = std::all_of(row.alpha.begin(), row.alpha.end(), [](float alpha) { return alpha <= 0; });
+    const std::size_t count = isEmpty ? 1 : static_cast<std::size_t>(tileWidth_);
+    // All at once, so that the compiler may take several in one instruction; looked up after.
+    std::array<std::int32_t, kTilePixels> red, green, blue, alpha;
+    for (std::size_t n = 0; n < count; ++n) {
+        const float rest = (1 - row.alpha[n]) * behind, covered = row.alpha[n] + rest;
+        const float safe = covered > 0 ? covered : 1;
+        red[n] = SrgbBytes::place((row.red[n] + background.x * rest) / safe);
+        green[n] = SrgbBytes::place((row.green[n] + background.y * rest) / safe);
+        blue[n] = SrgbBytes::place((row.blue[n] + background.z * rest) / safe);
+        alpha[n] = static_cast<std::int32_t>(std::min(covered, 1.0f) * 255 + 0.5f);
+    }
+    Rgba8* pixels = &frame_.color.at(tileX_, tileY_ + y);
+    const bool isOpen = behind <= 0;
+    for (std::size_t n = 0; n < count; ++n)
+        pixels[n] = isOpen && row.alpha[n] <= 0
+                        ? Rgba8{}
+                        : Rgba8{bytes_[red[n]], bytes_[green[n]], bytes_[blue[n]], static_cast<std::uint8_t>(alpha[n])};
+    if (isEmpty) std::fill_n(pixels, tileWidth_, Rgba8(pixels[0]));
 }
 
 }  // namespace svt::render

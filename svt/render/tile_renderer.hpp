@@ -7,6 +7,7 @@
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/sample_caster.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -61,13 +62,18 @@ private:
     void fillBackground();
     /// The background in row y of the tile, linear light.
     [[nodiscard]] Vec3f backgroundOf(std::int32_t y) const noexcept;
-    /// Premultiplied linear light over the background.
-    [[nodiscard]] Rgba8 pixelOf(Vec3f color, float alpha, Vec3f background) const noexcept;
     struct PixelLight {
         Vec3f color;  ///< premultiplied
         float alpha;
     };
+    /// Of one sample, with its line; of a pixel.
+    [[nodiscard]] PixelLight lightOf(std::size_t place) const noexcept;
     [[nodiscard]] PixelLight lightOf(std::int32_t x, std::int32_t y) const noexcept;
+    // The light of a row of pixels.
+    struct LightRow {
+        std::array<float, kTilePixels> red{}, green{}, blue{}, alpha{};
+    };
+    void writeColors(std::int32_t y, const LightRow& row) noexcept;
 
     [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y) const noexcept {
         return static_cast<std::size_t>(x + layout_.margin) +
