@@ -48,43 +48,30 @@ OcclusionField::OcclusionField(const volume::BrickVolume& volume, double voxelSi
     for (std::size_t n = 0; n < ofBox.size(); ++n) ofBox[n] = isOpaque(volume.boxes()[n].scalar) ? 512 : 0;
 
     const int shift = blockShift(voxelSize);
-    const auto voxelsOf = [&](volume::BrickVolume::Entry entry) {
-        return entry.isMixed() ? ofPaletteBrick[volume.paletteBrickNumber(entry)] : ofBox[volume.boxNumber(entry)];
-    };
-    const auto voxelsIn = [&](Vec3i block) {
-        if (shift == 0) return voxelsOf(volume.entry(block.x, block.y, block.z));
-        Vec3i from, to;  // bricks
-        for (int axis = 0; axis < 3; ++axis) {
-            from[axis] = block[axis] << shift;
-            to[axis] = std::min(from[axis] + (1 << shift), volume.brickCount()[axis]);
-        }
-        // Most blocks lie in a box of one label.
-        const auto first = volume.entry(from.x, from.y, from.z);
-        if (!first.isMixed()) {
-            const volume::SameLabelBox& box = volume.boxes()[volume.boxNumber(first)];
-            if (to.x * 8 <= box.max[0] + 7 && to.y * 8 <= box.max[1] + 7 && to.z * 8 <= box.max[2] + 7)
-                return ofBox[volume.boxNumber(first)] *
-                       static_cast<std::uint32_t>((to.x - from.x) * (to.y - from.y) * (to.z - from.z));
-        }
-        std::uint32_t sum = 0;
-        for (std::int32_t z = from.z; z < to.z; ++z)
-            for (std::int32_t y = from.y; y < to.y; ++y)
-                for (std::int32_t x = from.x; x < to.x; ++x) sum += voxelsOf(volume.entry(x, y, z));
-        return sum;
-    };
     const double size = 8 << shift;
     const auto blocks = [&](std::int32_t bricks) { return (bricks + (1 << shift) - 1) >> shift; };
     const Vec3i bricks = volume.brickCount();
     Level level = emptyLevel({blocks(bricks.x), blocks(bricks.y), blocks(bricks.z)}, size, kWeights[0]);
-    parallelFor(static_cast<std::size_t>(level.count.z), 4, threads, [&](std::size_t begin, std::size_t end) {
+    parallelFor(static_cast<std::size_t>(level.count.z), 1, threads, [&](std::size_t begin, std::size_t end) {
+        const auto last = std::min(static_cast<std::int32_t>(end) << shift, bricks.z);
+        for (std::int32_t z = static_cast<std::int32_t>(begin) << shift; z < last; ++z)
+            for (std::int32_t y = 0; y < bricks.y; ++y) {
+                std::uint32_t* row = &level.voxels[level.at(0, y >> shift, z >> shift)];
+                volume.forRow(
+                    y, z,
+                    [&](std::int32_t first, std::int32_t behind, std::size_t box) {
+                        if (ofBox[box] == 0) return;
+                        for (std::int32_t x = first; x < behind; ++x) row[x >> shift] += ofBox[box];
+                    },
+                    [&](std::int32_t x, std::size_t number) { row[x >> shift] += ofPaletteBrick[number]; });
+            }
+        if (clipper.isEmpty()) return;
         for (auto z = static_cast<std::int32_t>(begin); z < static_cast<std::int32_t>(end); ++z)
             for (std::int32_t y = 0; y < level.count.y; ++y)
                 for (std::int32_t x = 0; x < level.count.x; ++x) {
-                    std::uint32_t voxels = voxelsIn({x, y, z});
-                    if (voxels > 0 && !clipper.isEmpty() &&
-                        !clipper.keeps({size * (x + 0.5), size * (y + 0.5), size * (z + 0.5)}))
+                    std::uint32_t& voxels = level.voxels[level.at(x, y, z)];
+                    if (voxels > 0 && !clipper.keeps({size * (x + 0.5), size * (y + 0.5), size * (z + 0.5)}))
                         voxels = 0;
-                    level.voxels[level.at(x, y, z)] = voxels;
                 }
     });
     levels_.push_back(std::move(level));
@@ -96,13 +83,13 @@ OcclusionField::Level OcclusionField::halved(const Level& fine) {
     const Vec3i count{(fine.count.x + 1) / 2, (fine.count.y + 1) / 2, (fine.count.z + 1) / 2};
     Level level = emptyLevel(count, 2 * fine.cellSize, 0);
     for (std::int32_t z = 0; z < count.z; ++z)
-        for (std::int32_t y = 0; y < count.y; ++y)
-            for (std::int32_t x = 0; x < count.x; ++x) {
-                std::uint32_t sum = 0;
-                for (std::int32_t c = 0; c < 8; ++c)  // at an odd end the second block is the empty one
-                    sum += fine.voxels[fine.at(2 * x + (c & 1), 2 * y + ((c >> 1) & 1), 2 * z + (c >> 2))];
-                level.voxels[level.at(x, y, z)] = sum;
+        for (std::int32_t y = 0; y < count.y; ++y) {
+            std::uint32_t* to = &level.voxels[level.at(0, y, z)];
+            for (std::int32_t c = 0; c < 4; ++c) {  // at an odd end the second block is the empty one
+                const std::uint32_t* from = &fine.voxels[fine.at(0, 2 * y + (c & 1), 2 * z + (c >> 1))];
+                for (std::int32_t x = 0; x < count.x; ++x) to[x] += from[2 * x] + from[2 * x + 1];
             }
+        }
     return level;
 }
 

@@ -37,10 +37,14 @@ PacketOcclusion packetOcclusion(const OcclusionField::Level& level) noexcept {
 
 PacketPasses::PacketPasses(const Scene& scene) {
     for (const PreparedVolume& volume : scene.volumes) {
-        auto& numbers = planeDirections_.emplace_back();
-        numbers.reserve(8 * volume.directions.planes().size());
-        for (const auto& [normal, away] : volume.directions.planes())
-            numbers.insert(numbers.end(), {normal.x, normal.y, normal.z, away.x, away.y, away.z, 0, 0});
+        auto& faces = faces_.emplace_back();
+        const auto addSides = [&](const DirectionTable::Directions& found) {
+            const auto& [normal, away] = found;
+            faces.push_back({{normal.x, normal.y, normal.z}, {away.x, away.y, away.z}, {}});
+            faces.push_back({{-normal.x, -normal.y, -normal.z}, {-away.x, -away.y, -away.z}, {}});
+        };
+        for (int axis = 0; axis < 3; ++axis) addSides(volume.directions.axis(axis));
+        for (const DirectionTable::Directions& plane : volume.directions.planes()) addSides(plane);
     }
     PacketScene shared;
     shared.towardsLight = scene.towardsLight;
@@ -58,10 +62,8 @@ PacketPasses::PacketPasses(const Scene& scene) {
         packetScene.bricksY = volume.bricks.brickCount().y;
         for (int axis = 0; axis < 3; ++axis) {
             packetScene.count[axis] = volume.bricks.dimension()[axis];
-            packetScene.axisNormals[axis] = volume.directions.axis(axis).normal;
-            packetScene.axisAways[axis] = volume.directions.axis(axis).away;
         }
-        packetScene.planeDirections = planeDirections_[pass.volume].data();
+        packetScene.faces = faces_[pass.volume].data();
         packetScene.styleCount = static_cast<std::int64_t>(styles.size());
         packetScene.hasOpaque = std::any_of(styles.begin(), styles.end(),
                                             [](const PacketStyle& style) { return (style.kind & kOpaque) != 0; });

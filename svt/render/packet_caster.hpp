@@ -22,7 +22,7 @@ public:
 
 private:
     std::vector<std::vector<PacketStyle>> styles_;
-    std::vector<std::vector<double>> planeDirections_;  // by volume
+    std::vector<std::vector<PacketFace>> faces_;  // by volume
     std::vector<PacketScene> passes_;
 };
 

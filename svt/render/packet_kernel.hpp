@@ -64,6 +64,11 @@ struct PacketSurface {
     bool isVoxel;
 };
 
+/// Surface::normal and Surface::away of all that is seen of a plane from one side.
+struct PacketFace {
+    double normal[3], away[3], unused[2];
+};
+
 /// OcclusionField::Level, for reading.
 struct PacketOcclusion {
     const std::uint32_t* voxels = nullptr;
@@ -77,8 +82,9 @@ struct PacketScene {
     double count[3]{};                    ///< voxels
     const PacketStyle* styles = nullptr;  ///< by scalar; one more, hidden, for all scalars from styleCount on
     std::int64_t styleCount = 0;
-    const double* planeDirections = nullptr;  ///< of volume.oblique: Surface::normal and Surface::away, 8 numbers each
-    Vec3d axisNormals[3], axisAways[3];       ///< the same of voxel faces
+    /// 2 a, 2 a + 1: faces of voxels across axis a, seen by rays that go back along it, and on; from 6 on, the same for
+    /// each of volume.oblique: seen from its positive side, and from the other.
+    const PacketFace* faces = nullptr;
     std::array<PacketOcclusion, OcclusionField::kLevels> occlusion;
     double ambientOcclusion = 0;
     Vec3d towardsLight;

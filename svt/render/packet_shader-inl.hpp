@@ -296,32 +296,28 @@ private:
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
         const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
         M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
-        M isNowhere = hn::Not(isOblique);
-        V faceAxis = hn::Set(d, -1.0), faceAt = zero;
-        V3 normal{zero, zero, zero}, away = normal;
-        // The first axis whose plane the ray crosses at t.
-        const auto face = [&](const Axis& axis, std::size_t number) {
-            const RayVectors::NearPlane near = RayVectors::nearPlane(axis, t_);
-            const M isHere = hn::And(hn::And(isNowhere, axis.isMoving), hn::Eq(near.time, t_));
-            isNowhere = andNot(isHere, isNowhere);
-            faceAxis = hn::IfThenElse(isHere, hn::Set(d, static_cast<double>(number)), faceAxis);
-            faceAt = hn::IfThenElse(isHere, near.plane, faceAt);
-            const auto part = [&](V known, double value) {
-                const V up = hn::Set(d, value);
-                return hn::IfThenElse(isHere, hn::IfThenElse(axis.isNegative, up, hn::Neg(up)), known);
+        M isNowhere = hn::Lt(zero, zero);
+        V faceAxis = hn::Set(d, -1.0);
+        VI face = hn::Zero(di);  // of PacketScene::faces
+        if (const M onGrid = andNot(isOblique, lanes); any(onGrid)) {
+            // The first axis whose plane the ray crosses at t.
+            const auto nearX = RayVectors::nearPlane(vectors_.x, t_), nearY = RayVectors::nearPlane(vectors_.y, t_),
+                       nearZ = RayVectors::nearPlane(vectors_.z, t_);
+            const M isX = hn::Eq(nearX.time, t_), isY = hn::Eq(nearY.time, t_), isZ = hn::Eq(nearZ.time, t_);
+            const auto first = [&](V ofX, V ofY, V ofZ) {
+                return hn::IfThenElse(isX, ofX, hn::IfThenElse(isY, ofY, ofZ));
             };
-            const Vec3d n = scene_.axisNormals[number], a = scene_.axisAways[number];
-            normal = {part(normal.x, n.x), part(normal.y, n.y), part(normal.z, n.z)};
-            away = {part(away.x, a.x), part(away.y, a.y), part(away.z, a.z)};
-        };
-        if (any(hn::And(lanes, isNowhere))) {
-            face(vectors_.x, 0);
-            face(vectors_.y, 1);
-            face(vectors_.z, 2);
+            const auto side = [&](const Axis& axis, double number) {
+                return hn::IfThenElse(axis.isNegative, hn::Set(d, 2 * number), hn::Set(d, 2 * number + 1));
+            };
+            isNowhere = andNot(hn::Or(isX, hn::Or(isY, isZ)), onGrid);
+            faceAxis = first(zero, one, hn::Set(d, 2.0));
+            faceAxis = hn::IfThenElse(isNowhere, hn::Set(d, -1.0), faceAxis);
+            face = toInt(first(side(vectors_.x, 0), side(vectors_.y, 1), side(vectors_.z, 2)));
             // On the side of a brick?
-            const V fraction = hn::Mul(faceAt, hn::Set(d, 0.125));
-            const M atSide = hn::And(lanes, hn::Eq(hn::Floor(fraction), fraction));
-            const M atSeam = hn::And(andNot(hn::Or(isNowhere, isOblique), atSide), hn::Gt(t_, from_));
+            const V fraction = hn::Mul(first(nearX.plane, nearY.plane, nearZ.plane), hn::Set(d, 0.125));
+            const M atSide = hn::And(onGrid, hn::Eq(hn::Floor(fraction), fraction));
+            const M atSeam = hn::And(andNot(isNowhere, atSide), hn::Gt(t_, from_));
             if (any(atSeam)) {
                 crossed_ = seamPlanes(atSeam, faceAxis);
                 isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
@@ -329,35 +325,37 @@ private:
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {
-            const auto& oblique = scene_.volume.oblique;
-            // Of planes: normals in voxel space, and Surface::normal and Surface::away.
-            V3 index, ofNormal, ofAway;
+            const auto* planes = reinterpret_cast<const double*>(scene_.volume.oblique.data());
+            V3 normal;  // voxel space
             std::int64_t first = 0;
             if (isSame(crossed_, onPlane, first)) {
-                const double* directions = scene_.planeDirections + 8 * first;
-                index = broadcast(oblique[static_cast<std::size_t>(first)].normal);
-                ofNormal = broadcast({directions[0], directions[1], directions[2]});
-                ofAway = broadcast({directions[3], directions[4], directions[5]});
+                const double* same = planes + 4 * first;
+                normal = broadcast({same[0], same[1], same[2]});
             } else {
-                const VI number = hn::IfThenElseZero(toInts(onPlane), crossed_);
-                const VI plane = hn::ShiftLeft<5>(number), direction = hn::ShiftLeft<6>(number);
-                const auto indexPart = [&](int n) {
-                    return hn::BitCast(d, gatherBytes(reinterpret_cast<const double*>(oblique.data()) + n, plane));
-                };
-                const auto part = [&](int n) {
-                    return hn::BitCast(d, gatherBytes(scene_.planeDirections + n, direction));
-                };
-                index = {indexPart(0), indexPart(1), indexPart(2)};
-                ofNormal = {part(0), part(1), part(2)};
-                ofAway = {part(3), part(4), part(5)};
+                const VI plane = hn::ShiftLeft<5>(hn::IfThenElseZero(toInts(onPlane), crossed_));
+                const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(planes + n, plane)); };
+                normal = {part(0), part(1), part(2)};
             }
             const M isAway =
-                hn::Gt(dot(index, {vectors_.x.direction, vectors_.y.direction, vectors_.z.direction}), zero);
-            const auto turned = [&](V value, V known) {
-                return hn::IfThenElse(onPlane, hn::IfThenElse(isAway, hn::Neg(value), value), known);
-            };
-            normal = {turned(ofNormal.x, normal.x), turned(ofNormal.y, normal.y), turned(ofNormal.z, normal.z)};
-            away = {turned(ofAway.x, away.x), turned(ofAway.y, away.y), turned(ofAway.z, away.z)};
+                hn::Gt(dot(normal, {vectors_.x.direction, vectors_.y.direction, vectors_.z.direction}), zero);
+            const VI front = hn::Add(hn::Add(crossed_, crossed_), hn::Set(di, 6));
+            const VI side = hn::IfThenElse(toInts(isAway), hn::Add(front, hn::Set(di, 1)), front);
+            face = hn::IfThenElse(toInts(onPlane), side, face);
+        }
+        // Surface::normal and Surface::away.
+        V3 normal, away;
+        std::int64_t first = 0;
+        if (isSame(face, lanes, first)) {
+            const PacketFace& same = scene_.faces[first];
+            normal = broadcast({same.normal[0], same.normal[1], same.normal[2]});
+            away = broadcast({same.away[0], same.away[1], same.away[2]});
+        } else {
+            static_assert(sizeof(PacketFace) == 64);
+            const VI place = hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), face));
+            const auto* numbers = reinterpret_cast<const double*>(scene_.faces);
+            const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(numbers + n, place)); };
+            normal = {part(0), part(1), part(2)};
+            away = {part(3), part(4), part(5)};
         }
         const auto keep = [&](V value, V known) { return hn::IfThenElse(lanes, value, known); };
         normal_ = {keep(normal.x, normal_.x), keep(normal.y, normal_.y), keep(normal.z, normal_.z)};

@@ -202,6 +202,31 @@ public:
     [[nodiscard]] static Entry paletteBrickEntry(std::size_t number) noexcept {
         return {static_cast<std::uint32_t>(number) | Entry::kVoxels, static_cast<std::uint32_t>(number)};
     }
+    /// Goes along the bricks of row (by, bz) in order of x: `uniform(begin, end, box)` for bricks that lie in one of
+    /// boxes(), `mixed(bx, number)` for one that shows palette brick `number`. Cost: by runs of uniform bricks.
+    template <class Uniform, class Mixed>
+    void forRow(std::int32_t by, std::int32_t bz, const Uniform& uniform, const Mixed& mixed) const {
+        const std::size_t row = placeOf(0, by, bz);
+        const std::uint32_t* coded = nullptr;  // pattern of the next coded brick
+        for (std::int32_t x = 0; x < brickCount_.x;) {
+            const std::size_t brick = row + static_cast<std::size_t>(x);
+            const std::uint32_t value = narrow_.empty() ? wide_[brick] : narrow_[brick];
+            if (value < uniformBoxes_) {
+                const std::int32_t end = std::min((boxes_[value].max[0] + 7) / 8, brickCount_.x);
+                uniform(x, end, std::size_t{value});
+                // Bricks of a box may be entries of others, but none of them is coded.
+                x = end;
+            } else {
+                if (value >= boxes_.size()) {
+                    mixed(x, value - boxes_.size());
+                } else {
+                    if (coded == nullptr) coded = codedPatterns_.data() + rankOf(brick);
+                    mixed(x, std::size_t{*coded++});
+                }
+                ++x;
+            }
+        }
+    }
     /// All same-label boxes; together with the mixed bricks they cover the volume. They may overlap.
     [[nodiscard]] std::span<const SameLabelBox> boxes() const noexcept {
         return std::span(boxes_).first(uniformBoxes_);
@@ -271,10 +296,11 @@ private:
                     static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz));
     }
     // Palette brick of a coded brick: found by its rank among them.
-    [[nodiscard]] std::uint32_t patternOf(std::size_t brick) const noexcept {
+    [[nodiscard]] std::uint32_t rankOf(std::size_t brick) const noexcept {
         const std::uint64_t before = codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
-        return codedPatterns_[codedBefore_[brick / 64] + static_cast<std::uint32_t>(std::popcount(before))];
+        return codedBefore_[brick / 64] + static_cast<std::uint32_t>(std::popcount(before));
     }
+    [[nodiscard]] std::uint32_t patternOf(std::size_t brick) const noexcept { return codedPatterns_[rankOf(brick)]; }
 
     Vec3i dimension_{};
     Vec3i brickCount_{};
