@@ -88,13 +88,19 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
         rays_.u[n] = rays_.u[0];
         rays_.v[n] = rays_.v[0];
     }
-    const bool isAnyInside = setUpRays(0);
-    const bool isAnyMet =
-        ((isAnyInside || scene_.volumes.size() > 1) && !scene_.passes.empty()) ||
-        std::any_of(scene_.passes.begin(), scene_.passes.end(), [&](const PreparedPass& pass) {
-            return !pass.shapes.isEmpty() && pass.shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_);
-        });
-    if (!isAnyMet)
+    const auto [left, right] = std::minmax_element(rays_.u.begin(), rays_.u.end());
+    const auto [low, high] = std::minmax_element(rays_.v.begin(), rays_.v.end());
+    rect_ = {*left, *right, *low, *high};
+    bool isAnyMet = false;
+    for (std::size_t pass = 0; pass < scene_.passes.size() && !isAnyMet; ++pass) {
+        const PassShapes& shapes = scene_.passes[pass].shapes;
+        const RaySpan visible = visibleStretch(pass, rect_);
+        isAnyMet = visible.from < visible.to ||
+                   (!shapes.isEmpty() && shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_));
+    }
+    if (isAnyMet)
+        setUpRays(0);
+    else
         for (std::size_t n = 0; n < count_; ++n) samples[places_[n]] = Sample();
     if (isAnyMet && scene_.passes.size() == 1) {
         castPass(0, withColor ? passes_[0] : passes_.labelsOnly(0));
@@ -105,13 +111,24 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     count_ = 0;
 }
 
-// Sets the packet's rays up for a volume. \return whether any is inside
-bool PacketCaster::setUpRays(std::size_t volume) {
+bool PacketCaster::isAnyIn(const ViewRect& rect) const noexcept {
+    for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
+        const RaySpan visible = visibleStretch(pass, rect);
+        if (visible.from < visible.to || !scene_.passes[pass].shapes.isEmpty()) return true;
+    }
+    return false;
+}
+
+RaySpan PacketCaster::visibleStretch(std::size_t pass, const ViewRect& rect) const noexcept {
+    return scene_.passes[pass].hull.around(scene_.volumeOf(pass).rays, rect);
+}
+
+// Sets the packet's rays up for a volume.
+void PacketCaster::setUpRays(std::size_t volume) {
     const PreparedVolume& prepared = scene_.volumes[volume];
-    const bool isAnyInside = setUpPacket(prepared.rays, prepared.bricks.dimension(), rays_);
+    setUpPacket(prepared.rays, prepared.bricks.dimension(), rays_);
     for (std::size_t n = count_; n < kPacketRays; ++n) rays_.to[n] = 0;
     volume_ = volume;
-    return isAnyInside;
 }
 
 // From the last pass to the first, since what hides all before it need not be cast twice; joined from the first on.
@@ -155,6 +172,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     scene.surface = &PacketCaster::surfaceOf;
     scene.fragment = &PacketCaster::fragmentOf;
     withColor_ = scene.withColor;
+    visible_ = visibleStretch(pass, rect_);
     // The other members are read where there is a depth alone.
     for (auto& color : seen_.color) color.fill(0);
     seen_.transmittance.fill(1);
@@ -172,7 +190,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     spans_.from = rays_.from;
     spans_.to = rays_.to;
     spans_.capped.fill(0);
-    walkPacket(scene, rays_, spans_, this, seen_);
+    walkVisible(scene);
 }
 
 // The stretches of all rays, one after the other.
@@ -193,7 +211,7 @@ void PacketCaster::castParts(PacketScene& scene) {
             if (whole.from < whole.to) spans_.to[n] = std::min(whole.to, findSurfaces(n, std::span(&whole, 1)));
         }
         scene.hasFragments = hasShapes_ && !fragments_.items.empty();
-        walkPacket(scene, rays_, spans_, this, seen_);
+        walkVisible(scene);
         addLastFragments();
         return;
     }
@@ -216,9 +234,20 @@ void PacketCaster::castParts(PacketScene& scene) {
             caps_[n] = interval.cap;
             spans_.capped[n] = interval.cap ? 1 : 0;
         }
-        walkPacket(scene, rays_, spans_, this, seen_);
+        walkVisible(scene);
     }
     addLastFragments();
+}
+
+// Walks what the rays may see of their spans. What begins later begins among hidden voxels, and so without a cut face.
+void PacketCaster::walkVisible(const PacketScene& scene) {
+    if (!(visible_.from < visible_.to)) return;
+    for (std::size_t n = 0; n < kPacketRays; ++n) {
+        if (spans_.from[n] < visible_.from) spans_.capped[n] = 0;
+        spans_.from[n] = std::max(spans_.from[n], visible_.from);
+        spans_.to[n] = std::min(spans_.to[n], visible_.to);
+    }
+    walkPacket(scene, rays_, spans_, this, seen_);
 }
 
 // What lies behind all voxels.

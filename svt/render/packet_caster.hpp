@@ -39,15 +39,19 @@ public:
         places_[count_++] = place;
     }
     [[nodiscard]] bool isFull() const noexcept { return count_ == kPacketRays; }
+    /// Whether rays through `rect` may see anything.
+    [[nodiscard]] bool isAnyIn(const ViewRect& rect) const noexcept;
     /// Casts the rays that there are, if any.
     void cast(bool withColor, std::span<Sample> samples);
 
 private:
-    bool setUpRays(std::size_t volume);
+    [[nodiscard]] RaySpan visibleStretch(std::size_t pass, const ViewRect& rect) const noexcept;
+    void setUpRays(std::size_t volume);
     void castPasses(bool withColor, std::span<Sample> samples);
     void castPass(std::size_t pass, const PacketScene& packetScene);
     void castParts(PacketScene& scene);
     void findLines(std::size_t block);
+    void walkVisible(const PacketScene& scene);
     void addLastFragments();
     void findParts(std::size_t ray);
     double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
@@ -66,6 +70,8 @@ private:
     std::vector<Sample> ofPasses_;  // kPacketRays a pass
     std::size_t pass_ = 0;
     std::size_t volume_ = 0;  // that the rays are set up for
+    ViewRect rect_;           // that has all rays
+    RaySpan visible_;         // outside of it they see nothing of the pass
     std::array<CapFace, kPacketRays> caps_{};
     PacketSpans spans_{};
     FragmentFinder finder_;

@@ -20,8 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
 namespace {
 
-bool setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
-    bool isAnyInside = false;
+void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
     const D d;
     const CameraRays::Basis basis = camera.basis();
     const V one = hn::Set(d, 1.0), zero = hn::Zero(d), infinity = hn::Set(d, kInfinity);
@@ -69,13 +68,11 @@ bool setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
         store(from, rays.from, i);
         store(to, rays.to, i);
         if (!any(hn::Lt(from, to))) continue;
-        isAnyInside = true;
         const V length = hn::Sqrt(dot(world, world));
         store(hn::Div(hn::Neg(world.x), length), rays.view[0], i);
         store(hn::Div(hn::Neg(world.y), length), rays.view[1], i);
         store(hn::Div(hn::Neg(world.z), length), rays.view[2], i);
     }
-    return isAnyInside;
 }
 
 // The rays of a packet, together. Neighbors mostly cross the same boxes, so boxes are taken one at a time: that of the
@@ -230,8 +227,8 @@ namespace svt::render {
 HWY_EXPORT(setUp);
 HWY_EXPORT(walk);
 
-bool setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays) {
-    return HWY_DYNAMIC_DISPATCH(setUp)(camera, count, rays);
+void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays) {
+    HWY_DYNAMIC_DISPATCH(setUp)(camera, count, rays);
 }
 
 void walkPacket(const PacketScene& scene, const PacketRays& rays, const PacketSpans& spans, void* context,

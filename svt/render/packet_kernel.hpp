@@ -99,8 +99,7 @@ struct PacketScene {
 };
 
 /// Rays through the places `rays.u`, `rays.v`, and where they are in a volume of `count` voxels.
-/// \return whether any is
-bool setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
+void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
 
 /// Where the rays of a packet are cast: on [from, to) each, which must lie in PacketRays::from and to.
 struct PacketSpans {

@@ -9,6 +9,7 @@
 #include <svt/render/pass_table.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/render/surface_normal.hpp>
+#include <svt/render/visible_hull.hpp>
 
 #include <algorithm>
 #include <array>
@@ -63,6 +64,7 @@ struct PreparedPass {
     Pass::Join join;
     std::uint8_t volume;  ///< see Scene::volumes
     PassShapes shapes{};
+    VisibleHull hull{};  ///< not of the reference, which walks all of its rays
 };
 
 /// Part of the picture, pixels.

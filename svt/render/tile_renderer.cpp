@@ -61,7 +61,10 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
     tileY_ = y;
     tileWidth_ = std::min(kTilePixels, scene_.spec.width - x);
     tileHeight_ = std::min(kTilePixels, scene_.spec.height - y);
-    if (!scene_.drawn.overlaps(x, y, tileWidth_, tileHeight_)) {
+    const double side = layout_.side, around = layout_.pixelMargin * side;
+    const ViewRect rect{horizontal(-around), horizontal(tileWidth_ * side + around),
+                        vertical(tileHeight_ * side + around), vertical(-around)};
+    if (!scene_.drawn.overlaps(x, y, tileWidth_, tileHeight_) || (packets_ && !packets_->isAnyIn(rect))) {
         fillBackground();
         return;
     }
