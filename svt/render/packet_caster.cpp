@@ -90,12 +90,11 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     }
     const auto [left, right] = std::minmax_element(rays_.u.begin(), rays_.u.end());
     const auto [low, high] = std::minmax_element(rays_.v.begin(), rays_.v.end());
-    rect_ = {*left, *right, *low, *high};
     bool isAnyMet = false;
-    for (std::size_t pass = 0; pass < scene_.passes.size() && !isAnyMet; ++pass) {
+    for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
         const PassShapes& shapes = scene_.passes[pass].shapes;
-        const RaySpan visible = visibleStretch(pass, rect_);
-        isAnyMet = visible.from < visible.to ||
+        visible_[pass] = scene_.passes[pass].hull.around({*left, *right, *low, *high});
+        isAnyMet = isAnyMet || visible_[pass].from < visible_[pass].to ||
                    (!shapes.isEmpty() && shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_));
     }
     if (isAnyMet)
@@ -113,14 +112,10 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
 
 bool PacketCaster::isAnyIn(const ViewRect& rect) const noexcept {
     for (std::size_t pass = 0; pass < scene_.passes.size(); ++pass) {
-        const RaySpan visible = visibleStretch(pass, rect);
+        const RaySpan visible = scene_.passes[pass].hull.around(rect);
         if (visible.from < visible.to || !scene_.passes[pass].shapes.isEmpty()) return true;
     }
     return false;
-}
-
-RaySpan PacketCaster::visibleStretch(std::size_t pass, const ViewRect& rect) const noexcept {
-    return scene_.passes[pass].hull.around(scene_.volumeOf(pass).rays, rect);
 }
 
 // Sets the packet's rays up for a volume.
@@ -172,7 +167,6 @@ void PacketCaster::castPass(std::size_t pass, const PacketScene& packetScene) {
     scene.surface = &PacketCaster::surfaceOf;
     scene.fragment = &PacketCaster::fragmentOf;
     withColor_ = scene.withColor;
-    visible_ = visibleStretch(pass, rect_);
     // The other members are read where there is a depth alone.
     for (auto& color : seen_.color) color.fill(0);
     seen_.transmittance.fill(1);
@@ -241,11 +235,12 @@ void PacketCaster::castParts(PacketScene& scene) {
 
 // Walks what the rays may see of their spans. What begins later begins among hidden voxels, and so without a cut face.
 void PacketCaster::walkVisible(const PacketScene& scene) {
-    if (!(visible_.from < visible_.to)) return;
+    const auto [from, to] = visible_[pass_];
+    if (!(from < to)) return;
     for (std::size_t n = 0; n < kPacketRays; ++n) {
-        if (spans_.from[n] < visible_.from) spans_.capped[n] = 0;
-        spans_.from[n] = std::max(spans_.from[n], visible_.from);
-        spans_.to[n] = std::min(spans_.to[n], visible_.to);
+        if (spans_.from[n] < from) spans_.capped[n] = 0;
+        spans_.from[n] = std::max(spans_.from[n], from);
+        spans_.to[n] = std::min(spans_.to[n], to);
     }
     walkPacket(scene, rays_, spans_, this, seen_);
 }

@@ -29,7 +29,8 @@ private:
 /// Casts packets of one tile; belongs to one thread.
 class PacketCaster {
 public:
-    PacketCaster(const Scene& scene, const PacketPasses& passes) : scene_(scene), passes_(passes), finder_(scene) {}
+    PacketCaster(const Scene& scene, const PacketPasses& passes)
+        : scene_(scene), passes_(passes), visible_(scene.passes.size()), finder_(scene) {}
 
     /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if
     /// isFull().
@@ -45,7 +46,6 @@ public:
     void cast(bool withColor, std::span<Sample> samples);
 
 private:
-    [[nodiscard]] RaySpan visibleStretch(std::size_t pass, const ViewRect& rect) const noexcept;
     void setUpRays(std::size_t volume);
     void castPasses(bool withColor, std::span<Sample> samples);
     void castPass(std::size_t pass, const PacketScene& packetScene);
@@ -69,9 +69,8 @@ private:
     PacketSamples seen_;
     std::vector<Sample> ofPasses_;  // kPacketRays a pass
     std::size_t pass_ = 0;
-    std::size_t volume_ = 0;  // that the rays are set up for
-    ViewRect rect_;           // that has all rays
-    RaySpan visible_;         // outside of it they see nothing of the pass
+    std::size_t volume_ = 0;        // that the rays are set up for
+    std::vector<RaySpan> visible_;  // by pass: outside of it no ray sees anything
     std::array<CapFace, kPacketRays> caps_{};
     PacketSpans spans_{};
     FragmentFinder finder_;

@@ -90,7 +90,7 @@ Result<PreparedPass> preparedPass(const Pass& pass, const Scene& scene, const Dr
                                    SampleLayout(spec).blockMargin(scene.isAdaptive), threads);
     if (!shapes) return shapes.error();
     prepared.shapes = std::move(*shapes);
-    if (!scene.isReference) prepared.hull = VisibleHull(volume.bricks, prepared.table, threads);
+    if (!scene.isReference) prepared.hull = VisibleHull(volume.bricks, prepared.table, volume.rays, threads);
     if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
         const PassTable& table = prepared.table;
         prepared.occlusion = OcclusionField(

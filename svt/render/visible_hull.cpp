@@ -8,13 +8,14 @@
 #include <limits>
 #include <mutex>
 #include <span>
+#include <vector>
 
 namespace svt::render {
 namespace {
 
 using volume::BrickVolume;
 
-constexpr std::size_t kFixed = 13, kOfPlanes = 8, kMost = 24;  // slabs
+constexpr std::size_t kFixed = 13, kOfPlanes = 11, kSlabs = kFixed + kOfPlanes;
 // Far above rounding, in single precision too.
 constexpr double kMargin = 0.25;  // voxels
 
@@ -90,7 +91,7 @@ std::vector<std::uint8_t> findVisible(const BrickVolume::Arrays& volume, const P
 
 // Slabs by component, so that the compiler may take several in one instruction.
 struct Extents {
-    std::array<float, kMost> x{}, y{}, z{}, low, high;
+    std::array<float, kSlabs> x{}, y{}, z{}, low, high;
 
     explicit Extents(std::span<const Vec3d> directions) {
         low.fill(std::numeric_limits<float>::max());
@@ -105,7 +106,7 @@ struct Extents {
     void include(std::int32_t begin, std::int32_t end, std::int32_t by, std::int32_t bz) noexcept {
         const auto x0 = static_cast<float>(8 * begin), x1 = static_cast<float>(8 * end);
         const auto y0 = static_cast<float>(8 * by), z0 = static_cast<float>(8 * bz);
-        for (std::size_t n = 0; n < kMost; ++n) {
+        for (std::size_t n = 0; n < kSlabs; ++n) {
             const float alongX0 = x[n] * x0, alongX1 = x[n] * x1;
             const float alongY0 = y[n] * y0, alongY1 = y[n] * (y0 + 8);
             const float alongZ0 = z[n] * z0, alongZ1 = z[n] * (z0 + 8);
@@ -116,7 +117,7 @@ struct Extents {
         }
     }
     void include(const Extents& other) noexcept {
-        for (std::size_t n = 0; n < kMost; ++n) {
+        for (std::size_t n = 0; n < kSlabs; ++n) {
             low[n] = std::min(low[n], other.low[n]);
             high[n] = std::max(high[n], other.high[n]);
         }
@@ -125,7 +126,8 @@ struct Extents {
 
 }  // namespace
 
-VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, int threads) {
+VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, const CameraRays& rays, int threads) {
+    static_assert(kSlabs == kMost);
     const BrickVolume::Arrays arrays = volume.arrays();
     std::vector<Vec3d> directions(kDirections.begin(), kDirections.end());
     for (const Vec3d& direction : directionsOfPlanes(arrays)) directions.push_back(direction);
@@ -161,43 +163,43 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, int 
         extents.include(part);
     });
     if (extents.low[0] > extents.high[0]) return;
+    isEmpty_ = false;
+    const CameraRays::Basis basis = rays.basis();
+    const Vec3d right = basis.rightIndex * basis.halfWidth, up = basis.upIndex * basis.halfHeight;
     for (std::size_t n = 0; n < directions.size(); ++n) {
-        // Of what the directions were rounded to.
-        const Vec3d normal{double(extents.x[n]), double(extents.y[n]), double(extents.z[n])};
-        slabs_.push_back({normal, double(extents.low[n]) - kMargin, double(extents.high[n]) + kMargin});
+        // What the directions were rounded to.
+        const Vec3d along{double(extents.x[n]), double(extents.y[n]), double(extents.z[n])};
+        rise_.middle[n] = dot(along, basis.forwardIndex);
+        height_.middle[n] = dot(along, basis.eyeIndex);
+        Linear& moved = rays.isPerspective() ? rise_ : height_;
+        moved.byU[n] = dot(along, right);
+        moved.byV[n] = dot(along, up);
+        low_[n] = double(extents.low[n]) - kMargin;
+        high_[n] = double(extents.high[n]) + kMargin;
     }
 }
 
-RaySpan VisibleHull::around(const CameraRays& rays, const ViewRect& rect) const noexcept {
-    constexpr std::size_t kCorners = 4;
-    RaySpan span{0, std::numeric_limits<double>::infinity()};
-    if (slabs_.empty()) return {0, 0};
-    std::array<Vec3d, kCorners> origins, directions;
-    for (std::size_t corner = 0; corner < kCorners; ++corner) {
-        const double x = (corner & 1u) == 0 ? rect.left : rect.right, y = (corner & 2u) == 0 ? rect.low : rect.high;
-        const CameraRays::Basis basis = rays.basis();
-        const Vec3d aside = basis.rightIndex * (x * basis.halfWidth) + basis.upIndex * (y * basis.halfHeight);
-        origins[corner] = rays.isPerspective() ? basis.eyeIndex : basis.eyeIndex + aside;
-        directions[corner] = rays.isPerspective() ? basis.forwardIndex + aside : basis.forwardIndex;
+RaySpan VisibleHull::around(const ViewRect& rect) const noexcept {
+    if (isEmpty_) return {0, 0};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double u = (rect.left + rect.right) / 2, v = (rect.low + rect.high) / 2;
+    const double halfU = (rect.right - rect.left) / 2, halfV = (rect.high - rect.low) / 2;
+    double from = 0, to = kInfinity;
+    for (std::size_t n = 0; n < kMost; ++n) {
+        const auto middle = [&](const Linear& of) { return of.middle[n] + of.byU[n] * u + of.byV[n] * v; };
+        const auto reach = [&](const Linear& of) { return std::abs(of.byU[n]) * halfU + std::abs(of.byV[n]) * halfV; };
+        // Seen so that the rays rise.
+        const double sign = middle(rise_) < 0 ? -1 : 1;
+        const double rise = sign * middle(rise_), slowest = rise - reach(rise_), fastest = rise + reach(rise_);
+        const double height = sign * middle(height_);
+        const double below = (sign < 0 ? -high_[n] : low_[n]) - (height + reach(height_));
+        const double above = (sign < 0 ? -low_[n] : high_[n]) - (height - reach(height_));
+        // Rays nearly along the slab, or to both of its sides, tell nothing; nor do slabs that are not there.
+        const bool isTold = slowest > 1e-6 * fastest;
+        from = std::max(from, isTold && below > 0 ? below / fastest : 0);
+        to = std::min(to, isTold ? (above > 0 ? above / slowest : 0) : kInfinity);
     }
-    for (const Slab& slab : slabs_) {
-        double slowest = std::numeric_limits<double>::infinity(), fastest = -slowest;
-        double nearest = slowest, farthest = -slowest;
-        for (std::size_t corner = 0; corner < kCorners; ++corner) {
-            const double rise = dot(slab.normal, directions[corner]), height = dot(slab.normal, origins[corner]);
-            slowest = std::min(slowest, rise);
-            fastest = std::max(fastest, rise);
-            const double low = (slab.low - height) / rise, high = (slab.high - height) / rise;
-            nearest = std::min(nearest, rise > 0 ? low : high);
-            farthest = std::max(farthest, rise > 0 ? high : low);
-        }
-        // Rays that do not all cross it the same way tell nothing; nor do those nearly along it.
-        constexpr double kLeast = 1e-6;
-        if (!(slowest > kLeast * fastest && slowest > 0) && !(fastest < kLeast * slowest && fastest < 0)) continue;
-        span.from = std::max(span.from, nearest);
-        span.to = std::min(span.to, farthest);
-    }
-    return span;
+    return {from, to};
 }
 
 }  // namespace svt::render

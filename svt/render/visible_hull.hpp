@@ -6,7 +6,8 @@
 #include <svt/render/pass_table.hpp>
 #include <svt/volume/brick_volume.hpp>
 
-#include <vector>
+#include <array>
+#include <cstddef>
 
 namespace svt::render {
 
@@ -23,20 +24,24 @@ class VisibleHull {
 public:
     /// Around nothing.
     VisibleHull() = default;
-    /// Cost: by rows of bricks; a tenth of a millisecond per thousand. Deterministic for any number of threads.
-    VisibleHull(const volume::BrickVolume& volume, const PassTable& table, int threads);
+    /// As `rays` see it. Cost: by rows of bricks; a tenth of a millisecond per thousand. Deterministic for any number
+    /// of threads.
+    VisibleHull(const volume::BrickVolume& volume, const PassTable& table, const CameraRays& rays, int threads);
 
     /// A stretch outside of which no ray through `rect` comes to anything visible; empty where none does. Cost: some
-    /// hundred cycles. Of a plane that all rays of a beam cross to the same side, the corners' times are the extremes:
-    /// they are fractions of linear functions of u and v.
-    [[nodiscard]] RaySpan around(const CameraRays& rays, const ViewRect& rect) const noexcept;
+    /// hundred cycles.
+    [[nodiscard]] RaySpan around(const ViewRect& rect) const noexcept;
 
 private:
-    struct Slab {
-        Vec3d normal;      // voxel space
-        double low, high;  // of dot(normal, point)
+    static constexpr std::size_t kMost = 24;  // slabs
+    // A ray through (u, v) crosses places low to high along a slab's direction; it begins at height(u, v) and goes on
+    // by rise(u, v) per t. Both are linear, so among the rays of a rectangle the extremes are at its corners.
+    struct Linear {
+        std::array<double, kMost> middle{}, byU{}, byV{};
     };
-    std::vector<Slab> slabs_;
+    Linear rise_, height_;
+    std::array<double, kMost> low_{}, high_{};
+    bool isEmpty_ = true;
 };
 
 }  // namespace svt::render
