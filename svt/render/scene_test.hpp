@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -39,6 +40,25 @@ inline TestVolume makeBody(Vec3i n, Vec3d spacing, const std::function<bool(Vec3
     return makeVolume(n, spacing, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
         return isInside({(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z}) ? 1u : 0u;
     });
+}
+
+inline constexpr double kTurn = 0.52;
+
+/// A house turned in plan, with walls, slab, roof and two rooms. Voxels are no cubes.
+inline volume::Scalar turnedHouse(double i, double j, double k) {
+    const double c = std::cos(kTurn), s = std::sin(kTurn);
+    const double x = c * (i - 48) + s * (j - 48), y = c * (j - 48) - s * (i - 48);
+    if (std::abs(x) > 34 || std::abs(y) > 26 || k < 3) return 0;
+    if (k > 66 - 0.9 * std::abs(y)) return 0;
+    if (k > 60 - 0.9 * std::abs(y)) return 1;
+    if (std::abs(x) > 28 || std::abs(y) > 20) return 2;
+    if (k >= 30 && k < 36) return 3;
+    return x < 4 ? 4 : x < 9 ? 2 : 5;
+}
+
+inline TestVolume makeTurnedHouse() {
+    return makeVolume({96, 96, 72}, {0.1, 0.11, 0.09},
+                      [](std::int32_t i, std::int32_t j, std::int32_t k) { return turnedHouse(i, j, k); });
 }
 
 /// Scalar 0 hidden, the others as given.

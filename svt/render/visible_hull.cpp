@@ -188,16 +188,16 @@ RaySpan VisibleHull::around(const ViewRect& rect) const noexcept {
     for (std::size_t n = 0; n < kMost; ++n) {
         const auto middle = [&](const Linear& of) { return of.middle[n] + of.byU[n] * u + of.byV[n] * v; };
         const auto reach = [&](const Linear& of) { return std::abs(of.byU[n]) * halfU + std::abs(of.byV[n]) * halfV; };
-        // Seen so that the rays rise.
-        const double sign = middle(rise_) < 0 ? -1 : 1;
-        const double rise = sign * middle(rise_), slowest = rise - reach(rise_), fastest = rise + reach(rise_);
-        const double height = sign * middle(height_);
-        const double below = (sign < 0 ? -high_[n] : low_[n]) - (height + reach(height_));
-        const double above = (sign < 0 ? -low_[n] : high_[n]) - (height - reach(height_));
-        // Rays nearly along the slab, or to both of its sides, tell nothing; nor do slabs that are not there.
-        const bool isTold = slowest > 1e-6 * fastest;
-        from = std::max(from, isTold && below > 0 ? below / fastest : 0);
-        to = std::min(to, isTold ? (above > 0 ? above / slowest : 0) : kInfinity);
+        const double rise = middle(rise_), slowest = rise - reach(rise_), fastest = rise + reach(rise_);
+        const double height = middle(height_);
+        // From the highest ray up to the slab, and from the lowest to its other side.
+        const double below = low_[n] - (height + reach(height_)), above = high_[n] - (height - reach(height_));
+        // All of them come from one side of it, or, unless they go that way, never.
+        const double upTo = fastest > 0 ? below / fastest : kInfinity;
+        const double downTo = slowest < 0 ? above / slowest : kInfinity;
+        from = std::max(from, std::max(below > 0 ? upTo : 0, above < 0 ? downTo : 0));
+        // All of them leave it by the same side; where they do not, some stay in it.
+        to = std::min(to, slowest > 0 ? above / slowest : fastest < 0 ? below / fastest : kInfinity);
     }
     return {from, to};
 }
