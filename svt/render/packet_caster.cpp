@@ -60,9 +60,7 @@ PacketPasses::PacketPasses(const Scene& scene) {
         packetScene.volume = volume.bricks.arrays();
         packetScene.bricksX = volume.bricks.brickCount().x;
         packetScene.bricksY = volume.bricks.brickCount().y;
-        for (int axis = 0; axis < 3; ++axis) {
-            packetScene.count[axis] = volume.bricks.dimension()[axis];
-        }
+        for (int axis = 0; axis < 3; ++axis) packetScene.count[axis] = volume.bricks.dimension()[axis];
         packetScene.faces = faces_[pass.volume].data();
         packetScene.styleCount = static_cast<std::int64_t>(styles.size());
         packetScene.hasOpaque = std::any_of(styles.begin(), styles.end(),

@@ -104,6 +104,23 @@ TEST(PacketCaster, GivesItWhereFacesMeetByThrees) {
 }
 
 // Passes are cast from the last on, and rays that the last ones hide everything for are left out of the others.
+TEST(PacketCaster, LightsRaysOfMoreLabelsThanItKeeps) {
+    TestVolume volume = makeVolume({96, 40, 40}, {0.1, 0.1, 0.1}, [](std::int32_t i, std::int32_t j, std::int32_t k) {
+        return static_cast<volume::Scalar>(1 + (i + (j * j + k) / 7) % 5);
+    });
+    for (const volume::BrickFaces faces : {volume::BrickFaces::Planes, volume::BrickFaces::Voxels}) {
+        volume.bricks = *volume::BrickVolume::fromColumns(volume.columns, {.faces = faces});
+        for (const char* name : {"left", "iso"})
+            for (const float opacity : {0.02f, 0.5f, 0.97f}) {
+                SCOPED_TRACE(testing::Message() << name << ' ' << opacity);
+                FrameSpec spec = view(volume, name, opacity);
+                expectSame(volume, spec);
+                spec.samplesPerPixel = 4;
+                expectSame(volume, spec);
+            }
+    }
+}
+
 TEST(PacketCaster, JoinsPassesAsThePlainCasterDoes) {
     const TestVolume volume = makeTurnedHouse();
     for (const Pass::Join second : {Pass::Join::Over, Pass::Join::Replace, Pass::Join::Depth})

@@ -76,7 +76,8 @@ void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
 }
 
 // The rays of a packet, together. Neighbors mostly cross the same boxes, so boxes are taken one at a time: that of the
-// ray that is furthest behind, by all rays that are in it.
+// ray that is furthest behind, by all rays that are in it. Rays are walked first and lit after: what changes their
+// labels then stands side by side, and most lanes have something to do.
 template <bool kWithFragments>
 class Packet {
     using Shader = HWY_NAMESPACE::Shader<kWithFragments>;
@@ -132,6 +133,8 @@ private:
         group.walk.end(group.shader.isDone());
     }
     HWY_INLINE void finish(Group& group) {
+        const bool isUntouched = !group.isShaded && group.changes.count() == 0;
+        if (isUntouched && !kWithFragments) return;
         shade(group);
         group.shader.finish();
     }

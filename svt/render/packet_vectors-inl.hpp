@@ -1,5 +1,6 @@
 /// \file
-/// Rays of a packet as vectors, and what reads tables by lane. Internal to render.
+/// Rays of a packet as vectors, what reads tables by lane, and the rows in which a walk hands its changes of label to
+/// the shader. Internal to render.
 
 // Highway includes this once for each set of instructions.
 #if defined(SVT_RENDER_PACKET_VECTORS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -121,7 +122,7 @@ struct RayVectors {
     Axis x, y, z;
     V slack;
     bool areMoving;        // all rays along all axes
-    bool isPlain = false;  // and to the same side as all of the packet
+    bool isPlain = false;  // and to the same side as all others of the packet, see go()
 
     HWY_INLINE RayVectors(const PacketScene& scene, const PacketRays& rays, std::size_t first)
         : x(axisOf(scene, rays, first, 0)),
@@ -234,7 +235,8 @@ public:
         const DI di;
         VI change = hn::Or(scalar, hn::ShiftLeft<33>(hn::Add(plane, hn::Set(di, 1))));
         if (isVoxel) change = hn::Or(change, hn::Set(di, std::int64_t{1} << 32));
-        // Below all rows that the lanes have something in.
+        // Below all rows that the lanes have something in. Others may have come that far: lanes that meet the same wall
+        // in different boxes share a row.
         const auto row =
             static_cast<std::size_t>(hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(toInts(lanes), next_))));
         const V before = row < count_ ? hn::Load(d, t_[row]) : t;
