@@ -56,8 +56,10 @@ def main() -> int:
                     problems.append(f"{place}: includes a test header ({name})")
             elif path in public and name.startswith(THIRD_PARTY):
                 problems.append(f"{place}: third-party include in a public header ({name})")
-        if path.suffix == ".hpp" and "#pragma once" not in path.read_text(encoding="utf-8"):
-            problems.append(f"{path.relative_to(ROOT)}: no #pragma once")
+        # Those of SIMD kernels are included once for each set of instructions, with a guard that knows which.
+        guard = "HWY_TARGET_TOGGLE" if path.name.endswith("-inl.hpp") else "#pragma once"
+        if path.suffix == ".hpp" and guard not in path.read_text(encoding="utf-8"):
+            problems.append(f"{path.relative_to(ROOT)}: no {guard}")
     for problem in problems:
         print(f"layers: {problem}", file=sys.stderr)
     if not problems:
