@@ -42,14 +42,7 @@ std::vector<Style> styles(float opacity) {
 }
 
 FrameSpec view(const TestVolume& volume, const char* name, float opacity) {
-    FrameSpec spec;
-    spec.width = 131;
-    spec.height = 87;
-    PresetOptions preset;
-    preset.aspect = 131.0 / 87;
-    spec.camera = *cameraPreset(name, volume.grid, preset);
-    spec.passes.push_back({styles(opacity), {}, Pass::Join::Over});
-    return spec;
+    return test::presetFrame(131, 87, name, volume, styles(opacity));
 }
 
 void expectSame(const TestVolume& volume, const FrameSpec& spec) {

@@ -157,10 +157,7 @@ public:
                 index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
             }
             const VI scalar = lookUp(scalars, brick.paletteSize, index);
-            if (any(hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_))))) {
-                lanes = change(lanes, scalar, true);
-                crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
-            }
+            lanes = change(lanes, scalar, true);
             const V3 leave{vectors_.x.planeTime(far.x), vectors_.y.planeTime(far.y), vectors_.z.planeTime(far.z)};
             const V next = hn::Min(hn::Min(leave.x, leave.y), leave.z);
             lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));

@@ -2,6 +2,7 @@
 /// \file
 /// Small volumes and frames that the tests of this folder draw.
 
+#include <svt/render/camera_presets.hpp>
 #include <svt/render/ray_caster.hpp>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,19 @@ inline TestVolume makeTurnedHouse() {
 inline std::vector<Style> stylesOf(std::vector<Style> styles) {
     styles.insert(styles.begin(), Style{{0, 0, 0}, 0});
     return styles;
+}
+
+/// One pass; one of the named views.
+inline FrameSpec presetFrame(std::int32_t width, std::int32_t height, const char* name, const TestVolume& volume,
+                             std::vector<Style> styles) {
+    FrameSpec spec;
+    spec.width = width;
+    spec.height = height;
+    PresetOptions preset;
+    preset.aspect = double(width) / height;
+    spec.camera = *cameraPreset(name, volume.grid, preset);
+    spec.passes.push_back({std::move(styles), {}, Pass::Join::Over});
+    return spec;
 }
 
 /// One pass; the camera looks along +y, orthographic, at `target`, showing `height` metres.

@@ -15,7 +15,7 @@ namespace {
 
 using volume::BrickVolume;
 
-constexpr std::size_t kFixed = 13, kOfPlanes = 11, kSlabs = kFixed + kOfPlanes;
+constexpr std::size_t kSlabs = VisibleHull::kSlabs, kFixed = 13, kOfPlanes = kSlabs - kFixed;
 // Far above rounding, in single precision too.
 constexpr double kMargin = 0.25;  // voxels
 
@@ -127,7 +127,6 @@ struct Extents {
 }  // namespace
 
 VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, const CameraRays& rays, int threads) {
-    static_assert(kSlabs == kMost);
     const BrickVolume::Arrays arrays = volume.arrays();
     std::vector<Vec3d> directions(kDirections.begin(), kDirections.end());
     for (const Vec3d& direction : directionsOfPlanes(arrays)) directions.push_back(direction);
@@ -185,7 +184,7 @@ RaySpan VisibleHull::around(const ViewRect& rect) const noexcept {
     const double u = (rect.left + rect.right) / 2, v = (rect.low + rect.high) / 2;
     const double halfU = (rect.right - rect.left) / 2, halfV = (rect.high - rect.low) / 2;
     double from = 0, to = kInfinity;
-    for (std::size_t n = 0; n < kMost; ++n) {
+    for (std::size_t n = 0; n < kSlabs; ++n) {
         const auto middle = [&](const Linear& of) { return of.middle[n] + of.byU[n] * u + of.byV[n] * v; };
         const auto reach = [&](const Linear& of) { return std::abs(of.byU[n]) * halfU + std::abs(of.byV[n]) * halfV; };
         const double rise = middle(rise_), slowest = rise - reach(rise_), fastest = rise + reach(rise_);

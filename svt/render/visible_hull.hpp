@@ -32,15 +32,16 @@ public:
     /// hundred cycles.
     [[nodiscard]] RaySpan around(const ViewRect& rect) const noexcept;
 
+    static constexpr std::size_t kSlabs = 24;
+
 private:
-    static constexpr std::size_t kMost = 24;  // slabs
     // A ray through (u, v) crosses places low to high along a slab's direction; it begins at height(u, v) and goes on
     // by rise(u, v) per t. Both are linear, so among the rays of a rectangle the extremes are at its corners.
     struct Linear {
-        std::array<double, kMost> middle{}, byU{}, byV{};
+        std::array<double, kSlabs> middle{}, byU{}, byV{};
     };
     Linear rise_, height_;
-    std::array<double, kMost> low_{}, high_{};
+    std::array<double, kSlabs> low_{}, high_{};
     bool isEmpty_ = true;
 };
 

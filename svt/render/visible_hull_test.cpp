@@ -1,4 +1,3 @@
-#include <svt/render/camera_presets.hpp>
 #include <svt/render/scene_test.hpp>
 #include <svt/render/visible_hull.hpp>
 
@@ -41,14 +40,7 @@ private:
 };
 
 FrameSpec frameOf(const TestVolume& volume, const char* name, std::vector<Style> styles) {
-    FrameSpec spec;
-    spec.width = 320;
-    spec.height = 240;
-    PresetOptions preset;
-    preset.aspect = 320.0 / 240;
-    spec.camera = *cameraPreset(name, volume.grid, preset);
-    spec.passes.push_back({std::move(styles), {}, Pass::Join::Over});
-    return spec;
+    return test::presetFrame(320, 240, name, volume, std::move(styles));
 }
 
 void expectHeld(const TestVolume& volume, const FrameSpec& spec) {
