@@ -12,27 +12,38 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-std::uint64_t heightsAlong(const Level& level, std::int64_t first, std::int64_t step, std::int32_t count,
-                           std::int32_t* heights) {
+std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count, std::uint32_t seed,
+                           std::int32_t* line) {
     const hn::CappedTag<std::int64_t, 8> d;
     const hn::RebindToUnsigned<decltype(d)> dUnsigned;
     const hn::Rebind<std::int32_t, decltype(d)> dHeight;
-    const hn::RebindToUnsigned<decltype(dHeight)> dBits;
+    const hn::RebindToUnsigned<decltype(dHeight)> dHash;
     const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
-    const auto lowest = hn::Set(d, std::int64_t{level.lowest}), highest = hn::Set(d, std::int64_t{level.highest});
-    const auto clamped = [&](auto height) HWY_ATTR {
-        return hn::Max(lowest, hn::Min(highest, hn::ShiftRight<Level::kBits>(height)));
-    };
-    const auto one = hn::Set(d, step), all = hn::Set(d, lanes * step);
-    auto height = hn::Add(hn::Set(d, first), hn::Mul(hn::Iota(d, 0), one));
+    const auto factor = hn::Set(dHash, 0x9E3779B1u);
+    auto sample = hn::Iota(d, 0);
     std::uint64_t breaks = 0;
-    for (std::int32_t n = 0; n < count; n += lanes) {
-        const auto k = clamped(height);
+    for (std::int32_t n = 0; n < count; n += lanes, sample = hn::Add(sample, hn::Set(d, lanes))) {
+        auto hash = hn::Set(dHash, seed);
+        auto differs = hn::MaskFromVec(hn::Zero(d));
+        std::int32_t* to = line + n;
+        for (const LineLevel& level : levels) {
+            const auto lowest = hn::Set(d, std::int64_t{level.lowest}), highest = hn::Set(d, std::int64_t{level.highest});
+            const auto clamped = [&](auto height) HWY_ATTR {
+                return hn::Max(lowest, hn::Min(highest, hn::ShiftRight<Level::kBits>(height)));
+            };
+            const auto step = hn::Set(d, level.step);
+            const auto height = hn::Add(hn::Set(d, level.first), hn::Mul(sample, step));
+            const auto k = clamped(height);
+            differs = hn::Or(differs, hn::Ne(k, clamped(hn::Sub(height, step))));
+            const auto narrow = hn::TruncateTo(dHash, hn::BitCast(dUnsigned, k));
+            hash = hn::Mul(hn::Add(hash, narrow), factor);
+            to += kLineSamples;
+            hn::StoreU(hn::BitCast(dHeight, narrow), dHeight, to);
+        }
+        hn::StoreU(hn::BitCast(dHeight, hash), dHeight, line + n);
         std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(d, hn::Ne(k, clamped(hn::Sub(height, one))), bits);
+        hn::StoreMaskBits(d, differs, bits);
         breaks |= std::uint64_t{bits[0]} << n;
-        hn::StoreU(hn::BitCast(dHeight, hn::TruncateTo(dBits, hn::BitCast(dUnsigned, k))), dHeight, heights + n);
-        height = hn::Add(height, all);
     }
     return breaks & (~std::uint64_t{0} >> (static_cast<std::int32_t>(kLineSamples) - count)) & ~std::uint64_t{1};
 }
@@ -46,9 +57,9 @@ namespace svt::voxelize {
 
 HWY_EXPORT(heightsAlong);
 
-std::uint64_t heightsAlong(const Level& level, std::int64_t first, std::int64_t step, std::int32_t count,
-                           std::int32_t* heights) {
-    return HWY_DYNAMIC_DISPATCH(heightsAlong)(level, first, step, count, heights);
+std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count, std::uint32_t seed,
+                           std::int32_t* line) {
+    return HWY_DYNAMIC_DISPATCH(heightsAlong)(levels, count, seed, line);
 }
 
 }  // namespace svt::voxelize

@@ -25,8 +25,16 @@ struct SharedCount {
     std::uint64_t voxels = 0;
 };
 
-/// Sorts by claims and joins entries of the same two.
-void joinCounts(std::vector<SharedCount>& counts);
+/// What is shared, summed up for each two claims.
+class SharedCounts {
+public:
+    void add(const SharedCount& shared);
+    [[nodiscard]] std::span<const SharedCount> sums() const noexcept { return sums_; }  ///< in no order
+
+private:
+    HashIndex index_;
+    std::vector<SharedCount> sums_;
+};
 
 /// A crossing of a profile, packed: which claim's boundary, in which direction, and whether it lies at the level of the
 /// crossing before.
@@ -63,24 +71,24 @@ public:
     /// Above the last crossing.
     [[nodiscard]] volume::Scalar topScalar(std::uint32_t profile) const noexcept { return profiles_[profile].top; }
 
-    /// Calls `body(interval, length)` for each interval in which two solids or more are active and that is not empty
-    /// where a column meets the profile's levels at `heights` (first sample above, ascending; one more than levels, the
-    /// last is the grid's depth).
+    /// Calls `body(group, length)` for each interval in which a group of two solids or more is active and that is not
+    /// empty where a column meets the profile's levels at `heights` (first sample above, ascending; one more than
+    /// levels, the last is the grid's depth).
     template <class Body>
     void forEachShared(std::uint32_t profile, const std::int32_t* heights, Body&& body) const {
         const Profile& p = profiles_[profile];
         for (std::uint32_t s = p.firstShared; s < p.firstShared + p.sharedCount; ++s) {
             const std::int32_t* height = heights + shared_[s].level;
-            if (height[1] > height[0]) body(s, static_cast<std::uint32_t>(height[1] - height[0]));
+            if (height[1] > height[0]) body(shared_[s].group, static_cast<std::uint32_t>(height[1] - height[0]));
         }
     }
-    /// Adds voxels to an interval.
-    void addShared(std::uint32_t interval, std::uint64_t voxels) noexcept { shared_[interval].voxels += voxels; }
+    /// Adds voxels that a group shares.
+    void addShared(std::uint32_t group, std::uint64_t voxels) noexcept { groups_[group].voxels += voxels; }
 
-    /// Appends what solids share to `counts` and forgets all profiles: their numbers are no longer valid.
-    void takeCounts(std::vector<SharedCount>& counts);
-    /// How much memory is in use, in crossings kept.
-    [[nodiscard]] std::size_t size() const noexcept { return codes_.size(); }
+    /// Adds what solids share to `counts` and forgets all profiles and groups: their numbers are no longer valid.
+    void takeCounts(SharedCounts& counts);
+    /// How much memory is in use, in crossings and solids kept.
+    [[nodiscard]] std::size_t size() const noexcept { return codes_.size() + groupMembers_.size(); }
 
 private:
     struct Profile {
@@ -92,14 +100,22 @@ private:
     // Between two levels, where two solids or more are active.
     struct SharedInterval {
         std::uint32_t level = 0;  // the lower one
+        std::uint32_t group = 0;
+    };
+    // Solids that are active together, in this or that profile.
+    struct Group {
+        std::uint32_t firstMember = 0, memberCount = 0;  // of groupMembers_: orders, ascending
         std::uint64_t voxels = 0;
     };
 
     std::uint32_t add(std::span<const std::uint32_t> codes);
     std::size_t passLevel(std::span<const std::uint32_t> codes, std::size_t first);
-    void leaveAll(std::span<const std::uint32_t> codes);
+    std::uint32_t findGroup(std::span<const std::uint32_t> solids);
     [[nodiscard]] std::span<const std::uint32_t> codesOf(const Profile& p) const noexcept {
         return std::span(codes_).subspan(p.firstCode, p.codeCount);
+    }
+    [[nodiscard]] std::span<const std::uint32_t> membersOf(const Group& g) const noexcept {
+        return std::span(groupMembers_).subspan(g.firstMember, g.memberCount);
     }
 
     std::span<const OrderedClaim> claims_;
@@ -108,8 +124,12 @@ private:
     std::vector<std::uint32_t> codes_;
     std::vector<ScalarChange> changes_;
     std::vector<SharedInterval> shared_;
+    std::vector<Group> groups_;
+    HashIndex groupIndex_;
+    std::vector<std::uint32_t> groupMembers_;
     std::vector<std::int32_t> winding_;  // per order; all zero between sweeps
     std::vector<std::uint32_t> active_;  // orders with winding > 0, ascending
+    std::vector<std::uint32_t> solids_;  // the solids among them
 };
 
 }  // namespace svt::voxelize

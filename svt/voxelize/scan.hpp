@@ -89,6 +89,11 @@ public:
         restStep_ = dx * kQuanta - step_ * denominator_;
     }
     [[nodiscard]] std::int64_t sample() const noexcept { return sample_; }
+    /// What is left over, in parts of a sample: 0 to denominator() - 1; and what a row adds to both.
+    [[nodiscard]] std::int64_t rest() const noexcept { return rest_; }
+    [[nodiscard]] std::int64_t denominator() const noexcept { return denominator_; }
+    [[nodiscard]] std::int64_t step() const noexcept { return step_; }
+    [[nodiscard]] std::int64_t restStep() const noexcept { return restStep_; }
     void nextRow() noexcept {
         sample_ += step_;
         rest_ += restStep_;

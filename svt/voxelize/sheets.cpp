@@ -219,19 +219,19 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         // A rod: the face itself is narrower than a voxel, so sample lines may pass it by. One line along its longest
         // edge, in the middle of the material, with one voxel per step of its dominant axis. The faces around a rod all
         // give nearly the same line; one is enough.
-        const Vec3d points[3] = {a, b, c};
+        const Vec3d corners[3] = {a, b, c};
+        const Vec3d edges[3] = {ab, indexFromLocal.direction(c - b), -ac};
         std::size_t longest = 0;
         double longestLength = 0;
         for (std::size_t e = 0; e < 3; ++e) {
-            const double l = length(indexFromLocal.direction(points[(e + 1) % 3] - points[e]));
+            const double l = length(edges[e]);
             if (l > longestLength) {
                 longestLength = l;
                 longest = e;
             }
         }
         if (!(longestLength > 0) || length(normal) / longestLength >= 1) continue;
-        const Vec3d from = indexFromLocal.point(points[longest]) + inward * 0.5;
-        const Vec3d way = indexFromLocal.direction(points[(longest + 1) % 3] - points[longest]);
+        const Vec3d from = indexFromLocal.point(corners[longest]) + inward * 0.5, way = edges[longest];
         if (!rodLines.add(nearestSample(from), nearestSample(from + way))) continue;
         const double reach = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
         const int steps = 1 + static_cast<int>(std::min(reach, 1e6));

@@ -1,14 +1,15 @@
-#include <svt/voxelize/line_heights.hpp>
 #include <svt/voxelize/tile_columns.hpp>
 
 #include <algorithm>
 #include <bit>
 #include <tuple>
+#include <utility>
 
 namespace svt::voxelize {
 namespace {
 
 constexpr int kKnownBits = 10;
+constexpr std::size_t kStride = 8;  // columns that are written at once
 
 // The lowest set bit above `bit`, or `end`.
 std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noexcept {
@@ -17,6 +18,13 @@ std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noe
 }
 
 }  // namespace
+
+TileColumns::TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels)
+    : levels_(levels), profiles_(claims), builder_(1), known_(std::size_t{1} << kKnownBits) {
+    volume::Scalar most = 0;
+    for (const OrderedClaim& claim : claims) most = std::max(most, claim.scalar);
+    isPresent_.assign(std::size_t{most} + 1, 0);
+}
 
 std::uint32_t TileColumns::findStack(const PlanCell& cell) {
     const auto members = plan_.boundariesOf(cell);
@@ -30,7 +38,6 @@ std::uint32_t TileColumns::findStack(const PlanCell& cell) {
         [&] { return addStack(cell, members); });
 }
 
-// Members ascend, so those of one level stand side by side, and flat levels come bottom up.
 std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint64_t> members) {
     Stack stack;
     stack.hash = cell.hash;
@@ -42,8 +49,11 @@ std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::u
     members_.insert(members_.end(), members.begin(), members.end());
     const std::size_t firstCode = stackCodes_.size();
     stackCodes_.resize(firstCode + members.size());
+    // Ascending, so that those of one level stand side by side, and flat levels come bottom up.
+    ascending_.assign(members.begin(), members.end());
+    std::sort(ascending_.begin(), ascending_.end());
     for (std::size_t m = 0; m < members.size(); ++m) {
-        const Boundary boundary = Boundary::unpack(members[m]);
+        const Boundary boundary = Boundary::unpack(ascending_[m]);
         const bool isLevel = m > 0 && boundary.level == stackLevels_.back().level;
         if (!isLevel) {
             if (levels_.isSloped(boundary.level)) {
@@ -110,15 +120,17 @@ void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
         heights_[stack.firstHeight + 1 + c] =
             levels_.isSloped(level) ? levels_[level].sampleAbove(i, j) : static_cast<std::int32_t>(level);
     }
-    if (stepHeights_.size() < stack.slopedCount) stepHeights_.resize(stack.slopedCount);
     orderStack(stack);
     stack.isOrdered = true;
 }
 
-// Sets the heights of the sloped levels.
-void TileColumns::moveStack(Stack& stack, const std::int32_t* slopedHeights) {
+// Sets the heights of the sloped levels, which are those at a step of a line.
+void TileColumns::moveStack(Stack& stack, const std::int32_t* heights) {
     const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
-    for (const SlopedLevel& level : sloped) heights_[level.height] = *slopedHeights++;
+    for (const SlopedLevel& level : sloped) {
+        heights_[level.height] = *heights;
+        heights += kTile;
+    }
     bool ascends = true;
     for (const SlopedLevel& level : sloped) {
         const std::int32_t* height = heights_.data() + level.height;
@@ -131,19 +143,19 @@ void TileColumns::moveStack(Stack& stack, const std::int32_t* slopedHeights) {
 void TileColumns::countShared(const Stack& stack, std::uint64_t columns) {
     profiles_.forEachShared(
         stack.profile, heights_.data() + stack.firstHeight + 1,
-        [&](std::uint32_t interval, std::uint32_t length) { profiles_.addShared(interval, columns * length); });
+        [&](std::uint32_t group, std::uint32_t length) { profiles_.addShared(group, columns * length); });
 }
 
-// The same, noted for all that will be made; no longer known where it is too much to note.
-void TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
-    known.sharedCount = 0;
+// The same for a column that is now known, of which there may be more; false where it is too much to note.
+bool TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
+    std::size_t count = 0;
     profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
-                            [&](std::uint32_t interval, std::uint32_t length) {
-                                if (known.sharedCount < KnownColumn::kMostShared)
-                                    known.shared[known.sharedCount++] = {interval, length};
-                                else
-                                    known.stack = kNoStack;
+                            [&](std::uint32_t group, std::uint32_t length) {
+                                if (count < KnownColumn::kMostShared) known.shared[count] = {group, length};
+                                ++count;
                             });
+    known.sharedCount = static_cast<std::uint8_t>(std::min(count, KnownColumn::kMostShared));
+    return count <= KnownColumn::kMostShared;
 }
 
 // Number of the column with the stack's heights.
@@ -168,46 +180,43 @@ std::uint16_t TileColumns::makeColumn(const Stack& stack) {
 
 // Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
 // step before, or n is 0.
-std::uint64_t TileColumns::measureLine(const Stack& stack, const Line& line, std::uint32_t place) {
-    const std::size_t needed = place + std::size_t(stack.slopedCount) * kTile + kLineSpace;
+std::uint64_t TileColumns::measureLine(const Cell& cell, const Line& line, std::uint32_t place) {
+    const Stack& stack = stacks_[cell.stack];
+    const std::size_t needed = place + (std::size_t(stack.slopedCount) + 1) * kTile;
     if (lines_.size() < needed) lines_.resize(needed);
-    std::int32_t* heights = lines_.data() + place;
-    std::uint64_t breaks = 1;
+    lineLevels_.clear();
     for (const SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
         const Level& level = levels_[sloped.level];
-        breaks |= heightsAlong(level, level.base + level.slopeX * line.i + level.slopeY * line.j,
-                               line.isAlongX ? level.slopeX : level.slopeY, line.count, heights);
-        heights += kTile;
+        lineLevels_.push_back({level.base + level.slopeX * line.i + level.slopeY * line.j,
+                               line.isAlongX ? level.slopeX : level.slopeY, level.lowest, level.highest});
     }
-    return breaks;
+    return heightsAlong(lineLevels_, line.count, cell.stack, lines_.data() + place) | 1;
 }
 
 // The column at a step of a line, of which there are `columns`.
 std::uint16_t TileColumns::makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns) {
     Stack& stack = stacks_[number];
-    const std::int32_t* place = lines_.data() + line + step;
-    std::uint32_t key = number;
-    for (std::size_t s = 0; s < stack.slopedCount; ++s, place += kTile) {
-        stepHeights_[s] = *place;
-        key = (key + static_cast<std::uint32_t>(*place)) * 0x9E3779B1u;
-    }
-    KnownColumn& known = known_[key >> (32 - kKnownBits)];
+    const std::int32_t* const hash = lines_.data() + line + step;
+    const std::int32_t* const heights = hash + kTile;
+    KnownColumn& known = known_[static_cast<std::uint32_t>(*hash) >> (32 - kKnownBits)];
     bool isKnown = known.stack == number && known.tile == tile_;
-    for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == stepHeights_[s];
+    for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == heights[s * kTile];
     if (isKnown) {
         known.columns += static_cast<std::uint32_t>(columns);
         return known.column;
     }
     countKnown(known);
-    moveStack(stack, stepHeights_.data());
-    countShared(stack, columns);
+    known.stack = kNoStack;
+    moveStack(stack, heights);
     const std::uint16_t column = makeColumn(stack);
-    if (stack.slopedCount <= KnownColumn::kMostSloped) {
+    if (stack.slopedCount <= KnownColumn::kMostSloped && measureShared(stack, known)) {
         known.stack = number;
         known.tile = tile_;
         known.column = column;
-        std::copy_n(stepHeights_.data(), stack.slopedCount, known.heights);
-        measureShared(stack, known);
+        known.columns = static_cast<std::uint32_t>(columns);
+        for (std::size_t s = 0; s < stack.slopedCount; ++s) known.heights[s] = heights[s * kTile];
+    } else {
+        countShared(stack, columns);
     }
     return column;
 }
@@ -237,34 +246,44 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
         std::fill_n(columns, width, stack.column);
         return;
     }
-    std::uint64_t breaks = measureLine(stack, {firstColumn_ + cell.begin, firstRow_ + y, width, true}, cell.line);
+    std::uint64_t breaks = measureLine(cell, {firstColumn_ + cell.begin, firstRow_ + y, width, true}, cell.line);
+    std::uint16_t beyond[kStride];
+    std::copy_n(columns + width, kStride, beyond);
     while (breaks != 0) {
         const int x = std::countr_zero(breaks);
         breaks &= breaks - 1;
         const int next = breaks != 0 ? std::countr_zero(breaks) : width;
         const std::uint16_t column =
             makeStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
-        std::fill(columns + x, columns + next, column);
+        // Some too many, which the next step or the end below puts right: short stretches have no loop to foretell.
+        std::uint16_t* to = columns + x;
+        do {
+            std::fill_n(to, kStride, column);
+            to += kStride;
+        } while (to < columns + next);
     }
+    std::copy_n(beyond, kStride, columns + width);
 }
 
 // Rows [firstRow, endRow), which have one plan.
 void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
-    cells_.clear();
+    const PlanRow plan = plan_.layOut(firstRow);
+    cells_.resize(plan.cells.size());
     std::uint64_t changedRows = std::uint64_t{1} << firstRow;
     std::uint32_t line = 0;
-    for (const PlanCell& planCell : plan_.layOut(firstRow)) {
-        Cell cell{planCell.begin, planCell.end, findStack(planCell), line, 0};
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        Cell& cell = cells_[c];
+        cell = {plan.cells[c].begin, plan.cells[c].end,
+                plan.keepsBoundaries ? cell.stack : findStack(plan.cells[c]), line, 0};
         const Stack& stack = stacks_[cell.stack];
         if (stack.slopesY && stack.slopesX) {
             changedRows = ~std::uint64_t{0};
         } else if (stack.slopesY) {
             cell.breaks =
-                measureLine(stack, {firstColumn_ + cell.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
+                measureLine(cell, {firstColumn_ + cell.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
             changedRows |= cell.breaks << firstRow;
-            line += static_cast<std::uint32_t>(stack.slopedCount * kTile);
+            line += static_cast<std::uint32_t>((stack.slopedCount + 1) * kTile);
         }
-        cells_.push_back(cell);
     }
     for (Cell& cell : cells_)
         if (stacks_[cell.stack].slopesX) cell.line = line;  // one place for all lines along x
@@ -274,32 +293,34 @@ void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
             continue;
         }
         for (const Cell& cell : cells_) makeCell(cell, y, firstRow, endRow);
-        builder_.addRow(row_);
+        builder_.addRow(std::span(row_).first(row_.size() - kStride));
     }
 }
 
 volume::ColumnTileData TileColumns::make(const TileInput& input) {
     constexpr std::size_t kMostMembers = std::size_t{1} << 20;
     if (members_.size() + profiles_.size() > kMostMembers) forget();
-    if (known_.empty()) known_.resize(std::size_t{1} << kKnownBits);
     ++tile_;
     firstColumn_ = input.firstColumn;
     firstRow_ = input.firstRow;
     plan_.build(input);
     builder_.start(input.width);
-    row_.resize(static_cast<std::size_t>(input.width));
+    row_.resize(static_cast<std::size_t>(input.width) + kStride);
     for (std::int32_t y = 0; y < input.height;) {
         const std::int32_t next = nextBit(plan_.newRows(), y, input.height);
         makeRows(y, next);
         y = next;
     }
-    return builder_.finish();
+    volume::ColumnTileData tile = builder_.finish();
+    // Every run of a tile's dictionary is in use, so a look at the runs tells who is there.
+    for (const volume::Run& run : tile.runs) isPresent_[run.scalar] = 1;
+    return tile;
 }
 
 // What solids share in the columns that were found again.
 void TileColumns::countKnown(KnownColumn& known) {
     for (const auto& shared : std::span(known.shared, known.sharedCount))
-        profiles_.addShared(shared.interval, std::uint64_t{known.columns} * shared.length);
+        profiles_.addShared(shared.group, std::uint64_t{known.columns} * shared.length);
     known.columns = 0;
 }
 
@@ -318,10 +339,9 @@ void TileColumns::forget() {
     heights_.clear();
 }
 
-void TileColumns::takeCounts(std::vector<SharedCount>& counts) {
+SharedCounts TileColumns::takeCounts() {
     forget();
-    counts.insert(counts.end(), counts_.begin(), counts_.end());
-    counts_.clear();
+    return std::exchange(counts_, {});
 }
 
 }  // namespace svt::voxelize

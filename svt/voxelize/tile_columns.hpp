@@ -5,6 +5,7 @@
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
+#include <svt/voxelize/line_heights.hpp>
 #include <svt/voxelize/profiles.hpp>
 #include <svt/voxelize/tile_plan.hpp>
 
@@ -18,16 +19,17 @@ namespace svt::voxelize {
 /// Makes the columns of tiles; keeps its buffers between them. One per thread.
 class TileColumns {
 public:
-    TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels)
-        : levels_(levels), profiles_(claims), builder_(1) {}
+    TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels);
 
     [[nodiscard]] volume::ColumnTileData make(const TileInput& input);
 
-    /// Appends the voxels that two solids share in all tiles made so far (unordered, pairs may repeat).
-    void takeCounts(std::vector<SharedCount>& counts);
+    /// Voxels that two solids share in all tiles made since the last call.
+    [[nodiscard]] SharedCounts takeCounts();
+    /// Per scalar, 1: some voxel of the tiles made so far has it. Scalars that no claim has are not told.
+    [[nodiscard]] std::span<const std::uint8_t> isPresent() const noexcept { return isPresent_; }
 
 private:
-    static constexpr std::size_t kTile = 64;
+    static constexpr std::size_t kTile = kLineSamples;
 
     // The boundaries over a cell, by levels, in the order in which the last column met them. Cells with the same
     // boundaries share one, in all tiles.
@@ -51,7 +53,7 @@ private:
     struct Cell {
         std::int32_t begin = 0, end = 0;
         std::uint32_t stack = 0;
-        std::uint32_t line = 0;    // of lines_: heights along y, where it slopes that way alone
+        std::uint32_t line = 0;    // of lines_: along y, where it slopes that way alone
         std::uint64_t breaks = 0;  // bit i: row i of the line differs from the one before
     };
     // Columns side by side along x, or rows along y; samples of the grid.
@@ -69,7 +71,7 @@ private:
         std::uint16_t column = 0;
         std::uint8_t sharedCount = 0;
         struct Shared {
-            std::uint32_t interval, length;
+            std::uint32_t group, length;
         } shared[kMostShared] = {};
     };
     static constexpr std::uint32_t kNoStack = 0xFFFFFFFFu;
@@ -78,15 +80,15 @@ private:
     std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint64_t> members);
     void beginStack(Stack& stack, std::int32_t i, std::int32_t j);
     void orderStack(Stack& stack);
-    void moveStack(Stack& stack, const std::int32_t* slopedHeights);
+    void moveStack(Stack& stack, const std::int32_t* heights);
     void countShared(const Stack& stack, std::uint64_t columns);
-    void measureShared(const Stack& stack, KnownColumn& known) const;
+    bool measureShared(const Stack& stack, KnownColumn& known) const;
     void countKnown(KnownColumn& known);
     void forget();
 
     void makeRows(std::int32_t firstRow, std::int32_t endRow);
     void makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
-    std::uint64_t measureLine(const Stack& stack, const Line& line, std::uint32_t place);
+    std::uint64_t measureLine(const Cell& cell, const Line& line, std::uint32_t place);
     std::uint16_t makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
     std::uint16_t makeColumn(const Stack& stack);
 
@@ -96,11 +98,13 @@ private:
     volume::ColumnTileBuilder builder_;
     std::int32_t firstColumn_ = 0, firstRow_ = 0;
     std::uint32_t tile_ = 0;  // counts the tiles
-    std::vector<SharedCount> counts_;
+    SharedCounts counts_;
+    std::vector<std::uint8_t> isPresent_;
 
     std::vector<Stack> stacks_;
     HashIndex stackIndex_;
     std::vector<std::uint64_t> members_;
+    std::vector<std::uint64_t> ascending_;  // members of a stack that is added
     std::vector<StackLevel> stackLevels_;
     std::vector<std::uint32_t> stackCodes_;  // of the boundaries, level by level
     std::vector<std::uint32_t> order_;       // slots, bottom up
@@ -111,9 +115,9 @@ private:
 
     std::vector<Cell> cells_;  // of the current row
     std::vector<std::uint16_t> row_;
-    std::vector<std::int32_t> lines_;  // of a line: kTile heights for each sloped level of its stack
+    std::vector<std::int32_t> lines_;  // as heightsAlong() makes them, kTile numbers for each level and one more
+    std::vector<LineLevel> lineLevels_;
     std::vector<KnownColumn> known_;
-    std::vector<std::int32_t> stepHeights_;  // of the sloped levels at one step of a line
 };
 
 }  // namespace svt::voxelize

@@ -1,3 +1,4 @@
+#include <svt/voxelize/edge_columns.hpp>
 #include <svt/voxelize/tile_plan.hpp>
 
 #include <algorithm>
@@ -31,42 +32,32 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
 bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
                          PlacedEdge& out) noexcept {
     const int from = edge, to = edge == 2 ? 0 : edge + 1;
-    if (t.row(from) == t.row(to)) return false;
+    out.first = std::min(t.column(from), t.column(to)) - input.firstColumn;
+    if (out.first >= input.width) return false;
+    // The triangle beyond an inner edge touches the tile too, unless all of the edge lies west of it.
+    const bool isInner = (t.innerEdges >> edge & 1) != 0;
+    if (isInner && out.first > 0) return false;
     // Counter-clockwise, an edge that goes south has the triangle to its east.
-    const bool goesNorth = t.row(from) < t.row(to);
+    const bool goesNorth = t.y[from] < t.y[to];
     const int south = goesNorth ? from : to, north = goesNorth ? to : from;
     out.firstRow = std::max(t.row(south) - input.firstRow, 0);
     out.endRow = std::min(t.row(north) - input.firstRow, input.height);
     if (out.firstRow >= out.endRow) return false;
-    out.first = std::min(t.column(from), t.column(to)) - input.firstColumn;
     out.last = std::max(t.column(from), t.column(to)) - input.firstColumn;
-    if (out.first >= input.width) return false;
     out.isEntry = goesNorth == looksDown;
     out.x0 = t.x[south];
     out.y0 = t.y[south];
     out.x1 = t.x[north];
     out.y1 = t.y[north];
-    if (out.last <= 0 || (t.innerEdges >> edge & 1) == 0) return true;
-    // The triangle beyond an inner edge touches the tile too, unless all of the edge lies west of it.
-    if (out.first > 0) return false;
-    const auto isWest = [&](std::int32_t row) {
-        return EdgeWalk(out.x0, out.y0, out.x1, out.y1, input.firstRow + row).sample() <= input.firstColumn;
+    if (!isInner || out.last <= 0) return true;
+    const std::int64_t dx = std::int64_t(out.x1) - out.x0, dy = std::int64_t(out.y1) - out.y0;
+    const auto isWest = [&](std::int32_t row) {  // of the tile's first sample, or on it
+        const std::int64_t y = std::int64_t(input.firstRow + row) * kQuanta + 1 - out.y0;
+        return y * dx <= (std::int64_t(input.firstColumn) * kQuanta + 1 - out.x0) * dy;
     };
     if (!isWest(out.firstRow) || !isWest(out.endRow - 1)) return false;
     out.last = 0;
     return true;
-}
-
-// Rows [first, end) outside of which an edge passes the tile to its west or east. A row too many does no harm.
-std::pair<std::int32_t, std::int32_t> TilePlan::rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept {
-    const double perColumn = (double(edge.y1) - edge.y0) / (double(edge.x1) - edge.x0);
-    const auto rowAt = [&](std::int32_t column) {
-        const double y = edge.y0 + (double(input.firstColumn + column) * double(kQuanta) - edge.x0) * perColumn;
-        return std::clamp(y / double(kQuanta) - input.firstRow, -4.0, 68.0);
-    };
-    const double west = rowAt(-1), east = rowAt(input.width + 1);
-    return {std::clamp(static_cast<std::int32_t>(std::min(west, east)) - 1, edge.firstRow, edge.endRow),
-            std::clamp(static_cast<std::int32_t>(std::max(west, east)) + 2, edge.firstRow, edge.endRow)};
 }
 
 // West of the tile only the sum of windings matters.
@@ -90,25 +81,16 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
         within = bits(edge.firstRow, edge.endRow);
         std::memset(columns + edge.firstRow, edge.first, static_cast<std::size_t>(edge.endRow - edge.firstRow));
     } else {
-        const auto [firstRow, endRow] = rowsWithin(input, edge);
-        std::uint64_t west = edge.x0 < edge.x1 ? bits(edge.firstRow, firstRow) : bits(endRow, edge.endRow);
-        if (firstRow < endRow) {
-            EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + firstRow);
-            std::int64_t previous = 0;
-            for (std::int32_t row = firstRow; row < endRow; ++row, walk.nextRow()) {
-                const std::int64_t column = walk.sample() - input.firstColumn;
-                const std::uint64_t bit = std::uint64_t{1} << row;
-                turns |= column != previous ? bit : 0;
-                previous = column;
-                if (column <= 0) {
-                    west |= bit;
-                } else if (column < input.width) {
-                    within |= bit;
-                    columns[row] = static_cast<std::uint8_t>(column);
-                }
-            }
+        const EdgeWalk walk(edge.x0, edge.y0, edge.x1, edge.y1, input.firstRow + edge.firstRow);
+        std::uint8_t placed[kEdgeSpace];
+        const EdgeRows rows = edgeColumns(walk, input.firstColumn, input.width, edge.endRow - edge.firstRow, placed);
+        within = rows.within << edge.firstRow;
+        turns = rows.moves << edge.firstRow;
+        if (rows.within != 0) {  // rows side by side, as an edge is straight
+            const int first = std::countr_zero(rows.within), end = 64 - std::countl_zero(rows.within);
+            std::memcpy(columns + edge.firstRow + first, placed + first, static_cast<std::size_t>(end - first));
         }
-        if (west != 0) addWest(west, edge.isEntry);
+        if (rows.west != 0) addWest(rows.west << edge.firstRow, edge.isEntry);
     }
     std::uint64_t& met = edge.isEntry ? outline_.begun : outline_.ended;
     if ((met & within) != 0) outline_.isSimple = false;
@@ -137,7 +119,7 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint3
     });
     const std::size_t firstCover = covers_.size();
     const auto addStretch = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
-        if (firstCover + number == covers_.size()) covers_.push_back({0, face.packed(), kNone, {}, {}});
+        if (firstCover + number == covers_.size()) covers_.push_back({0, face.packed(), {}, {}});
         Cover& cover = covers_[firstCover + number];
         cover.rows |= std::uint64_t{1} << row;
         cover.begin[row] = begin;
@@ -200,13 +182,14 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
     const std::int32_t firstRow = std::max(box.firstRow - input.firstRow, 0);
     const std::int32_t endRow = std::min(box.endRow - input.firstRow, input.height);
     if (begin >= end || firstRow >= endRow) return;
-    const auto boundaryAt = [&](std::int32_t k, bool isEntry) {
-        return Boundary{static_cast<std::uint32_t>(std::clamp(k, 0, input.depth)), box.claim, isEntry}.packed();
-    };
-    covers_.push_back({bits(firstRow, endRow), boundaryAt(box.low, true), boundaryAt(box.high, false), {}, {}});
-    std::memset(covers_.back().begin, begin, kTile);
-    std::memset(covers_.back().end, end, kTile);
-    newRows_ |= changes(covers_.back().rows);
+    const std::uint64_t rows = bits(firstRow, endRow);
+    for (const bool isEntry : {true, false}) {
+        const std::int32_t k = std::clamp(isEntry ? box.low : box.high, 0, input.depth);
+        covers_.push_back({rows, Boundary{static_cast<std::uint32_t>(k), box.claim, isEntry}.packed(), {}, {}});
+        std::memset(covers_.back().begin, begin, kTile);
+        std::memset(covers_.back().end, end, kTile);
+    }
+    newRows_ |= changes(rows);
 }
 
 void TilePlan::build(const TileInput& input) {
@@ -223,54 +206,56 @@ void TilePlan::build(const TileInput& input) {
 
     newRows_ &= bits(0, input.height);
     for (std::vector<Span>& row : rows_) row.clear();
-    // Ascending boundaries, so that equal cells list them in the same order.
-    order_.resize(covers_.size());
-    for (std::uint32_t c = 0; c < covers_.size(); ++c) order_[c] = {covers_[c].boundary, c};
-    for (std::uint32_t c = 0; c < covers_.size(); ++c)
-        if (covers_[c].second != kNone) order_.push_back({covers_[c].second, c});
-    std::sort(order_.begin(), order_.end());
-    for (const auto& [boundary, number] : order_) {
-        const Cover& cover = covers_[number];
+    coverMembers_.clear();
+    for (std::uint32_t c = 0; c < covers_.size(); ++c) {
+        const Cover& cover = covers_[c];
+        coverMembers_.push_back({cover.boundary, scramble(cover.boundary)});
         for (std::uint64_t rows = cover.rows & newRows_; rows != 0; rows &= rows - 1) {
             const int row = std::countr_zero(rows);
-            if (cover.begin[row] < cover.end[row]) rows_[row].push_back({boundary, cover.begin[row], cover.end[row]});
+            if (cover.begin[row] < cover.end[row]) rows_[row].push_back({c, cover.begin[row], cover.end[row]});
         }
     }
+    cells_.clear();
 }
 
-std::span<const PlanCell> TilePlan::layOut(std::int32_t y) {
+PlanRow TilePlan::layOut(std::int32_t y) {
     const std::vector<Span>& spans = rows_[y];
     std::uint64_t breaks = 1;  // bit x: a cell begins
     for (const Span& span : spans) {
         breaks |= std::uint64_t{1} << span.begin;
         if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
     }
+    const std::size_t previousCount = cells_.size();
     cells_.clear();
     std::uint8_t cellAt[kTile + 1];
-    std::uint64_t* next[kTile];  // where the next member of a cell goes
-    const auto cellCount = static_cast<std::size_t>(std::popcount(breaks));
-    if (members_.size() < cellCount * spans.size()) members_.resize(cellCount * spans.size());
     while (breaks != 0) {
         const int begin = std::countr_zero(breaks);
         breaks &= breaks - 1;
-        const std::size_t cell = cells_.size();
-        cellAt[begin] = static_cast<std::uint8_t>(cell);
-        next[cell] = members_.data() + cell * spans.size();
-        cells_.push_back({begin, breaks != 0 ? std::countr_zero(breaks) : width_,
-                          static_cast<std::uint32_t>(cell * spans.size()), 0, 0});
+        cellAt[begin] = static_cast<std::uint8_t>(cells_.size());
+        cells_.push_back({begin, breaks != 0 ? std::countr_zero(breaks) : width_, 0, 0, 0});
     }
-    cellAt[width_] = static_cast<std::uint8_t>(cellCount);
-    for (const Span& span : spans) {
-        const std::uint64_t hash = scramble(span.boundary);
-        for (std::size_t cell = cellAt[span.begin]; cell < cellAt[span.end]; ++cell) {
-            *next[cell]++ = span.boundary;
-            cells_[cell].hash += hash;
+    cellAt[width_] = static_cast<std::uint8_t>(cells_.size());
+    std::swap(cellSpans_, previousSpans_);
+    cellSpans_.clear();
+    for (const Span& span : spans) cellSpans_.push_back({span.cover, cellAt[span.begin], cellAt[span.end]});
+    if (cells_.size() == previousCount && cellSpans_ == previousSpans_) return {cells_, true};
+
+    std::uint64_t* next[kTile];  // where the next member of a cell goes
+    const std::size_t room = spans.size();
+    if (members_.size() < cells_.size() * room) members_.resize(cells_.size() * room);
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) next[cell] = members_.data() + cell * room;
+    for (const CellSpan& span : cellSpans_) {
+        const Member member = coverMembers_[span.cover];
+        for (std::size_t cell = span.begin; cell < span.end; ++cell) {
+            *next[cell]++ = member.boundary;
+            cells_[cell].hash += member.hash;
         }
     }
-    for (std::size_t cell = 0; cell < cellCount; ++cell)
-        cells_[cell].memberCount =
-            static_cast<std::uint32_t>(next[cell] - (members_.data() + cells_[cell].firstMember));
-    return cells_;
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+        cells_[cell].firstMember = static_cast<std::uint32_t>(cell * room);
+        cells_[cell].memberCount = static_cast<std::uint32_t>(next[cell] - (members_.data() + cell * room));
+    }
+    return {cells_, false};
 }
 
 }  // namespace svt::voxelize

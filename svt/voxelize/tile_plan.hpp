@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace svt::voxelize {
@@ -36,6 +35,12 @@ struct PlanCell {
     std::uint64_t hash = 0;  ///< of its boundaries, in any order
 };
 
+/// Cells of a row, west to east, without gap.
+struct PlanRow {
+    std::span<const PlanCell> cells;
+    bool keepsBoundaries = false;  ///< cell by cell the boundaries of the row laid out before; only stretches are new
+};
+
 /// Keeps its buffers between tiles.
 class TilePlan {
 public:
@@ -45,9 +50,9 @@ public:
     /// Bit y: the plan of row y may differ from that of the row before. Bit 0 is set.
     [[nodiscard]] std::uint64_t newRows() const noexcept { return newRows_; }
 
-    /// Cells of row y, which is one of newRows(); west to east, without gap. Valid until the next call.
-    [[nodiscard]] std::span<const PlanCell> layOut(std::int32_t y);
-    /// Boundaries of a cell of the last layOut(), packed, ascending.
+    /// Row y, which is one of newRows(). Valid until the next call.
+    [[nodiscard]] PlanRow layOut(std::int32_t y);
+    /// Boundaries of a cell of the last layOut(), packed; in the order of faces, then boxes, in all tiles.
     [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanCell& cell) const noexcept {
         return std::span(members_).subspan(cell.firstMember, cell.memberCount);
     }
@@ -55,17 +60,24 @@ public:
 private:
     static constexpr std::size_t kTile = 64;
 
-    static constexpr std::uint64_t kNone = ~std::uint64_t{0};
-
     // Where a boundary is: in each row over one stretch of columns. Concave faces have several.
     struct Cover {
-        std::uint64_t rows = 0;                      // bit y: [begin[y], end[y]) is covered; may be empty
-        std::uint64_t boundary = 0, second = kNone;  // second: lies over the same columns (top of a box)
+        std::uint64_t rows = 0;  // bit y: [begin[y], end[y]) is covered; may be empty
+        std::uint64_t boundary = 0;
         std::uint8_t begin[kTile], end[kTile];
     };
+    struct Member {
+        std::uint64_t boundary, hash;
+    };
     struct Span {
-        std::uint64_t boundary;
+        std::uint32_t cover;
+        std::uint8_t begin, end;  // columns
+    };
+    // The same in cells instead of columns.
+    struct CellSpan {
+        std::uint32_t cover;
         std::uint8_t begin, end;
+        friend bool operator==(const CellSpan&, const CellSpan&) = default;
     };
     // The cover of one face while its edges come. Passing an edge to the east adds its winding to the cover.
     struct Outline {
@@ -90,7 +102,6 @@ private:
     void addFace(const TileInput& input, std::span<const std::uint32_t> triangles);
     static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool looksDown,
                           PlacedEdge& out) noexcept;
-    static std::pair<std::int32_t, std::int32_t> rowsWithin(const TileInput& input, const PlacedEdge& edge) noexcept;
     void addWest(std::uint64_t rows, bool isEntry);
     void addToOutline(const TileInput& input, const PlacedEdge& edge);
     void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, Boundary face);
@@ -100,11 +111,12 @@ private:
     std::uint64_t newRows_ = 0;
     Outline outline_;
     std::vector<Cover> covers_;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order_;  // boundaries with their covers, ascending
+    std::vector<Member> coverMembers_;  // per cover
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
     std::vector<Span> rows_[kTile];
     std::vector<PlanCell> cells_;
+    std::vector<CellSpan> cellSpans_, previousSpans_;  // of the rows laid out last
     std::vector<std::uint64_t> members_;
 };
 

@@ -159,17 +159,12 @@ double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& i
 // alone.
 ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, const volume::Grid& grid,
                           const IndexFromLocal& indexFromLocal, std::span<const ObjectClaim> claims,
-                          std::vector<std::uint64_t>& thinVoxels, int threads) {
-    volume::Scalar scalarCount = 1;
-    for (const ObjectClaim& claim : claims) scalarCount = std::max(scalarCount, claim.scalar + 1);
-    // Every run of a tile's dictionary is in use, so a look at the runs tells who is there.
-    std::vector<std::uint8_t> isPresent(scalarCount, 0);
-    for (const volume::ColumnTile& tile : columns.tiles())
-        for (const volume::Run& run : tile.runs) isPresent[run.scalar] = 1;
+                          std::span<const std::uint8_t> isPresent, std::vector<std::uint64_t>& thinVoxels,
+                          int threads) {
     if (std::all_of(claims.begin(), claims.end(),
                     [&](const ObjectClaim& claim) { return isPresent[claim.scalar] != 0; }))
         return columns;
-    std::vector<std::uint64_t> counts = columns.countVoxels(scalarCount);
+    std::vector<std::uint64_t> counts = columns.countVoxels(static_cast<volume::Scalar>(isPresent.size()));
     std::vector<VoxelEdit> edits;
     const Vec3i dimension = grid.dimension();
     for (std::uint32_t o = 0; o < claims.size(); ++o) {
@@ -308,19 +303,26 @@ public:
         const std::lock_guard lock(mutex_);
         free_.push_back(std::move(maker));
     }
-    // What all makers counted; in an order that does not depend on who made which tile.
-    std::vector<SharedCount> takeCounts(int threads) {
-        std::vector<std::vector<SharedCount>> taken(free_.size());
+    // What all makers counted.
+    SharedCounts takeCounts(int threads) {
+        std::vector<SharedCounts> taken(free_.size());
         parallelFor(free_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t maker = begin; maker < end; ++maker) {
-                free_[maker]->takeCounts(taken[maker]);
-                joinCounts(taken[maker]);
-            }
+            for (std::size_t maker = begin; maker < end; ++maker) taken[maker] = free_[maker]->takeCounts();
         });
-        std::vector<SharedCount> counts;
-        for (const auto& ofMaker : taken) counts.insert(counts.end(), ofMaker.begin(), ofMaker.end());
-        joinCounts(counts);
+        SharedCounts counts;
+        for (const SharedCounts& ofMaker : taken)
+            for (const SharedCount& sum : ofMaker.sums()) counts.add(sum);
         return counts;
+    }
+    // Per scalar: some maker met it.
+    [[nodiscard]] std::vector<std::uint8_t> isPresent() const {
+        std::vector<std::uint8_t> present;
+        for (const auto& maker : free_) {
+            present.resize(maker->isPresent().size(), 0);
+            for (std::size_t scalar = 0; scalar < present.size(); ++scalar)
+                present[scalar] |= maker->isPresent()[scalar];
+        }
+        return present;
     }
 
 private:
@@ -332,7 +334,8 @@ private:
 
 struct Tiles {
     std::vector<volume::ColumnTileData> tiles;
-    std::vector<SharedCount> shared;
+    SharedCounts shared;
+    std::vector<std::uint8_t> isPresent;  // per scalar
 };
 
 Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims, const VoxelizeOptions& options) {
@@ -385,6 +388,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
         makers.giveBack(std::move(maker));
     });
     result.shared = makers.takeCounts(options.threads);
+    result.isPresent = makers.isPresent();
     return result;
 }
 
@@ -410,13 +414,13 @@ Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid
     VoxelizeResult result;
     result.thinVoxels = std::move(geometry->thinVoxels);
     result.uncertainVoxels = std::move(geometry->uncertainVoxels);
-    for (const SharedCount& pair : swept.shared)
+    for (const SharedCount& pair : swept.shared.sums())
         result.overlaps.push_back(
             {ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
     std::sort(result.overlaps.begin(), result.overlaps.end(),
               [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
     result.columns = keepVanished(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), scene, grid,
-                                  indexFromLocal, claims, result.thinVoxels, options.threads);
+                                  indexFromLocal, claims, swept.isPresent, result.thinVoxels, options.threads);
     Progress::tell(options.progress, "voxelize", 1);
     return result;
 }
