@@ -126,6 +126,7 @@ FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLe
                    std::uint32_t claim, LevelTable& ownLevels) {
     const auto& triangles = mesh.mesh->triangles;
     FaceList list;
+    list.triangles.reserve(triangles.size());
     FaceBuilder builder{triangles, list, {}, {}, {}, {}};
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const mesh::Triangle& triangle = triangles[t];

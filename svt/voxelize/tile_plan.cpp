@@ -26,6 +26,10 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
     return (number ^ number >> 29) * 0xBF58476D1CE4E5B9ull;
 }
 
+const FaceTriangle& triangleOf(const TileInput& input, PartNumber part) noexcept {
+    return input.objects[part.object].faces.triangles[part.number];
+}
+
 }  // namespace
 
 // False where the edge makes no difference to the tile.
@@ -99,10 +103,10 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
 }
 
 // The rare face of which a row meets more than one stretch: all crossings, sorted and paired.
-void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, Boundary face) {
+void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartNumber> triangles, Boundary face) {
     crossings_.clear();
-    for (const std::uint32_t index : triangles) {
-        const FaceTriangle& t = input.triangles[index];
+    for (const PartNumber part : triangles) {
+        const FaceTriangle& t = triangleOf(input, part);
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
             if (!placeEdge(input, t, e, face.isEntry, edge)) continue;
@@ -152,14 +156,15 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const std::uint3
     }
 }
 
-void TilePlan::addFace(const TileInput& input, std::span<const std::uint32_t> triangles) {
-    const Boundary face = input.faces[input.triangles[triangles.front()].face];
+void TilePlan::addFace(const TileInput& input, std::span<const PartNumber> triangles) {
+    const FaceList& list = input.objects[triangles.front().object].faces;
+    const Boundary face = list.faces[list.triangles[triangles.front().number].face];
     outline_.westIn = outline_.westOut = outline_.begun = outline_.ended = outline_.turns = 0;
     outline_.isSimple = true;
     std::memset(outline_.cover.begin, 0, kTile);
     std::memset(outline_.cover.end, input.width, kTile);
-    for (const std::uint32_t index : triangles) {
-        const FaceTriangle& triangle = input.triangles[index];
+    for (const PartNumber part : triangles) {
+        const FaceTriangle& triangle = list.triangles[part.number];
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
             if (placeEdge(input, triangle, e, face.isEntry, edge)) addToOutline(input, edge);
@@ -196,13 +201,15 @@ void TilePlan::build(const TileInput& input) {
     width_ = input.width;
     covers_.clear();
     newRows_ = 1;
-    const auto indices = input.triangleIndices;
-    for (std::size_t n = 0; n < indices.size();) {
+    const auto isSameFace = [&](PartNumber p, PartNumber q) {
+        return p.object == q.object && triangleOf(input, p).face == triangleOf(input, q).face;
+    };
+    for (std::size_t n = 0; n < input.triangles.size();) {
         const std::size_t first = n;
-        while (n < indices.size() && input.triangles[indices[n]].face == input.triangles[indices[first]].face) ++n;
-        addFace(input, indices.subspan(first, n - first));
+        while (n < input.triangles.size() && isSameFace(input.triangles[n], input.triangles[first])) ++n;
+        addFace(input, input.triangles.subspan(first, n - first));
     }
-    for (const std::uint32_t index : input.boxIndices) addBox(input, input.boxes[index]);
+    for (const PartNumber part : input.boxes) addBox(input, input.objects[part.object].boxes[part.number]);
 
     newRows_ &= bits(0, input.height);
     for (std::vector<Span>& row : rows_) row.clear();

@@ -18,14 +18,22 @@ struct ClaimedBox {
     std::uint32_t claim = 0;
 };
 
+/// What one object brings.
+struct ObjectParts {
+    FaceList faces;
+    std::vector<ClaimedBox> boxes;
+};
+
+/// A triangle or a box of an object.
+struct PartNumber {
+    std::uint32_t object = 0, number = 0;
+};
+
 /// What lies over a tile.
 struct TileInput {
     std::int32_t firstColumn = 0, firstRow = 0, width = 0, height = 0, depth = 0;  ///< samples; width, height <= 64
-    std::span<const Boundary> faces;
-    std::span<const FaceTriangle> triangles;
-    std::span<const std::uint32_t> triangleIndices;  ///< those that touch the tile, ascending
-    std::span<const ClaimedBox> boxes;
-    std::span<const std::uint32_t> boxIndices;  ///< those that touch the tile
+    std::span<const ObjectParts> objects;
+    std::span<const PartNumber> triangles, boxes;  ///< those that touch the tile, by objects, then ascending
 };
 
 /// A stretch of a row under the same boundaries.
@@ -99,12 +107,12 @@ private:
         std::int8_t winding;
     };
 
-    void addFace(const TileInput& input, std::span<const std::uint32_t> triangles);
+    void addFace(const TileInput& input, std::span<const PartNumber> triangles);
     static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool looksDown,
                           PlacedEdge& out) noexcept;
     void addWest(std::uint64_t rows, bool isEntry);
     void addToOutline(const TileInput& input, const PlacedEdge& edge);
-    void addConcaveFace(const TileInput& input, std::span<const std::uint32_t> triangles, Boundary face);
+    void addConcaveFace(const TileInput& input, std::span<const PartNumber> triangles, Boundary face);
     void addBox(const TileInput& input, const ClaimedBox& box);
 
     std::int32_t width_ = 0;

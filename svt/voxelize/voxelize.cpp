@@ -59,48 +59,62 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
     return result;
 }
 
-// Numbers of what touches each tile, tile after tile, in ascending order within one.
+// What touches each tile, tile after tile; within one by objects, then ascending.
 struct TileBins {
-    std::vector<std::uint32_t> first, items;
-    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t tile) const {
-        return std::span(items).subspan(first[tile], first[tile + 1] - first[tile]);
+    std::vector<std::uint32_t> first;
+    std::vector<PartNumber> parts;
+    [[nodiscard]] std::span<const PartNumber> of(std::size_t tile) const {
+        return std::span(parts).subspan(first[tile], first[tile + 1] - first[tile]);
     }
 };
 
-// `rangeOf(n, tx0, tx1, ty0, ty1)` gives the half-open range of tiles of item n, `touches(n, tx, ty)` has the last
-// word.
-template <class RangeOf, class Touches>
-TileBins fillBins(std::size_t count, std::int32_t tilesX, std::int32_t tilesY, int threads, RangeOf&& rangeOf,
-                  Touches&& touches) {
+// Of `items(object)`, a vector for each object. `rangeOf(item, tx0, tx1, ty0, ty1)` gives the half-open range of tiles
+// of an item, `touches(object, item, tx, ty)` has the last word.
+template <class Items, class RangeOf, class Touches>
+TileBins fillBins(std::span<const ObjectParts> objects, std::int32_t tilesX, std::int32_t tilesY, int threads,
+                  Items&& items, RangeOf&& rangeOf, Touches&& touches) {
     struct Entry {
-        std::uint32_t tile, item;
+        std::uint32_t tile;
+        PartNumber part;
     };
-    constexpr std::size_t kPart = 1024;
-    std::vector<std::vector<Entry>> parts((count + kPart - 1) / kPart);
-    parallelFor(parts.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t part = begin; part < end; ++part) {
-            const std::size_t last = std::min(count, (part + 1) * kPart);
-            parts[part].reserve(2 * kPart);
-            for (auto n = static_cast<std::uint32_t>(part * kPart); n < last; ++n) {
+    struct Stretch {
+        std::uint32_t object, begin, end;
+        std::vector<Entry> entries;
+    };
+    constexpr std::size_t kStretch = 1024;
+    std::vector<Stretch> stretches;
+    for (std::uint32_t o = 0; o < objects.size(); ++o) {
+        const std::size_t count = items(objects[o]).size();
+        for (std::size_t begin = 0; begin < count; begin += kStretch)
+            stretches.push_back({o, static_cast<std::uint32_t>(begin),
+                                 static_cast<std::uint32_t>(std::min(count, begin + kStretch)), {}});
+    }
+    parallelFor(stretches.size(), 1, threads, [&](std::size_t firstStretch, std::size_t endStretch) {
+        for (std::size_t s = firstStretch; s < endStretch; ++s) {
+            Stretch& stretch = stretches[s];
+            const ObjectParts& object = objects[stretch.object];
+            stretch.entries.reserve(2 * std::size_t{stretch.end - stretch.begin});
+            for (std::uint32_t n = stretch.begin; n < stretch.end; ++n) {
+                const auto& item = items(object)[n];
                 std::int32_t x0, x1, y0, y1;
-                rangeOf(n, x0, x1, y0, y1);
+                rangeOf(item, x0, x1, y0, y1);
                 const bool isBlock = x1 - x0 > 1 && y1 - y0 > 1;
                 for (std::int32_t y = y0; y < y1; ++y)
                     for (std::int32_t x = x0; x < x1; ++x)
-                        if (!isBlock || touches(n, x, y))
-                            parts[part].push_back({static_cast<std::uint32_t>(x + tilesX * y), n});
+                        if (!isBlock || touches(object, item, x, y))
+                            stretch.entries.push_back({static_cast<std::uint32_t>(x + tilesX * y), {stretch.object, n}});
             }
         }
     });
     TileBins bins;
     bins.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
-    for (const auto& part : parts)
-        for (const Entry& entry : part) ++bins.first[entry.tile + 1];
+    for (const Stretch& stretch : stretches)
+        for (const Entry& entry : stretch.entries) ++bins.first[entry.tile + 1];
     std::partial_sum(bins.first.begin(), bins.first.end(), bins.first.begin());
-    bins.items.resize(bins.first.back());
+    bins.parts.resize(bins.first.back());
     std::vector<std::uint32_t> next(bins.first.begin(), bins.first.end() - 1);
-    for (const auto& part : parts)
-        for (const Entry& entry : part) bins.items[next[entry.tile]++] = entry.item;
+    for (const Stretch& stretch : stretches)
+        for (const Entry& entry : stretch.entries) bins.parts[next[entry.tile]++] = entry.part;
     return bins;
 }
 
@@ -112,32 +126,30 @@ void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std
     tileEnd = first < end ? (end - 1) / ColumnVolume::kTileSize + 1 : tileFirst;
 }
 
-// What one object brings to the sweep.
-struct Prepared {
-    IndexMesh index;
-    FaceList faces;
-    LevelTable ownLevels;
-    std::vector<ClaimedBox> boxes;
-    std::uint64_t thinVoxels = 0;
-    std::uint64_t uncertainVoxels = 0;
+// Everything of all objects.
+struct Geometry {
+    LevelTable levels;
+    std::vector<ObjectParts> objects;
+    std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
 };
 
+// Parts of object number `object`, with levels of its own numbered as in `ownLevels`; its thin voxels.
 void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
                    std::span<const std::uint32_t> planeLevels, const Claims& claims, const VoxelizeOptions& options,
-                   std::uint32_t object, Prepared& out) {
+                   std::uint32_t object, LevelTable& ownLevels, Geometry& all) {
     const mesh::ObjectMesh& mesh = scene.objects[object];
-    out.index = makeIndexMesh(mesh, indexFromLocal);
+    if (mesh.closure == mesh::Closure::Open) return;  // filled by winding number, all cores on one object
+    const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
+    ObjectParts& parts = all.objects[object];
     if (mesh.closure == mesh::Closure::Surface) {
         const auto addSheet = options.sheets == SheetMode::Thin ? addThinSheet : addConservativeSheet;
-        addSheet(out.index, grid.dimension(), claims.thinOrder[object], out.boxes);
+        addSheet(index, grid.dimension(), claims.thinOrder[object], parts.boxes);
         return;
     }
-    if (!mesh.isSolid()) return;  // open: filled by winding number, all cores on one object
     const Vec3i dimension = grid.dimension();
-    out.faces = makeFaces(out.index, planeLevels, dimension, claims.solidOrder[object], out.ownLevels);
+    parts.faces = makeFaces(index, planeLevels, dimension, claims.solidOrder[object], ownLevels);
     if (options.keepThinParts)
-        out.thinVoxels = addThinParts(out.index, indexFromLocal, dimension, claims.thinOrder[object], out.boxes);
-    out.index = {};
+        all.thinVoxels[object] = addThinParts(index, indexFromLocal, dimension, claims.thinOrder[object], parts.boxes);
 }
 
 // Voxels of all sheets, estimated by their area: what the pass for them keeps in memory grows with it.
@@ -194,45 +206,6 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
     return edits.empty() ? columns : editVoxels(columns, std::move(edits), threads);
 }
 
-// Everything of all objects, in object order.
-struct Geometry {
-    LevelTable levels;
-    FaceList faces;
-    std::vector<ClaimedBox> boxes;
-    std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
-};
-
-// All objects' parts, in object order; levels of their own are numbered anew.
-void join(std::vector<Prepared>& prepared, Geometry& all) {
-    std::size_t faceCount = 0, triangleCount = 0, boxCount = 0;
-    for (const Prepared& object : prepared) {
-        faceCount += object.faces.faces.size();
-        triangleCount += object.faces.triangles.size();
-        boxCount += object.boxes.size();
-    }
-    all.faces.faces.reserve(faceCount);
-    all.faces.triangles.reserve(triangleCount);
-    all.boxes.reserve(boxCount);
-    for (Prepared& object : prepared) {
-        const auto firstFace = static_cast<std::uint32_t>(all.faces.faces.size());
-        const std::uint32_t firstLevel = all.levels.next();
-        for (Boundary face : object.faces.faces) {
-            if (face.level >= object.ownLevels.first) face.level += firstLevel - object.ownLevels.first;
-            all.faces.faces.push_back(face);
-        }
-        for (FaceTriangle triangle : object.faces.triangles) {
-            triangle.face += firstFace;
-            all.faces.triangles.push_back(triangle);
-        }
-        const auto& own = object.ownLevels.sloped;
-        all.levels.sloped.insert(all.levels.sloped.end(), own.begin(), own.end());
-        all.boxes.insert(all.boxes.end(), object.boxes.begin(), object.boxes.end());
-        all.thinVoxels.push_back(object.thinVoxels);
-        all.uncertainVoxels.push_back(object.uncertainVoxels);
-        object = {};
-    }
-}
-
 Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid,
                                 const IndexFromLocal& indexFromLocal, const Claims& claims,
                                 const VoxelizeOptions& options) {
@@ -251,22 +224,33 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
         planeLevels.reserve(levels.size());
         for (const auto& level : levels) planeLevels.push_back(level ? all.levels.add(*level) : kNoLevel);
     }
-    std::vector<Prepared> prepared(scene.objects.size());
+    all.objects.resize(scene.objects.size());
+    all.thinVoxels.resize(scene.objects.size(), 0);
+    all.uncertainVoxels.resize(scene.objects.size(), 0);
+    std::vector<LevelTable> ownLevels(scene.objects.size());
     parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o) {
-            prepared[o].ownLevels.depth = all.levels.depth;
-            prepared[o].ownLevels.first = all.levels.next();
+            ownLevels[o].depth = all.levels.depth;
+            ownLevels[o].first = all.levels.next();
             prepareObject(scene, grid, indexFromLocal, planeLevels, claims, options, static_cast<std::uint32_t>(o),
-                          prepared[o]);
+                          ownLevels[o], all);
         }
     });
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
         if (scene.objects[o].closure != mesh::Closure::Open) continue;
         if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
-        prepared[o].uncertainVoxels =
-            addWindingFill(prepared[o].index, scene, grid, claims.solidOrder[o], options.threads, prepared[o].boxes);
+        all.uncertainVoxels[o] = addWindingFill(makeIndexMesh(scene.objects[o], indexFromLocal), scene, grid,
+                                                claims.solidOrder[o], options.threads, all.objects[o].boxes);
     }
-    join(prepared, all);
+    // Levels of single objects are numbered anew, one object after the other.
+    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+        const LevelTable& own = ownLevels[o];
+        if (own.sloped.empty()) continue;
+        const std::uint32_t shift = all.levels.next() - own.first;
+        for (Boundary& face : all.objects[o].faces.faces)
+            if (face.level >= own.first) face.level += shift;
+        all.levels.sloped.insert(all.levels.sloped.end(), own.sloped.begin(), own.sloped.end());
+    }
     return all;
 }
 
@@ -341,26 +325,26 @@ struct Tiles {
 Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims, const VoxelizeOptions& options) {
     const std::int32_t tilesX = (dimension.x + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
     const std::int32_t tilesY = (dimension.y + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
-    const auto& triangles = geometry.faces.triangles;
-    const auto& boxes = geometry.boxes;
     constexpr std::int32_t kTile = ColumnVolume::kTileSize;
-    const TileBins triangleBins = fillBins(
-        triangles.size(), tilesX, tilesY, options.threads,
-        [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
-            tileRange(triangles[n].firstColumn, triangles[n].endColumn, dimension.x, x0, x1);
-            tileRange(triangles[n].firstRow, triangles[n].endRow, dimension.y, y0, y1);
+    const TileBins triangles = fillBins(
+        geometry.objects, tilesX, tilesY, options.threads,
+        [](const ObjectParts& object) -> const auto& { return object.faces.triangles; },
+        [&](const FaceTriangle& triangle, auto& x0, auto& x1, auto& y0, auto& y1) {
+            tileRange(triangle.firstColumn, triangle.endColumn, dimension.x, x0, x1);
+            tileRange(triangle.firstRow, triangle.endRow, dimension.y, y0, y1);
         },
-        [&](std::uint32_t n, std::int32_t x, std::int32_t y) {
-            return touchesSamples(triangles[n], geometry.faces.faces[triangles[n].face].isEntry, x * kTile, y * kTile,
-                                  kTile, kTile);
+        [](const ObjectParts& object, const FaceTriangle& triangle, std::int32_t x, std::int32_t y) {
+            return touchesSamples(triangle, object.faces.faces[triangle.face].isEntry, x * kTile, y * kTile, kTile,
+                                  kTile);
         });
-    const TileBins boxBins = fillBins(
-        boxes.size(), tilesX, tilesY, options.threads,
-        [&](std::uint32_t n, auto& x0, auto& x1, auto& y0, auto& y1) {
-            tileRange(boxes[n].begin, boxes[n].end, dimension.x, x0, x1);
-            tileRange(boxes[n].firstRow, boxes[n].endRow, dimension.y, y0, y1);
+    const TileBins boxes = fillBins(
+        geometry.objects, tilesX, tilesY, options.threads,
+        [](const ObjectParts& object) -> const auto& { return object.boxes; },
+        [&](const ClaimedBox& box, auto& x0, auto& x1, auto& y0, auto& y1) {
+            tileRange(box.begin, box.end, dimension.x, x0, x1);
+            tileRange(box.firstRow, box.endRow, dimension.y, y0, y1);
         },
-        [](std::uint32_t, std::int32_t, std::int32_t) { return true; });
+        [](const ObjectParts&, const ClaimedBox&, std::int32_t, std::int32_t) { return true; });
 
     const std::size_t tileCount = std::size_t(tilesX) * std::size_t(tilesY);
     Tiles result;
@@ -377,11 +361,9 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
             input.width = std::min(ColumnVolume::kTileSize, dimension.x - input.firstColumn);
             input.height = std::min(ColumnVolume::kTileSize, dimension.y - input.firstRow);
             input.depth = dimension.z;
-            input.faces = geometry.faces.faces;
-            input.triangles = triangles;
-            input.triangleIndices = triangleBins.of(tile);
-            input.boxes = boxes;
-            input.boxIndices = boxBins.of(tile);
+            input.objects = geometry.objects;
+            input.triangles = triangles.of(tile);
+            input.boxes = boxes.of(tile);
             result.tiles[tile] = maker->make(input);
             progress.tileDone();
         }
