@@ -13,9 +13,14 @@ Level::Level(const FaceHeight& face, std::int32_t depth) noexcept
       highest(std::clamp(face.highest, 0, depth)) {}
 
 std::uint32_t LevelTable::add(const Level& level) {
+    if (!level.isFlat()) sloped.emplace_back();
+    return put(sloped.size() - 1, level);
+}
+
+std::uint32_t LevelTable::put(std::size_t place, const Level& level) noexcept {
     if (level.isFlat()) return static_cast<std::uint32_t>(level.sampleAbove(0, 0));
-    sloped.push_back(level);
-    return next() - 1;
+    sloped[place] = level;
+    return first + static_cast<std::uint32_t>(place);
 }
 
 }  // namespace svt::voxelize

@@ -5,6 +5,7 @@
 
 #include <svt/voxelize/scan.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -43,6 +44,8 @@ struct LevelTable {
     [[nodiscard]] const Level& operator[](std::uint32_t number) const noexcept { return sloped[number - first]; }
     /// Number of a level; a new one where it slopes.
     std::uint32_t add(const Level& level);
+    /// The same with a place in `sloped` that is kept for it; left unused where it does not slope.
+    std::uint32_t put(std::size_t place, const Level& level) noexcept;
     [[nodiscard]] std::uint32_t next() const noexcept { return first + static_cast<std::uint32_t>(sloped.size()); }
 };
 

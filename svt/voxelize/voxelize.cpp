@@ -15,7 +15,6 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
-#include <optional>
 
 namespace svt::voxelize {
 namespace {
@@ -214,15 +213,14 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
     all.levels.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
     std::vector<std::uint32_t> planeLevels;
     if (indexFromLocal.keepsVertical()) {
-        std::vector<std::optional<Level>> levels(scene.planes.size());
-        parallelFor(levels.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
+        planeLevels.resize(scene.planes.size(), kNoLevel);
+        all.levels.sloped.resize(scene.planes.size());
+        parallelFor(planeLevels.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) {
                 const mesh::Plane plane = indexFromLocal.plane(scene.planes[n]);
-                if (isScanPlane(plane)) levels[n].emplace(planeHeight(plane), grid.dimension().z);
+                if (isScanPlane(plane)) planeLevels[n] = all.levels.put(n, Level(planeHeight(plane), grid.dimension().z));
             }
         });
-        planeLevels.reserve(levels.size());
-        for (const auto& level : levels) planeLevels.push_back(level ? all.levels.add(*level) : kNoLevel);
     }
     all.objects.resize(scene.objects.size());
     all.thinVoxels.resize(scene.objects.size(), 0);
