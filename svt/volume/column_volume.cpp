@@ -8,32 +8,33 @@
 namespace svt::volume {
 namespace {
 
-// Multiply-xorshift mix of 64-bit words: cheap, and good enough for tables that compare in full afterwards.
-std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
-    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
-    return hash ^ (hash >> 32);
-}
-
-// Multilinear: runs times odd factors, all at once, since no product waits for the one before. Good in its upper half.
-std::uint64_t hashRuns(std::span<const Run> runs) noexcept {
-    std::uint64_t hash = runs.size(), factor = 0x9E3779B97F4A7C15ull;
-    for (const Run& run : runs) {
-        hash += ((std::uint64_t(run.scalar) << 32 | run.end) + (factor >> 7)) * factor;
+// Multilinear: words times odd factors, all at once, since no product waits for the one before. Good in its upper half,
+// and good enough for tables that compare in full afterwards.
+struct WordHash {
+    std::uint64_t sum, factor = 0x9E3779B97F4A7C15ull;
+    void add(std::uint64_t word) noexcept {
+        sum += (word + (factor >> 7)) * factor;
         factor += 0xBF58476D1CE4E5BAull;
     }
-    return hash ^ hash >> 29;
+    [[nodiscard]] std::uint64_t value() const noexcept { return sum ^ sum >> 29; }
+};
+
+std::uint64_t hashRuns(std::span<const Run> runs) noexcept {
+    WordHash hash{runs.size()};
+    for (const Run& run : runs) hash.add(std::uint64_t(run.scalar) << 32 | run.end);
+    return hash.value();
 }
 
 std::uint64_t hashRow(std::span<const std::uint16_t> columns) noexcept {
-    std::uint64_t hash = columns.size();
+    WordHash hash{columns.size()};
     std::size_t i = 0;
     for (; i + 4 <= columns.size(); i += 4) {
         std::uint64_t word;
         std::memcpy(&word, columns.data() + i, sizeof word);
-        hash = mix(hash, word);
+        hash.add(word);
     }
-    for (; i < columns.size(); ++i) hash = mix(hash, columns[i]);
-    return hash;
+    for (; i < columns.size(); ++i) hash.add(columns[i]);
+    return hash.value();
 }
 
 // Without a branch for each run: the runs that a table leads to are nearly always equal.

@@ -194,17 +194,23 @@ std::uint64_t TileColumns::measureLine(const Cell& cell, const Line& line, std::
 }
 
 // The column at a step of a line, of which there are `columns`.
-std::uint16_t TileColumns::makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns) {
-    Stack& stack = stacks_[number];
+inline std::uint16_t TileColumns::findStep(std::uint32_t number, std::uint32_t line, std::size_t step,
+                                           std::uint64_t columns) {
     const std::int32_t* const hash = lines_.data() + line + step;
     const std::int32_t* const heights = hash + kTile;
     KnownColumn& known = known_[static_cast<std::uint32_t>(*hash) >> (32 - kKnownBits)];
     bool isKnown = known.stack == number && known.tile == tile_;
-    for (std::size_t s = 0; s < stack.slopedCount && isKnown; ++s) isKnown = known.heights[s] == heights[s * kTile];
-    if (isKnown) {
-        known.columns += static_cast<std::uint32_t>(columns);
-        return known.column;
-    }
+    const std::uint32_t slopedCount = stacks_[number].slopedCount;
+    for (std::size_t s = 0; s < slopedCount && isKnown; ++s) isKnown = known.heights[s] == heights[s * kTile];
+    if (!isKnown) return makeStep(number, heights, known, columns);
+    known.columns += static_cast<std::uint32_t>(columns);
+    return known.column;
+}
+
+// The same for a column that is not known, and goes where `known` is.
+std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* heights, KnownColumn& known,
+                                    std::uint64_t columns) {
+    Stack& stack = stacks_[number];
     countKnown(known);
     known.stack = kNoStack;
     moveStack(stack, heights);
@@ -232,7 +238,7 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
     if (!stack.slopesX && stack.slopesY) {
         if ((cell.breaks >> step & 1) == 0) return;
         const auto count = std::uint64_t(nextBit(cell.breaks, step, rows) - step) * std::uint64_t(width);
-        std::fill_n(columns, width, makeStep(cell.stack, cell.line, static_cast<std::size_t>(step), count));
+        std::fill_n(columns, width, findStep(cell.stack, cell.line, static_cast<std::size_t>(step), count));
         return;
     }
     if (y != firstRow && !stack.slopesY) return;
@@ -254,7 +260,7 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
         breaks &= breaks - 1;
         const int next = breaks != 0 ? std::countr_zero(breaks) : width;
         const std::uint16_t column =
-            makeStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
+            findStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
         // Some too many, which the next step or the end below puts right: short stretches have no loop to foretell.
         std::uint16_t* to = columns + x;
         do {

@@ -89,7 +89,9 @@ private:
     void makeRows(std::int32_t firstRow, std::int32_t endRow);
     void makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
     std::uint64_t measureLine(const Cell& cell, const Line& line, std::uint32_t place);
-    std::uint16_t makeStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
+    std::uint16_t findStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
+    std::uint16_t makeStep(std::uint32_t number, const std::int32_t* heights, KnownColumn& known,
+                           std::uint64_t columns);
     std::uint16_t makeColumn(const Stack& stack);
 
     const LevelTable& levels_;
