@@ -15,8 +15,9 @@ public:
     /// \param size  entries at first, a power of two; the table doubles when it is half full
     explicit HashIndex(std::size_t size = 256) : table_(size, 0) {}
 
-    /// Forgets all numbers. Cost: O(size of the table).
+    /// Forgets all numbers. Cost: O(size of the table), nothing where there are none.
     void clear() {
+        if (count_ == 0) return;
         table_.assign(table_.size(), 0);
         count_ = 0;
     }

@@ -7,9 +7,13 @@
 namespace svt::voxelize {
 namespace {
 
-// A voxel of a row, in the order of x, then z.
-constexpr std::uint32_t packVoxel(std::int32_t i, std::int32_t k) noexcept {
-    return static_cast<std::uint32_t>(i) << 16 | static_cast<std::uint32_t>(k);
+// Three numbers below 2^20 that sort in this order: what an axis of a grid holds fits.
+constexpr std::uint64_t pack(std::int32_t first, std::int32_t second, std::int32_t third) noexcept {
+    return static_cast<std::uint64_t>(first) << 40 | static_cast<std::uint64_t>(second) << 20 |
+           static_cast<std::uint64_t>(third);
+}
+constexpr std::int32_t unpack(std::uint64_t packed, int number) noexcept {
+    return static_cast<std::int32_t>(packed >> (40 - 20 * number) & 0xFFFFFu);
 }
 
 auto rowOrder(const ClaimedBox& box) noexcept { return std::tie(box.low, box.high, box.begin, box.end); }
@@ -24,7 +28,7 @@ public:
             row_.assign(1, boxes.front());
         } else {
             makeRuns(boxes);
-            joinRuns();
+            joinRuns(boxes.front());
         }
         std::uint64_t voxels = 0;
         std::size_t match = 0;
@@ -46,43 +50,38 @@ public:
     }
 
 private:
-    // Runs along z, one voxel wide, in row_.
+    // Runs along z, one voxel wide, that do not touch each other: low, high and place along x.
     void makeRuns(std::span<const ClaimedBox> boxes) {
-        voxels_.clear();
+        parts_.clear();
         for (const ClaimedBox& box : boxes)
-            for (std::int32_t i = box.begin; i < box.end; ++i)
-                for (std::int32_t k = box.low; k < box.high; ++k) voxels_.push_back(packVoxel(i, k));
-        std::sort(voxels_.begin(), voxels_.end());
-        voxels_.erase(std::unique(voxels_.begin(), voxels_.end()), voxels_.end());
-        row_.clear();
-        for (std::size_t v = 0; v < voxels_.size(); ++v) {
-            if (v > 0 && voxels_[v] == voxels_[v - 1] + 1 && voxels_[v] >> 16 == voxels_[v - 1] >> 16) {
-                ++row_.back().high;
-                continue;
-            }
-            const auto i = static_cast<std::int32_t>(voxels_[v] >> 16);
-            const auto k = static_cast<std::int32_t>(voxels_[v] & 0xFFFFu);
-            row_.push_back({boxes.front().firstRow, boxes.front().endRow, i, i + 1, k, k + 1, boxes.front().claim});
+            for (std::int32_t i = box.begin; i < box.end; ++i) parts_.push_back(pack(i, box.low, box.high));
+        std::sort(parts_.begin(), parts_.end());
+        runs_.clear();
+        for (std::size_t p = 0; p < parts_.size();) {
+            const std::int32_t i = unpack(parts_[p], 0), low = unpack(parts_[p], 1);
+            std::int32_t high = unpack(parts_[p], 2);
+            for (++p; p < parts_.size() && unpack(parts_[p], 0) == i && unpack(parts_[p], 1) <= high; ++p)
+                high = std::max(high, unpack(parts_[p], 2));
+            runs_.push_back(pack(low, high, i));
         }
     }
 
-    // Equal runs side by side become one box.
-    void joinRuns() {
-        std::sort(row_.begin(), row_.end(),
-                  [](const ClaimedBox& p, const ClaimedBox& q) { return rowOrder(p) < rowOrder(q); });
-        std::size_t kept = 0;
-        for (std::size_t r = 1; r < row_.size(); ++r) {
-            if (row_[kept].low == row_[r].low && row_[kept].high == row_[r].high && row_[kept].end == row_[r].begin)
-                row_[kept].end = row_[r].end;
+    // Equal runs side by side become one box of the row that `like` is in.
+    void joinRuns(const ClaimedBox& like) {
+        std::sort(runs_.begin(), runs_.end());
+        row_.clear();
+        for (const std::uint64_t run : runs_) {
+            const std::int32_t low = unpack(run, 0), high = unpack(run, 1), i = unpack(run, 2);
+            if (!row_.empty() && row_.back().low == low && row_.back().high == high && row_.back().end == i)
+                ++row_.back().end;
             else
-                row_[++kept] = row_[r];
+                row_.push_back({like.firstRow, like.endRow, i, i + 1, low, high, like.claim});
         }
-        row_.resize(kept + 1);
     }
 
     std::vector<ClaimedBox>& disjoint_;
     std::vector<std::size_t> previous_, current_;  // boxes that reach the row before, and this one; by rowOrder
-    std::vector<std::uint32_t> voxels_;
+    std::vector<std::uint64_t> parts_, runs_;
     std::vector<ClaimedBox> row_;
 };
 

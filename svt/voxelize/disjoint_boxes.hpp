@@ -14,7 +14,7 @@ namespace svt::voxelize {
 /// successive rows are joined.
 /// \param boxes  of one claim, each one row high, within the grid
 /// \return count of voxels
-/// Cost: O(v log v) in the voxels of a row, O(boxes + rows) in all. Memory: the voxels of one row.
+/// Cost: O(r log r) in the runs of a row, O(boxes + rows) in all. Memory: the boxes, and the runs of one row.
 std::uint64_t addDisjoint(std::span<const ClaimedBox> boxes, std::vector<ClaimedBox>& disjoint);
 
 }  // namespace svt::voxelize
