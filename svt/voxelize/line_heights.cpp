@@ -27,7 +27,8 @@ std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count
         auto differs = hn::MaskFromVec(hn::Zero(d));
         std::int32_t* to = line + n;
         for (const LineLevel& level : levels) {
-            const auto lowest = hn::Set(d, std::int64_t{level.lowest}), highest = hn::Set(d, std::int64_t{level.highest});
+            const auto lowest = hn::Set(d, std::int64_t{level.lowest}),
+                       highest = hn::Set(d, std::int64_t{level.highest});
             const auto clamped = [&](auto height) HWY_ATTR {
                 return hn::Max(lowest, hn::Min(highest, hn::ShiftRight<Level::kBits>(height)));
             };

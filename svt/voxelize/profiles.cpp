@@ -52,8 +52,8 @@ std::uint32_t Profiles::findGroup(std::span<const std::uint32_t> solids) {
     return groupIndex_.findOrAdd(
         hashOf(solids), [&](std::uint32_t number) { return std::ranges::equal(membersOf(groups_[number]), solids); },
         [&] {
-            groups_.push_back({static_cast<std::uint32_t>(groupMembers_.size()),
-                               static_cast<std::uint32_t>(solids.size()), 0});
+            groups_.push_back(
+                {static_cast<std::uint32_t>(groupMembers_.size()), static_cast<std::uint32_t>(solids.size()), 0});
             groupMembers_.insert(groupMembers_.end(), solids.begin(), solids.end());
             return static_cast<std::uint32_t>(groups_.size() - 1);
         });
@@ -92,8 +92,7 @@ void Profiles::takeCounts(SharedCounts& counts) {
         if (group.voxels == 0) continue;
         const auto members = membersOf(group);
         for (std::size_t a = 0; a + 1 < members.size(); ++a)
-            for (std::size_t b = a + 1; b < members.size(); ++b)
-                counts.add({members[a], members[b], group.voxels});
+            for (std::size_t b = a + 1; b < members.size(); ++b) counts.add({members[a], members[b], group.voxels});
     }
     profiles_.clear();
     index_.clear();

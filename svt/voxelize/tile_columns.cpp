@@ -279,8 +279,8 @@ void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
     std::uint32_t line = 0;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
         Cell& cell = cells_[c];
-        cell = {plan.cells[c].begin, plan.cells[c].end,
-                plan.keepsBoundaries ? cell.stack : findStack(plan.cells[c]), line, 0};
+        cell = {plan.cells[c].begin, plan.cells[c].end, plan.keepsBoundaries ? cell.stack : findStack(plan.cells[c]),
+                line, 0};
         const Stack& stack = stacks_[cell.stack];
         if (stack.slopesY && stack.slopesX) {
             changedRows = ~std::uint64_t{0};

@@ -222,7 +222,7 @@ void TilePlan::build(const TileInput& input) {
             if (cover.begin[row] < cover.end[row]) rows_[row].push_back({c, cover.begin[row], cover.end[row]});
         }
     }
-    cells_.clear();
+    cellCount_ = 0;
 }
 
 PlanRow TilePlan::layOut(std::int32_t y) {
@@ -232,37 +232,42 @@ PlanRow TilePlan::layOut(std::int32_t y) {
         breaks |= std::uint64_t{1} << span.begin;
         if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
     }
-    const std::size_t previousCount = cells_.size();
-    cells_.clear();
+    const std::size_t previousCount = cellCount_;
+    cellCount_ = 0;
     std::uint8_t cellAt[kTile + 1];
     while (breaks != 0) {
         const int begin = std::countr_zero(breaks);
         breaks &= breaks - 1;
-        cellAt[begin] = static_cast<std::uint8_t>(cells_.size());
-        cells_.push_back({begin, breaks != 0 ? std::countr_zero(breaks) : width_, 0, 0, 0});
+        cellAt[begin] = static_cast<std::uint8_t>(cellCount_);
+        cells_[cellCount_++] = {begin, breaks != 0 ? std::countr_zero(breaks) : width_, 0, 0, 0};
     }
-    cellAt[width_] = static_cast<std::uint8_t>(cells_.size());
+    cellAt[width_] = static_cast<std::uint8_t>(cellCount_);
+    const std::span cells(cells_, cellCount_);
     std::swap(cellSpans_, previousSpans_);
-    cellSpans_.clear();
-    for (const Span& span : spans) cellSpans_.push_back({span.cover, cellAt[span.begin], cellAt[span.end]});
-    if (cells_.size() == previousCount && cellSpans_ == previousSpans_) return {cells_, true};
+    cellSpans_.resize(spans.size());
+    bool isKept = cellCount_ == previousCount && spans.size() == previousSpans_.size();
+    for (std::size_t s = 0; s < spans.size(); ++s) {
+        cellSpans_[s] = {spans[s].cover, cellAt[spans[s].begin], cellAt[spans[s].end]};
+        isKept = isKept && cellSpans_[s] == previousSpans_[s];
+    }
+    if (isKept) return {cells, true};
 
     std::uint64_t* next[kTile];  // where the next member of a cell goes
     const std::size_t room = spans.size();
-    if (members_.size() < cells_.size() * room) members_.resize(cells_.size() * room);
-    for (std::size_t cell = 0; cell < cells_.size(); ++cell) next[cell] = members_.data() + cell * room;
+    if (members_.size() < cells.size() * room) members_.resize(cells.size() * room);
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) next[cell] = members_.data() + cell * room;
     for (const CellSpan& span : cellSpans_) {
         const Member member = coverMembers_[span.cover];
         for (std::size_t cell = span.begin; cell < span.end; ++cell) {
             *next[cell]++ = member.boundary;
-            cells_[cell].hash += member.hash;
+            cells[cell].hash += member.hash;
         }
     }
-    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-        cells_[cell].firstMember = static_cast<std::uint32_t>(cell * room);
-        cells_[cell].memberCount = static_cast<std::uint32_t>(next[cell] - (members_.data() + cell * room));
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        cells[cell].firstMember = static_cast<std::uint32_t>(cell * room);
+        cells[cell].memberCount = static_cast<std::uint32_t>(next[cell] - (members_.data() + cell * room));
     }
-    return {cells_, false};
+    return {cells, false};
 }
 
 }  // namespace svt::voxelize

@@ -123,7 +123,8 @@ private:
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
     std::vector<Span> rows_[kTile];
-    std::vector<PlanCell> cells_;
+    PlanCell cells_[kTile];  // of the row laid out last, the first cellCount_
+    std::size_t cellCount_ = 0;
     std::vector<CellSpan> cellSpans_, previousSpans_;  // of the rows laid out last
     std::vector<std::uint64_t> members_;
 };

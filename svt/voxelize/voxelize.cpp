@@ -85,8 +85,10 @@ TileBins fillBins(std::span<const ObjectParts> objects, std::int32_t tilesX, std
     for (std::uint32_t o = 0; o < objects.size(); ++o) {
         const std::size_t count = items(objects[o]).size();
         for (std::size_t begin = 0; begin < count; begin += kStretch)
-            stretches.push_back({o, static_cast<std::uint32_t>(begin),
-                                 static_cast<std::uint32_t>(std::min(count, begin + kStretch)), {}});
+            stretches.push_back({o,
+                                 static_cast<std::uint32_t>(begin),
+                                 static_cast<std::uint32_t>(std::min(count, begin + kStretch)),
+                                 {}});
     }
     parallelFor(stretches.size(), 1, threads, [&](std::size_t firstStretch, std::size_t endStretch) {
         for (std::size_t s = firstStretch; s < endStretch; ++s) {
@@ -101,7 +103,8 @@ TileBins fillBins(std::span<const ObjectParts> objects, std::int32_t tilesX, std
                 for (std::int32_t y = y0; y < y1; ++y)
                     for (std::int32_t x = x0; x < x1; ++x)
                         if (!isBlock || touches(object, item, x, y))
-                            stretch.entries.push_back({static_cast<std::uint32_t>(x + tilesX * y), {stretch.object, n}});
+                            stretch.entries.push_back(
+                                {static_cast<std::uint32_t>(x + tilesX * y), {stretch.object, n}});
             }
         }
     });
@@ -218,7 +221,8 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
         parallelFor(planeLevels.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) {
                 const mesh::Plane plane = indexFromLocal.plane(scene.planes[n]);
-                if (isScanPlane(plane)) planeLevels[n] = all.levels.put(n, Level(planeHeight(plane), grid.dimension().z));
+                if (isScanPlane(plane))
+                    planeLevels[n] = all.levels.put(n, Level(planeHeight(plane), grid.dimension().z));
             }
         });
     }
