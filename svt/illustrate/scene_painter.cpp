@@ -73,10 +73,18 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
     return render::DrawnVolume(*forms.bricks, volume.grid);
 }
 
-Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
-    return paint(scene, [&](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
+namespace {
+
+ScenePainter::Draw byCasting(const render::CastOptions& options) {
+    return [options](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
         return render::castRays(volumes, spec, options);
-    });
+    };
+}
+
+}  // namespace
+
+Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
+    return paint(scene, byCasting(options));
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
@@ -88,9 +96,32 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
         if (!made) return made.error();
         drawn.push_back(*made);
     }
-    auto frame = draw(drawn, *spec);
+    return finish(scene, std::move(*spec), drawn, draw);
+}
+
+Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
+    auto spec = frameOf(scene, volume_);
+    if (!spec) return spec.error();
+    std::vector<render::DrawnVolume> drawn;
+    std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
+    for (const VolumeForm& wanted : illustrate::formsOf(scene)) {
+        const auto forms = formsOf(wanted.shell);
+        if (!forms) return forms.error();
+        const volume::SemanticVolume& volume = *(*forms)->volume;
+        auto bricks = volume::BrickVolume::fromColumns(volume.columns,
+                                                       {.faces = volume::BrickFaces::Voxels, .threads = threads_});
+        if (!bricks) return bricks.error();
+        drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));
+        drawn.emplace_back(*drafts.back(), volume.grid);
+    }
+    return finish(scene, std::move(*spec), drawn, byCasting(options));
+}
+
+Result<Painting> ScenePainter::finish(const Scene& scene, render::FrameSpec spec,
+                                      std::span<const render::DrawnVolume> drawn, const Draw& draw) const {
+    auto frame = draw(drawn, spec);
     if (!frame) return frame.error();
-    Painting painting{std::move(*frame), std::move(*spec)};
+    Painting painting{std::move(*frame), std::move(spec)};
     if (auto named = addNames(scene, volume_, painting); !named) return named.error();
     return painting;
 }

@@ -35,7 +35,11 @@ public:
     /// Cost: that of castRays(); and once, of each form.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
-    /// The same by another renderer: `draw` is given the volumes that the passes draw and the frame.
+    /// A draft of the same, for a first and coarse picture: surfaces are voxels, far views are not smoothed. Keeps no
+    /// form, and comes many times sooner than a picture for which forms must be made.
+    [[nodiscard]] Result<Painting> paintDraft(const Scene& scene, const render::CastOptions& options = {});
+
+    /// The same as paint() by another renderer: `draw` is given the volumes that the passes draw and the frame.
     using Draw = std::function<Result<render::Frame>(std::span<const render::DrawnVolume>, const render::FrameSpec&)>;
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
@@ -46,6 +50,8 @@ private:
     // The volume or a shell of it, with what is made of it.
     struct Forms;
     Result<Forms*> formsOf(std::optional<ShellLevel> shell);
+    Result<Painting> finish(const Scene& scene, render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
+                            const Draw& draw) const;
 
     const volume::SemanticVolume& volume_;
     int threads_;

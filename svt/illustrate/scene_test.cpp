@@ -161,6 +161,24 @@ TEST(Scene, APainterKeepsTheFormsThatScenesNeed) {
     EXPECT_EQ(painter.form({ShellLevel::Building, 2}, plain->spec)->level()->level, 2);
 }
 
+TEST(Scene, ADraftShowsWhatThePictureShows) {
+    const volume::SemanticVolume volume = house();
+    ScenePainter painter(volume, 1);
+    Scene scene;
+    scene.width = scene.height = 60;
+    scene.passes[0].cut = "z>5.2";
+    const auto draft = painter.paintDraft(scene), picture = painter.paint(scene);
+    ASSERT_TRUE(draft) << draft.error().toString();
+    ASSERT_TRUE(picture) << picture.error().toString();
+    EXPECT_EQ(draft->frame.label, picture->frame.label);
+    // No form is kept: the finest level, whatever the size, and none of a level that a picture so small would have.
+    scene.width = scene.height = 16;
+    const auto small = painter.paintDraft(scene);
+    ASSERT_TRUE(small);
+    scene.passes[0].form.level = 0;
+    EXPECT_EQ(small->frame.label, painter.paint(scene)->frame.label);
+}
+
 TEST(Scene, ACutawayLeavesItsTargetWhole) {
     Scene scene;
     addCutaway(scene, "id=beam", 0.1);

@@ -114,6 +114,16 @@ test("properties, neighbours and selections are rows of 'svt query'", () => {
   }
 });
 
+test("a draft has as many pixels as the picture, and is picked as it is", () => {
+  open(houseVolume);
+  const scene = { ...kScenes.plain, size: [64, 40], samples: 1 };
+  const [draft, picture] = [true, false].map((isDraft) => {
+    const pixels = svt.call("draw", [scene, 64, 40, isDraft]).length;
+    return { pixels, id: ask("pick", 0.5, 0.5).id };
+  });
+  assert.deepEqual(draft, picture);
+});
+
 test("what is picked is what the label buffer has there, and lies on the ray", () => {
   open(houseVolume);
   const scene = { ...kScenes.plain, size: [64, 40], samples: 1 };

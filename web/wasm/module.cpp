@@ -108,13 +108,13 @@ Result<Reply> font(const Arguments& arguments) {
     return Reply(std::string("null"));
 }
 
-// (scene, width, height) -> RGBA, row by row from the top
+// (scene, width, height, whether a draft will do) -> RGBA, row by row from the top
 Result<Reply> draw(const Arguments& arguments) {
     auto scene = arguments.picture(0);
     if (!scene) return scene.error();
     scene->width = arguments.pixels(1);
     scene->height = arguments.pixels(2);
-    const auto frame = session->draw(*scene);
+    const auto frame = session->draw(*scene, arguments.at(3) == true);
     if (!frame) return frame.error();
     return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
 }

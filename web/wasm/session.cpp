@@ -45,8 +45,8 @@ Result<std::unique_ptr<Session>> Session::open(std::span<const std::byte> bytes,
     return session;
 }
 
-Result<const render::Frame*> Session::draw(const illustrate::Scene& scene) {
-    auto painting = painter_.paint(scene, castOptions());
+Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool isDraft) {
+    auto painting = isDraft ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions());
     if (!painting) return painting.error();
     lastSpec_ = std::move(painting->spec);
     lastFrame_ = std::move(painting->frame);

@@ -39,7 +39,8 @@ public:
     [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
 
     /// Draws `scene` as `svt render` does; pick() and along() are of this picture then.
-    [[nodiscard]] Result<const render::Frame*> draw(const illustrate::Scene& scene);
+    /// \param isDraft  it is a first picture, see ScenePainter::paintDraft()
+    [[nodiscard]] Result<const render::Frame*> draw(const illustrate::Scene& scene, bool isDraft = false);
     /// Whether pick() and along() are of a picture.
     enum class Purpose : std::uint8_t { Shown, Trial };
     /// The same by WebGL2, into the lower left of the framebuffer of the context that is current; always the same one.

@@ -36,17 +36,25 @@ export class Drawer {
     if (wanted === "webgl2" && this.startGl()) this.kind = "webgl2";
   }
 
-  /** Whether a trial is due. */
-  get isUndecided(): boolean {
+  /** Whether there is something to do when the page is still. */
+  get isWaiting(): boolean {
+    return this.draft !== null || this.isTrialDue;
+  }
+  private get isTrialDue(): boolean {
     return this.wanted === null && !this.isDecided && this.last !== null;
   }
   private isDecided = false;
+  /** The first picture of the volume: what a moving picture of its size needs is not made yet. */
+  private draft: Last | null = null;
 
   async draw(scene: Scene, width: number, height: number): Promise<Drawn> {
     await this.prepare(scene);
     const byGl = this.kind === "webgl2" ? this.drawGl(scene, width, height) : null;
+    // The first picture of a volume shall come soon; what later ones need is made after it.
+    const isDraft = this.last === null;
     this.last = { scene, width, height };
-    return byGl ?? (await this.drawCpu(scene, width, height));
+    if (isDraft && !byGl) this.draft = this.last;
+    return byGl ?? (await this.drawCpu(scene, width, height, isDraft));
   }
 
   /** The font is fetched when names are first drawn. */
@@ -61,13 +69,30 @@ export class Drawer {
   /** Another volume is open. */
   forgetPicture(): void {
     this.last = null;
+    this.draft = null;
   }
 
-  /** Decides which kind draws from now on. */
-  decide(): void {
+  /** The page is still: decides which kind draws from now on, and makes what the first movement would wait for. */
+  useStillness(): void {
+    if (this.isTrialDue) this.decide();
+    const draft = this.draft;
+    this.draft = null;
+    if (draft && this.kind === "cpu") this.drawUnseen({ ...draft.scene, size: [draft.width, draft.height] });
+  }
+
+  private decide(): void {
     this.isDecided = true;
     if (this.last && this.startGl() && !this.isSoftware() && this.isGlFaster(this.last)) this.kind = "webgl2";
     else this.stopGl();
+  }
+
+  /** The labels of a picture, as a file: drawn as a picture is, and no picture that could be picked. */
+  private drawUnseen(scene: Scene): void {
+    try {
+      this.svt.call("labels", [scene]);
+    } catch (error) {
+      if (!isEngineError(error)) throw error;  // else whoever asks for such a picture is told
+    }
   }
 
   private isSoftware(): boolean {
@@ -81,9 +106,8 @@ export class Drawer {
     const small: Scene = { ...scene, samples: 1, size };
     if (!this.drawGl(small, ...size, true)) return false;
     const byGl = this.drawGl(small, ...size, true);
-    // The labels of a picture, as a file: drawn as a picture is, and no picture that could be picked.
     const start = performance.now();
-    this.svt.call("labels", [small]);
+    this.drawUnseen(small);
     return byGl !== null && byGl.report.milliseconds < performance.now() - start;
   }
 
@@ -105,9 +129,9 @@ export class Drawer {
     loss?.loseContext();
   }
 
-  private async drawCpu(scene: Scene, width: number, height: number): Promise<Drawn> {
+  private async drawCpu(scene: Scene, width: number, height: number, isDraft: boolean): Promise<Drawn> {
     const start = performance.now();
-    const pixels = new Uint8ClampedArray(this.svt.call("draw", [scene, width, height]));
+    const pixels = new Uint8ClampedArray(this.svt.call("draw", [scene, width, height, isDraft]));
     const bitmap = await createImageBitmap(new ImageData(pixels, width, height));
     return { bitmap, report: { width, height, milliseconds: performance.now() - start, engine: "cpu" } };
   }

@@ -4,7 +4,7 @@ import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
 import type { Answer, Request } from "./protocol";
 
-/** How long the page must have been still before the kinds of drawing are compared. */
+/** How long the page must have been still before what takes longer is done. */
 const stillMilliseconds = 700;
 
 const loaded = createSvt({ onProgress: (step, done) => post({ id: current, step, done }) });
@@ -82,13 +82,13 @@ self.onmessage = (event: MessageEvent<Request>) => {
     .catch((error: unknown) => fail(request.id, error))
     .then(() => {
       clearTimeout(stillTimer);
-      if (drawer?.isUndecided) stillTimer = setTimeout(decide, stillMilliseconds);
+      if (drawer?.isWaiting) stillTimer = setTimeout(useStillness, stillMilliseconds);
     });
 };
 
-function decide(): void {
+function useStillness(): void {
   try {
-    drawer?.decide();
+    drawer?.useStillness();
   } catch (error) {
     stopped = error;
   }
