@@ -20,6 +20,12 @@ Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, 
     return {};
 }
 
+ScenePainter::Draw byCasting(const render::CastOptions& options) {
+    return [options](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
+        return render::castRays(volumes, spec, options);
+    };
+}
+
 }  // namespace
 
 struct ScenePainter::Forms {
@@ -72,16 +78,6 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
     }
     return render::DrawnVolume(*forms.bricks, volume.grid);
 }
-
-namespace {
-
-ScenePainter::Draw byCasting(const render::CastOptions& options) {
-    return [options](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
-        return render::castRays(volumes, spec, options);
-    };
-}
-
-}  // namespace
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
     return paint(scene, byCasting(options));

@@ -36,7 +36,9 @@ public:
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
     /// A draft of the same, for a first and coarse picture: surfaces are voxels, far views are not smoothed. Keeps no
-    /// form, and comes many times sooner than a picture for which forms must be made.
+    /// bricks and no levels, and comes about three times sooner than a picture for which these must be made.
+    /// \return as paint(), or what BrickVolume::fromColumns() returns
+    /// Cost: that of castRays() and of bricks of voxels, each time.
     [[nodiscard]] Result<Painting> paintDraft(const Scene& scene, const render::CastOptions& options = {});
 
     /// The same as paint() by another renderer: `draw` is given the volumes that the passes draw and the frame.

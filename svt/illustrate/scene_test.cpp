@@ -171,12 +171,12 @@ TEST(Scene, ADraftShowsWhatThePictureShows) {
     ASSERT_TRUE(draft) << draft.error().toString();
     ASSERT_TRUE(picture) << picture.error().toString();
     EXPECT_EQ(draft->frame.label, picture->frame.label);
-    // No form is kept: the finest level, whatever the size, and none of a level that a picture so small would have.
-    scene.width = scene.height = 16;
-    const auto small = painter.paintDraft(scene);
-    ASSERT_TRUE(small);
-    scene.passes[0].form.level = 0;
-    EXPECT_EQ(small->frame.label, painter.paint(scene)->frame.label);
+    // The finest level, whatever the picture would have.
+    scene.passes[0].form.level = 2;
+    const auto coarse = painter.paint(scene), again = painter.paintDraft(scene);
+    ASSERT_TRUE(coarse && again);
+    EXPECT_NE(coarse->frame.label, draft->frame.label);
+    EXPECT_EQ(again->frame.label, draft->frame.label);
 }
 
 TEST(Scene, ACutawayLeavesItsTargetWhole) {
