@@ -60,7 +60,8 @@ public:
 
     /// Row y, which is one of newRows(). Valid until the next call.
     [[nodiscard]] PlanRow layOut(std::int32_t y);
-    /// Boundaries of a cell of the last layOut(), packed; in the order of faces, then boxes, in all tiles.
+    /// Boundaries of a cell of the last layOut(), unless its row kept them: packed, in the order of faces, then boxes,
+    /// in all tiles.
     [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanCell& cell) const noexcept {
         return std::span(members_).subspan(cell.firstMember, cell.memberCount);
     }
