@@ -1,6 +1,6 @@
 #include <bench/compare.hpp>
 
-#include <svt/render/color.hpp>
+#include <svt/image/color.hpp>
 #include <svt/volume/dense.hpp>
 
 #include <algorithm>
@@ -65,12 +65,12 @@ Vec3f telltaleColor(std::uint32_t scalar) {
     return {channel(0), channel(1), channel(2)};
 }
 
-double agreeingShare(const render::Image<volume::Scalar>& ours, const render::Image<render::Rgba8>& theirs) {
+double agreeingShare(const image::Image<volume::Scalar>& ours, const image::Image<image::Rgba8>& theirs) {
     std::uint64_t shown = 0, agreeing = 0;
     for (std::int32_t y = 0; y < ours.height(); ++y)
         for (std::int32_t x = 0; x < ours.width(); ++x) {
             const volume::Scalar scalar = ours.at(x, y);
-            const render::Rgba8 pixel = theirs.at(x, y);
+            const image::Rgba8 pixel = theirs.at(x, y);
             const std::array<std::uint32_t, 3> seen{digitOf(pixel.r), digitOf(pixel.g), digitOf(pixel.b)};
             const bool isShown = scalar != 0 || seen != std::array<std::uint32_t, 3>{};
             shown += isShown;
@@ -79,11 +79,11 @@ double agreeingShare(const render::Image<volume::Scalar>& ours, const render::Im
     return shown == 0 ? 0 : double(agreeing) / double(shown);
 }
 
-ColorComparison compareColors(const render::Image<render::Rgba8>& ours, const render::Image<render::Rgba8>& theirs) {
+ColorComparison compareColors(const image::Image<image::Rgba8>& ours, const image::Image<image::Rgba8>& theirs) {
     ColorComparison result;
     std::uint64_t over2 = 0, over8 = 0;
     for (std::size_t p = 0; p < ours.pixels().size(); ++p) {
-        const render::Rgba8 a = ours.pixels()[p], b = theirs.pixels()[p];
+        const image::Rgba8 a = ours.pixels()[p], b = theirs.pixels()[p];
         if ((a.r | a.g | a.b | b.r | b.g | b.b) == 0) continue;
         const std::array<int, 3> difference{std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)};
         for (std::size_t c = 0; c < 3; ++c) result.mean[c] += difference[c];
@@ -100,10 +100,10 @@ ColorComparison compareColors(const render::Image<render::Rgba8>& ours, const re
     return result;
 }
 
-render::Image<render::Rgba8> flatPicture(const render::Image<volume::Scalar>& labels,
-                                         std::span<const render::Style> styles) {
+image::Image<image::Rgba8> flatPicture(const image::Image<volume::Scalar>& labels,
+                                       std::span<const render::Style> styles) {
     const auto byte = [](float channel) { return static_cast<std::uint8_t>(std::lround(255 * channel)); };
-    render::Image<render::Rgba8> picture(labels.width(), labels.height(), {0, 0, 0, 255});
+    image::Image<image::Rgba8> picture(labels.width(), labels.height(), {0, 0, 0, 255});
     for (std::size_t p = 0; p < labels.pixels().size(); ++p) {
         const volume::Scalar scalar = labels.pixels()[p];
         if (scalar == 0 || scalar >= styles.size()) continue;
@@ -113,14 +113,14 @@ render::Image<render::Rgba8> flatPicture(const render::Image<volume::Scalar>& la
     return picture;
 }
 
-render::Image<render::Rgba8> linearPicture(const render::Image<render::Rgba8>& picture, float factor) {
+image::Image<image::Rgba8> linearPicture(const image::Image<image::Rgba8>& picture, float factor) {
     std::array<std::uint8_t, 256> linear{};
     for (std::size_t level = 0; level < linear.size(); ++level) {
-        const float light = factor * render::linearFromSrgb(static_cast<float>(level) / 255);
+        const float light = factor * image::linearFromSrgb(static_cast<float>(level) / 255);
         linear[level] = static_cast<std::uint8_t>(std::lround(255 * std::min(1.0f, light)));
     }
-    render::Image<render::Rgba8> result = picture;
-    for (render::Rgba8& pixel : result.pixels()) pixel = {linear[pixel.r], linear[pixel.g], linear[pixel.b], 255};
+    image::Image<image::Rgba8> result = picture;
+    for (image::Rgba8& pixel : result.pixels()) pixel = {linear[pixel.r], linear[pixel.g], linear[pixel.b], 255};
     return result;
 }
 

@@ -3,7 +3,7 @@
 /// Whether the peers found the same: voxel by voxel, pixel by pixel.
 
 #include <bench/peers.hpp>
-#include <svt/render/image.hpp>
+#include <svt/image/image.hpp>
 #include <svt/volume/column_volume.hpp>
 
 #include <array>
@@ -33,8 +33,7 @@ struct VoxelComparison {
 
 /// Share of pixels, 0..1, whose color is (nearest to) the telltale color of our label, of those where either picture
 /// shows anything.
-[[nodiscard]] double agreeingShare(const render::Image<volume::Scalar>& ours,
-                                   const render::Image<render::Rgba8>& theirs);
+[[nodiscard]] double agreeingShare(const image::Image<volume::Scalar>& ours, const image::Image<image::Rgba8>& theirs);
 
 /// How far colors are apart, in levels of 255, over the pixels where either picture is not black.
 struct ColorComparison {
@@ -45,14 +44,14 @@ struct ColorComparison {
 };
 
 /// Sizes must agree.
-[[nodiscard]] ColorComparison compareColors(const render::Image<render::Rgba8>& ours,
-                                            const render::Image<render::Rgba8>& theirs);
+[[nodiscard]] ColorComparison compareColors(const image::Image<image::Rgba8>& ours,
+                                            const image::Image<image::Rgba8>& theirs);
 
 /// The picture without light of opaque labels: each pixel has the color of its label's style, black without a label.
-[[nodiscard]] render::Image<render::Rgba8> flatPicture(const render::Image<volume::Scalar>& labels,
-                                                       std::span<const render::Style> styles);
+[[nodiscard]] image::Image<image::Rgba8> flatPicture(const image::Image<volume::Scalar>& labels,
+                                                     std::span<const render::Style> styles);
 
 /// `picture` in linear light, times `factor`: what a renderer makes that blends linear numbers.
-[[nodiscard]] render::Image<render::Rgba8> linearPicture(const render::Image<render::Rgba8>& picture, float factor);
+[[nodiscard]] image::Image<image::Rgba8> linearPicture(const image::Image<image::Rgba8>& picture, float factor);
 
 }  // namespace svt::bench

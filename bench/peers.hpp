@@ -4,9 +4,9 @@
 /// installed, or cannot run on this machine, is a reason instead.
 
 #include <svt/core/vec.hpp>
+#include <svt/image/image.hpp>
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/render/frame_spec.hpp>
-#include <svt/render/image.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <cstdint>
@@ -74,7 +74,7 @@ public:
     /// Draws and waits for the picture.
     virtual void draw() = 0;
     /// What draw() has drawn.
-    [[nodiscard]] virtual render::Image<render::Rgba8> picture() = 0;
+    [[nodiscard]] virtual image::Image<image::Rgba8> picture() = 0;
 };
 
 enum class VtkMapper : std::uint8_t { FixedPoint, Gpu };

@@ -1,25 +1,50 @@
-# svt_library(<folder> [LINK <folders>...] [PRIVATE_LINK <targets>...] [EXCLUDE <sources>...])
-#   svt/<folder>/*.cpp      -> static library svt_<folder>, alias svt::<folder>
-#   svt/<folder>/*_test.cpp -> test program svt_<folder>_test, its cases registered with ctest
+# svt_layers(): reads svt/layers.txt, which says for each folder what it may include, and so what it links.
+function(svt_layers)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/svt/layers.txt)
+  file(STRINGS ${PROJECT_SOURCE_DIR}/svt/layers.txt lines REGEX "^[^#]")
+  foreach(line ${lines})
+    if(line MATCHES "^(test )?([a-z_/]+):(.*)$")
+      string(REPLACE "/" "_" folder "${CMAKE_MATCH_2}")
+      string(REGEX MATCHALL "[a-z_]+" below "${CMAKE_MATCH_3}")
+      if(CMAKE_MATCH_1)
+        set(SVT_TEST_LINKS_${folder} ${below} PARENT_SCOPE)
+      else()
+        set(SVT_LINKS_${folder} ${below} PARENT_SCOPE)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
+# svt_library(<folder> [PRIVATE_LINK <targets>...] [EXCLUDE <sources>...])
+#   svt/<folder>/**/*.cpp      -> static library svt_<folder>, alias svt::<folder>, linked to the folders of its layer
+#   svt/<folder>/**/*_test.cpp -> test program svt_<folder>_test, its cases registered with ctest
 function(svt_library folder)
-  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE_LINK;EXCLUDE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/svt/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/svt/${folder}/*.hpp)
+  cmake_parse_arguments(ARG "" "" "PRIVATE_LINK;EXCLUDE" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/svt/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/svt/${folder}/*.hpp)
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_test\\.(cpp|hpp)$")
-  list(TRANSFORM ARG_EXCLUDE PREPEND ${PROJECT_SOURCE_DIR}/svt/${folder}/)
+  list(TRANSFORM ARG_EXCLUDE PREPEND ${PROJECT_SOURCE_DIR}/svt/)
   list(REMOVE_ITEM sources ${ARG_EXCLUDE})
   add_library(svt_${folder} STATIC ${sources})
   add_library(svt::${folder} ALIAS svt_${folder})
   set_target_properties(svt_${folder} PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(svt_${folder} PUBLIC ${PROJECT_SOURCE_DIR})
   target_compile_features(svt_${folder} PUBLIC cxx_std_20)
-  list(TRANSFORM ARG_LINK PREPEND svt::)
-  target_link_libraries(svt_${folder} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE_LINK})
+  list(TRANSFORM SVT_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE below)
+  target_link_libraries(svt_${folder} PUBLIC ${below} PRIVATE ${ARG_PRIVATE_LINK})
   svt_warnings(svt_${folder})
   if(SVT_TESTS AND tests)
-    svt_test(svt_${folder}_test SOURCES ${tests} LINK svt::${folder} ${ARG_PRIVATE_LINK})
+    list(TRANSFORM SVT_TEST_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE of_tests)
+    svt_test(svt_${folder}_test SOURCES ${tests} LINK svt::${folder} ${of_tests} ${ARG_PRIVATE_LINK})
   endif()
+endfunction()
+
+# svt_link(<target> <folder> [<targets>...]): links what svt/layers.txt gives a folder outside of svt/, and targets.
+function(svt_link target folder)
+  string(REPLACE "/" "_" folder ${folder})
+  list(TRANSFORM SVT_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE below)
+  target_link_libraries(${target} PRIVATE ${below} ${ARGN})
 endfunction()
 
 # svt_test(<name> SOURCES ... LINK ...): a GoogleTest program, its cases registered with ctest.
@@ -31,9 +56,9 @@ function(svt_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
 
-# Warnings, and arithmetic that gives the same bits with every compiler and on every machine:
-# no contraction into fused multiply-add, no value-changing optimizations. Nobody reads errno or the flags of
-# floating-point exceptions, so roundings and roots need no calls, and comparisons no branches.
+# Warnings, and arithmetic that gives the same bits with every compiler and on every machine: no contraction into fused
+# multiply-add, no value-changing optimizations. The code reads neither errno nor the floating-point exception flags, so
+# roundings and square roots need no calls, and comparisons no branches.
 function(svt_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic -ffp-contract=off -fno-math-errno
                          -fno-trapping-math)

@@ -12,7 +12,7 @@ SECTIONS = ["## When", "## Example", "## What to do"]
 
 def findings(root: Path) -> list[str]:
     header = (root / "svt/core/error.hpp").read_text(encoding="utf-8")
-    source = (root / "svt/core/error.cpp").read_text(encoding="utf-8")
+    source = (root / "svt/core/error/error.cpp").read_text(encoding="utf-8")
     folder = root / "docs/errors"
     index = (folder / "README.md").read_text(encoding="utf-8")
     enum = re.search(r"enum class Code[^{]*\{(.*?)\n\};", header, re.S)
@@ -25,7 +25,7 @@ def findings(root: Path) -> list[str]:
 
     for name, tag in codes.items():
         if f"SVT_CASE({name})" not in source:
-            found.append(f"svt/core/error.cpp: codeName() does not know {name}")
+            found.append(f"svt/core/error/error.cpp: codeName() does not know {name}")
         rows = re.findall(rf"^\| \[{tag}\]\({tag}\.md\) \| (\w+) \|", index, re.M)
         if rows != [name]:
             found.append(f"docs/errors/README.md: one row '| [{tag}]({tag}.md) | {name} |' expected, found {rows}")

@@ -1,69 +1,145 @@
 #!/usr/bin/env python3
-"""Checks who includes whom. The table is the architecture: change it only with the reason in the commit."""
+"""Checks who includes whom. svt/layers.txt is the table; the rules that hold everywhere are below.
+
+  1  A folder includes only what the table gives it, and the table goes one way.
+  2  What stands at the top of a folder is public. A sub-folder is its inside: nobody else includes it.
+  3  The top never includes the inside, so no public header leaks it; sub-folders include each other one way.
+  4  No folder has more than 25 files, and no sub-folder has folders of its own.
+  5  Public headers include no third-party header; every header has its guard; the namespace is that of the folder.
+  6  Calls of one operating system stand in the few places that are listed here.
+
+  check_layers.py [ROOT]    prints what breaks a rule and exits with 1
+"""
+import collections
 import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-ALLOWED = {
-    "core": set(),
-    "model": {"core"},
-    "readers": {"core", "model"},
-    "mesh": {"core", "model"},
-    "volume": {"core"},
-    "voxelize": {"core", "mesh", "volume"},
-    "render": {"core", "volume"},
-    "render_gl": {"core", "volume", "render"},
-    "illustrate": {"core", "model", "volume", "render"},
-    "writers": {"core", "model", "volume", "illustrate"},
-    "samples": {"core"},
-    "serve": {"core"},
-    "pipeline": {"core", "model", "readers", "mesh", "volume", "voxelize", "render", "illustrate", "writers"},
-}
-# Tests may reach one layer further where they compare whole chains.
-ALLOWED_IN_TESTS = {"pipeline": {"samples"}, "render_gl": {"pipeline", "readers", "samples"}}
-THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd", "ft2build", "EGL/", "GLES3/", "polyclipping")
+MAX_FILES = 25
+PARTS = ("svt", "apps", "web/wasm", "bench", "tests")
+THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd", "ft2build",
+               "EGL/", "GLES3/", "polyclipping", "hwy/")
+POSIX = re.compile(r"(unistd|fcntl|signal|poll|sched|pthread|dlfcn|spawn)\.h$|(sys|netinet|arpa|linux)/")
+MAY_CALL_POSIX = ("svt/core/file/", "svt/core/parallel/", "svt/serve/", "bench/")
+INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^">]+)')
+
+
+def read_table(path: pathlib.Path) -> tuple[dict[str, set[str]], dict[str, set[str]], dict[str, set[str]], list[str]]:
+    """(folder -> what it may include, the same for its tests, folder -> whose inside it may include, problems)"""
+    allowed, tests, insides, problems = {}, collections.defaultdict(set), collections.defaultdict(set), []
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        line = line.split("#")[0].strip()
+        if not line:
+            continue
+        name, _, names = line.partition(":")
+        if name.startswith("test "):
+            tests[name[5:]] |= set(names.split())
+        elif name.startswith("inside "):
+            insides[name[7:]] |= set(names.split())
+        else:
+            for below in names.split():
+                if below not in allowed:
+                    problems.append(f"{path.name}:{number}: {below} stands above {name}, or nowhere")
+            allowed[name] = set(names.split())
+    return allowed, tests, insides, problems
+
+
+def folder_of(path: str, folders: set[str]) -> str | None:
+    """The folder of the table that holds a file: "svt/render/packet/x.hpp" -> "render", "apps/cli/x.hpp" -> "apps/cli"."""
+    parts = path.split("/")
+    for name in ("/".join(parts[:2]), parts[1] if parts[0] == "svt" and len(parts) > 2 else None, parts[0]):
+        if name in folders:
+            return name
+    return None
+
+
+def room_of(path: str, folder: str) -> str:
+    """The sub-folder of `folder` that holds a file, "" for its top."""
+    top = folder if folder.split("/")[0] in ("apps", "web", "bench", "tests") else f"svt/{folder}"
+    rest = path[len(top) + 1:].split("/")
+    return rest[0] if len(rest) > 1 else ""
+
+
+def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
+    allowed, in_tests, insides, problems = read_table(root / "svt" / "layers.txt")
+    folders = set(allowed) | {"tests"}
+    files = sorted(path for part in PARTS for path in (root / part).rglob("*.[ch]pp"))
+    rooms = collections.defaultdict(lambda: collections.defaultdict(str))  # folder -> (room, room) -> a place
+    for path in files:
+        name = str(path.relative_to(root))
+        folder = folder_of(name, folders)
+        if folder is None:
+            problems.append(f"{name}: its folder is not in svt/layers.txt")
+            continue
+        room = room_of(name, folder)
+        text = path.read_text(encoding="utf-8")
+        is_test = path.stem.endswith("_test") or folder == "tests"
+        is_public = path.suffix == ".hpp" and not room and not is_test
+        may = allowed.get(folder, set()) | {folder} | (in_tests[folder] if is_test else set())
+        for number, line in enumerate(text.splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            other, place = match.group(1), f"{name}:{number}"
+            target = folder_of(other, folders) if other.startswith(("svt/", "apps/", "web/", "bench/", "tests/")) else None
+            if target is not None:
+                inner = room_of(other, target)
+                if target not in may:
+                    problems.append(f"{place}: {folder} may not include {target} ({other})")
+                elif inner and target != folder and target not in insides.get("/".join(name.split("/")[:2]), ()):
+                    problems.append(f"{place}: {other} is the inside of {target}")
+                elif inner and target == folder and not room:
+                    problems.append(f"{place}: the top of {folder} includes its inside ({other})")
+                elif inner and target == folder and inner != room:
+                    rooms[folder][room, inner] = rooms[folder][room, inner] or place
+                if not is_test and other.endswith("_test.hpp"):
+                    problems.append(f"{place}: includes a test header ({other})")
+            elif is_public and other.startswith(THIRD_PARTY) and folder in allowed and name.startswith("svt/"):
+                problems.append(f"{place}: third-party include in a public header ({other})")
+            if POSIX.match(other) and not is_test and not name.startswith(MAY_CALL_POSIX):
+                problems.append(f"{place}: {other} is of one operating system; it belongs into {', '.join(MAY_CALL_POSIX)}")
+        # Headers of SIMD kernels are included once for each set of instructions, with a guard that knows which.
+        guard = "HWY_TARGET_TOGGLE" if path.name.endswith("-inl.hpp") else "#pragma once"
+        if path.suffix == ".hpp" and guard not in text:
+            problems.append(f"{name}: no {guard}")
+        named = re.findall(r"^namespace svt(?:::(\w+))?", text, re.M)
+        expected = {"", "test"} if folder == "core" else {folder, "test"}
+        if name.startswith("svt/") and named and not set(named) <= expected:
+            problems.append(f"{name}: namespace svt::{(set(named) - expected).pop()} in the folder {folder}")
+    for folder, pairs in sorted(rooms.items()):
+        problems += cycles(folder, pairs)
+    for directory in sorted({path.parent for path in files}):
+        count = sum(1 for path in directory.iterdir() if path.is_file())
+        name = str(directory.relative_to(root))
+        if count > MAX_FILES:
+            problems.append(f"{name}: {count} files; more than {MAX_FILES} want sub-folders")
+        if name.startswith("svt/") and name.count("/") > 2:
+            problems.append(f"{name}: a sub-folder of a sub-folder")
+    return problems, len(allowed)
+
+
+def cycles(folder: str, pairs: dict[tuple[str, str], str]) -> list[str]:
+    """What keeps sub-folders from an order in which each includes only earlier ones."""
+    below = collections.defaultdict(set)
+    for user, used in pairs:
+        below[user].add(used)
+    left = set(below) | {used for _, used in pairs}
+    while True:
+        free = {room for room in left if not below[room] & left}
+        if not free:
+            break
+        left -= free
+    places = sorted(f"{user} includes {used} ({place})" for (user, used), place in pairs.items() if {user, used} <= left)
+    return [f"{folder}: its sub-folders include each other in a circle: {'; '.join(places)}"] if left else []
 
 
 def main() -> int:
-    problems = []
-    # A header is public once another folder includes it; the others are a folder's own business.
-    public = set()
-    for path in [*(ROOT / "svt").rglob("*.[ch]pp"), *(ROOT / "apps").rglob("*.[ch]pp"), *(ROOT / "bench").rglob("*.[ch]pp")]:
-        for name in re.findall(r'#\s*include\s*[<"](svt/[^">]+)', path.read_text(encoding="utf-8")):
-            if pathlib.Path(name).parent != path.parent.relative_to(ROOT):
-                public.add(ROOT / name)
-    folders = {path.name for path in (ROOT / "svt").iterdir() if path.is_dir()}
-    for folder in sorted(folders - ALLOWED.keys()):
-        problems.append(f"svt/{folder}: a new layer; add it to {pathlib.Path(__file__).name}")
-    for path in sorted((ROOT / "svt").rglob("*.[ch]pp")):
-        folder = path.parent.name
-        is_test = path.stem.endswith("_test")
-        allowed = ALLOWED.get(folder, set()) | {folder}
-        if is_test:
-            allowed |= ALLOWED_IN_TESTS.get(folder, set())
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            match = re.match(r'\s*#\s*include\s*[<"]([^">]+)', line)
-            if not match:
-                continue
-            name = match.group(1)
-            place = f"{path.relative_to(ROOT)}:{number}"
-            if name.startswith("svt/"):
-                layer = name.split("/")[1]
-                if layer not in allowed:
-                    problems.append(f"{place}: {folder} may not include {layer} ({name})")
-                if not is_test and name.endswith("_test.hpp"):
-                    problems.append(f"{place}: includes a test header ({name})")
-            elif path in public and name.startswith(THIRD_PARTY):
-                problems.append(f"{place}: third-party include in a public header ({name})")
-        # Those of SIMD kernels are included once for each set of instructions, with a guard that knows which.
-        guard = "HWY_TARGET_TOGGLE" if path.name.endswith("-inl.hpp") else "#pragma once"
-        if path.suffix == ".hpp" and guard not in path.read_text(encoding="utf-8"):
-            problems.append(f"{path.relative_to(ROOT)}: no {guard}")
+    root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent
+    problems, count = check_tree(root)
     for problem in problems:
         print(f"layers: {problem}", file=sys.stderr)
     if not problems:
-        print(f"layers: {len(folders)} folders, all includes one way")
+        print(f"layers: {count} folders, all includes one way, insides private")
     return 1 if problems else 0
 
 

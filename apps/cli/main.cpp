@@ -1,4 +1,4 @@
-#include "cli.hpp"
+#include <apps/cli/cli.hpp>
 
 #include <svt/core/edit_distance.hpp>
 

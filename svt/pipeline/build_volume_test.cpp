@@ -1,7 +1,7 @@
 #include <svt/core/temporary_folder_test.hpp>
+#include <svt/image/color_text.hpp>
 #include <svt/mesh/models_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
-#include <svt/render/color_text.hpp>
 #include <svt/samples/sample.hpp>
 #include <svt/volume/volume_json.hpp>
 
@@ -250,7 +250,7 @@ TEST(BuildVolume, StyleOfTheCallerIsStrongerThanTheBuiltInOne) {
     const BuildOutput output = build(thematicHouse(), options);
     EXPECT_EQ(labelOf(output, "room").color, (Vec3f{1, 0, 0}));
     EXPECT_EQ(labelOf(output, "room").opacity, 0.75f);
-    EXPECT_EQ(labelOf(output, "outer-1").color, *render::parseColor("#a8483a"));
+    EXPECT_EQ(labelOf(output, "outer-1").color, *image::parseColor("#a8483a"));
 }
 
 TEST(BuildVolume, SameForAnyNumberOfThreads) {

@@ -1,6 +1,6 @@
 #include <svt/pipeline/labels.hpp>
 
-#include <svt/illustrate/selection.hpp>
+#include <svt/analyze/selection.hpp>
 #include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
@@ -113,7 +113,7 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
         table.labels[l].filling = fillingOf(scene.objects[o].closure);
         table.labels[l].volume = scene.objects[o].isSolid() ? scene.objects[o].volume : 0;
     }
-    const std::vector<ResolvedStyle> styles = resolveStyles(illustrate::rowsOf(table), sheets, colors);
+    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::rowsOf(table), sheets, colors);
 
     std::uint64_t next = 1;
     bool hasPattern = false;

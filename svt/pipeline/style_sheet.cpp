@@ -1,7 +1,7 @@
 #include <svt/pipeline/style_sheet.hpp>
 
+#include <svt/image/color_text.hpp>
 #include <svt/pipeline/default_style.hpp>
-#include <svt/render/color_text.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,7 +49,7 @@ Result<std::vector<Vec3f>> colorsOf(const json& value, const std::string& path) 
     std::vector<Vec3f> colors;
     for (const json& entry : value) {
         if (!entry.is_string()) return badStyle(path, "expected colours as text, such as \"#c8b49b\"");
-        auto color = render::parseColor(entry.get<std::string>());
+        auto color = image::parseColor(entry.get<std::string>());
         if (!color) return badStyle(path, color.error().message());
         colors.push_back(*color);
     }
@@ -150,7 +150,7 @@ Result<StyleRule> readRule(const json& value, const std::string& path, const std
     StyleRule rule{std::move(*query), {}, {}, {}, {}};
     if (value.contains("color")) {
         if (!value["color"].is_string()) return badStyle(path + ".color", "expected text such as \"#c8b49b\"");
-        const auto color = render::parseColor(value["color"].get<std::string>());
+        const auto color = image::parseColor(value["color"].get<std::string>());
         if (!color) return badStyle(path + ".color", color.error().message());
         rule.color = *color;
     }

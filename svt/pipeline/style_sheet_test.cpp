@@ -1,7 +1,7 @@
 #include <svt/core/temporary_folder_test.hpp>
+#include <svt/image/color_text.hpp>
 #include <svt/pipeline/default_style.hpp>
 #include <svt/pipeline/style_sheet.hpp>
-#include <svt/render/color_text.hpp>
 
 #include <gtest/gtest.h>
 
@@ -43,8 +43,8 @@ TEST(DefaultStyle, EveryClassHasAColourAndRoomsAreThin) {
     const auto styles = resolveStyles(rows, sheets, {});
     EXPECT_EQ(styles[0].opacity, 1);
     EXPECT_LT(styles[1].opacity, 0.2f);
-    EXPECT_EQ(styles[2].color, *render::parseColor("#d9c7a8"));
-    EXPECT_EQ(styles[3].color, *render::parseColor("#c9c4ba"));
+    EXPECT_EQ(styles[2].color, *image::parseColor("#d9c7a8"));
+    EXPECT_EQ(styles[3].color, *image::parseColor("#c9c4ba"));
     EXPECT_EQ(styles[2].pattern.kind, PatternKind::None);
     const StyleSheet* patterned[] = {&defaultStyle(true)};
     const auto withPatterns = resolveStyles(rows, patterned, {});
@@ -54,14 +54,14 @@ TEST(DefaultStyle, EveryClassHasAColourAndRoomsAreThin) {
 }
 
 TEST(ParseColor, HexShortHexAndNames) {
-    EXPECT_EQ(*render::parseColor("#ff8000"), (Vec3f{1, 128 / 255.0f, 0}));
-    EXPECT_EQ(*render::parseColor("#FF8000"), (Vec3f{1, 128 / 255.0f, 0}));
-    EXPECT_EQ(*render::parseColor("#f80"), (Vec3f{1, 136 / 255.0f, 0}));
-    EXPECT_EQ(*render::parseColor("tomato"), (Vec3f{1, 99 / 255.0f, 71 / 255.0f}));
-    EXPECT_EQ(*render::parseColor("white"), (Vec3f{1, 1, 1}));
+    EXPECT_EQ(*image::parseColor("#ff8000"), (Vec3f{1, 128 / 255.0f, 0}));
+    EXPECT_EQ(*image::parseColor("#FF8000"), (Vec3f{1, 128 / 255.0f, 0}));
+    EXPECT_EQ(*image::parseColor("#f80"), (Vec3f{1, 136 / 255.0f, 0}));
+    EXPECT_EQ(*image::parseColor("tomato"), (Vec3f{1, 99 / 255.0f, 71 / 255.0f}));
+    EXPECT_EQ(*image::parseColor("white"), (Vec3f{1, 1, 1}));
     for (const char* bad :
          {"", "#", "#12", "#12345", "#1234567", "#12345g", "Tomato ", "rgb(1,2,3)", "#-12345", "0xffffff"}) {
-        const auto color = render::parseColor(bad);
+        const auto color = image::parseColor(bad);
         ASSERT_FALSE(color) << bad;
         EXPECT_EQ(color.error().code(), Code::BadStyle);
         EXPECT_NE(color.error().message().find("steelblue"), std::string::npos);
@@ -76,7 +76,7 @@ TEST(ParseStyleSheet, RuleWithAllMembers) {
     ASSERT_TRUE(sheet) << sheet.error().toString();
     ASSERT_EQ(sheet->rules.size(), 1u);
     const StyleRule& rule = sheet->rules[0];
-    EXPECT_EQ(*rule.color, *render::parseColor("#102030"));
+    EXPECT_EQ(*rule.color, *image::parseColor("#102030"));
     EXPECT_EQ(*rule.opacity, 0.25f);
     EXPECT_EQ(rule.pattern->kind, PatternKind::Hatch);
     EXPECT_EQ(rule.pattern->size, (Vec3d{0.1, 0.2, 0.3}));

@@ -1,9 +1,9 @@
 /// Surfaces by voxels against those of the meshes, on real solids one by one.
 
+#include <svt/analyze/contacts.hpp>
 #include <svt/core/test_data_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/read_model.hpp>
-#include <svt/volume/contacts.hpp>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ double surfaceByVoxels(const mesh::MeshScene& scene, const mesh::ObjectMesh& obj
     table.labels[0].first = table.labels[0].count = 1;
     const voxelize::ObjectClaim claim{1, 0, "only"};
     const auto voxels = voxelize::voxelize(alone, *grid, std::span(&claim, 1));
-    const auto contacts = volume::contactsOf(voxels->columns, *grid, table);
+    const auto contacts = analyze::contactsOf(voxels->columns, *grid, table);
     return contacts.size() == 1 ? contacts[0].area : -1;
 }
 

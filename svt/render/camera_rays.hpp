@@ -3,7 +3,7 @@
 /// The rays of a camera in voxel space. Internal to render.
 
 #include <svt/render/frame_spec.hpp>
-#include <svt/render/index_ray.hpp>
+#include <svt/render/voxel_ray.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace svt::render {
 
 /// A ray, with what the shading needs of it in world space.
 struct CameraRay {
-    IndexRay index;
+    VoxelRay index;
     Vec3d direction;    ///< world space; its share along the view direction is 1, so t is depth
     double metresPerT;  ///< its length
 };
@@ -42,8 +42,8 @@ public:
     [[nodiscard]] CameraRay at(double u, double v) const noexcept {
         const double x = u * halfWidth_, y = v * halfHeight_;
         const Vec3d aside = rightIndex_ * x + upIndex_ * y;
-        if (!isPerspective_) return {IndexRay(eyeIndex_ + aside, forwardIndex_), forward_, 1};
-        return {IndexRay(eyeIndex_, forwardIndex_ + aside), forward_ + right_ * x + up_ * y,
+        if (!isPerspective_) return {VoxelRay(eyeIndex_ + aside, forwardIndex_), forward_, 1};
+        return {VoxelRay(eyeIndex_, forwardIndex_ + aside), forward_ + right_ * x + up_ * y,
                 std::sqrt(1 + x * x + y * y)};
     }
 

@@ -3,7 +3,7 @@
 /// Cuts rays by clip regions before any voxel is looked at. Internal to render.
 
 #include <svt/render/frame_spec.hpp>
-#include <svt/render/index_ray.hpp>
+#include <svt/render/voxel_ray.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ public:
     [[nodiscard]] bool isEmpty() const noexcept { return regions_.empty(); }
     /// What is left of `span` on a ray of voxel space.
     [[nodiscard]] DrawnIntervals cut(Vec3d origin, Vec3d direction, RaySpan span) const noexcept;
-    [[nodiscard]] DrawnIntervals cut(const IndexRay& ray, RaySpan span) const noexcept {
+    [[nodiscard]] DrawnIntervals cut(const VoxelRay& ray, RaySpan span) const noexcept {
         return cut(ray.origin, ray.direction, span);
     }
     /// Is this point (voxel space) drawn?

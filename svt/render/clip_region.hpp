@@ -19,7 +19,7 @@ struct HalfSpace {
     friend bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
-/// A convex body bounded by one round surface. With d[i] = dot(frame[i], p - center), 1 / metres, it holds the points p
+/// A convex body bounded by one round surface. With d[i] = dot(axes[i], p - center), 1 / metres, it holds the points p
 /// with
 ///     Ball      d0^2 + d1^2 + d2^2 < 1            ellipsoids too
 ///     Cylinder  d0^2 + d1^2 < 1                   without ends
@@ -29,7 +29,7 @@ struct RoundBody {
 
     Kind kind = Kind::Ball;
     Vec3d center{};
-    std::array<Vec3d, 3> frame{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+    std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 
     [[nodiscard]] static RoundBody ball(Vec3d center, double radius);
     /// \param axis  need not have length 1

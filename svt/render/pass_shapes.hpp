@@ -49,7 +49,7 @@ public:
     PassShapes() = default;
 
     /// \param clipper          of the pass
-    /// \param samplesPerPixel  along a side, see Scene::lineSamples
+    /// \param samplesPerPixel  along a side, see PreparedFrame::lineSamples
     /// \param margin           pixels before the picture's left and upper edge where blocks of rays begin: squares that
     ///                         begin there have whole blocks in them
     /// \return the shapes, or BadFrame where they cover the picture too often

@@ -5,8 +5,8 @@
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
+#include <svt/image/image.hpp>
 #include <svt/render/frame_spec.hpp>
-#include <svt/render/image.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/grid.hpp>
 #include <svt/volume/lod_pyramid.hpp>
@@ -29,9 +29,9 @@ struct CastOptions {
 
 /// One picture. Row 0 is the top; all three have spec.width x spec.height pixels.
 struct Frame {
-    Image<Rgba8> color;           ///< sRGB, alpha not premultiplied
-    Image<volume::Scalar> label;  ///< by the ray through the pixel's centre; 0 where it met nothing
-    Image<float> depth;           ///< metres along the view direction to where that label begins; +inf where nothing
+    image::Image<image::Rgba8> color;    ///< sRGB, alpha not premultiplied
+    image::Image<volume::Scalar> label;  ///< by the ray through the pixel's centre; 0 where it met nothing
+    image::Image<float> depth;  ///< metres along the view direction to where that label begins; +inf where nothing
 };
 
 /// A form of a semantic volume that passes may draw: the volume itself, a level of it, or its shell. All forms have the

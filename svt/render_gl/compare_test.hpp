@@ -44,15 +44,15 @@ struct FrameDifference {
     std::int32_t x = -1, y = -1;  ///< the first bad pixel
 };
 
-inline int apart(render::Rgba8 a, render::Rgba8 b) {
+inline int apart(image::Rgba8 a, image::Rgba8 b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
 }
 
 /// Where the picture of the CPU changes when the camera moves aside by 1e-3 voxel: 1 the label, 2 the color by more
 /// than the bound, 4 the depth by more than a voxel.
-inline render::Image<std::uint8_t> edgesOf(const volume::BrickVolume& volume, const volume::Grid& grid,
-                                           const render::FrameSpec& spec, const render::Frame& frame, int colorBound) {
-    render::Image<std::uint8_t> edges(spec.width, spec.height);
+inline image::Image<std::uint8_t> edgesOf(const volume::BrickVolume& volume, const volume::Grid& grid,
+                                          const render::FrameSpec& spec, const render::Frame& frame, int colorBound) {
+    image::Image<std::uint8_t> edges(spec.width, spec.height);
     const Vec3d forward = normalized(spec.camera.target - spec.camera.eye);
     const Vec3d right = normalized(cross(forward, spec.camera.up)), up = cross(right, forward);
     const Vec3d spacing = grid.spacing();
@@ -80,7 +80,7 @@ inline FrameDifference compare(const volume::BrickVolume& volume, const volume::
                                const render::FrameSpec& spec, const render::Frame& drawn, const render::Frame& cast,
                                int colorBound) {
     FrameDifference difference;
-    std::optional<render::Image<std::uint8_t>> edges;
+    std::optional<image::Image<std::uint8_t>> edges;
     const auto isEdge = [&](std::int32_t x, std::int32_t y, unsigned kind) {
         if (!edges) edges = edgesOf(volume, grid, spec, cast, colorBound);
         return (edges->at(x, y) & kind) != 0;

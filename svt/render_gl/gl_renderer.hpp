@@ -64,7 +64,7 @@ public:
     [[nodiscard]] Result<render::Frame> read(const render::FrameSpec& spec);
 
     /// The picture alone. \return as draw()
-    [[nodiscard]] Result<render::Image<render::Rgba8>> readColor(const render::FrameSpec& spec);
+    [[nodiscard]] Result<image::Image<image::Rgba8>> readColor(const render::FrameSpec& spec);
 
     /// What the picture of `spec` shows at pixel (x, y), y from the top; casts that one ray.
     /// \return the label and depth; as draw(), and BadArgument where the pixel lies outside

@@ -1,8 +1,8 @@
 // Pictures that the command draws by OpenGL, against those that it draws without.
 #include "run_command.hpp"
 
-#include <svt/render/image.hpp>
-#include <svt/render/png.hpp>
+#include <svt/image/image.hpp>
+#include <svt/image/png.hpp>
 
 #include <cstdlib>
 
@@ -34,11 +34,11 @@ void expectSame(const std::vector<std::string>& options) {
     if (drawn.exitCode == kNoGraphics) GTEST_SKIP() << drawn.err;
     ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
     runSvtWell(folder.path(), with({"-o", "cpu.png", "--labels", "cpuIds.png"}));
-    const auto gl = render::readPng(folder / "gl.png"), cpu = render::readPng(folder / "cpu.png");
+    const auto gl = image::readPng(folder / "gl.png"), cpu = image::readPng(folder / "cpu.png");
     ASSERT_TRUE(gl && cpu);
     // Not 0: the CPU takes the samples of a pixel only where it differs from its neighbours.
-    EXPECT_LT(render::compareImages(*gl, *cpu).error, 0.02);
-    const auto glIds = render::readGrayPng(folder / "glIds.png"), cpuIds = render::readGrayPng(folder / "cpuIds.png");
+    EXPECT_LT(image::compareImages(*gl, *cpu).error, 0.02);
+    const auto glIds = image::readGrayPng(folder / "glIds.png"), cpuIds = image::readGrayPng(folder / "cpuIds.png");
     ASSERT_TRUE(glIds && cpuIds);
     std::size_t apart = 0;
     for (std::size_t n = 0; n < glIds->pixels().size(); ++n) apart += glIds->pixels()[n] != cpuIds->pixels()[n];

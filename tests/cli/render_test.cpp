@@ -1,12 +1,12 @@
 // Pictures that the command draws, against pictures that somebody looked at. The distance is that of
-// svt/render/image.hpp: below 0.005 nobody sees a difference, below 0.05 only side by side.
+// svt/image/image.hpp: below 0.005 nobody sees a difference, below 0.05 only side by side.
 //
 // SVT_UPDATE_GOLDEN=1 writes the pictures anew; look at each before it is committed.
 #include "run_command.hpp"
 
 #include <svt/core/test_data_test.hpp>
-#include <svt/render/image.hpp>
-#include <svt/render/png.hpp>
+#include <svt/image/image.hpp>
+#include <svt/image/png.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -25,9 +25,8 @@ struct Picture {
 
 void PrintTo(const Picture& picture, std::ostream* stream) { *stream << picture.name; }
 
-render::Image<render::Rgba8> differenceOf(const render::Image<render::Rgba8>& a,
-                                          const render::Image<render::Rgba8>& b) {
-    render::Image<render::Rgba8> result(a.width(), a.height());
+image::Image<image::Rgba8> differenceOf(const image::Image<image::Rgba8>& a, const image::Image<image::Rgba8>& b) {
+    image::Image<image::Rgba8> result(a.width(), a.height());
     for (std::size_t i = 0; i < a.pixels().size(); ++i) {
         const auto& p = a.pixels()[i];
         const auto& q = b.pixels()[i];
@@ -44,7 +43,7 @@ void expectAsReference(const std::filesystem::path& folder, const Picture& pictu
     std::vector<std::string> arguments{"render", "house.svt", "-o", "actual.png", "--size", picture.size};
     arguments.insert(arguments.end(), picture.options.begin(), picture.options.end());
     runSvtWell(folder, arguments);
-    const auto actual = render::readPng(folder / "actual.png");
+    const auto actual = image::readPng(folder / "actual.png");
     ASSERT_TRUE(actual) << actual.error().toString();
 
     const std::filesystem::path reference = std::filesystem::path(SVT_GOLDEN_DIR) / (picture.name + ".png");
@@ -53,15 +52,15 @@ void expectAsReference(const std::filesystem::path& folder, const Picture& pictu
         std::filesystem::copy_file(folder / "actual.png", reference, std::filesystem::copy_options::overwrite_existing);
         GTEST_SKIP() << reference << " is written anew; look at it";
     }
-    const auto expected = render::readPng(reference);
+    const auto expected = image::readPng(reference);
     ASSERT_TRUE(expected) << expected.error().toString() << "; SVT_UPDATE_GOLDEN=1 makes it";
-    const render::ImageDifference difference = render::compareImages(*actual, *expected);
+    const image::ImageDifference difference = image::compareImages(*actual, *expected);
     if (difference.error < kInvisible) return;
     const std::filesystem::path kept = SVT_PICTURE_DIR;
     std::filesystem::create_directories(kept);
-    (void)render::writePng(kept / (picture.name + ".actual.png"), *actual);
+    (void)image::writePng(kept / (picture.name + ".actual.png"), *actual);
     if (actual->width() == expected->width() && actual->height() == expected->height())
-        (void)render::writePng(kept / (picture.name + ".difference.png"), differenceOf(*actual, *expected));
+        (void)image::writePng(kept / (picture.name + ".difference.png"), differenceOf(*actual, *expected));
     ADD_FAILURE() << picture.name << ": error " << difference.error << " (mean " << difference.mean << ", worst block "
                   << difference.worstBlock << ", " << difference.differing << " pixels); actual and difference are in "
                   << kept;
@@ -177,11 +176,11 @@ protected:
         runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
         runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
     }
-    render::Image<render::Rgba8> draw(std::vector<std::string> options) {
+    image::Image<image::Rgba8> draw(std::vector<std::string> options) {
         std::vector<std::string> arguments{"render", "house.svt", "-o", "p.png", "--size", "160x90"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         runSvtWell(folder.path(), arguments);
-        auto image = render::readPng(folder / "p.png");
+        auto image = image::readPng(folder / "p.png");
         if (!image) {
             ADD_FAILURE() << image.error().toString();
             return {1, 1};
@@ -193,7 +192,7 @@ protected:
 
 TEST_F(SmallHouse, HidingAllLeavesTheBackground) {
     const auto image = draw({"--hide", "all", "--background", "#102030"});
-    for (const render::Rgba8& pixel : image.pixels()) ASSERT_EQ(pixel, (render::Rgba8{0x10, 0x20, 0x30, 255}));
+    for (const image::Rgba8& pixel : image.pixels()) ASSERT_EQ(pixel, (image::Rgba8{0x10, 0x20, 0x30, 255}));
 }
 
 TEST_F(SmallHouse, TransparentBackgroundHasNoAlpha) {
@@ -211,7 +210,7 @@ TEST_F(SmallHouse, LinesAndMeshesOfTheModelAreThoseOfItsVolume) {
     std::vector<std::string> arguments{"render", "house.gml", "-o", "p.png", "--size", "160x90", "--spacing", "0.2"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     runSvtWell(folder.path(), arguments);
-    const auto ofModel = render::readPng(folder / "p.png");
+    const auto ofModel = image::readPng(folder / "p.png");
     ASSERT_TRUE(ofModel);
     EXPECT_EQ(*ofModel, ofVolume);
     EXPECT_NE(draw({"--opacity", "all:0.3"}), ofVolume);
@@ -239,24 +238,24 @@ TEST_F(SmallHouse, ASizeInMillimetresIsToldToThePrinter) {
     (void)draw({});
     EXPECT_EQ(perMetre(), 0);
     runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--size", "50.8x25.4mm", "--dpi", "100"});
-    EXPECT_EQ(render::readPng(folder / "p.png")->width(), 200);
+    EXPECT_EQ(image::readPng(folder / "p.png")->width(), 200);
     EXPECT_EQ(perMetre(), 3937);
     runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--size", "25.4x12.7mm"});
-    EXPECT_EQ(render::readPng(folder / "p.png")->width(), 300);
+    EXPECT_EQ(image::readPng(folder / "p.png")->width(), 300);
     EXPECT_EQ(perMetre(), 11811);
 }
 
 TEST_F(SmallHouse, PictureOfTheModelIsThatOfItsVolume) {
     const auto ofVolume = draw({});
     runSvtWell(folder.path(), {"render", "house.gml", "-o", "p.png", "--size", "160x90", "--spacing", "0.2"});
-    const auto ofModel = render::readPng(folder / "p.png");
+    const auto ofModel = image::readPng(folder / "p.png");
     ASSERT_TRUE(ofModel);
     EXPECT_EQ(*ofModel, ofVolume);
 }
 
 TEST_F(SmallHouse, LabelsAreThoseOfInfo) {
     (void)draw({"--labels", "labels.png", "--show", "id=house_chimney"});
-    const auto labels = render::readGrayPng(folder / "labels.png");
+    const auto labels = image::readGrayPng(folder / "labels.png");
     ASSERT_TRUE(labels);
     const auto rows = runSvtForJson(folder.path(), {"query", "house.svt", "id=house_chimney", "--json"});
     const int first = rows.at(0).at("first");
@@ -271,7 +270,7 @@ TEST_F(SmallHouse, LabelsAreThoseOfInfo) {
 TEST_F(SmallHouse, DepthIsInMillimetres) {
     // From the south in parallel projection: what is hit lies within the house, 12.6 m deep, before the eye.
     (void)draw({"--depth", "depth.png", "--camera", "front"});
-    const auto depth = render::readGrayPng(folder / "depth.png");
+    const auto depth = image::readGrayPng(folder / "depth.png");
     ASSERT_TRUE(depth);
     std::uint16_t least = 65535, most = 0;
     for (const std::uint16_t step : depth->pixels()) {
@@ -285,8 +284,8 @@ TEST_F(SmallHouse, DepthIsInMillimetres) {
 }
 
 TEST_F(SmallHouse, LastOfTwoColorsWins) {
-    const auto isRed = [](const render::Rgba8& p) { return p.r > p.b + 60 && p.r > p.g + 60; };
-    const auto isBlue = [](const render::Rgba8& p) { return p.b > p.r + 60 && p.b > p.g + 60; };
+    const auto isRed = [](const image::Rgba8& p) { return p.r > p.b + 60 && p.r > p.g + 60; };
+    const auto isBlue = [](const image::Rgba8& p) { return p.b > p.r + 60 && p.b > p.g + 60; };
     const auto image = draw({"--color", "all:red", "--color", "all:blue", "--opacity", "all:1"});
     EXPECT_EQ(std::count_if(image.pixels().begin(), image.pixels().end(), isRed), 0);
     EXPECT_GT(std::count_if(image.pixels().begin(), image.pixels().end(), isBlue), 500);

@@ -2,7 +2,7 @@
 /// libFuzzer target: any bytes into the CityGML reader give a model or an error.
 /// Build with clang and SVT_FUZZ=ON.
 
-#include <svt/readers/citygml_reader.hpp>
+#include <svt/readers/citygml/citygml_reader.hpp>
 
 #include <cstddef>
 #include <cstdint>

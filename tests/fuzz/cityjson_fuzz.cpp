@@ -1,5 +1,5 @@
 // Any bytes give a model whose indices are in range, or an error.
-#include <svt/readers/cityjson_reader.hpp>
+#include <svt/readers/cityjson/cityjson_reader.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Any streams of a block give tiles that can be used, or an error.
 // Input: four bytes for width, height, height in samples and scalars, then the eight streams, each with two bytes of
 // length.
-#include <svt/volume/column_codec.hpp>
+#include <svt/volume/columns/column_codec.hpp>
 
 #include <cstdint>
 #include <cstdlib>

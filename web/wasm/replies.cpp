@@ -1,7 +1,7 @@
 #include "replies.hpp"
 
+#include <svt/analyze/selection.hpp>
 #include <svt/illustrate/section_plane.hpp>
-#include <svt/illustrate/selection.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -81,11 +81,11 @@ Vec3d worldSize(const volume::Grid& grid) {
 // Around a feature's voxels; where it has none, around those of all below it.
 Box3d boxOf(Session& session, std::uint32_t index) {
     const volume::SemanticVolume& volume = session.volume();
-    volume::SampleBox box = session.measures()[index].box;
+    analyze::SampleBox box = session.measures()[index].box;
     if (box.isEmpty())
         for (std::uint32_t l = index + 1; l < volume.labels.labels[index].subtreeEnd; ++l)
             box.add(session.measures()[l].box);
-    Box3d world = volume::worldBox(box, volume.grid);
+    Box3d world = analyze::worldBox(box, volume.grid);
     if (world.isEmpty()) return {{}, {}};
     world.min = world.min - volume.grid.origin();
     world.max = world.max - volume.grid.origin();
@@ -94,7 +94,7 @@ Box3d boxOf(Session& session, std::uint32_t index) {
 
 Json neighborsJson(Session& session, std::uint32_t index) {
     Json list = Json::array();
-    for (const volume::Neighbor& neighbor : volume::neighborsOf(index, session.contacts())) {
+    for (const analyze::Neighbor& neighbor : analyze::neighborsOf(index, session.contacts())) {
         if (neighbor.label == volume::kNoLabel) continue;
         Json row = namesOf(session.volume().labels.labels[neighbor.label]);
         row["area"] = neighbor.area;
@@ -169,7 +169,7 @@ Result<std::string> stretchesOf(Session& session, double x, double y) {
 
 Result<std::string> selectionOf(const Session& session, const std::string& query) {
     const auto& table = session.volume().labels;
-    const auto selected = illustrate::selectLabels(table, query);
+    const auto selected = analyze::selectLabels(table, query);
     if (!selected) return selected.error();
     Json list = Json::array();
     for (const std::uint32_t l : *selected) list.push_back(table.labels[l].id);

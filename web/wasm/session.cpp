@@ -1,8 +1,9 @@
 #include "session.hpp"
 
+#include <svt/image/png.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/read_model.hpp>
-#include <svt/render/png.hpp>
+#include <svt/render/frame_buffers.hpp>
 #include <svt/render/view_ray.hpp>
 #include <svt/volume/svt_file.hpp>
 
@@ -84,7 +85,7 @@ double Session::aspect() const noexcept { return lastSpec_ ? double(lastSpec_->w
 Result<std::vector<std::byte>> Session::picture(const illustrate::Scene& scene) {
     const auto painting = painter_.paint(scene, castOptions());
     if (!painting) return painting.error();
-    return render::encodePng(painting->frame.color);
+    return image::encodePng(painting->frame.color);
 }
 
 Result<std::vector<std::byte>> Session::labels(const illustrate::Scene& scene) {
@@ -92,7 +93,7 @@ Result<std::vector<std::byte>> Session::labels(const illustrate::Scene& scene) {
     if (!painting) return painting.error();
     const auto gray = render::grayFromLabels(painting->frame.label);
     if (!gray) return gray.error();
-    return render::encodePng(*gray);
+    return image::encodePng(*gray);
 }
 
 std::optional<Picked> Session::pick(double x, double y) {
@@ -124,13 +125,13 @@ Result<std::vector<render::RayStretch>> Session::along(double x, double y) {
     return render::labelsAlong(whole->bricks(), volume_.grid, volume_.labels, ray.origin, ray.direction);
 }
 
-const std::vector<volume::Contact>& Session::contacts() {
-    if (!contacts_) contacts_ = volume::contactsOf(volume_.columns, volume_.grid, volume_.labels);
+const std::vector<analyze::Contact>& Session::contacts() {
+    if (!contacts_) contacts_ = analyze::contactsOf(volume_.columns, volume_.grid, volume_.labels);
     return *contacts_;
 }
 
-const std::vector<volume::LabelMeasure>& Session::measures() {
-    if (!measures_) measures_ = volume::measureLabels(volume_, contacts());
+const std::vector<analyze::LabelMeasure>& Session::measures() {
+    if (!measures_) measures_ = analyze::measureLabels(volume_, contacts());
     return *measures_;
 }
 

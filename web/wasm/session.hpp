@@ -2,13 +2,13 @@
 /// \file
 /// The volume that a page has open: drawn, picked and asked. Holds what is dear to make between calls.
 
+#include <svt/analyze/contacts.hpp>
+#include <svt/analyze/label_measures.hpp>
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/render/ray_labels.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
-#include <svt/volume/contacts.hpp>
-#include <svt/volume/label_measures.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -64,8 +64,8 @@ public:
     [[nodiscard]] Result<std::vector<render::RayStretch>> along(double x, double y);
 
     /// Who touches whom; made when first asked for.
-    [[nodiscard]] const std::vector<volume::Contact>& contacts();
-    [[nodiscard]] const std::vector<volume::LabelMeasure>& measures();
+    [[nodiscard]] const std::vector<analyze::Contact>& contacts();
+    [[nodiscard]] const std::vector<analyze::LabelMeasure>& measures();
 
 private:
     Session(volume::SemanticVolume volume, Diagnostics findings)
@@ -78,8 +78,8 @@ private:
     std::optional<render::Frame> lastFrame_;  // none where WebGL2 drew
     std::optional<render_gl::GlRenderer> gl_;
     std::vector<std::uint32_t> labelOfScalar_;
-    std::optional<std::vector<volume::Contact>> contacts_;
-    std::optional<std::vector<volume::LabelMeasure>> measures_;
+    std::optional<std::vector<analyze::Contact>> contacts_;
+    std::optional<std::vector<analyze::LabelMeasure>> measures_;
 };
 
 }  // namespace svt::web

@@ -1,0 +1,127 @@
+#include <apps/cli/cli.hpp>
+#include <apps/cli/output/json_output.hpp>
+
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace svt::cli {
+namespace {
+
+struct Arguments {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output;
+    std::filesystem::path gridOf;
+    BuildArguments build;
+    bool json = false, verbose = false, strict = false;
+};
+
+void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const Arguments& arguments) {
+    const auto dimension = built.volume.grid.dimension();
+    const auto spacing = built.volume.grid.spacing();
+    fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n",
+               arguments.output.string(), built.report.objects, dimension.x, dimension.y, dimension.z, spacing.x,
+               spacing.y, spacing.z, double(fileBytes) / 1000, built.report.seconds.total);
+}
+
+Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const BuildArguments& build) {
+    if (!build.dimension.empty() || !build.spacing.empty() || build.frame != "world")
+        return Error(Code::BadArgument,
+                     "--grid-of excludes --dimension, --spacing and --frame; the other volume has them already");
+    const auto volume = volume::readSvt(path);
+    if (!volume) return volume.error();
+    return volume->grid;
+}
+
+int runBuild(const Arguments& arguments) {
+    std::optional<pipeline::StyleSheet> sheet;
+    auto options = arguments.build.options(sheet);
+    if (!options) return fail(options.error());
+    if (!arguments.gridOf.empty()) {
+        auto grid = gridOfVolume(arguments.gridOf, arguments.build);
+        if (!grid) return fail(grid.error());
+        options->grid = *grid;
+    }
+    Diagnostics diagnostics;
+    const auto start = std::chrono::steady_clock::now();
+    Result<pipeline::BuildOutput> built = [&] {
+        const TerminalProgress progress;
+        options->progress = progress.get();
+        return pipeline::buildVolume(arguments.inputs, *options, &diagnostics);
+    }();
+    printDiagnostics(diagnostics, arguments.verbose);
+    if (!built) return fail(built.error());
+    const auto writeStart = std::chrono::steady_clock::now();
+    const auto bytes = volume::writeSvt(built->volume, arguments.output);
+    if (!bytes) return fail(bytes.error());
+    const auto end = std::chrono::steady_clock::now();
+    pipeline::BuildReport& report = built->report;
+    report.seconds.write = std::chrono::duration<double>(end - writeStart).count();
+    report.seconds.total = std::chrono::duration<double>(end - start).count();
+    if (arguments.json) {
+        Json json;
+        json["objects"] = report.objects;
+        json["triangles"] = report.triangles;
+        json["open"] = report.open;
+        json["tJunctions"] = report.tJunctions;
+        json["seconds"] = {{"read", report.seconds.read},         {"mesh", report.seconds.mesh},
+                           {"voxelize", report.seconds.voxelize}, {"pack", report.seconds.pack},
+                           {"write", report.seconds.write},       {"total", report.seconds.total}};
+        json["bytes"] = {{"memory", built->volume.columns.sizeBytes()}, {"file", *bytes}};
+        json["dimension"] = toJson(built->volume.grid.dimension());
+        json["spacing"] = toJson(built->volume.grid.spacing());
+        json["overlaps"] = overlapsJson(built->volume.labels);
+        json["warnings"] = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
+        print(json);
+    } else {
+        printSummary(*built, *bytes, arguments);
+    }
+    const bool isFlawed = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0;
+    if (arguments.strict && isFlawed) {
+        fmt::print(stderr, "svt: the model has defects (--strict)\n");
+        return kInvalid;
+    }
+    return kDone;
+}
+
+}  // namespace
+
+Run addBuildCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("build", "Make a volume (.svt) of one or more model files");
+    command->add_option("input", arguments->inputs, "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "the volume to write")->required()->type_name("F.svt");
+    arguments->build.addTo(*command);
+    command
+        ->add_option("--grid-of", arguments->gridOf,
+                     "samples where this volume has them, so that the two can be compared voxel by voxel")
+        ->group("Grid")
+        ->type_name("F.svt");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--vectors",
+            [arguments](const std::vector<std::string>& kinds) {
+                for (const std::string& kind : kinds) {
+                    if (kind == "edges") arguments->build.vectors.edges = true;
+                    if (kind == "meshes") arguments->build.vectors.meshes = true;
+                }
+            },
+            "also keep edges, or meshes, or both (edges,meshes), to be drawn inside the volume")
+        ->group("Output")
+        ->delimiter(',')
+        ->expected(1, 2)
+        ->type_name("KIND")
+        ->check(CLI::IsMember({"edges", "meshes"}));
+    command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");
+    command
+        ->add_flag("--strict", arguments->strict,
+                   "exit 4 where the model has defects; the volume is written all the same")
+        ->group("Output");
+    command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
+    return [arguments] { return runBuild(*arguments); };
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,96 @@
+#include <apps/cli/cli.hpp>
+#include <apps/cli/output/json_output.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path input;
+    BuildArguments build;
+    bool json = false, tree = false;
+};
+
+void printTree(const volume::SemanticVolume& volume) {
+    std::vector<int> depth(volume.labels.labels.size(), 0);
+    for (std::size_t l = 0; l < volume.labels.labels.size(); ++l) {
+        const volume::Label& label = volume.labels.labels[l];
+        if (label.parent != volume::kNoLabel) depth[l] = depth[label.parent] + 1;
+        fmt::print("{:{}}{} {}{}{}", "", depth[l] * 2, label.className, label.name.empty() ? label.id : label.name,
+                   label.name.empty() ? "" : "  id ", label.name.empty() ? "" : label.id);
+        if (label.count != 0)
+            fmt::print("  scalars {}..{}  {} voxels  {:.3f} m3  {}", label.first, label.first + label.count - 1,
+                       label.voxels, label.volume, volume::fillingName(label.filling));
+        fmt::print("\n");
+    }
+}
+
+void printFigures(const volume::SemanticVolume& volume) {
+    const auto d = volume.grid.dimension();
+    const auto s = volume.grid.spacing();
+    const auto o = volume.grid.origin();
+    std::size_t objects = 0;
+    std::uint64_t filled = 0;
+    for (const volume::Label& label : volume.labels.labels) {
+        objects += label.count != 0;
+        filled += label.voxels;
+    }
+    fmt::print("model      {} ({})\n", volume.modelName.empty() ? "-" : volume.modelName, volume.source);
+    fmt::print("crs        {}\n", volume.crsName.empty() ? "-" : volume.crsName);
+    fmt::print("samples    {} x {} x {}\n", d.x, d.y, d.z);
+    fmt::print("spacing    {:.6g} x {:.6g} x {:.6g} m\n", s.x, s.y, s.z);
+    fmt::print("origin     {:.6f} {:.6f} {:.6f}\n", o.x, o.y, o.z);
+    fmt::print("features   {}, of which {} have voxels\n", volume.labels.labels.size(), objects);
+    fmt::print("scalars    {} bit, 1..{}\n", volume.labels.scalarBits(), volume.labels.scalarCount() - 1);
+    fmt::print("filled     {:.1f} %\n", 100.0 * double(filled) / double(volume.grid.sampleCount()));
+    fmt::print("columns    {:.1f} kB ({:.3f} % of a dense {}-bit volume)\n", double(volume.columns.sizeBytes()) / 1000,
+               100.0 * double(volume.columns.sizeBytes()) /
+                   (double(volume.grid.sampleCount()) * volume.labels.scalarBits() / 8),
+               volume.labels.scalarBits());
+    fmt::print("overlaps   {} pairs\n", volume.labels.overlaps.size());
+}
+
+int runInfo(const Arguments& arguments) {
+    Diagnostics diagnostics;
+    Result<volume::SemanticVolume> loaded = [&] {
+        const TerminalProgress progress;
+        return loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    }();
+    printDiagnostics(diagnostics, false);
+    if (!loaded) return fail(loaded.error());
+    const volume::SemanticVolume& volume = *loaded;
+    if (arguments.json) {
+        Json json;
+        json["grid"] = gridJson(volume.grid);
+        json["scalarType"] = fmt::format("uint{}", volume.labels.scalarBits());
+        json["crs"] = volume.crsName;
+        json["name"] = volume.modelName;
+        json["source"] = volume.source;
+        json["objects"] = Json::array();
+        json["features"] = Json::array();
+        for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
+            json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(
+                labelJson(volume.labels, l, volume.grid));
+        json["overlaps"] = overlapsJson(volume.labels);
+        print(json);
+    } else {
+        printFigures(volume);
+        if (arguments.tree) printTree(volume);
+    }
+    return kDone;
+}
+
+}  // namespace
+
+Run addInfoCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("info", "Show what is inside a volume or model");
+    command->add_option("input", arguments->input, "a .svt or a model file")->required();
+    arguments->build.addTo(*command);
+    command->add_flag("--json", arguments->json, "print everything as JSON on stdout")->group("Output");
+    command->add_flag("--tree", arguments->tree, "print the tree of features")->group("Output");
+    return [arguments] { return runInfo(*arguments); };
+}
+
+}  // namespace svt::cli

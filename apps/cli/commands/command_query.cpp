@@ -1,0 +1,165 @@
+#include <apps/cli/cli.hpp>
+#include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/query_reports.hpp>
+
+#include <svt/analyze/selection.hpp>
+#include <svt/core/file.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path input;
+    std::string query;
+    std::string with, along;
+    std::filesystem::path owners, parcels;
+    bool neighbors = false, overlaps = false, gaps = false;
+    BuildArguments build;
+    bool json = false, csv = false;
+
+    [[nodiscard]] int reportCount() const {
+        return !with.empty() + !along.empty() + !owners.empty() + !parcels.empty() + neighbors + overlaps + gaps;
+    }
+};
+
+void printFeatures(const volume::LabelTable& table, const Labels& selected) {
+    fmt::print("{:<28} {:<28} {:<24} {:>10} {:>12}\n", "id", "class", "name", "m3", "voxels");
+    for (const std::uint32_t l : selected) {
+        const volume::Label& label = table.labels[l];
+        fmt::print("{:<28} {:<28} {:<24} {:>10.3f} {:>12}\n", label.id, label.className, label.name, label.volume,
+                   label.voxels);
+    }
+}
+
+int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+    With with;
+    if (!arguments.with.empty()) {
+        const auto parsed = parseWith(arguments.with);
+        if (!parsed) return fail(parsed.error());
+        with = *parsed;
+    }
+    const int threads = arguments.build.threads;
+    if (arguments.json)
+        print(featureJson(volume, selected, with, threads));
+    else if (arguments.csv)
+        featureTable(volume, selected, with, threads).printCsv();
+    else if (!arguments.with.empty())
+        featureTable(volume, selected, with, threads).printText();
+    else
+        printFeatures(volume.labels, selected);
+    return kDone;
+}
+
+Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+    const int threads = arguments.build.threads;
+    if (arguments.neighbors) return neighborTable(volume, selected, threads);
+    if (arguments.overlaps) return overlapTable(volume, selected);
+    if (arguments.gaps) return gapTable(volume, selected);
+    if (!arguments.along.empty()) {
+        const auto ray = illustrate::parsePickRay(arguments.along, volume.grid);
+        if (!ray) return ray.error();
+        return rayTable(volume, selected, *ray, threads);
+    }
+    Diagnostics diagnostics;
+    const auto parcels = [&] {
+        const TerminalProgress progress;
+        return loadVolume(arguments.parcels, arguments.build, progress.get(), diagnostics, &volume.grid);
+    }();
+    printDiagnostics(diagnostics, false);
+    if (!parcels) return parcels.error();
+    return parcelTable(volume, selected, *parcels, threads);
+}
+
+int printReport(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+    const auto table = makeReport(volume, selected, arguments);
+    if (!table) return fail(table.error());
+    if (arguments.json)
+        print(table->toJson());
+    else if (arguments.csv)
+        table->printCsv();
+    else
+        table->printText();
+    return kDone;
+}
+
+int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+    const auto file = MappedFile::open(arguments.owners);
+    if (!file) return fail(file.error());
+    const auto owners = analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels);
+    if (!owners) return fail(owners.error());
+    const OwnerReport report = ownerReport(volume, selected, *owners, arguments.build.threads);
+    if (arguments.json) {
+        print(report.json);
+    } else if (arguments.csv) {
+        report.components.printCsv();
+    } else {
+        report.totals.printText();
+        fmt::print("\n");
+        report.components.printText();
+    }
+    return kDone;
+}
+
+int runQuery(const Arguments& arguments) {
+    if (auto parsed = model::Query::parse(arguments.query); !parsed) return fail(parsed.error());
+    if (arguments.reportCount() > 1)
+        return fail(
+            Error(Code::BadArgument,
+                  "--with, --neighbours, --along, --overlaps, --gaps, --owners and --parcels exclude each other; "
+                  "give one of them"));
+    if (arguments.json && arguments.csv)
+        return fail(Error(Code::BadArgument, "--json and --csv exclude each other; give one of them"));
+    Diagnostics diagnostics;
+    Result<volume::SemanticVolume> volume = [&] {
+        const TerminalProgress progress;
+        return loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    }();
+    printDiagnostics(diagnostics, false);
+    if (!volume) return fail(volume.error());
+    const auto selected = analyze::selectLabels(volume->labels, arguments.query);
+    if (!selected) return fail(selected.error());
+    if (!arguments.owners.empty()) return printOwners(*volume, *selected, arguments);
+    if (arguments.reportCount() == 0 || !arguments.with.empty()) return printFeatures(*volume, *selected, arguments);
+    return printReport(*volume, *selected, arguments);
+}
+
+}  // namespace
+
+Run addQueryCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("query", "List the features that a query selects, and what is around them");
+    command->add_option("input", arguments->input, "a .svt or a model file")->required();
+    command->add_option("query", arguments->query, "such as 'class=BuildingRoom and volume>20'")->required();
+    command
+        ->add_option("--with", arguments->with,
+                     "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface")
+        ->group("Report")
+        ->type_name("LIST");
+    command->add_flag("--neighbours", arguments->neighbors, "what each feature touches, with the shared area")
+        ->group("Report");
+    command
+        ->add_option("--along", arguments->along,
+                     "what lies along a ray: a point in metres from the lower corner, and a direction")
+        ->group("Report")
+        ->type_name("X,Y,Z:DX,DY,DZ");
+    command->add_flag("--overlaps", arguments->overlaps, "what two features both claim")->group("Report");
+    command->add_flag("--gaps", arguments->gaps, "air beside the features that is shut in")->group("Report");
+    command
+        ->add_option("--owners", arguments->owners,
+                     "who owns what: a table of feature and owner; walls between owners are divided")
+        ->group("Report")
+        ->type_name("T.csv");
+    command
+        ->add_option("--parcels", arguments->parcels,
+                     "how much of each feature lies in which parcel: a volume on the same grid, or a model")
+        ->group("Report")
+        ->type_name("FILE");
+    command->add_flag("--json", arguments->json, "print rows as JSON on stdout")->group("Output");
+    command->add_flag("--csv", arguments->csv, "print rows as CSV on stdout")->group("Output");
+    arguments->build.addTo(*command);
+    return [arguments] { return runQuery(*arguments); };
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,164 @@
+#include <apps/cli/cli.hpp>
+#include <apps/cli/options/scene_options.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/illustrate/scene_painter.hpp>
+#include <svt/image/png.hpp>
+#include <svt/render/frame_buffers.hpp>
+#include <svt/render_gl/egl_context.hpp>
+#include <svt/render_gl/gl_renderer.hpp>
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <span>
+
+namespace svt::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path input, output, labelOutput, depthOutput, sceneOutput;
+    BuildArguments build;
+    SceneArguments scene;
+    int frames = 1;
+    bool gl = false;
+    bool verbose = false;
+};
+
+// Draws the finest level of one volume by OpenGL; made when first used.
+class GlDrawer {
+public:
+    explicit GlDrawer(int threads) : threads_(threads) {}
+
+    Result<render::Frame> draw(std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
+        if (volumes.size() > 1 || volumes[0].level() != nullptr)
+            return Error(Code::BadFrame,
+                         "--gl draws one volume at its finest level, and the passes of this scene draw others; leave "
+                         "out --gl");
+        if (!context_) {
+            auto context = render_gl::EglContext::make();
+            if (!context) return context.error();
+            context_.emplace(std::move(*context));
+        }
+        if (drawn_ != &volumes[0].bricks()) {
+            auto renderer = render_gl::GlRenderer::make(volumes[0].bricks(), volumes[0].grid(), {.threads = threads_});
+            if (!renderer) return renderer.error();
+            renderer_.emplace(std::move(*renderer));
+            drawn_ = &volumes[0].bricks();
+        }
+        return renderer_->read(spec);
+    }
+
+private:
+    int threads_;
+    std::optional<render_gl::EglContext> context_;  // goes after what it holds
+    std::optional<render_gl::GlRenderer> renderer_;
+    const volume::BrickVolume* drawn_ = nullptr;
+};
+
+// What each pass of a scene that names no level has by OpenGL.
+void takeFinest(illustrate::Scene& scene) {
+    for (illustrate::ScenePass& pass : scene.passes)
+        if (!pass.form.level) pass.form.level = 0;
+}
+
+// P.png -> P_0007.png
+std::filesystem::path numbered(const std::filesystem::path& file, int frame, int frames) {
+    if (frames == 1 || file.empty()) return file;
+    std::filesystem::path result = file;
+    result.replace_filename(fmt::format("{}_{:04}{}", file.stem().string(), frame, file.extension().string()));
+    return result;
+}
+
+Result<void> writeBuffers(const render::Frame& frame, const Arguments& arguments, int number) {
+    const auto at = [&](const std::filesystem::path& file) { return numbered(file, number, arguments.frames); };
+    if (auto written = image::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()); !written)
+        return written;
+    if (!arguments.labelOutput.empty()) {
+        const auto gray = render::grayFromLabels(frame.label);
+        if (!gray) return gray.error();
+        if (auto written = image::writePng(at(arguments.labelOutput), *gray); !written) return written;
+    }
+    if (!arguments.depthOutput.empty())
+        return image::writePng(at(arguments.depthOutput), render::grayFromDepth(frame.depth, 0.001));
+    return {};
+}
+
+// What a model must keep of itself for a scene.
+BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene) {
+    for (const illustrate::ScenePass& pass : scene.passes) {
+        build.vectors.edges = build.vectors.edges || !pass.lines.empty();
+        build.vectors.meshes = build.vectors.meshes || !pass.meshes.empty();
+    }
+    return build;
+}
+
+int runRender(const Arguments& arguments) {
+    // Before anything long: does what is asked for make sense?
+    const auto first = arguments.scene.toScene(0, arguments.frames);
+    if (!first) return fail(first.error());
+    if (!arguments.sceneOutput.empty()) {
+        const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
+        if (!written) return fail(written.error());
+    }
+    Diagnostics diagnostics;
+    const TerminalProgress progress;
+    const auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
+    printDiagnostics(diagnostics, arguments.verbose);
+    if (!volume) return fail(volume.error());
+
+    render::CastOptions options;
+    options.threads = arguments.build.threads;
+    options.progress = progress.get();
+    options.isAdaptive = true;
+    illustrate::ScenePainter painter(*volume, arguments.build.threads);
+    GlDrawer gl(arguments.build.threads);
+    const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
+        return gl.draw(volumes, spec);
+    };
+    for (int frame = 0; frame < arguments.frames; ++frame) {
+        auto scene = arguments.scene.toScene(frame, arguments.frames);
+        if (!scene) return fail(scene.error());
+        if (arguments.gl) takeFinest(*scene);
+        const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
+        if (!painting) return fail(painting.error());
+        if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
+        Progress::tell(progress.get(), "render", double(frame + 1) / arguments.frames);
+    }
+    return kDone;
+}
+
+}  // namespace
+
+Run addRenderCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("render", "Draw a picture (PNG) of a volume or model");
+    command->add_option("input", arguments->input, "a .svt or a model file")->required();
+    command->add_option("-o,--output", arguments->output, "the picture to write")->required()->type_name("P.png");
+    arguments->scene.addTo(*command);
+    command->add_option("--write-scene", arguments->sceneOutput, "also write the scene that these options make")
+        ->group("Scene")
+        ->type_name("S.scene.json");
+    command
+        ->add_option("--frames", arguments->frames,
+                     "so many pictures P_0000.png, ... of a section that moves, 1 to 10000")
+        ->group("Scene")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_flag("--gl", arguments->gl, "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display")
+        ->group("Output")
+        ->excludes(command->get_option("--level"));
+    command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")
+        ->group("Output")
+        ->type_name("L.png");
+    command
+        ->add_option("--depth", arguments->depthOutput,
+                     "also write the depth of each pixel in millimetres, 16-bit gray")
+        ->group("Output")
+        ->type_name("D.png");
+    command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
+    arguments->build.addTo(*command);
+    return [arguments] { return runRender(*arguments); };
+}
+
+}  // namespace svt::cli

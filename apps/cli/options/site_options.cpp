@@ -1,0 +1,167 @@
+#include <apps/cli/options/site_options.hpp>
+
+#include <apps/cli/output/json_output.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/illustrate/scene_painter.hpp>
+#include <svt/image/png.hpp>
+#include <svt/serve/child_process.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+namespace svt::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A model as the bytes of a .svt; the file that held them for a moment is gone.
+Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
+    const TerminalProgress progress;
+    const auto volume = loadVolume(input, build, progress.get(), diagnostics);
+    if (!volume) return volume.error();
+    const serve::PrivateFolder folder;
+    if (folder.path().empty())
+        return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
+    const fs::path file = folder.path() / "model.svt";
+    if (const auto written = volume::writeSvt(*volume, file); !written) return written.error();
+    return MappedFile::open(file);
+}
+
+Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
+                                 Diagnostics& diagnostics) {
+    auto file = MappedFile::open(input);
+    if (!file) return file.error();
+    if (!volume::looksLikeSvt(file->bytes())) file = built(input, build, diagnostics);
+    if (!file) return file.error();
+    const auto opened = volume::openSvt(file->bytes(), input.string());
+    if (!opened) return opened.error();
+    const std::string title = opened->modelName.empty() ? input.stem().string() : opened->modelName;
+    return serve::SiteModel{name, title, serve::Bytes::of(std::move(*file))};
+}
+
+// One model at a time in memory, as pictures need it.
+class Pictures {
+public:
+    Pictures(std::vector<serve::SiteModel> models, int threads) : models_(std::move(models)), threads_(threads) {}
+
+    serve::Reply paint(const serve::Request& request, const Progress& stop) {
+        // What lies deeper than any scene is dropped while it is read.
+        constexpr int kMaxDepth = 32;
+        const auto isShallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kMaxDepth; };
+        const Json json = Json::parse(request.body, isShallow, false);
+        if (!json.is_object() || !json.contains("scene"))
+            return refusal(Error(Code::BadJson, "expected {\"model\": NAME, \"scene\": {...}}"));
+        const auto scene = illustrate::parseScene(json["scene"].dump());
+        if (!scene) return refusal(scene.error());
+        constexpr std::int64_t kMaxRays = std::int64_t{1} << 24;
+        if (std::int64_t{scene->width} * scene->height * scene->samples > kMaxRays)
+            return refusal(Error(Code::BadFrame, fmt::format("the picture has over {} rays, pixels times samples; make "
+                                                             "it smaller",
+                                                             kMaxRays)));
+        const auto model = json.find("model");
+        if (auto opened = open(model != json.end() && model->is_string() ? model->get<std::string>() : ""); !opened)
+            return refusal(opened.error());
+        render::CastOptions options;
+        options.threads = threads_;
+        options.isAdaptive = true;
+        options.progress = &stop;
+        const auto painting = painter_->paint(*scene, options);
+        if (!painting) return refusal(painting.error());
+        const auto png = image::encodePng(painting->frame.color);
+        if (!png) return refusal(png.error());
+        serve::Reply reply;
+        reply.type = "image/png";
+        reply.body = serve::Bytes::of(std::string(reinterpret_cast<const char*>(png->data()), png->size()));
+        reply.headers = {{"Cache-Control", "no-store"}};
+        return reply;
+    }
+
+private:
+    static serve::Reply refusal(const Error& error) {
+        return serve::Reply::error(422, codeTag(error.code()), error.message());
+    }
+
+    Result<void> open(const std::string& name) {
+        const serve::SiteModel* wanted = models_.empty() ? nullptr : &models_.front();
+        const auto isMeant = [&](const serve::SiteModel& model) {
+            return model.name == name || model.name + ".svt" == name;
+        };
+        for (const serve::SiteModel& model : models_)
+            if (isMeant(model)) wanted = &model;
+        if (wanted == nullptr || (!name.empty() && !isMeant(*wanted)))
+            return Error(Code::BadArgument, fmt::format("there is no model '{}'; models.json lists them", name));
+        if (opened_ == wanted) return {};
+        painter_.reset();
+        volume_.reset();
+        opened_ = nullptr;
+        auto volume = volume::readSvt(wanted->svt.data, wanted->name);
+        if (!volume) return volume.error();
+        volume_ = std::move(*volume);
+        painter_.emplace(*volume_, threads_);
+        opened_ = wanted;
+        return {};
+    }
+
+    std::vector<serve::SiteModel> models_;
+    int threads_;
+    const serve::SiteModel* opened_ = nullptr;
+    std::optional<volume::SemanticVolume> volume_;
+    std::optional<illustrate::ScenePainter> painter_;
+};
+
+}  // namespace
+
+void SiteArguments::addTo(CLI::App& command) {
+    command.add_option("--viewer", viewer, "folder of the page; default: share/svt/viewer beside the program's folder")
+        ->group("Page")
+        ->type_name("DIR");
+    command.add_flag("-v,--verbose", verbose, "show all findings")->group("Page");
+    build.addTo(command);
+}
+
+Result<fs::path> SiteArguments::viewerFolder() const {
+    std::error_code error;
+    const fs::path folder =
+        !viewer.empty() ? viewer
+                        : fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share/svt/viewer";
+    if (fs::is_regular_file(folder / "index.html", error)) return folder;
+    return Error(Code::CannotOpen,
+                 "no viewer is here: index.html is missing; `make viewer` builds one, --viewer names "
+                 "another folder",
+                 Place{folder.string(), 0, 0, {}});
+}
+
+Result<std::vector<serve::SiteModel>> SiteArguments::load(const std::vector<fs::path>& inputs) const {
+    BuildArguments withEdges = build;
+    withEdges.vectors.edges = true;
+    const std::vector<std::string> names = serve::uniqueNames(inputs);
+    std::vector<serve::SiteModel> models;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        Diagnostics diagnostics;
+        auto model = modelOf(inputs[i], names[i], withEdges, diagnostics);
+        printDiagnostics(diagnostics, verbose);
+        if (!model) return model.error();
+        models.push_back(std::move(*model));
+    }
+    return models;
+}
+
+serve::Route pictureRoute(std::vector<serve::SiteModel> models, int threads) {
+    serve::Route route;
+    route.path = "/api/picture";
+    route.maxBodyBytes = 256 * 1024;
+    route.maxWaiting = 4;
+    const auto pictures = std::make_shared<Pictures>(std::move(models), threads);
+    route.handle = [pictures](const serve::Request& request, const Progress& stop) {
+        return pictures->paint(request, stop);
+    };
+    return route;
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,75 @@
+#include <apps/cli/output/json_output.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+
+Json toJson(const AttributeValue& value) {
+    return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json toJson(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
+Json toJson(Vec3i v) { return Json::array({v.x, v.y, v.z}); }
+
+Json gridJson(const volume::Grid& grid) {
+    return {{"dimension", toJson(grid.dimension())},
+            {"spacing", toJson(grid.spacing())},
+            {"origin", toJson(grid.origin())},
+            {"frame", Json::array({toJson(grid.axes()[0]), toJson(grid.axes()[1]), toJson(grid.axes()[2])})}};
+}
+
+Json labelJson(const volume::LabelTable& table, std::uint32_t index, const volume::Grid& grid) {
+    const volume::Label& label = table.labels[index];
+    Json json{{"id", label.id}, {"class", label.className}, {"name", label.name}};
+    json["parent"] = label.parent == volume::kNoLabel ? Json(nullptr) : Json(table.labels[label.parent].id);
+    json["first"] = label.first;
+    json["count"] = label.count;
+    json["voxels"] = label.voxels;
+    json["volume"] = label.volume;
+    json["voxelVolume"] = double(label.voxels) * grid.voxelVolume();
+    json["closed"] = label.filling == volume::Filling::Solid || label.filling == volume::Filling::TJunctions;
+    json["filling"] = volume::fillingName(label.filling);
+    if (label.thinVoxels != 0) json["thinVoxels"] = label.thinVoxels;
+    if (label.uncertainVoxels != 0) json["uncertainVoxels"] = label.uncertainVoxels;
+    if (!label.groups.empty()) {
+        Json groups = Json::array();
+        for (const std::uint32_t group : label.groups) groups.push_back(table.labels[group].id);
+        json["groups"] = std::move(groups);
+    }
+    if (!label.attributes.empty()) {
+        Json attributes = Json::object();
+        for (const Attribute& attribute : label.attributes) attributes[attribute.name] = toJson(attribute.value);
+        json["attributes"] = std::move(attributes);
+    }
+    return json;
+}
+
+Json overlapsJson(const volume::LabelTable& table) {
+    Json list = Json::array();
+    for (const volume::Overlap& overlap : table.overlaps)
+        list.push_back({{"a", table.labels[overlap.a].id},
+                        {"b", table.labels[overlap.b].id},
+                        {"voxels", overlap.voxels},
+                        {"nested", overlap.isNested}});
+    return list;
+}
+
+Json diagnosticsJson(const Diagnostics& diagnostics) {
+    Json list = Json::array();
+    for (const Diagnostic& item : diagnostics.items()) {
+        Json json{{"severity", severityName(item.severity)},
+                  {"code", codeTag(item.code)},
+                  {"name", codeName(item.code)},
+                  {"message", item.message}};
+        if (!item.where.file.empty()) json["file"] = item.where.file;
+        if (item.where.line != 0) json["line"] = item.where.line;
+        if (item.where.column != 0) json["column"] = item.where.column;
+        if (!item.where.id.empty()) json["id"] = item.where.id;
+        list.push_back(std::move(json));
+    }
+    return list;
+}
+
+void print(const Json& json) { fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+
+}  // namespace svt::cli

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// What `svt query` tells of the features that a query selects, as tables.
+
+#include <apps/cli/output/table.hpp>
+
+#include <svt/analyze/contacts.hpp>
+#include <svt/analyze/owners.hpp>
+#include <svt/analyze/shared_voxels.hpp>
+#include <svt/illustrate/pick_ray.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace svt::cli {
+
+using Labels = std::vector<std::uint32_t>;  ///< ascending
+
+/// Columns that `--with` adds.
+struct With {
+    bool volume = false, surface = false, box = false;
+};
+[[nodiscard]] Result<With> parseWith(const std::string& text);
+
+/// The features themselves.
+[[nodiscard]] Table featureTable(const volume::SemanticVolume& volume, const Labels& selected, const With& with,
+                                 int threads);
+[[nodiscard]] Json featureJson(const volume::SemanticVolume& volume, const Labels& selected, const With& with,
+                               int threads);
+
+[[nodiscard]] Table neighborTable(const volume::SemanticVolume& volume, const Labels& selected, int threads);
+[[nodiscard]] Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selected,
+                                     const illustrate::PickRay& ray, int threads);
+[[nodiscard]] Table overlapTable(const volume::SemanticVolume& volume, const Labels& selected);
+[[nodiscard]] Table gapTable(const volume::SemanticVolume& volume, const Labels& selected);
+[[nodiscard]] Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& selected,
+                                        const volume::SemanticVolume& parcels, int threads);
+
+/// Who owns what: totals, and components with a row for each of their owners.
+struct OwnerReport {
+    Table totals, components;
+    Json json;
+};
+[[nodiscard]] OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& selected,
+                                      const analyze::OwnerTable& owners, int threads);
+
+}  // namespace svt::cli

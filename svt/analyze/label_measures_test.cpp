@@ -1,0 +1,59 @@
+#include <svt/analyze/label_measures.hpp>
+
+#include <svt/volume/sample_volume_test.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::analyze {
+namespace {
+
+TEST(LabelMeasures, AreBoxAndSumOfContacts) {
+    const volume::SemanticVolume volume = volume::test::sampleVolume();
+    const auto contacts = contactsOf(volume.columns, volume.grid, volume.labels, 1);
+    const auto measures = measureLabels(volume, contacts);
+    ASSERT_EQ(measures.size(), 5u);
+    // The wall stands in the middle of 70 x 66 samples, in layers 1 to 7 of 9; voxels of 0.05 x 0.1 x 1/3 m.
+    EXPECT_EQ(measures[2].box, (SampleBox{{35, 0, 1}, {35, 65, 7}}));
+    const double sides = 66 * 7 * 0.1 / 3, ends = 2 * 7 * 0.05 / 3, levels = 2 * 66 * 0.05 * 0.1;
+    EXPECT_NEAR(measures[2].area, 2 * sides + ends + levels, 0.03 * measures[2].area);
+    EXPECT_GT(measures[2].outsideArea, ends + levels - 1e-9);
+    EXPECT_LT(measures[2].outsideArea, measures[2].area - 2 * 64 * 7 * 0.1 / 3 + 1e-9);
+    // Features without voxels have neither.
+    EXPECT_TRUE(measures[4].box.isEmpty());
+    EXPECT_EQ(measures[4].area, 0);
+}
+
+TEST(LabelMeasures, WorldBoxesReachHalfAVoxelFurther) {
+    const volume::Grid grid = *volume::Grid::fromParts({10, 10, 10}, {0.5, 1, 2}, {100, 200, 300},
+                                                       {Vec3d{0, 1, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 0, 1}});
+    const Box3d box = worldBox({{2, 3, 4}, {5, 3, 4}}, grid);
+    // Index x is world y, index y is world -x.
+    EXPECT_EQ(box.min, (Vec3d{100 - 3.5, 200 + 0.75, 300 + 7}));
+    EXPECT_EQ(box.max, (Vec3d{100 - 2.5, 200 + 2.75, 300 + 9}));
+    EXPECT_TRUE(worldBox({}, grid).isEmpty());
+}
+
+TEST(LabelMeasures, VolumesAreThoseOfSolidsUnlessVoxelsWereLost) {
+    volume::LabelTable table;
+    const auto add = [&](volume::Filling filling, double volume, std::uint64_t voxels) {
+        volume::Label label;
+        label.filling = filling;
+        label.volume = volume;
+        label.voxels = voxels;
+        table.labels.push_back(label);
+    };
+    add(volume::Filling::Solid, 1.1, 100);
+    add(volume::Filling::Solid, 2.2, 150);  // lost to 0
+    add(volume::Filling::Surface, 0, 70);
+    add(volume::Filling::Winding, 0, 60);
+    add(volume::Filling::Solid, 5.5, 0);  // lost all
+    table.overlaps = {{0, 1, 50, false}};
+    const volume::Grid grid =
+        *volume::Grid::fromParts({9, 9, 9}, {0.1, 0.1, 1}, {}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    const auto volumes = ownVolumes(table, grid);
+    const double expected[] = {1.1, 1.5, 0, 0.6, 0};
+    for (std::size_t l = 0; l < 5; ++l) EXPECT_NEAR(volumes[l], expected[l], 1e-12) << l;
+}
+
+}  // namespace
+}  // namespace svt::analyze

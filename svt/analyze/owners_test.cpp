@@ -1,0 +1,186 @@
+#include <svt/analyze/owners.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace svt::analyze {
+namespace {
+
+using volume::kNoLabel;
+
+// Two rooms of 10 x 20 x 30 voxels, a wall of 4 voxels between them, and below all a slab of 3 voxels under a third
+// room, of half the width. Spacing 0.5 m.
+//
+//        a (10) | wall (4) | b (10)
+//        ------- slab (24 x 20 x 3) -------
+//        c (12)            nothing
+volume::SemanticVolume threeRooms() {
+    volume::SemanticVolume volume;
+    const Vec3i n{24, 20, 43};
+    volume.grid =
+        *volume::Grid::fromParts(n, {0.5, 0.5, 0.5}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    const auto add = [&](const char* id, const char* className, std::uint32_t parent, std::uint32_t end) {
+        volume::Label label;
+        label.id = id;
+        label.className = className;
+        label.parent = parent;
+        label.subtreeEnd = end;
+        label.filling = volume::Filling::Solid;
+        label.first = volume.labels.scalarCount();
+        label.count = 1;
+        volume.labels.labels.push_back(label);
+    };
+    add("a", "BuildingRoom", kNoLabel, 1);
+    add("b", "BuildingRoom", kNoLabel, 3);
+    add("b-sheet", "InteriorWallSurface", 1, 3);
+    add("c", "BuildingRoom", kNoLabel, 4);
+    add("wall", "BuildingConstructiveElement", kNoLabel, 5);
+    add("slab", "BuildingConstructiveElement", kNoLabel, 6);
+    add("flat", "BuildingUnit", kNoLabel, 7);
+    volume.labels.labels[6].count = 0;
+    volume.labels.labels[6].first = 0;
+    volume.labels.labels[0].groups = {6};
+    std::vector<volume::Scalar> dense;
+    for (std::int32_t k = 0; k < n.z; ++k)
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i)
+                dense.push_back(k < 10   ? (i < 12 ? 4u : 0u)
+                                : k < 13 ? 6u
+                                : i < 10 ? 1u
+                                : i < 14 ? 5u
+                                : i < 15 ? 3u
+                                         : 2u);
+    volume.columns = volume::ColumnVolume::fromDense(n, dense);
+    const auto counts = volume.columns.countVoxels(7);
+    for (volume::Label& label : volume.labels.labels) {
+        label.voxels = label.count == 0 ? 0 : counts[label.first];
+        label.volume = double(label.voxels) * 0.125;
+    }
+    volume.labels.labels[2].filling = volume::Filling::Surface;
+    volume.labels.labels[2].volume = 0;
+    return volume;
+}
+
+Ownership divide(const volume::SemanticVolume& volume, const char* text) {
+    const auto table = parseOwners(text, "t.csv", volume.labels);
+    EXPECT_TRUE(table) << table.error().toString();
+    if (!table) return {};
+    return divideByOwners(volume, contactsOf(volume.columns, volume.grid, volume.labels, 1), *table);
+}
+
+TEST(Owners, TheWallBetweenTwoIsHalfEachOnes) {
+    const auto volume = threeRooms();
+    const Ownership result = divide(volume, "feature,owner\na,Ada\nb,Bob\nc,Cid\n");
+    ASSERT_EQ(result.components.size(), 2u);
+    const DividedComponent& wall = result.components[0];
+    EXPECT_EQ(wall.label, 4u);
+    // 20 x 30 faces of 0.25 m2 on each side; 4 x 20 x 30 voxels of 0.125 m3. Bob's sheet is Bob's.
+    EXPECT_EQ(wall.shares, (std::vector<OwnerShare>{{0, 150, 150}, {1, 150, 150}}));
+    EXPECT_DOUBLE_EQ(result.owners[0].own, 10 * 20 * 30 * 0.125);
+    EXPECT_DOUBLE_EQ(result.owners[1].own, 9 * 20 * 30 * 0.125);
+}
+
+TEST(Owners, TheSlabIsDividedByContact) {
+    const auto volume = threeRooms();
+    const Ownership result = divide(volume, "a,Ada\nb,Bob\nc,Cid\n");
+    const DividedComponent& slab = result.components[1];
+    EXPECT_EQ(slab.label, 5u);
+    // 200 and 200 faces from above, 240 from below; 1440 voxels, 180 m3.
+    ASSERT_EQ(slab.shares.size(), 3u);
+    EXPECT_DOUBLE_EQ(slab.shares[0].area, 50);
+    EXPECT_DOUBLE_EQ(slab.shares[2].area, 60);
+    EXPECT_DOUBLE_EQ(slab.shares[0].volume, 180 * 50.0 / 160);
+    EXPECT_DOUBLE_EQ(slab.shares[2].volume, 180 * 60.0 / 160);
+    const OwnerTotal& ada = result.owners[0];
+    EXPECT_DOUBLE_EQ(ada.shared, 150 + 56.25);
+    EXPECT_DOUBLE_EQ(ada.alone, 0);
+    // With Bob the wall and the slab, with Cid the slab alone.
+    EXPECT_EQ(ada.with, (std::vector<OwnerShare>{{1, 200, 206.25}, {2, 50, 56.25}}));
+    double sum = 0;
+    for (const OwnerTotal& total : result.owners) sum += total.own + total.alone + total.shared;
+    EXPECT_NEAR(sum + result.nobody + result.untouched, (24 * 20 * 33 + 12 * 20 * 10 - 20 * 30) * 0.125, 1e-9);
+}
+
+TEST(Owners, SpacesThatAreNotNamedAreNobodys) {
+    const auto volume = threeRooms();
+    const Ownership result = divide(volume, "a,Ada\n");
+    EXPECT_EQ(result.components[0].shares, (std::vector<OwnerShare>{{0, 150, 150}, {kNoOwner, 150, 150}}));
+    EXPECT_NEAR(result.nobody, 150 + 180 * 110.0 / 160, 1e-9);
+    EXPECT_EQ(result.untouched, 0);
+    // All rooms of one owner: nothing is shared.
+    const Ownership one = divide(volume, "class=BuildingRoom,Ada\n");
+    EXPECT_DOUBLE_EQ(one.owners[0].alone, 300 + 180);
+    EXPECT_DOUBLE_EQ(one.owners[0].shared, 0);
+}
+
+TEST(Owners, AComponentMayBeNamed) {
+    const auto volume = threeRooms();
+    const Ownership result = divide(volume, "a,Ada\nb,Bob\nwall,Ada");
+    EXPECT_DOUBLE_EQ(result.owners[0].own, 750 + 300);
+    ASSERT_EQ(result.components.size(), 1u);
+}
+
+TEST(Owners, AFlatStandsForItsRoomsAndQueriesForWhatTheySelect) {
+    const auto volume = threeRooms();
+    const auto table = parseOwners(
+        "\xEF\xBB\xBF"
+        "Feature;Owner\r\n flat ; \"Ada; \"\"Augusta\"\"\" \r\n\r\n\"id=\"\"b\"\"\";Bob",
+        "t.csv", volume.labels);
+    ASSERT_TRUE(table) << table.error().toString();
+    EXPECT_EQ(table->names, (std::vector<std::string>{"Ada; \"Augusta\"", "Bob"}));
+    EXPECT_EQ(table->ofLabel, (std::vector<std::uint32_t>{0, 1, 1, kNoOwner, kNoOwner, kNoOwner, 0}));
+}
+
+TEST(Owners, SayWhatIsWrongAndWhere) {
+    const auto volume = threeRooms();
+    const auto errorOf = [&](std::string_view text) {
+        const auto table = parseOwners(text, "t.csv", volume.labels);
+        return table ? Error() : table.error();
+    };
+    struct Case {
+        const char* text;
+        Code code;
+        std::uint64_t line;
+    };
+    for (const Case& wrong :
+         {Case{"", Code::BadValue, 0}, Case{"feature,owner\n", Code::BadValue, 0},
+          Case{"a,Ada\nb\n", Code::BadValue, 2}, Case{"a,Ada,1\n", Code::BadValue, 1}, Case{"a,\n", Code::BadValue, 1},
+          Case{"\n\na,\"Ada\n\n", Code::BadValue, 3}, Case{"a,\"Ada\"x\n", Code::BadValue, 1},
+          Case{"a,Ada\nflat,Bob\n", Code::BadValue, 2}, Case{"a,Ada\nflatt,Bob\n", Code::NothingSelected, 2},
+          Case{"class=Romm,Bob\n", Code::NothingSelected, 1}}) {
+        const Error error = errorOf(wrong.text);
+        EXPECT_EQ(error.code(), wrong.code) << wrong.text << ": " << error.toString();
+        EXPECT_EQ(error.where().line, wrong.line) << wrong.text;
+    }
+    EXPECT_NE(errorOf("flatt,Bob").message().find("did you mean 'flat'?"), std::string::npos);
+    EXPECT_NE(errorOf("a,Ada\nflat,Bob").message().find("in line 1"), std::string::npos);
+}
+
+TEST(Owners, AnyTextIsATableOrAnErrorInOneOfItsLines) {
+    const auto volume = threeRooms();
+    const char* const words[] = {"a",   "flat", "b", "c",          ",",   ",",    ";",    "\"", "\n",          "\n",
+                                 "Ada", "Bob",  " ", "class=room", "all", "\r\n", "\xFF", "(",  "id=\"\"a\"\""};
+    std::mt19937 random(7);
+    int tables = 0;
+    for (int round = 0; round < 20000; ++round) {
+        std::string text;
+        for (std::uint32_t word = random() % 12; word > 0; --word) text += words[random() % std::size(words)];
+        const auto table = parseOwners(text, "t.csv", volume.labels);
+        if (!table) {
+            const auto lines = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')) + 1;
+            EXPECT_LE(table.error().where().line, lines) << text;
+            EXPECT_FALSE(table.error().message().empty());
+            continue;
+        }
+        ++tables;
+        EXPECT_FALSE(table->names.empty());
+        for (const std::uint32_t owner : table->ofLabel) EXPECT_TRUE(owner == kNoOwner || owner < table->names.size());
+    }
+    EXPECT_GT(tables, 100);
+}
+
+}  // namespace
+}  // namespace svt::analyze

@@ -1,0 +1,36 @@
+#include <svt/analyze/selection.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::analyze {
+
+std::vector<model::QueryRow> rowsOf(const volume::LabelTable& table) {
+    std::vector<model::QueryRow> rows;
+    rows.reserve(table.labels.size());
+    for (const volume::Label& label : table.labels)
+        rows.push_back({label.id, label.className, label.name, label.parent, label.attributes, label.groups,
+                        label.volume, label.voxels});
+    return rows;
+}
+
+Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& table, std::string_view text) {
+    const auto query = model::Query::parse(text);
+    if (!query) return query.error();
+    const std::vector<model::QueryRow> rows = rowsOf(table);
+    std::vector<std::uint32_t> selected = query->select(rows);
+    if (!selected.empty()) return selected;
+    const std::string reason = query->unknownValue(rows);
+    return Error(Code::NothingSelected,
+                 fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
+}
+
+Result<SampleBox> boxAround(const std::vector<std::uint32_t>& labels, const volume::SemanticVolume& volume,
+                            std::string_view what) {
+    const std::vector<SampleBox> boxes = labelBoxes(volume.columns, volume.labels);
+    SampleBox all;
+    for (const std::uint32_t l : labels) all.add(boxes[l]);
+    if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("{} has no voxels", what));
+    return all;
+}
+
+}  // namespace svt::analyze

@@ -1,0 +1,414 @@
+#include <svt/illustrate/scene/region.hpp>
+
+#include <svt/analyze/selection.hpp>
+#include <svt/illustrate/scene/cutaway.hpp>
+#include <svt/illustrate/section_plane.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace svt::illustrate {
+namespace {
+
+using render::ConvexPart;
+using render::HalfSpace;
+using render::RoundBody;
+using Parts = std::vector<ConvexPart>;
+
+constexpr int kMaxDepth = 32;
+
+std::string lower(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+// The area of a polygon, positive where it runs counter-clockwise, twice.
+double turnOf(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+
+// Ears of a simple polygon, which runs counter-clockwise; empty where it is none.
+std::vector<std::vector<Vec3d>> triangles(std::vector<Vec3d> polygon) {
+    std::vector<std::vector<Vec3d>> result;
+    while (polygon.size() > 3) {
+        const std::size_t n = polygon.size();
+        std::size_t ear = n;
+        for (std::size_t i = 0; i < n && ear == n; ++i) {
+            const Vec3d a = polygon[(i + n - 1) % n], b = polygon[i], c = polygon[(i + 1) % n];
+            if (!(turnOf(a, b, c) > 0)) continue;
+            const bool isFree = std::none_of(polygon.begin(), polygon.end(), [&](Vec3d p) {
+                return p != a && p != b && p != c && turnOf(a, b, p) >= 0 && turnOf(b, c, p) >= 0 &&
+                       turnOf(c, a, p) >= 0;
+            });
+            if (isFree) ear = i;
+        }
+        if (ear == n) return {};
+        result.push_back({polygon[(ear + n - 1) % n], polygon[ear], polygon[(ear + 1) % n]});
+        polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    result.push_back(polygon);
+    return result;
+}
+
+bool isConvex(const std::vector<Vec3d>& polygon) {
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i)
+        if (!(turnOf(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]) > 0)) return false;
+    return true;
+}
+
+class RegionParser {
+public:
+    RegionParser(std::string_view text, const RegionContext& context) : text_(text), context_(context) {}
+
+    Result<Parts> parse() {
+        auto region = parseOr(0);
+        if (!region) return region;
+        skipBlanks();
+        if (at_ < text_.size()) return wrong("expected 'and', 'or' or the end");
+        for (const ConvexPart& part : *region)
+            if (part.halfSpaces.size() + part.rounds.size() > ConvexPart::kMaxFaces)
+                return Error(Code::BadSection,
+                             fmt::format("the region '{}' is too involved: a part of {} faces, {} "
+                                         "are possible",
+                                         text_, part.halfSpaces.size() + part.rounds.size(), ConvexPart::kMaxFaces));
+        return region;
+    }
+
+private:
+    Error wrong(const std::string& reason) const {
+        return Error(Code::BadSection,
+                     fmt::format("the region '{}', column {}: {}, found {}", text_, at_ + 1, reason,
+                                 at_ < text_.size() ? fmt::format("'{}'", text_.substr(at_, 20)) : "the end"));
+    }
+    Error bad(std::string_view primitive, const std::string& reason) const {
+        return Error(Code::BadSection, fmt::format("the region '{}': {}: {}", text_, primitive, reason));
+    }
+
+    void skipBlanks() {
+        while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+    }
+    bool takeKeyword(std::string_view keyword) {
+        skipBlanks();
+        const std::size_t end = at_ + keyword.size();
+        if (lower(text_.substr(at_, keyword.size())) != keyword) return false;
+        if (end < text_.size() && std::isspace(static_cast<unsigned char>(text_[end])) == 0 && text_[end] != '(')
+            return false;
+        at_ = end;
+        return true;
+    }
+
+    Result<Parts> parseOr(int depth) {
+        auto region = parseAnd(depth);
+        while (region && takeKeyword("or")) {
+            auto other = parseAnd(depth);
+            if (!other) return other;
+            region->insert(region->end(), other->begin(), other->end());
+            if (auto checked = checkCount(*region); !checked) return checked.error();
+        }
+        return region;
+    }
+
+    Result<Parts> parseAnd(int depth) {
+        auto region = parseNot(depth);
+        while (region && takeKeyword("and")) {
+            const auto other = parseNot(depth);
+            if (!other) return other;
+            region = both(*region, *other);
+        }
+        return region;
+    }
+
+    Result<Parts> parseNot(int depth) {
+        if (depth > kMaxDepth) return wrong("too deeply nested");
+        if (takeKeyword("not")) {
+            const auto region = parseNot(depth + 1);
+            return region ? inverse(*region) : region;
+        }
+        skipBlanks();
+        if (at_ < text_.size() && text_[at_] == '(') {
+            ++at_;
+            auto region = parseOr(depth + 1);
+            if (!region) return region;
+            skipBlanks();
+            if (at_ == text_.size() || text_[at_] != ')') return wrong("expected ')'");
+            ++at_;
+            return region;
+        }
+        return parsePrimitive();
+    }
+
+    Result<void> checkCount(const Parts& parts) const {
+        if (parts.size() <= render::Pass::kMaxClipParts) return {};
+        return Error(Code::BadSection,
+                     fmt::format("the region '{}' is too involved: it falls into more than {} convex parts", text_,
+                                 render::Pass::kMaxClipParts));
+    }
+
+    Result<Parts> both(const Parts& a, const Parts& b) const {
+        Parts result;
+        for (const ConvexPart& p : a)
+            for (const ConvexPart& q : b) {
+                ConvexPart joined = p;
+                joined.halfSpaces.insert(joined.halfSpaces.end(), q.halfSpaces.begin(), q.halfSpaces.end());
+                joined.rounds.insert(joined.rounds.end(), q.rounds.begin(), q.rounds.end());
+                result.push_back(std::move(joined));
+                if (auto checked = checkCount(result); !checked) return checked.error();
+            }
+        return result;
+    }
+
+    // All that lies in none of the parts: in each, beyond some face.
+    Result<Parts> inverse(const Parts& parts) const {
+        Result<Parts> result = Parts{ConvexPart{}};
+        for (const ConvexPart& part : parts) {
+            if (!part.rounds.empty())
+                return Error(Code::BadSection,
+                             fmt::format("the region '{}': 'not' of something round is not possible; keep or cut "
+                                         "away its inside instead",
+                                         text_));
+            Parts beyond;
+            for (const HalfSpace& half : part.halfSpaces) beyond.push_back({{{-half.normal, -half.offset}}, {}});
+            result = both(*result, beyond);
+            if (!result) return result;
+        }
+        return result;
+    }
+
+    Result<Parts> parsePrimitive() {
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+        const std::string name = lower(text_.substr(begin, at_ - begin));
+        if (at_ == text_.size() || text_[at_] != '(' || name.empty()) {
+            at_ = begin;
+            return parsePlane();
+        }
+        ++at_;
+        const auto arguments = takeArguments();
+        if (!arguments) return arguments.error();
+        if (name == "box") return makeBox(*arguments);
+        if (name == "ball") return makeBall(*arguments);
+        if (name == "cylinder") return makeCylinder(*arguments);
+        if (name == "prism") return makePrism(*arguments);
+        if (name == "storey") return makeStorey(*arguments);
+        if (name == "around") return makeAround(*arguments);
+        if (name == "view") return makeView(*arguments);
+        if (name == "cutaway") return makeCutaway(*arguments);
+        at_ = begin;
+        return wrong("expected a plane such as z>1.2, or box, ball, cylinder, prism, storey, around, view or cutaway");
+    }
+
+    // Up to the next blank or closing bracket; a storey's name may stand in quotes.
+    Result<Parts> parsePlane() {
+        const std::size_t begin = at_;
+        std::string plane;
+        char quote = 0;
+        for (; at_ < text_.size(); ++at_) {
+            const char c = text_[at_];
+            if (quote == 0 && (c == '"' || c == '\'')) {
+                quote = c;
+            } else if (quote != 0 && c == quote) {
+                quote = 0;
+            } else if (quote == 0 && (std::isspace(static_cast<unsigned char>(c)) != 0 || c == ')')) {
+                break;
+            } else {
+                plane += c;
+            }
+        }
+        if (begin == at_) return wrong("expected a region such as z>1.2 or box(0,0,0,1,1,1)");
+        const auto parsed = parseSectionPlane(plane, context_.volume);
+        if (!parsed) return parsed.error();
+        return Parts{{{{parsed->normal, -dot(parsed->normal, parsed->point)}}, {}}};
+    }
+
+    // The text up to the bracket that closes, behind it.
+    Result<std::string> takeArguments() {
+        const std::size_t begin = at_;
+        char quote = 0;
+        int open = 1;
+        for (; at_ < text_.size(); ++at_) {
+            const char c = text_[at_];
+            if (quote != 0) {
+                if (c == '\\')
+                    ++at_;
+                else if (c == quote)
+                    quote = 0;
+            } else if (c == '"' || c == '\'') {
+                quote = c;
+            } else if (c == '(') {
+                ++open;
+            } else if (c == ')' && --open == 0) {
+                return std::string(text_.substr(begin, at_++ - begin));
+            }
+        }
+        at_ = text_.size();
+        return wrong("expected ')'");
+    }
+
+    static std::optional<std::vector<double>> numbersOf(const std::string& text) {
+        std::vector<double> numbers;
+        const char* at = text.c_str();
+        while (true) {
+            char* rest = nullptr;
+            const double number = std::strtod(at, &rest);
+            if (rest == at || !std::isfinite(number) || numbers.size() >= 256) return std::nullopt;
+            numbers.push_back(number);
+            at = rest;
+            while (*at == ' ') ++at;
+            if (*at == '\0') return numbers;
+            if (*at++ != ',') return std::nullopt;
+        }
+    }
+    Result<std::vector<double>> numbersOf(std::string_view name, const std::string& text, std::size_t count,
+                                          const char* expected) const {
+        auto numbers = numbersOf(text);
+        if (!numbers || numbers->size() != count)
+            return bad(name, fmt::format("expected {}, found '{}'", expected, text));
+        return std::move(*numbers);
+    }
+
+    [[nodiscard]] const volume::Grid& grid() const { return context_.volume.grid; }
+    [[nodiscard]] Vec3d worldDirection(Vec3d d) const {
+        return grid().axes()[0] * d.x + grid().axes()[1] * d.y + grid().axes()[2] * d.z;
+    }
+    [[nodiscard]] Vec3d world(Vec3d p) const { return grid().origin() + worldDirection(p); }
+    [[nodiscard]] Parts boxOf(Vec3d low, Vec3d high) const {
+        return {render::boxPart(grid().origin(), grid().axes(), low, high)};
+    }
+
+    Result<Parts> makeBox(const std::string& text) const {
+        const auto n = numbersOf("box", text, 6, "x0,y0,z0,x1,y1,z1");
+        if (!n) return n.error();
+        const Vec3d low{std::min((*n)[0], (*n)[3]), std::min((*n)[1], (*n)[4]), std::min((*n)[2], (*n)[5])};
+        const Vec3d high{std::max((*n)[0], (*n)[3]), std::max((*n)[1], (*n)[4]), std::max((*n)[2], (*n)[5])};
+        if (!(low.x < high.x && low.y < high.y && low.z < high.z)) return bad("box", "has no inside");
+        return boxOf(low, high);
+    }
+
+    Result<Parts> makeBall(const std::string& text) const {
+        const auto n = numbersOf("ball", text, 4, "x,y,z,r");
+        if (!n) return n.error();
+        if (!((*n)[3] > 0)) return bad("ball", fmt::format("a radius of {} m; it must be greater than 0", (*n)[3]));
+        return Parts{{{}, {RoundBody::ball(world({(*n)[0], (*n)[1], (*n)[2]}), (*n)[3])}}};
+    }
+
+    Result<Parts> makeCylinder(const std::string& text) const {
+        const auto n = numbersOf("cylinder", text, 7, "x,y,z,dx,dy,dz,r");
+        if (!n) return n.error();
+        const Vec3d axis = worldDirection({(*n)[3], (*n)[4], (*n)[5]});
+        if (!((*n)[6] > 0)) return bad("cylinder", fmt::format("a radius of {} m; it must be greater than 0", (*n)[6]));
+        if (!(length(axis) > 0)) return bad("cylinder", "its axis is zero");
+        return Parts{{{}, {RoundBody::cylinder(world({(*n)[0], (*n)[1], (*n)[2]}), axis, (*n)[6])}}};
+    }
+
+    Result<Parts> makePrism(const std::string& text) const {
+        const std::size_t semicolon = text.find(';');
+        const char* const expected = "x1,y1,x2,y2,x3,y3,...;z0,z1";
+        const auto plan = numbersOf(text.substr(0, semicolon));
+        if (semicolon == std::string::npos || !plan || plan->size() < 6 || plan->size() % 2 != 0)
+            return bad("prism", fmt::format("expected {}, found '{}'", expected, text));
+        const auto heights = numbersOf("prism", text.substr(semicolon + 1), 2, expected);
+        if (!heights) return heights.error();
+        const double low = std::min((*heights)[0], (*heights)[1]), high = std::max((*heights)[0], (*heights)[1]);
+        if (!(low < high)) return bad("prism", "has no height");
+        std::vector<Vec3d> polygon;
+        for (std::size_t i = 0; i < plan->size(); i += 2) polygon.push_back({(*plan)[i], (*plan)[i + 1], 0});
+        double area = 0;
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+            area += turnOf({}, polygon[i], polygon[(i + 1) % polygon.size()]);
+        if (area < 0) std::reverse(polygon.begin(), polygon.end());
+        const bool isOne = isConvex(polygon) && polygon.size() + 2 <= ConvexPart::kMaxFaces;
+        const auto pieces = isOne ? std::vector<std::vector<Vec3d>>{polygon} : triangles(polygon);
+        if (pieces.empty() || area == 0) return bad("prism", "its polygon crosses itself or has no area");
+        Parts parts;
+        for (const auto& piece : pieces) {
+            ConvexPart part;
+            const auto add = [&](Vec3d normal, Vec3d point) {
+                const Vec3d n = worldDirection(normal);
+                part.halfSpaces.push_back({n, -dot(n, world(point))});
+            };
+            for (std::size_t i = 0; i < piece.size(); ++i) {
+                const Vec3d a = piece[i], b = piece[(i + 1) % piece.size()];
+                add(normalized({a.y - b.y, b.x - a.x, 0}), a);
+            }
+            add({0, 0, 1}, {0, 0, low});
+            add({0, 0, -1}, {0, 0, high});
+            parts.push_back(std::move(part));
+        }
+        if (auto checked = checkCount(parts); !checked) return checked.error();
+        return parts;
+    }
+
+    Result<Parts> makeStorey(const std::string& text) const {
+        std::string name = text;
+        if (name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front())
+            name = name.substr(1, name.size() - 2);
+        const auto heights = storeyHeights(name, context_.volume);
+        if (!heights) return heights.error();
+        const Vec3d spacing = grid().spacing();
+        const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
+        return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});
+    }
+
+    // A query, and a margin in metres behind the last semicolon.
+    Result<std::pair<std::vector<std::uint32_t>, double>> selectionOf(std::string_view name,
+                                                                      const std::string& text) const {
+        const std::size_t semicolon = text.rfind(';');
+        double margin = 0;
+        if (semicolon != std::string::npos) {
+            const auto numbers = numbersOf(text.substr(semicolon + 1));
+            if (!numbers || numbers->size() != 1 || (*numbers)[0] < 0)
+                return bad(name, fmt::format("expected a margin in metres behind ';', found '{}'",
+                                             text.substr(semicolon + 1)));
+            margin = (*numbers)[0];
+        }
+        auto selected = analyze::selectLabels(context_.volume.labels, text.substr(0, semicolon));
+        if (!selected) return selected.error();
+        return std::pair(std::move(*selected), margin);
+    }
+
+    Result<Parts> makeAround(const std::string& text) const {
+        const auto selection = selectionOf("around", text);
+        if (!selection) return selection.error();
+        const auto box = analyze::boxAround(selection->first, context_.volume, "what around() selects");
+        if (!box) return box.error();
+        Vec3d low, high;
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = (box->min[axis] - 0.5) * grid().spacing()[axis] - selection->second;
+            high[axis] = (box->max[axis] + 0.5) * grid().spacing()[axis] + selection->second;
+        }
+        return boxOf(low, high);
+    }
+
+    Result<Parts> makeView(const std::string& text) const {
+        const auto n = numbersOf("view", text, 3, "x,y,r (shares of the picture)");
+        if (!n) return n.error();
+        if (!((*n)[2] > 0)) return bad("view", fmt::format("a radius of {}; it must be greater than 0", (*n)[2]));
+        return Parts{{{}, {viewBody(context_.camera, context_.aspect, (*n)[0], (*n)[1], (*n)[2])}}};
+    }
+
+    Result<Parts> makeCutaway(const std::string& text) const {
+        const auto selection = selectionOf("cutaway", text);
+        if (!selection) return selection.error();
+        const auto box = analyze::boxAround(selection->first, context_.volume, "what cutaway() selects");
+        if (!box) return box.error();
+        return Parts{{{}, {cutawayBody(context_.camera, grid(), *box, selection->second)}}};
+    }
+
+    std::string_view text_;
+    const RegionContext& context_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<ConvexPart>> parseRegion(std::string_view text, const RegionContext& context) {
+    return RegionParser(text, context).parse();
+}
+
+}  // namespace svt::illustrate

@@ -1,0 +1,326 @@
+#include <svt/illustrate/scene.hpp>
+
+#include <svt/analyze/selection.hpp>
+#include <svt/illustrate/hatches.hpp>
+#include <svt/illustrate/scene/region.hpp>
+#include <svt/illustrate/scene/vector_shapes.hpp>
+#include <svt/model/classes.hpp>
+#include <svt/render/camera_presets.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace svt::illustrate {
+namespace {
+
+using volume::Label;
+using volume::LabelTable;
+
+constexpr std::array<std::string_view, 4> kLookNames{"plain", "paper", "blueprint", "dark"};
+constexpr float kGhostOpacity = 0.22f;
+// What a hull of glass stops, seen at a right angle.
+constexpr double kShellGhost = 0.10;
+
+// What a label looks like in a pass.
+struct LabelLook {
+    Vec3f color;
+    float opacity;
+    render::Hatch hatch;
+    bool isRecolored = false;
+};
+
+Vec3f mix(Vec3f a, Vec3f b, float share) { return a * (1 - share) + b * share; }
+
+float brightnessOf(Vec3f color) { return 0.3f * color.x + 0.59f * color.y + 0.11f * color.z; }
+
+// Colours as a look shows them.
+Vec3f shown(Vec3f color, Look look) {
+    const float gray = brightnessOf(color);
+    switch (look) {
+        case Look::Plain: return color;
+        case Look::Paper: return mix(mix(color, {gray, gray, gray}, 0.35f), {1, 1, 1}, 0.28f);
+        case Look::Blueprint: return mix({0.09f, 0.25f, 0.50f}, {0.45f, 0.66f, 0.92f}, gray);
+        case Look::Dark: break;
+    }
+    return mix(color, {gray, gray, gray}, 0.1f);
+}
+
+void applyLook(const Scene& scene, render::FrameSpec& spec) {
+    switch (scene.look) {
+        case Look::Plain: spec.borders = {0.5f, 1, 1, {}}; break;
+        case Look::Paper:
+            spec.borders = {0.8f, 1.2f, 3, {0.05f, 0.05f, 0.06f}};
+            spec.light.key = 0.35f;
+            spec.light.ambient = 0.78f;
+            break;
+        case Look::Blueprint:
+            spec.background.top = {0.075f, 0.22f, 0.45f};
+            spec.background.bottom = {0.055f, 0.17f, 0.37f};
+            spec.borders = {0.9f, 1.2f, 3, {0.93f, 0.97f, 1}};
+            spec.hatches.color = {0.90f, 0.95f, 1};
+            break;
+        case Look::Dark:
+            spec.background.top = {0.09f, 0.10f, 0.12f};
+            spec.background.bottom = {0.05f, 0.055f, 0.065f};
+            spec.borders = {0.55f, 1, 2, {0.01f, 0.01f, 0.015f}};
+            break;
+    }
+    if (scene.background) spec.background.top = spec.background.bottom = *scene.background;
+    if (scene.isTransparent) spec.background.alpha = 0;
+    if (scene.lineStrength) spec.borders.strength = *scene.lineStrength;
+    if (scene.lineWidth) spec.borders.width = *scene.lineWidth;
+    if (scene.cutWidth) spec.borders.cutWidth = *scene.cutWidth;
+    if (scene.lineColor) spec.borders.color = *scene.lineColor;
+    if (scene.ambientOcclusion) spec.light.ambientOcclusion = *scene.ambientOcclusion;
+}
+
+// The grid of a box of samples, for cameras to look at.
+volume::Grid gridOf(const analyze::SampleBox& box, const volume::Grid& grid) {
+    Vec3i dimension;
+    Vec3d first;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int32_t count = box.max[axis] - box.min[axis] + 1;
+        dimension[axis] = std::max(2, count);
+        first[axis] = box.min[axis] - (dimension[axis] - count) / 2.0;
+    }
+    const auto part = volume::Grid::fromParts(dimension, grid.spacing(), grid.worldFromIndex(first), grid.axes());
+    return part ? *part : grid;
+}
+
+Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume& volume) {
+    const SceneCamera& wanted = scene.camera;
+    if (!(wanted.zoom > 0 && std::isfinite(wanted.zoom)))
+        return Error(Code::BadCamera,
+                     fmt::format("a zoom of {} is out of range; it must be greater than 0", wanted.zoom));
+    if (!(wanted.fieldOfView > 0 && wanted.fieldOfView < 180))
+        return Error(Code::BadCamera,
+                     fmt::format("a field of view of {} degrees is out of range; it must be greater than 0 and less "
+                                 "than 180",
+                                 wanted.fieldOfView));
+    render::PresetOptions options;
+    options.aspect = double(scene.width) / scene.height;
+    options.projection =
+        wanted.isParallel ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
+    options.verticalFovDegrees = wanted.fieldOfView;
+    volume::Grid seen = volume.grid;
+    if (!wanted.around.empty()) {
+        const auto selected = analyze::selectLabels(volume.labels, wanted.around);
+        if (!selected) return selected.error();
+        const auto box =
+            analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around));
+        if (!box) return box.error();
+        seen = gridOf(*box, volume.grid);
+    }
+    auto camera = render::cameraPreset(wanted.preset, seen, options);
+    if (!camera) return camera;
+    if (wanted.eye) camera->eye = volume.grid.origin() + *wanted.eye;
+    if (wanted.target) camera->target = volume.grid.origin() + *wanted.target;
+    camera->eye = camera->target + (camera->eye - camera->target) / wanted.zoom;
+    camera->orthographicHeight /= wanted.zoom;
+    return camera;
+}
+
+// Metres that a pixel shows where the camera looks at.
+double pixelOf(const render::FrameSpec& spec) {
+    const render::Camera& camera = spec.camera;
+    if (camera.projection == render::Camera::Projection::Orthographic) return camera.orthographicHeight / spec.height;
+    return 2 * std::tan(camera.verticalFovDegrees * std::numbers::pi / 360) * length(camera.target - camera.eye) /
+           spec.height;
+}
+
+// The nearest of 1, 2, 5, 10, ... hundredths below `metres`.
+double roundSpacing(double metres) {
+    const double power = std::pow(10, std::floor(std::log10(metres)));
+    const double share = metres / power;
+    return power * (share < 2 ? 1 : share < 5 ? 2 : 5);
+}
+
+Result<void> select(const LabelTable& table, const std::vector<std::string>& queries, std::vector<bool>& isSelected) {
+    for (const std::string& query : queries) {
+        const auto selected = analyze::selectLabels(table, query);
+        if (!selected) return selected.error();
+        for (const std::uint32_t l : *selected) isSelected[l] = true;
+    }
+    return {};
+}
+
+// Per metre. A hull is as thin as voxels are.
+float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
+    if (!pass.form.shell) return kGhostOpacity;
+    const double thickness = 2 * std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z});
+    return static_cast<float>(std::min(0.9999, 1 - std::pow(1 - kShellGhost, 1 / thickness)));
+}
+
+Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass,
+                                       const volume::SemanticVolume& volume) {
+    const LabelTable& table = volume.labels;
+    const float ghost = ghostOpacity(pass, volume.grid);
+    std::vector<LabelLook> looks;
+    const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
+    std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
+    if (hasHatches) hatches = hatchesOf(table);
+    for (std::size_t l = 0; l < table.labels.size(); ++l)
+        looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
+                         table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});
+    std::vector<bool> isShown(table.labels.size(), pass.show.empty()), isHidden(table.labels.size(), false);
+    if (auto done = select(table, pass.show, isShown); !done) return done.error();
+    if (auto done = select(table, pass.hide, isHidden); !done) return done.error();
+    for (const SceneStyle& style : pass.styles) {
+        const auto selected = analyze::selectLabels(table, style.select);
+        if (!selected) return selected.error();
+        for (const std::uint32_t l : *selected) {
+            LabelLook& look = looks[l];
+            if (style.isGhost) look.opacity = look.opacity >= 0.5f ? ghost : 0;
+            if (style.color) {
+                look.color = *style.color;
+                look.isRecolored = true;
+            }
+            if (style.opacity) look.opacity = *style.opacity;
+            if (style.hatch) look.hatch = *style.hatch;
+        }
+    }
+    for (std::size_t l = 0; l < looks.size(); ++l)
+        if (!isShown[l] || isHidden[l]) looks[l].opacity = 0;
+    return looks;
+}
+
+std::vector<render::Style> stylesOf(const LabelTable& table, const std::vector<LabelLook>& looks, Look look) {
+    std::vector<render::Style> styles(table.scalarCount());
+    styles[0].opacity = 0;
+    for (std::size_t l = 0; l < table.labels.size(); ++l)
+        for (volume::Scalar s = 0; s < table.labels[l].count; ++s) {
+            const volume::Scalar scalar = table.labels[l].first + s;
+            const bool hasPhase =
+                !looks[l].isRecolored && table.labels[l].count > 1 && scalar < table.phaseColors.size();
+            // A recoloured pattern keeps its joints as a darker shade.
+            styles[scalar].color =
+                hasPhase ? shown(table.phaseColors[scalar], look) : looks[l].color * (1.0f / (1.0f + 0.35f * float(s)));
+            styles[scalar].opacity = looks[l].opacity;
+            styles[scalar].hatch = looks[l].hatch;
+        }
+    return styles;
+}
+
+Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const RegionContext& context) {
+    render::Pass pass;
+    const auto looks = looksOf(scene, wanted, context.volume);
+    if (!looks) return looks.error();
+    pass.styles = stylesOf(context.volume.labels, *looks, scene.look);
+    pass.join = wanted.join;
+    const auto addClip = [&](const std::string& region, render::ClipRegion::Mode mode) -> Result<void> {
+        if (region.empty()) return {};
+        auto parts = parseRegion(region, context);
+        if (!parts) return parts.error();
+        pass.clips.push_back({std::move(*parts), mode});
+        return {};
+    };
+    if (auto added = addClip(wanted.keep, render::ClipRegion::Mode::KeepOnly); !added) return added.error();
+    if (auto added = addClip(wanted.cut, render::ClipRegion::Mode::CutAway); !added) return added.error();
+    if (auto added = addShapes(wanted, context.volume, pass); !added) return added.error();
+    return pass;
+}
+
+// Both regions cut away.
+std::string either(const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty()) return a + b;
+    return fmt::format("({}) or ({})", a, b);
+}
+std::string bothOf(const std::string& a, const std::string& b) {
+    if (a.empty() || b.empty()) return a + b;
+    return fmt::format("({}) and ({})", a, b);
+}
+
+// The scene's passes become `detail` and what is around it.
+void setInContext(Scene& scene, const ScenePass& detail, ScenePass around, Context context) {
+    if (context == Context::Shell) around.form.shell = ShellLevel::Building;
+    if (context == Context::Shell || context == Context::Ghost) around.styles.push_back({"all", {}, {}, {}, true});
+    scene.passes.clear();
+    if (context != Context::None) scene.passes.push_back(std::move(around));
+    scene.passes.push_back(detail);
+}
+
+std::string anyOf(const std::vector<std::string>& queries) {
+    std::string text;
+    for (const std::string& query : queries) text += fmt::format("{}({})", text.empty() ? "" : " or ", query);
+    return text;
+}
+
+}  // namespace
+
+std::string_view lookName(Look look) noexcept { return kLookNames[static_cast<std::size_t>(look)]; }
+
+std::optional<Look> lookFromName(std::string_view name) noexcept {
+    const auto found = std::ranges::find(kLookNames, name);
+    if (found == kLookNames.end()) return std::nullopt;
+    return static_cast<Look>(found - kLookNames.begin());
+}
+
+void addLens(Scene& scene, const std::string& region, const std::string& cut, Context context) {
+    ScenePass detail = scene.passes.front(), around = detail;
+    detail.keep = bothOf(detail.keep, region);
+    detail.cut = either(detail.cut, cut);
+    detail.join = render::Pass::Join::Replace;
+    setInContext(scene, detail, around, context);
+}
+
+void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context context) {
+    ScenePass target = scene.passes.front(), around = target;
+    target.show = queries;
+    // Rooms as a target are solid: it is their shape that is asked for.
+    target.styles.insert(target.styles.begin(), {"all", {}, 1.0f, {}, false});
+    target.join = render::Pass::Join::Over;
+    around.hide.push_back(anyOf(queries));
+    setInContext(scene, target, around, context);
+}
+
+void addCutaway(Scene& scene, const std::string& query, double margin) {
+    ScenePass target = scene.passes.front(), around = target;
+    target.show = {query};
+    target.join = render::Pass::Join::Depth;
+    around.hide.push_back(query);
+    around.cut = either(around.cut, fmt::format("cutaway({}; {})", query, margin));
+    scene.passes = {around, target};
+}
+
+std::vector<VolumeForm> formsOf(const Scene& scene) {
+    std::vector<VolumeForm> forms;
+    for (const ScenePass& pass : scene.passes)
+        if (std::ranges::find(forms, pass.form) == forms.end()) forms.push_back(pass.form);
+    if (forms.empty()) forms.emplace_back();
+    return forms;
+}
+
+Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume) {
+    render::FrameSpec spec;
+    spec.width = scene.width;
+    spec.height = scene.height;
+    spec.samplesPerPixel = scene.samples;
+    // Before anything is divided by them.
+    if (scene.width < 1 || scene.height < 1)
+        return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels cannot be drawn; 1 to {} are possible",
+                                                 scene.width, scene.height, render::FrameSpec::kMaxSize));
+    applyLook(scene, spec);
+    const auto camera = cameraOf(scene, volume);
+    if (!camera) return camera.error();
+    spec.camera = *camera;
+    spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundSpacing(11 * pixelOf(spec));
+    const RegionContext context{volume, *camera, double(scene.width) / scene.height};
+    const std::vector<VolumeForm> forms = formsOf(scene);
+    for (const ScenePass& wanted : scene.passes) {
+        auto pass = passOf(scene, wanted, context);
+        if (!pass) return pass.error();
+        pass->volume = static_cast<std::uint32_t>(std::ranges::find(forms, wanted.form) - forms.begin());
+        spec.passes.push_back(std::move(*pass));
+    }
+    // Lines are drawn between objects, not between the phases of one object's pattern.
+    spec.objectOfScalar = volume.labels.labelOfScalar();
+    for (std::uint32_t& object : spec.objectOfScalar) ++object;
+    if (auto checked = checkFrameSpec(spec); !checked) return checked.error();
+    return spec;
+}
+
+}  // namespace svt::illustrate

@@ -1,0 +1,345 @@
+#include <svt/illustrate/scene.hpp>
+
+#include <svt/image/color_text.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+namespace svt::illustrate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Join = render::Pass::Join;
+
+constexpr int kVersion = 1;
+constexpr std::size_t kMaxPasses = render::FrameSpec::kMaxPasses;
+constexpr std::pair<render::HiddenLines, std::string_view> kHidden[] = {{render::HiddenLines::None, "none"},
+                                                                        {render::HiddenLines::Faint, "faint"},
+                                                                        {render::HiddenLines::Dashed, "dashed"}};
+constexpr std::pair<Join, std::string_view> kJoins[] = {
+    {Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}};
+
+// Reads members one by one; the first error is kept, and nothing is read behind it.
+class Reader {
+public:
+    explicit Reader(std::string name) : name_(std::move(name)) {}
+
+    [[nodiscard]] bool isFine() const noexcept { return error_.empty(); }
+    [[nodiscard]] Error error() const { return Error(Code::BadScene, fmt::format("{}: {}", name_, error_)); }
+
+    void fail(const std::string& path, const std::string& what) {
+        if (error_.empty()) error_ = fmt::format("{}: {}", path.empty() ? "/" : path, what);
+    }
+
+    // Every member must be known: a typing error must not pass in silence.
+    bool object(const Json& value, const std::string& path, std::initializer_list<std::string_view> known) {
+        if (!value.is_object()) {
+            fail(path, fmt::format("expected an object, found {}", value.type_name()));
+            return false;
+        }
+        for (const auto& [key, member] : value.items())
+            if (std::find(known.begin(), known.end(), key) == known.end())
+                fail(path, fmt::format("unknown member '{}'; possible are {}", key, fmt::join(known, ", ")));
+        return isFine();
+    }
+    template <class T>
+    void number(const Json& value, const std::string& path, double least, double most, T& to) {
+        if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
+            return fail(path, fmt::format("expected a number from {} to {}, found {}", least, most, shorten(value)));
+        if constexpr (std::is_integral_v<T>) {
+            if (value.get<double>() != std::floor(value.get<double>()))
+                return fail(path, fmt::format("expected a whole number, found {}", shorten(value)));
+        }
+        to = static_cast<T>(value.get<double>());
+    }
+    void text(const Json& value, const std::string& path, std::string& to) {
+        if (!value.is_string()) return fail(path, fmt::format("expected a text, found {}", shorten(value)));
+        to = value.get<std::string>();
+    }
+    void flag(const Json& value, const std::string& path, bool& to) {
+        if (!value.is_boolean()) return fail(path, fmt::format("expected true or false, found {}", shorten(value)));
+        to = value.get<bool>();
+    }
+    void color(const Json& value, const std::string& path, std::optional<Vec3f>& to) {
+        std::string name;
+        text(value, path, name);
+        if (!isFine()) return;
+        const auto parsed = image::parseColor(name);
+        if (!parsed) return fail(path, parsed.error().message());
+        to = *parsed;
+    }
+    void point(const Json& value, const std::string& path, std::optional<Vec3d>& to) {
+        Vec3d p;
+        if (!value.is_array() || value.size() != 3) return fail(path, "expected [x, y, z] in metres");
+        for (int axis = 0; axis < 3; ++axis)
+            number(value[static_cast<std::size_t>(axis)], fmt::format("{}/{}", path, axis), -1e9, 1e9, p[axis]);
+        to = p;
+    }
+    void texts(const Json& value, const std::string& path, std::vector<std::string>& to) {
+        if (!value.is_array()) return fail(path, fmt::format("expected an array of texts, found {}", shorten(value)));
+        for (std::size_t n = 0; n < value.size(); ++n) text(value[n], fmt::format("{}/{}", path, n), to.emplace_back());
+    }
+
+    static std::string shorten(const Json& value) {
+        return value.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40);
+    }
+
+private:
+    std::string name_, error_;
+};
+
+void readCamera(Reader& read, const Json& json, SceneCamera& camera) {
+    const std::string path = "/camera";
+    if (!read.object(json, path, {"preset", "around", "parallel", "fieldOfView", "zoom", "eye", "target"})) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = path + "/" + key;
+        if (key == "preset") read.text(value, at, camera.preset);
+        if (key == "around") read.text(value, at, camera.around);
+        if (key == "parallel") read.flag(value, at, camera.isParallel);
+        if (key == "fieldOfView") read.number(value, at, 0.001, 179.999, camera.fieldOfView);
+        if (key == "zoom") read.number(value, at, 1e-6, 1e6, camera.zoom);
+        if (key == "eye") read.point(value, at, camera.eye);
+        if (key == "target") read.point(value, at, camera.target);
+    }
+}
+
+void readStyle(Reader& read, const Json& json, const std::string& path, SceneStyle& style) {
+    if (!read.object(json, path, {"select", "color", "opacity", "hatch", "ghost"})) return;
+    if (!json.contains("select")) return read.fail(path, "needs \"select\", a query");
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = path + "/" + key;
+        if (key == "select") read.text(value, at, style.select);
+        if (key == "color") read.color(value, at, style.color);
+        if (key == "opacity") read.number(value, at, 0, 1, style.opacity.emplace());
+        if (key == "ghost") read.flag(value, at, style.isGhost);
+        if (key == "hatch") {
+            std::string name;
+            read.text(value, at, name);
+            style.hatch = render::hatchFromName(name);
+            if (!style.hatch)
+                read.fail(
+                    at, fmt::format("'{}' is no hatch; possible are {}", name, fmt::join(render::hatchNames(), ", ")));
+        }
+    }
+}
+
+void readSceneLines(Reader& read, const Json& json, const std::string& path, SceneLines& lines) {
+    if (!read.object(json, path, {"select", "width", "color", "hidden"})) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = path + "/" + key;
+        if (key == "select") read.text(value, at, lines.select);
+        if (key == "width") read.number(value, at, 0.1, 64, lines.width);
+        if (key == "color") read.color(value, at, lines.color);
+        if (key == "hidden") {
+            std::string name;
+            read.text(value, at, name);
+            const auto found = std::ranges::find(kHidden, name, [](const auto& hidden) { return hidden.second; });
+            if (found == std::end(kHidden))
+                read.fail(at,
+                          fmt::format("'{}' is no way to draw hidden lines; possible are none, faint, dashed", name));
+            else
+                lines.hidden = found->first;
+        }
+    }
+}
+
+void readPass(Reader& read, const Json& json, const std::string& path, ScenePass& pass) {
+    if (!read.object(json, path,
+                     {"show", "hide", "styles", "cut", "keep", "join", "shell", "level", "lines", "meshes"}))
+        return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = path + "/" + key;
+        if (key == "show") read.texts(value, at, pass.show);
+        if (key == "hide") read.texts(value, at, pass.hide);
+        if (key == "cut") read.text(value, at, pass.cut);
+        if (key == "keep") read.text(value, at, pass.keep);
+        if (key == "meshes") read.texts(value, at, pass.meshes);
+        if (key == "level") read.number(value, at, 0, 6, pass.form.level.emplace());
+        if (key == "shell") {
+            std::string level;
+            read.text(value, at, level);
+            pass.form.shell = shellLevelFromName(level);
+            if (!pass.form.shell)
+                read.fail(at, fmt::format("'{}' is no level of shells; possible are component, room, unit, storey, "
+                                          "building",
+                                          level));
+        }
+        if (key == "lines") {
+            if (!value.is_array()) return read.fail(at, "expected an array of lines");
+            for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
+                readSceneLines(read, value[n], fmt::format("{}/{}", at, n), pass.lines.emplace_back());
+        }
+        if (key == "join") {
+            std::string name;
+            read.text(value, at, name);
+            const auto found = std::ranges::find(kJoins, name, [](const auto& join) { return join.second; });
+            if (found == std::end(kJoins))
+                read.fail(at, fmt::format("'{}' is no way to join; possible are over, replace, depth", name));
+            else
+                pass.join = found->first;
+        }
+        if (key == "styles") {
+            if (!value.is_array()) return read.fail(at, "expected an array of styles");
+            for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
+                readStyle(read, value[n], fmt::format("{}/{}", at, n), pass.styles.emplace_back());
+        }
+    }
+}
+
+void readLines(Reader& read, const Json& json, Scene& scene) {
+    if (!read.object(json, "/lines", {"strength", "width", "cutWidth", "color"})) return;
+    const double widest = double(render::BorderLines::kMaxWidth);
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = "/lines/" + key;
+        if (key == "strength") read.number(value, at, 0, 1, scene.lineStrength.emplace());
+        if (key == "width") read.number(value, at, 0, widest, scene.lineWidth.emplace());
+        if (key == "cutWidth") read.number(value, at, 0, widest, scene.cutWidth.emplace());
+        if (key == "color") read.color(value, at, scene.lineColor);
+    }
+}
+
+void readHatches(Reader& read, const Json& json, Scene& scene) {
+    if (!read.object(json, "/hatches", {"show", "spacing"})) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = "/hatches/" + key;
+        if (key == "show") read.flag(value, at, scene.hasHatches.emplace());
+        if (key == "spacing") read.number(value, at, 1e-4, 1e4, scene.hatchSpacing.emplace());
+    }
+}
+
+void readScene(Reader& read, const Json& json, Scene& scene) {
+    if (!read.object(json, "",
+                     {"format", "version", "size", "samples", "look", "camera", "background", "transparent", "lines",
+                      "hatches", "ambientOcclusion", "names", "passes"}))
+        return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = "/" + key;
+        if (key == "format" && value != "svt-scene") read.fail(at, "expected \"svt-scene\"");
+        if (key == "version" && value != kVersion)
+            read.fail(at, fmt::format("expected {}, found {}; a newer program may have written it", kVersion,
+                                      Reader::shorten(value)));
+        if (key == "size") {
+            const double most = render::FrameSpec::kMaxSize;
+            if (!value.is_array() || value.size() != 2) return read.fail(at, "expected [width, height] in pixels");
+            read.number(value[0], at + "/0", 1, most, scene.width);
+            read.number(value[1], at + "/1", 1, most, scene.height);
+        }
+        if (key == "samples") read.number(value, at, 1, 16, scene.samples);
+        if (key == "look") {
+            std::string name;
+            read.text(value, at, name);
+            const auto look = lookFromName(name);
+            if (look)
+                scene.look = *look;
+            else
+                read.fail(at, fmt::format("'{}' is no look; possible are plain, paper, blueprint, dark", name));
+        }
+        if (key == "camera") readCamera(read, value, scene.camera);
+        if (key == "background") read.color(value, at, scene.background);
+        if (key == "transparent") read.flag(value, at, scene.isTransparent);
+        if (key == "lines") readLines(read, value, scene);
+        if (key == "hatches") readHatches(read, value, scene);
+        if (key == "ambientOcclusion") read.number(value, at, 0, 1, scene.ambientOcclusion.emplace());
+        if (key == "names") read.texts(value, at, scene.names);
+        if (key == "passes") {
+            if (!value.is_array() || value.empty() || value.size() > kMaxPasses)
+                return read.fail(at, fmt::format("expected an array of 1 to {} passes", kMaxPasses));
+            scene.passes.clear();
+            for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
+                readPass(read, value[n], fmt::format("{}/{}", at, n), scene.passes.emplace_back());
+        }
+        if (!read.isFine()) return;
+    }
+}
+
+Json jsonOf(const SceneCamera& camera) {
+    const SceneCamera plain;
+    Json json = Json::object();
+    if (camera.preset != plain.preset) json["preset"] = camera.preset;
+    if (!camera.around.empty()) json["around"] = camera.around;
+    if (camera.isParallel) json["parallel"] = true;
+    if (camera.fieldOfView != plain.fieldOfView) json["fieldOfView"] = camera.fieldOfView;
+    if (camera.zoom != plain.zoom) json["zoom"] = camera.zoom;
+    if (camera.eye) json["eye"] = {camera.eye->x, camera.eye->y, camera.eye->z};
+    if (camera.target) json["target"] = {camera.target->x, camera.target->y, camera.target->z};
+    return json;
+}
+
+// The shortest number that reads back as the same float.
+double shortest(float value) { return std::stod(fmt::format("{}", value)); }
+
+Json jsonOf(const SceneStyle& style) {
+    Json json{{"select", style.select}};
+    if (style.isGhost) json["ghost"] = true;
+    if (style.color) json["color"] = image::colorText(*style.color);
+    if (style.opacity) json["opacity"] = shortest(*style.opacity);
+    if (style.hatch) json["hatch"] = render::hatchName(*style.hatch);
+    return json;
+}
+
+Json jsonOf(const SceneLines& lines) {
+    Json json = Json::object();
+    if (!lines.select.empty()) json["select"] = lines.select;
+    if (lines.width != 1) json["width"] = shortest(lines.width);
+    if (lines.color) json["color"] = image::colorText(*lines.color);
+    for (const auto& [hidden, name] : kHidden)
+        if (hidden == lines.hidden && hidden != render::HiddenLines::Faint) json["hidden"] = name;
+    return json;
+}
+
+Json jsonOf(const ScenePass& pass) {
+    Json json = Json::object();
+    if (!pass.show.empty()) json["show"] = pass.show;
+    if (!pass.hide.empty()) json["hide"] = pass.hide;
+    for (const SceneStyle& style : pass.styles) json["styles"].push_back(jsonOf(style));
+    if (!pass.cut.empty()) json["cut"] = pass.cut;
+    if (!pass.keep.empty()) json["keep"] = pass.keep;
+    for (const auto& [join, name] : kJoins)
+        if (join == pass.join && join != Join::Over) json["join"] = name;
+    if (pass.form.shell) json["shell"] = shellLevelName(*pass.form.shell);
+    if (pass.form.level) json["level"] = *pass.form.level;
+    for (const SceneLines& lines : pass.lines) json["lines"].push_back(jsonOf(lines));
+    if (!pass.meshes.empty()) json["meshes"] = pass.meshes;
+    return json;
+}
+
+}  // namespace
+
+Result<Scene> parseScene(std::string_view json, const std::string& name) {
+    const Json parsed = Json::parse(json, nullptr, false);
+    if (parsed.is_discarded()) return Error(Code::BadJson, fmt::format("{}: not well-formed JSON", name));
+    Reader read(name);
+    Scene scene;
+    readScene(read, parsed, scene);
+    if (!read.isFine()) return read.error();
+    return scene;
+}
+
+std::string writeScene(const Scene& scene) {
+    const Scene plain;
+    Json json{{"format", "svt-scene"}, {"version", kVersion}};
+    json["size"] = {scene.width, scene.height};
+    if (scene.samples != plain.samples) json["samples"] = scene.samples;
+    if (scene.look != plain.look) json["look"] = lookName(scene.look);
+    if (scene.camera != plain.camera) json["camera"] = jsonOf(scene.camera);
+    if (scene.background) json["background"] = image::colorText(*scene.background);
+    if (scene.isTransparent) json["transparent"] = true;
+    if (scene.lineStrength) json["lines"]["strength"] = shortest(*scene.lineStrength);
+    if (scene.lineWidth) json["lines"]["width"] = shortest(*scene.lineWidth);
+    if (scene.cutWidth) json["lines"]["cutWidth"] = shortest(*scene.cutWidth);
+    if (scene.lineColor) json["lines"]["color"] = image::colorText(*scene.lineColor);
+    if (scene.hasHatches) json["hatches"]["show"] = *scene.hasHatches;
+    if (scene.hatchSpacing) json["hatches"]["spacing"] = *scene.hatchSpacing;
+    if (scene.ambientOcclusion) json["ambientOcclusion"] = shortest(*scene.ambientOcclusion);
+    if (!scene.names.empty()) json["names"] = scene.names;
+    json["passes"] = Json::array();
+    for (const ScenePass& pass : scene.passes) json["passes"].push_back(jsonOf(pass));
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace svt::illustrate

@@ -1,0 +1,125 @@
+#include <svt/illustrate/scene_painter.hpp>
+
+#include <svt/illustrate/scene/name_tags.hpp>
+#include <svt/illustrate/shell.hpp>
+
+#include <algorithm>
+
+namespace svt::illustrate {
+namespace {
+
+Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, Painting& painting) {
+    if (scene.names.empty()) return {};
+    const auto tags = findNameTags(scene.names, volume, painting.spec, painting.frame);
+    if (!tags) return tags.error();
+    const render::Background& background = painting.spec.background;
+    const Vec3f paper = (background.top + background.bottom) * 0.5f;
+    const bool isDark = paper.x + paper.y + paper.z < 1.5f && background.alpha > 0;
+    const Vec3f dark{0.05f, 0.05f, 0.06f}, light{1, 1, 1};
+    drawNameTags(*tags, 0, isDark ? light : dark, isDark ? paper : light, painting.frame.color);
+    return {};
+}
+
+ScenePainter::Draw byCasting(const render::CastOptions& options) {
+    return [options](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
+        return render::castRays(volumes, spec, options);
+    };
+}
+
+}  // namespace
+
+struct ScenePainter::Forms {
+    std::optional<ShellLevel> level;
+    std::optional<volume::SemanticVolume> shell;
+    const volume::SemanticVolume* volume = nullptr;
+    std::optional<volume::BrickVolume> bricks;
+    std::optional<std::vector<volume::LodLevel>> levels;
+};
+
+ScenePainter::ScenePainter(const volume::SemanticVolume& volume, int threads) : volume_(volume), threads_(threads) {}
+ScenePainter::~ScenePainter() = default;
+ScenePainter::ScenePainter(ScenePainter&&) noexcept = default;
+
+Result<ScenePainter::Forms*> ScenePainter::formsOf(std::optional<ShellLevel> shell) {
+    for (const auto& forms : forms_)
+        if (forms->level == shell) return forms.get();
+    auto forms = std::make_unique<Forms>();
+    forms->level = shell;
+    forms->volume = &volume_;
+    if (shell) {
+        ShellOptions options;
+        options.threads = threads_;
+        auto hulls = extractShell(volume_, *shell, options);
+        if (!hulls) return hulls.error();
+        forms->volume = &forms->shell.emplace(std::move(*hulls));
+    }
+    return forms_.emplace_back(std::move(forms)).get();
+}
+
+Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const render::FrameSpec& spec) {
+    auto found = formsOf(wanted.shell);
+    if (!found) return found.error();
+    Forms& forms = **found;
+    const volume::SemanticVolume& volume = *forms.volume;
+    const int level = wanted.level.value_or(render::levelForView(spec, volume.grid));
+    if (level > 0) {
+        if (!forms.levels) {
+            auto levels = volume::buildLodPyramid(volume.columns, volume.grid, 6, threads_);
+            if (!levels) return levels.error();
+            forms.levels = std::move(*levels);
+        }
+        if (!forms.levels->empty())
+            return render::DrawnVolume((*forms.levels)[std::min(forms.levels->size(), std::size_t(level)) - 1]);
+    }
+    if (!forms.bricks) {
+        auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads_});
+        if (!bricks) return bricks.error();
+        forms.bricks = std::move(*bricks);
+    }
+    return render::DrawnVolume(*forms.bricks, volume.grid);
+}
+
+Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
+    return paint(scene, byCasting(options));
+}
+
+Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
+    auto spec = frameOf(scene, volume_);
+    if (!spec) return spec.error();
+    std::vector<render::DrawnVolume> drawn;
+    for (const VolumeForm& wanted : illustrate::formsOf(scene)) {
+        const auto made = form(wanted, *spec);
+        if (!made) return made.error();
+        drawn.push_back(*made);
+    }
+    return finish(scene, std::move(*spec), drawn, draw);
+}
+
+Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
+    auto spec = frameOf(scene, volume_);
+    if (!spec) return spec.error();
+    std::vector<render::DrawnVolume> drawn;
+    std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
+    for (const VolumeForm& wanted : illustrate::formsOf(scene)) {
+        const auto forms = formsOf(wanted.shell);
+        if (!forms) return forms.error();
+        const volume::SemanticVolume& volume = *(*forms)->volume;
+        auto bricks = volume::BrickVolume::fromColumns(volume.columns,
+                                                       {.faces = volume::BrickFaces::Voxels, .threads = threads_});
+        if (!bricks) return bricks.error();
+        drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));
+        drawn.emplace_back(*drafts.back(), volume.grid);
+    }
+    return finish(scene, std::move(*spec), drawn, byCasting(options));
+}
+
+Result<Painting> ScenePainter::finish(const Scene& scene, render::FrameSpec spec,
+                                      std::span<const render::DrawnVolume> drawn, const Draw& draw) const {
+    auto frame = draw(drawn, spec);
+    if (!frame) return frame.error();
+    Painting painting{std::move(*frame), std::move(spec)};
+    if (auto named = addNames(scene, volume_, painting); !named) return named.error();
+    return painting;
+}
+
+}  // namespace svt::illustrate

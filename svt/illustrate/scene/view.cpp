@@ -1,0 +1,72 @@
+#include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/selection.hpp>
+#include <svt/illustrate/view.hpp>
+#include <svt/render/camera_presets.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace svt::illustrate {
+namespace {
+
+// The frame's camera, with no more pixels than its aspect needs.
+Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, const volume::SemanticVolume& volume) {
+    Scene scene;
+    scene.camera = camera;
+    scene.height = 1000;
+    scene.width = static_cast<std::int32_t>(std::lround(scene.height * aspect));
+    const auto frame = frameOf(scene, volume);
+    if (!frame) return frame.error();
+    return frame->camera;
+}
+
+Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volume) {
+    const Vec3i n = volume.grid.dimension();
+    analyze::SampleBox box{{0, 0, 0}, {n.x - 1, n.y - 1, n.z - 1}};
+    if (!query.empty()) {
+        const auto selected = analyze::selectLabels(volume.labels, query);
+        if (!selected) return selected.error();
+        const auto around = analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", query));
+        if (!around) return around.error();
+        box = *around;
+    }
+    return analyze::worldBox(box, volume.grid);
+}
+
+}  // namespace
+
+Result<SceneCamera> viewOf(const std::string& query, const std::string& preset, const SceneCamera& now, double aspect,
+                           const volume::SemanticVolume& volume) {
+    if (!(aspect > 0.01 && aspect < 100))
+        return Error(Code::BadCamera, fmt::format("an aspect of {} is out of range; 0.01 to 100 are possible", aspect));
+    const Vec3d origin = volume.grid.origin();
+    SceneCamera view = now;
+    view.around = query;
+    view.zoom = 1;
+    view.eye = view.target = {};
+    if (!preset.empty()) view.preset = preset;
+    const auto named = drawnCamera(view, aspect, volume);
+    if (!named) return named.error();
+    view.eye = named->eye - origin;
+    view.target = named->target - origin;
+    if (!preset.empty()) return view;
+
+    const auto before = drawnCamera(now, aspect, volume);
+    if (!before) return before.error();
+    const auto box = boxOf(query, volume);
+    if (!box) return box.error();
+    render::PresetOptions options;
+    options.aspect = aspect;
+    options.projection = named->projection;
+    options.verticalFovDegrees = named->verticalFovDegrees;
+    const auto camera = render::cameraAlong(before->target - before->eye, before->up, *box, options);
+    if (!camera) return camera.error();
+    // The height of a parallel view is that of its preset, divided by the zoom, which also moves the eye.
+    if (view.isParallel) view.zoom = named->orthographicHeight / camera->orthographicHeight;
+    view.target = camera->target - origin;
+    view.eye = *view.target + (camera->eye - camera->target) * view.zoom;
+    return view;
+}
+
+}  // namespace svt::illustrate

@@ -1,0 +1,219 @@
+#include <svt/illustrate/section_drawing.hpp>
+
+#include <svt/analyze/selection.hpp>
+#include <svt/illustrate/section/section_rings.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace svt::illustrate {
+namespace {
+
+using volume::kNoLabel;
+
+// Entry per scalar: its label, or kNoLabel for what is left out.
+Result<std::vector<std::uint32_t>> drawnLabels(const volume::LabelTable& table, const SectionOptions& options) {
+    std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
+    for (const bool isShown : {true, false})
+        for (const std::string& query : isShown ? options.show : options.hide) {
+            const auto selected = analyze::selectLabels(table, query);
+            if (!selected) return selected.error();
+            for (const std::uint32_t label : *selected) isDrawn[label] = isShown ? 1 : 0;
+        }
+    if (!options.spaces)
+        for (std::size_t l = 0; l < isDrawn.size(); ++l)
+            if (model::isSpace(table.labels[l].className)) isDrawn[l] = 0;
+    std::vector<std::uint32_t> labels = table.labelOfScalar();
+    for (std::uint32_t& label : labels)
+        if (label != kNoLabel && isDrawn[label] == 0) label = kNoLabel;
+    return labels;
+}
+
+class DrawingMaker {
+public:
+    DrawingMaker(const volume::SemanticVolume& volume, SectionDrawing drawing, double smallestArea)
+        : volume_(volume), drawing_(std::move(drawing)), smallestArea_(smallestArea) {}
+
+    SectionDrawing make(const std::vector<QuantumBorder>& borders) {
+        std::set<std::pair<std::uint32_t, std::uint32_t>> shown;  // label and border
+        for (const QuantumPolygon& polygon : polygonsOf(borders)) addPolygon(polygon, shown);
+        // What was left out as too small leaves no line.
+        for (std::uint32_t b = 0; b < borders.size(); ++b) {
+            SectionBorder border;
+            border.left = shown.contains({borders[b].left, b}) ? borders[b].left : kNoLabel;
+            border.right = shown.contains({borders[b].right, b}) ? borders[b].right : kNoLabel;
+            if (border.left == border.right) continue;
+            for (const QuantumPoint p : borders[b].points) border.points.push_back(placed(p));
+            drawing_.borders.push_back(std::move(border));
+        }
+        addTotals();
+        return std::move(drawing_);
+    }
+
+private:
+    [[nodiscard]] PlanePoint placed(QuantumPoint p) const noexcept {
+        return {p.u * drawing_.quantum, p.v * drawing_.quantum};
+    }
+
+    void addPolygon(const QuantumPolygon& polygon, std::set<std::pair<std::uint32_t, std::uint32_t>>& shown) {
+        SectionPolygon added;
+        double bound = 0;
+        for (const auto& ring : polygon.rings) {
+            added.area += 0.5 * twiceAreaOf(ring) * drawing_.quantum * drawing_.quantum;
+            Ring& points = &ring == &polygon.rings.front() ? added.outer : added.holes.emplace_back();
+            for (const RingPoint& p : ring) points.push_back(placed(p.point));
+            bound += boundOf(points);
+        }
+        if (!(added.area > 0) || added.area < smallestArea_) return;
+        for (const auto& ring : polygon.rings)
+            for (const RingPoint& p : ring) shown.emplace(polygon.label, p.border);
+        if (drawing_.components.empty() || drawing_.components.back().label != polygon.label)
+            drawing_.components.push_back({polygon.label, {}, 0, 0});
+        SectionComponent& component = drawing_.components.back();
+        component.area += added.area;
+        component.areaBound += bound;
+        component.polygons.push_back(std::move(added));
+    }
+
+    // Length of each edge times half the extent of a voxel across it.
+    [[nodiscard]] double boundOf(const Ring& ring) const noexcept {
+        double bound = 0;
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
+            // Across the edge, times its length.
+            const Vec3d across = drawing_.frame.u * (b.v - a.v) - drawing_.frame.v * (b.u - a.u);
+            for (int axis = 0; axis < 3; ++axis)
+                bound += 0.5 * volume_.grid.spacing()[axis] *
+                         std::abs(dot(across, volume_.grid.axes()[static_cast<std::size_t>(axis)]));
+            bound += (drawing_.tolerance + drawing_.quantum) * length(across);
+        }
+        return bound;
+    }
+
+    void addTotals() {
+        std::map<std::string, ClassArea> classes;
+        for (const SectionComponent& component : drawing_.components) {
+            const std::string& name = volume_.labels.labels[component.label].className;
+            ClassArea& total = classes[name];
+            total.className = name;
+            ++total.components;
+            total.area += component.area;
+            drawing_.area += component.area;
+        }
+        for (auto& [name, total] : classes) drawing_.classes.push_back(std::move(total));
+    }
+
+    const volume::SemanticVolume& volume_;
+    SectionDrawing drawing_;
+    double smallestArea_;
+};
+
+// Where the line v = at runs inside of a polygon: from and to, in turn.
+std::vector<double> crossingsOf(const SectionPolygon& polygon, double at) {
+    std::vector<double> crossings;
+    const auto add = [&](const Ring& ring) {
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
+            if ((a.v > at) != (b.v > at)) crossings.push_back(a.u + (at - a.v) / (b.v - a.v) * (b.u - a.u));
+        }
+    };
+    add(polygon.outer);
+    for (const Ring& hole : polygon.holes) add(hole);
+    std::ranges::sort(crossings);
+    return crossings;
+}
+
+// What of [from, to] is inside on a level as well: the widest part. False where there is none.
+bool narrow(const std::vector<double>& level, double& from, double& to) {
+    double bestFrom = 0, bestTo = 0;
+    for (std::size_t n = 0; n + 1 < level.size(); n += 2) {
+        const double left = std::max(from, level[n]), right = std::min(to, level[n + 1]);
+        if (right - left > bestTo - bestFrom) {
+            bestFrom = left;
+            bestTo = right;
+        }
+    }
+    from = bestFrom;
+    to = bestTo;
+    return to > from;
+}
+
+}  // namespace
+
+PlaneFrame frameOf(const SectionPlane& plane, const volume::Grid& grid) {
+    PlaneFrame frame;
+    const Vec3d normal = normalized(plane.normal), up = grid.axes()[2];
+    frame.origin = grid.origin() + normal * dot(normal, plane.point - grid.origin());
+    const double upright = dot(normal, up);
+    if (std::abs(upright) > 1 - 1e-12) {
+        frame.u = grid.axes()[0];
+        frame.v = grid.axes()[1];
+        frame.normal = cross(frame.u, frame.v);
+        return frame;
+    }
+    frame.normal = normal;
+    frame.v = normalized(up - normal * upright);
+    frame.u = cross(frame.v, normal);
+    return frame;
+}
+
+Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
+                                   const SectionOptions& options) {
+    const auto bricks =
+        volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = options.threads});
+    if (!bricks) return bricks.error();
+    return drawSection(volume, *bricks, plane, options);
+}
+
+Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const volume::BrickVolume& bricks,
+                                   const SectionPlane& plane, const SectionOptions& options) {
+    if (!isFinite(plane.normal) || !isFinite(plane.point) || !(length(plane.normal) > 0))
+        return Error(Code::BadSection, "the plane of a section needs a finite point, and a normal that is not zero");
+    if (!std::isfinite(options.smallestArea) || !std::isfinite(options.tolerance))
+        return Error(Code::BadArgument,
+                     fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
+                                 options.smallestArea, options.tolerance));
+    const auto labels = drawnLabels(volume.labels, options);
+    if (!labels) return labels.error();
+    SectionDrawing drawing;
+    drawing.plane = {normalized(plane.normal), plane.point};
+    drawing.frame = frameOf(plane, volume.grid);
+    const CutPlane cut(drawing.plane, drawing.frame, volume.grid);
+    const Vec3d spacing = volume.grid.spacing();
+    drawing.quantum = cut.quantum();
+    drawing.tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * std::min({spacing.x, spacing.y, spacing.z});
+    std::vector<QuantumBorder> borders = joinEdges(cutCells(bricks, cut, *labels));
+    // A point that was rounded may lie a quantum beside its line.
+    straighten(borders, std::max(drawing.tolerance / drawing.quantum, 1.5));
+    return DrawingMaker(volume, std::move(drawing), options.smallestArea).make(borders);
+}
+
+LabelPlace labelPlaceOf(const SectionPolygon& polygon) {
+    constexpr std::size_t kLevels = 32;
+    const auto [low, high] = std::ranges::minmax(polygon.outer, {}, &PlanePoint::v);
+    const double step = (high.v - low.v) / kLevels;
+    std::vector<std::vector<double>> levels;
+    for (std::size_t n = 0; n < kLevels; ++n) levels.push_back(crossingsOf(polygon, low.v + step * (double(n) + 0.5)));
+    LabelPlace best;
+    double bestScore = -1;
+    for (std::size_t bottom = 0; bottom < kLevels; ++bottom)
+        for (std::size_t n = 0; n + 1 < levels[bottom].size(); n += 2) {
+            double from = levels[bottom][n], to = levels[bottom][n + 1];
+            for (std::size_t top = bottom; top < kLevels && narrow(levels[top], from, to); ++top) {
+                const double height = step * double(top + 1 - bottom);
+                // Texts are wide. Of places that are equal for them, the highest, so that they stand in its middle.
+                const double score = std::min((to - from) / 2, height);
+                if (score < bestScore || (score == bestScore && height <= best.height)) continue;
+                bestScore = score;
+                best = {{0.5 * (from + to), low.v + step * (0.5 * double(bottom + top + 1))}, to - from, height};
+            }
+        }
+    return best;
+}
+
+}  // namespace svt::illustrate

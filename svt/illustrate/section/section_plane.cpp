@@ -1,0 +1,154 @@
+#include <svt/illustrate/section_plane.hpp>
+
+#include <svt/analyze/scalar_boxes.hpp>
+#include <svt/analyze/selection.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace svt::illustrate {
+namespace {
+
+// All of `text` as `count` finite numbers separated by commas, or nothing.
+std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::size_t count) {
+    std::array<double, 4> numbers{};
+    const char* at = text.c_str();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0 && *at++ != ',') return std::nullopt;
+        char* rest = nullptr;
+        numbers[i] = std::strtod(at, &rest);
+        if (rest == at || !std::isfinite(numbers[i])) return std::nullopt;
+        at = rest;
+    }
+    if (*at != '\0') return std::nullopt;
+    return numbers;
+}
+
+std::string unquoted(const std::string& text) {
+    const bool isQuoted =
+        text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+    return isQuoted ? text.substr(1, text.size() - 2) : text;
+}
+
+// Lower and upper end of the volume along `normal`, metres from the grid's lower corner.
+std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
+    std::pair<double, double> extent{0, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double along = dot(normal, grid.axes()[static_cast<std::size_t>(axis)]) * grid.spacing()[axis];
+        const double low = -0.5 * along, high = (grid.dimension()[axis] - 0.5) * along;
+        extent.first += std::min(low, high);
+        extent.second += std::max(low, high);
+    }
+    return extent;
+}
+
+Result<std::pair<double, double>> heightsOf(const std::string& storey, const volume::SemanticVolume& volume,
+                                            const std::vector<analyze::SampleBox>& boxes) {
+    std::string quoted;
+    for (const char c : storey) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
+    }
+    const auto selected = analyze::selectLabels(volume.labels, fmt::format("storey=\"{}\"", quoted));
+    if (!selected) return selected.error();
+    analyze::SampleBox rooms, all;
+    for (const std::uint32_t l : *selected) {
+        all.add(boxes[l]);
+        if (model::isSpace(volume.labels.labels[l].className)) rooms.add(boxes[l]);
+    }
+    if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
+    const analyze::SampleBox& box = rooms.isEmpty() ? all : rooms;
+    const double spacing = volume.grid.spacing().z;
+    return std::pair((box.min.z - 0.5) * spacing, (box.max.z + 0.5) * spacing);
+}
+
+}  // namespace
+
+Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
+    return heightsOf(storey, volume, analyze::labelBoxes(volume.columns, volume.labels));
+}
+
+std::vector<StoreyHeights> storeysOf(const volume::SemanticVolume& volume) {
+    const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
+    const auto rows = analyze::rowsOf(volume.labels);
+    std::vector<StoreyHeights> storeys;
+    for (std::uint32_t l = 0; l < rows.size(); ++l) {
+        if (!model::query::isStorey(rows[l])) continue;
+        if (const auto heights = heightsOf(volume.labels.labels[l].id, volume, boxes))
+            storeys.push_back({l, heights->first, heights->second});
+    }
+    std::stable_sort(storeys.begin(), storeys.end(),
+                     [](const StoreyHeights& a, const StoreyHeights& b) { return a.floor < b.floor; });
+    return storeys;
+}
+
+bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {
+    const auto [low, high] = extentAlong(plane.normal, grid);
+    const double at = dot(plane.normal, plane.point - grid.origin());
+    return low <= at && at <= high;
+}
+
+SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
+    const volume::Grid& grid = volume.grid;
+    std::optional<double> lowest;
+    for (const volume::Label& label : volume.labels.labels) {
+        if (label.className != "Storey") continue;
+        const auto heights = storeyHeights(label.id, volume);
+        if (heights && (!lowest || heights->first < *lowest)) lowest = heights->first;
+    }
+    SectionPlane plane{grid.axes()[2], grid.origin()};
+    if (lowest) {
+        plane.point = grid.origin() + plane.normal * (*lowest + 1.1);
+        if (meetsGrid(plane, grid)) return plane;
+    }
+    plane.point = grid.origin() + plane.normal * (0.5 * (grid.dimension().z - 1) * grid.spacing().z);
+    return plane;
+}
+
+Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume) {
+    const volume::Grid& grid = volume.grid;
+    const auto badSection = [&](const std::string& reason) {
+        return Error(Code::BadSection, fmt::format("the section '{}': {}", text, reason));
+    };
+    const std::string expected =
+        "expected z=1.2, y<3 or x>4 (metres from the lower corner), storey=NAME+1.1, or A,B,C,D with "
+        "A x + B y + C z + D > 0 cut away";
+    SectionPlane plane;
+    const std::string copy(text);
+    const std::size_t at = copy.find_first_of("=<>");
+    if (at == 1 && std::string_view("xyz").find(copy[0]) != std::string_view::npos) {
+        const auto value = parseNumbers(copy.substr(2), 1);
+        if (!value) return badSection(expected);
+        const Vec3d axis = grid.axes()[static_cast<std::size_t>(copy[0] - 'x')];
+        plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value)[0]};
+    } else if (copy.rfind("storey=", 0) == 0) {
+        // The last sign that a number follows; names may have signs too.
+        const std::size_t sign = copy.find_last_of("+-");
+        std::optional<std::array<double, 4>> above;
+        if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);
+        const auto heights = storeyHeights(unquoted(copy.substr(7, above ? sign - 7 : std::string::npos)), volume);
+        if (!heights) return heights.error();
+        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + (above ? (*above)[0] : 1.0))};
+    } else {
+        const auto numbers = parseNumbers(copy, 4);
+        if (!numbers) return badSection(expected);
+        const Vec3d normal{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+        if (!(length(normal) > 0)) return badSection("the normal is zero; give a direction that is cut away");
+        plane = {normalized(normal), grid.origin() + normal * (-(*numbers)[3] / dot(normal, normal))};
+    }
+    if (meetsGrid(plane, grid)) return plane;
+    const auto [low, high] = extentAlong(plane.normal, grid);
+    return badSection(fmt::format(
+        "passes the whole volume by: along its normal it lies at {:.3f} m from the lower corner, the volume from "
+        "{:.3f} to {:.3f} m",
+        dot(plane.normal, plane.point - grid.origin()), low, high));
+}
+
+}  // namespace svt::illustrate

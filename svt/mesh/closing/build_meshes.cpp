@@ -1,0 +1,427 @@
+#include <svt/core/parallel.hpp>
+#include <svt/mesh/closing/closing.hpp>
+#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/planes.hpp>
+#include <svt/mesh/polygons/edges.hpp>
+#include <svt/mesh/polygons/local_polygons.hpp>
+#include <svt/mesh/thickness.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace svt::mesh {
+namespace {
+
+using model::BuildingModel;
+using model::Feature;
+using model::FeatureIndex;
+using model::SurfaceUse;
+
+constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
+constexpr std::size_t kMostLeaks = 100;
+
+// What becomes one mesh: a feature and the faces of its geometry.
+struct Source {
+    FeatureIndex feature = model::kNoFeature;
+    double lod = -1;
+    bool isAssembled = false;
+    bool hasSolidMeaning = false;  // an open shell is to be closed
+    std::vector<SurfaceUse> uses;
+    std::vector<std::pair<std::size_t, std::size_t>> voids;  // stretches of `uses` that are shells of voids
+};
+
+void appendUses(const model::Geometry& geometry, Source& source) {
+    auto& uses = source.uses;
+    uses.insert(uses.end(), geometry.surfaces.begin(), geometry.surfaces.end());
+    for (const model::Solid& solid : geometry.solids) {
+        uses.insert(uses.end(), solid.exterior.begin(), solid.exterior.end());
+        for (const auto& interior : solid.interiors) {
+            source.voids.emplace_back(uses.size(), uses.size() + interior.size());
+            uses.insert(uses.end(), interior.begin(), interior.end());
+        }
+    }
+}
+
+// Faces of the boundary surfaces of a space, with their openings.
+void appendBoundary(const BuildingModel& model, FeatureIndex space, const model::LodChoice& lod,
+                    const std::vector<std::uint8_t>& isCoarser, Source& source) {
+    for (const FeatureIndex child : model.features[space].children) {
+        const Feature& feature = model.features[child];
+        if (!model::isBoundarySurface(feature.className) && !(model::isFilling(feature.className) && child != space))
+            continue;
+        if (model::isFilling(feature.className) && !model::isBoundarySurface(model.features[space].className)) continue;
+        if (isCoarser[child]) continue;
+        if (const int chosen = lod.choose(feature); chosen >= 0) {
+            const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
+            source.lod = std::max(source.lod, geometry.lod);
+            appendUses(geometry, source);
+        }
+        appendBoundary(model, child, lod, isCoarser, source);
+    }
+}
+
+double chosenLod(const Feature& feature, const model::LodChoice& lod) {
+    const int chosen = lod.choose(feature);
+    return chosen < 0 ? -1 : feature.geometries[std::size_t(chosen)].lod;
+}
+
+// Boundary surfaces (and openings) of a coarser level than others of their class in the same space: files with several
+// levels of detail give each its own surfaces.
+std::vector<std::uint8_t> findCoarserSurfaces(const BuildingModel& model, const std::vector<FeatureIndex>& order,
+                                              const model::LodChoice& lod) {
+    const auto isSurface = [&](FeatureIndex f) {
+        const std::string& name = model.features[f].className;
+        return model::isBoundarySurface(name) || model::isFilling(name);
+    };
+    std::vector<FeatureIndex> spaceOf(model.features.size(), model::kNoFeature);
+    std::map<std::pair<FeatureIndex, std::string_view>, double> finest;
+    for (const FeatureIndex f : order) {
+        const FeatureIndex parent = model.features[f].parent;
+        if (!isSurface(f) || parent == model::kNoFeature) continue;
+        spaceOf[f] = spaceOf[parent] != model::kNoFeature ? spaceOf[parent] : parent;
+        double& lodOfClass = finest.try_emplace({spaceOf[f], model.features[f].className}, -1.0).first->second;
+        lodOfClass = std::max(lodOfClass, chosenLod(model.features[f], lod));
+    }
+    std::vector<std::uint8_t> isCoarser(model.features.size(), 0);
+    for (const FeatureIndex f : order)
+        isCoarser[f] = spaceOf[f] != model::kNoFeature && !model.features[f].geometries.empty() &&
+                       chosenLod(model.features[f], lod) < finest[{spaceOf[f], model.features[f].className}];
+    return isCoarser;
+}
+
+std::vector<Source> collectSources(const BuildingModel& model, const model::LodChoice& lod, Diagnostics* log) {
+    std::vector<Source> sources;
+    const std::vector<FeatureIndex> order = model.treeOrder();
+    const std::vector<std::uint8_t> isCoarser = findCoarserSurfaces(model, order, lod);
+    if (const auto count = std::count(isCoarser.begin(), isCoarser.end(), 1); count != 0 && log != nullptr)
+        log->add(Severity::Note, Code::NoGeometry,
+                 fmt::format("{} boundary surfaces and openings are of a coarser level of detail than others of their "
+                             "class and are left out",
+                             count),
+                 {model.source, 0, 0, {}});
+    for (const FeatureIndex index : order) {
+        if (isCoarser[index]) continue;
+        const Feature& feature = model.features[index];
+        Source own{index, -1, false, false, {}, {}};
+        if (const int chosen = lod.choose(feature); chosen >= 0) {
+            const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
+            own.lod = geometry.lod;
+            // Doors and windows are bodies in CityGML 3.0 and sheets in the openings of CityGML 2.0: the geometry
+            // tells.
+            own.hasSolidMeaning = model::isFilling(feature.className) ? geometry.kind == model::GeometryKind::Solid
+                                                                      : model::hasSolidMeaning(feature.className);
+            appendUses(geometry, own);
+        }
+        if (model::hasSolidMeaning(feature.className)) {
+            Source assembled{index, -1, true, true, {}, {}};
+            appendBoundary(model, index, lod, isCoarser, assembled);
+            if (!assembled.uses.empty() && (own.uses.empty() || assembled.lod > own.lod)) own = std::move(assembled);
+        }
+        if (!own.uses.empty()) sources.push_back(std::move(own));
+    }
+    return sources;
+}
+
+// Gathers the triangles of the uses. Faces used twice in the same direction are doubled faces, and dropped;
+// two uses in opposite directions stay (they cancel).
+struct Gathered {
+    std::vector<std::uint32_t> pointIds;        // per vertex
+    std::vector<model::PolygonIndex> polygons;  // ascending
+    std::uint32_t duplicateFaces = 0;
+};
+
+// Turns the closed shells of voids that face outwards: the file says that they are voids.
+// Returns the count of turned triangles.
+std::uint32_t turnVoidsInwards(const Source& source, const LocalPolygons& polygons, std::vector<SurfaceUse>& uses) {
+    std::uint32_t turned = 0;
+    std::vector<Triangle> shell;
+    for (const auto& [begin, end] : source.voids) {
+        shell.clear();
+        double volume = 0;
+        Vec3d base{};
+        for (std::size_t u = begin; u < end; ++u)
+            for (const auto& corners : polygons.trianglesOf(uses[u].polygon)) {
+                if (shell.empty()) base = polygons.points[corners[0]];
+                const double part = dot(polygons.points[corners[0]] - base,
+                                        cross(polygons.points[corners[1]] - base, polygons.points[corners[2]] - base));
+                volume += uses[u].isReversed ? -part : part;
+                Triangle triangle;
+                for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = polygons.pointIds[corners[c]];
+                if (uses[u].isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
+                shell.push_back(triangle);
+            }
+        if (!(volume > 0) || !findOpenEdges(shell).empty()) continue;
+        for (std::size_t u = begin; u < end; ++u) uses[u].isReversed = !uses[u].isReversed;
+        turned += static_cast<std::uint32_t>(shell.size());
+    }
+    return turned;
+}
+
+Gathered gather(const Source& source, const LocalPolygons& polygons, ObjectMesh& mesh) {
+    Gathered gathered;
+    std::vector<SurfaceUse> uses = source.uses;
+    mesh.flippedFaces = turnVoidsInwards(source, polygons, uses);
+    std::set<std::pair<model::PolygonIndex, bool>> seen;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> vertexOfPoint;  // sorted later: (point, vertex)
+    for (const SurfaceUse& use : uses) {
+        if (!seen.insert({use.polygon, use.isReversed}).second) {
+            ++gathered.duplicateFaces;
+            continue;
+        }
+        gathered.polygons.push_back(use.polygon);
+        for (const auto& corners : polygons.trianglesOf(use.polygon)) {
+            Triangle triangle;
+            triangle.corners = {corners[0], corners[1], corners[2]};
+            if (use.isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
+            mesh.triangles.push_back(triangle);
+        }
+    }
+    std::sort(gathered.polygons.begin(), gathered.polygons.end());
+
+    // Corners still name points of the polygons; number the welded ones that occur.
+    std::vector<std::uint32_t> used;
+    used.reserve(mesh.triangles.size() * 3);
+    for (const Triangle& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle.corners) used.push_back(polygons.pointIds[corner]);
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    mesh.vertices.resize(used.size());
+    gathered.pointIds = used;
+    const auto vertexOf = [&](std::uint32_t corner) {
+        const auto it = std::lower_bound(used.begin(), used.end(), polygons.pointIds[corner]);
+        const auto vertex = static_cast<std::uint32_t>(it - used.begin());
+        mesh.vertices[vertex] = polygons.points[corner];
+        return vertex;
+    };
+    for (Triangle& triangle : mesh.triangles)
+        for (std::uint32_t& corner : triangle.corners) corner = vertexOf(corner);
+    std::erase_if(mesh.triangles, [](const Triangle& t) {
+        return t.corners[0] == t.corners[1] || t.corners[1] == t.corners[2] || t.corners[0] == t.corners[2];
+    });
+    return gathered;
+}
+
+// The same triangle twice in the same direction, from two polygons that are the same face.
+std::uint32_t removeDoubledTriangles(std::vector<Triangle>& triangles) {
+    std::set<std::array<std::uint32_t, 3>> seen;
+    return static_cast<std::uint32_t>(std::erase_if(triangles, [&](const Triangle& triangle) {
+        std::array<std::uint32_t, 3> key = triangle.corners;
+        std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
+        return !seen.insert(key).second;
+    }));
+}
+
+struct Work {
+    Gathered gathered;
+    bool isClosedAsRead = false;
+};
+
+// The closing test and what follows from it, up to where other features are needed.
+void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
+    mesh.openEdges = findOpenEdges(mesh.triangles);
+    mesh.unmatchedEdges = static_cast<std::uint32_t>(mesh.openEdges.size());
+    if (!mesh.openEdges.empty()) {
+        work.gathered.duplicateFaces += removeDoubledTriangles(mesh.triangles);
+        mesh.tJunctionCount = cutAtTJunctions(mesh.vertices, mesh.triangles, options.tJunctionDistance);
+        mesh.openEdges = findOpenEdges(mesh.triangles);
+    }
+    if (!mesh.openEdges.empty()) {
+        std::vector<Triangle> single = mesh.triangles;
+        if (const std::uint32_t removed = removeDoubledFaces(mesh.vertices, single);
+            removed != 0 && findOpenEdges(single).empty()) {
+            mesh.triangles = std::move(single);
+            mesh.openEdges.clear();
+            work.gathered.duplicateFaces += removed;
+        }
+    }
+    if (!mesh.openEdges.empty()) {
+        // Two edges that run the same way are no leak but faces that disagree.
+        const std::uint32_t turned = orientConsistently(mesh.triangles);
+        mesh.flippedFaces += turned;
+        if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
+    }
+    mesh.leakCount = static_cast<std::uint32_t>(mesh.openEdges.size());
+    for (const OpenEdge& edge : mesh.openEdges) {
+        if (mesh.leaks.size() == kMostLeaks) break;
+        mesh.leaks.push_back((mesh.vertices[edge.from] + mesh.vertices[edge.to]) * 0.5);
+    }
+    if (mesh.openEdges.empty()) mesh.closure = mesh.tJunctionCount != 0 ? Closure::TJunctions : Closure::Closed;
+}
+
+void finish(ObjectMesh& mesh) {
+    if (mesh.isSolid()) {
+        mesh.flippedFaces += orientOutwards(mesh.vertices, mesh.triangles);
+        mesh.volume = signedVolume(mesh.vertices, mesh.triangles);
+        measureThickness(mesh);
+    } else {
+        for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
+        // An open shell has no volume, but its faces still say which side is out.
+        if (mesh.closure == Closure::Open && signedVolume(mesh.vertices, mesh.triangles) < 0) {
+            for (Triangle& triangle : mesh.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
+            for (OpenEdge& edge : mesh.openEdges) std::swap(edge.from, edge.to);
+            mesh.flippedFaces += static_cast<std::uint32_t>(mesh.triangles.size());
+        }
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+        const Vec3d a = mesh.vertices[triangle.corners[0]];
+        mesh.area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
+        for (const std::uint32_t corner : triangle.corners) mesh.bounds.add(mesh.vertices[corner]);
+    }
+}
+
+// True where a closed mesh encloses nothing but rounding.
+bool isFlat(const ObjectMesh& mesh) {
+    if (!mesh.isSolid()) return false;
+    double area = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Vec3d a = mesh.vertices[triangle.corners[0]];
+        area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
+    }
+    return std::abs(signedVolume(mesh.vertices, mesh.triangles)) < 1e-6 * area * std::sqrt(area);
+}
+
+std::string leakText(const ObjectMesh& mesh, Vec3d origin) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(mesh.leaks.size(), 3); ++i) {
+        const Vec3d at = mesh.leaks[i] + origin;
+        text += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", i == 0 ? "" : ", ", at.x, at.y, at.z);
+    }
+    return text + (mesh.leakCount > 3 ? ", ..." : "");
+}
+
+void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work, Vec3d origin, Diagnostics& log) {
+    const Feature& feature = model.features[mesh.feature];
+    const Place place{model.source, feature.line, 0, feature.id};
+    const std::string leaks = leakText(mesh, origin);
+    if (work.gathered.duplicateFaces != 0)
+        log.add(Severity::Warning, Code::DuplicateFace,
+                fmt::format("{} faces stand twice in the shell and are used once", work.gathered.duplicateFaces),
+                place);
+    switch (mesh.closure) {
+        case Closure::Closed:
+        case Closure::Surface: break;
+        case Closure::TJunctions:
+            log.add(Severity::Note, Code::TJunction,
+                    fmt::format("{} edges match only where they are cut at points of others; the shell is tight",
+                                mesh.tJunctionCount),
+                    place);
+            break;
+        case Closure::Complemented:
+            log.add(Severity::Warning, Code::FacesComplemented,
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
+                                "as {}; closed with {} faces of adjoining features",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.complementedFaces),
+                    place);
+            break;
+        case Closure::Capped:
+            log.add(Severity::Warning, Code::ShellCapped,
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
+                                "as {}; closed with {} planar caps",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size()),
+                    place);
+            break;
+        case Closure::Open:
+            log.add(Severity::Warning, Code::WindingFilled,
+                    fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
+                                "as {}; {} stay open, filled by generalized winding number",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.openEdges.size()),
+                    place);
+            break;
+    }
+    if (mesh.flippedFaces != 0)
+        log.add(Severity::Warning, Code::FaceFlipped,
+                fmt::format("{} triangles faced the wrong way and were turned", mesh.flippedFaces), place);
+}
+
+}  // namespace
+
+std::string_view closureName(Closure closure) noexcept {
+    switch (closure) {
+        case Closure::Closed: return "closed";
+        case Closure::TJunctions: return "t-junctions";
+        case Closure::Complemented: return "complemented";
+        case Closure::Capped: return "capped";
+        case Closure::Open: return "open";
+        case Closure::Surface: return "surface";
+    }
+    return "surface";
+}
+
+std::size_t MeshScene::triangleCount() const noexcept {
+    std::size_t count = 0;
+    for (const ObjectMesh& object : objects) count += object.triangles.size();
+    return count;
+}
+
+Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& options, Diagnostics* log) {
+    Progress::tell(options.progress, "mesh", 0);
+    const std::vector<Source> sources = collectSources(model, options.lod, log);
+    std::vector<std::uint8_t> isUsed(model.polygons.size(), 0);
+    for (const Source& source : sources)
+        for (const SurfaceUse& use : source.uses) isUsed[use.polygon] = 1;
+    const LocalPolygons polygons = prepareLocalPolygons(model, isUsed, options, log);
+    if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while meshing");
+    Progress::tell(options.progress, "mesh", 0.4);
+
+    MeshScene scene;
+    scene.origin = polygons.origin;
+    scene.objects.resize(sources.size());
+    std::vector<Work> work(sources.size());
+    parallelFor(sources.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            ObjectMesh& mesh = scene.objects[i];
+            mesh.feature = sources[i].feature;
+            mesh.lod = sources[i].lod;
+            mesh.isAssembled = sources[i].isAssembled;
+            work[i].gathered = gather(sources[i], polygons, mesh);
+            testClosing(mesh, work[i], options);
+        }
+    });
+
+    std::optional<FaceFinder> finder;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        ObjectMesh& mesh = scene.objects[i];
+        if (mesh.openEdges.empty() || !sources[i].hasSolidMeaning) continue;
+        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while closing shells");
+        if (!finder) finder.emplace(polygons, model);
+        work[i].gathered.pointIds.resize(mesh.vertices.size(), kNoPoint);
+        mesh.complementedFaces = finder->complement(mesh, work[i].gathered.pointIds, work[i].gathered.polygons);
+        if (mesh.openEdges.empty()) {
+            mesh.closure = Closure::Complemented;
+            continue;
+        }
+        const std::vector<Triangle> uncapped = mesh.triangles;
+        capPlanarHoles(mesh, options.capDeviation);
+        mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
+        if (isFlat(mesh)) {
+            // A footprint or a single face: there is nothing to fill.
+            mesh.triangles = uncapped;
+            mesh.caps.clear();
+            mesh.openEdges = findOpenEdges(mesh.triangles);
+            mesh.closure = Closure::Surface;
+        }
+    }
+    Progress::tell(options.progress, "mesh", 0.7);
+
+    parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) finish(scene.objects[i]);
+    });
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        scene.bounds.add(scene.objects[i].bounds);
+        if (log != nullptr) report(model, scene.objects[i], work[i], scene.origin, *log);
+    }
+    std::erase_if(scene.objects, [](const ObjectMesh& mesh) { return mesh.triangles.empty(); });
+    if (scene.objects.empty())
+        return Error(Code::EmptyModel, "no feature of the model has geometry that can be voxelized",
+                     {model.source, 0, 0, {}});
+    assignPlanes(scene, options.weldDistance * 4);
+    Progress::tell(options.progress, "mesh", 1);
+    return scene;
+}
+
+}  // namespace svt::mesh

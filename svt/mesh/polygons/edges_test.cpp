@@ -1,0 +1,298 @@
+#include <svt/mesh/models_test.hpp>
+#include <svt/mesh/polygons/edges.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+namespace svt::mesh {
+namespace {
+
+using test::append;
+using test::areaOf;
+using test::boxMesh;
+using test::meshOfRings;
+using test::trianglesOf;
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsOf(const std::vector<OpenEdge>& edges) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (const OpenEdge& edge : edges) pairs.emplace_back(edge.from, edge.to);
+    return pairs;
+}
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+const Vec3d kLow{0, 0, 0}, kHigh{4, 3, 2};
+
+TEST(FindOpenEdges, ClosedBoxHasNone) {
+    EXPECT_TRUE(findOpenEdges(boxMesh(kLow, kHigh).triangles).empty());
+    EXPECT_TRUE(findOpenEdges({}).empty());
+}
+
+TEST(FindOpenEdges, SingleTriangleIsOpenAllRound) {
+    EXPECT_EQ(pairsOf(findOpenEdges(trianglesOf({{2, 0, 1}}))), (Pairs{{0, 1}, {1, 2}, {2, 0}}));
+}
+
+TEST(FindOpenEdges, MissingTriangleLeavesTheEdgesOfItsNeighbours) {
+    auto triangles = boxMesh(kLow, kHigh).triangles;
+    const Triangle gone = triangles[5];
+    triangles.erase(triangles.begin() + 5);
+    Pairs expected;
+    for (std::size_t c = 0; c < 3; ++c) expected.emplace_back(gone.corners[(c + 1) % 3], gone.corners[c]);
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(pairsOf(findOpenEdges(triangles)), expected);
+}
+
+TEST(FindOpenEdges, AnEdgeIsListedAsOftenAsItIsMissing) {
+    // Three triangles that run the edge 0 -> 1 upwards, one that runs it back.
+    EXPECT_EQ(pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}}))).front(),
+              (std::pair{0u, 1u}));
+    const auto open = pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}})));
+    EXPECT_EQ(std::count(open.begin(), open.end(), std::pair{0u, 1u}), 2);
+}
+
+TEST(FindOpenEdges, FacesInsideThatCancelAreClosed) {
+    // A wall inside of the box, used in both directions.
+    auto mesh = boxMesh(kLow, kHigh);
+    for (const auto& t : trianglesOf({{0, 1, 7}, {1, 0, 7}})) mesh.triangles.push_back(t);
+    EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
+}
+
+// A box of 4 x 3 x 2 m whose south face is cut in the middle at x = `at`, so that its bottom and top edges carry a
+// point that the faces above and below do not know.
+ObjectMesh boxWithCutFace(double noise = 0) {
+    auto mesh = boxMesh(kLow, kHigh);
+    std::erase_if(mesh.triangles, [](const Triangle& t) {  // south: corners 0, 1, 5, 4
+        return std::all_of(t.corners.begin(), t.corners.end(),
+                           [](std::uint32_t c) { return c == 0 || c == 1 || c == 4 || c == 5; });
+    });
+    mesh.vertices.push_back({1.7, noise, -noise});
+    mesh.vertices.push_back({1.7, -noise, 2 + noise});
+    const auto south = meshOfRings(mesh.vertices, {{0, 8, 9, 4}, {8, 1, 5, 9}});
+    mesh.triangles.insert(mesh.triangles.end(), south.triangles.begin(), south.triangles.end());
+    return mesh;
+}
+
+TEST(CutAtTJunctions, OnePointOnEachOfTwoEdges) {
+    for (const double noise : {0.0, 1e-6}) {
+        auto mesh = boxWithCutFace(noise);
+        const double area = areaOf(mesh.vertices, mesh.triangles);
+        EXPECT_EQ(findOpenEdges(mesh.triangles).size(), 6u);  // 0-1 and 4-5 against their halves
+        EXPECT_EQ(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 2u);
+        EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
+        EXPECT_EQ(mesh.vertices.size(), 10u);
+        EXPECT_NEAR(areaOf(mesh.vertices, mesh.triangles), area, 1e-5);
+        EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-5);
+    }
+}
+
+TEST(CutAtTJunctions, NoTriangleEndsWithoutArea) {
+    auto mesh = boxWithCutFace();
+    cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4);
+    for (const Triangle& triangle : mesh.triangles) EXPECT_GT(areaOf(mesh.vertices, triangle), 1e-3);
+}
+
+TEST(CutAtTJunctions, PointFurtherThanTheDistanceStaysALeak) {
+    auto mesh = boxWithCutFace(3e-4);
+    EXPECT_EQ(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 0u);
+    EXPECT_EQ(findOpenEdges(mesh.triangles).size(), 6u);
+}
+
+// Two faces of a fold along the edge from `a` to `b`, the sides cut at the given fractions, and what closes the back.
+// The fold is a wedge: left and right face, two end triangles, all else whole.
+ObjectMesh wedgeWithCuts(Vec3d a, Vec3d b, const std::vector<double>& left, const std::vector<double>& right,
+                         double noise) {
+    std::mt19937_64 random(41);
+    std::uniform_real_distribution<double> uniform(-noise, noise);
+    const Vec3d along = normalized(b - a);
+    const Vec3d side = normalized(cross(along, Vec3d{0.3, -0.2, 1})), up = cross(side, along);
+    ObjectMesh mesh;
+    mesh.vertices = {a, b, a + side * 0.8 - up, b + side * 0.8 - up, a - side * 0.9 - up, b - side * 0.9 - up};
+    std::vector<std::uint32_t> leftRing{2, 3, 1}, rightRing{5, 4, 0};
+    const auto cut = [&](double fraction) {
+        mesh.vertices.push_back(a + (b - a) * fraction +
+                                Vec3d{uniform(random), uniform(random), uniform(random)} * 0.5);
+        return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    };
+    for (auto it = left.rbegin(); it != left.rend(); ++it) leftRing.push_back(cut(*it));
+    leftRing.push_back(0);
+    for (const double fraction : right) rightRing.push_back(cut(fraction));
+    rightRing.push_back(1);
+    // Fans from the far corners, so that no triangle is flat.
+    const auto faces = meshOfRings(mesh.vertices, {leftRing, rightRing, {4, 5, 3, 2}, {0, 4, 2}, {1, 3, 5}});
+    mesh.triangles = faces.triangles;
+    return mesh;
+}
+
+TEST(CutAtTJunctions, SeveralPointsOnOneEdgeAndOnBothSides) {
+    const Vec3d ends[][2] = {
+        {{0, 0, 0}, {5, 0, 0}}, {{1, 2, 3}, {1, 2, 9}}, {{0.3, -1, 2}, {4.1, 3.7, 5.9}}, {{5, 1, 0}, {-2, 4, 0.5}}};
+    for (const auto& [a, b] : ends) {
+        for (const double noise : {0.0, 1e-6}) {
+            for (const auto& [left, right] : std::vector<std::pair<std::vector<double>, std::vector<double>>>{
+                     {{0.3}, {}},
+                     {{}, {0.2, 0.5, 0.9}},
+                     {{0.25, 0.75}, {0.5}},
+                     {{0.1, 0.2, 0.3, 0.4}, {0.35, 0.6, 0.8}}}) {
+                auto mesh = wedgeWithCuts(a, b, left, right, noise);
+                const double area = areaOf(mesh.vertices, mesh.triangles),
+                             volume = signedVolume(mesh.vertices, mesh.triangles);
+                ASSERT_FALSE(findOpenEdges(mesh.triangles).empty());
+                const std::size_t vertices = mesh.vertices.size();
+                EXPECT_GT(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 0u);
+                EXPECT_TRUE(findOpenEdges(mesh.triangles).empty())
+                    << left.size() << ' ' << right.size() << ' ' << noise;
+                EXPECT_EQ(mesh.vertices.size(), vertices);
+                EXPECT_NEAR(areaOf(mesh.vertices, mesh.triangles), area, 1e-4);
+                EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), volume, 1e-5);
+                for (const Triangle& triangle : mesh.triangles) EXPECT_GT(areaOf(mesh.vertices, triangle), 1e-3);
+            }
+        }
+    }
+}
+
+TEST(CutAtTJunctions, ClosedMeshIsNotTouched) {
+    auto mesh = boxMesh(kLow, kHigh);
+    const auto before = mesh.triangles;
+    EXPECT_EQ(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 0u);
+    ASSERT_EQ(mesh.triangles.size(), before.size());
+    for (std::size_t t = 0; t < before.size(); ++t) EXPECT_EQ(mesh.triangles[t].corners, before[t].corners);
+}
+
+TEST(RemoveDoubledFaces, FaceWithTheOtherDiagonalGoes) {
+    auto mesh = boxMesh(kLow, kHigh);
+    for (const auto& t : trianglesOf({{5, 7, 6}, {5, 6, 4}})) mesh.triangles.push_back(t);  // the top once more
+    ASSERT_FALSE(findOpenEdges(mesh.triangles).empty());
+    EXPECT_EQ(removeDoubledFaces(mesh.vertices, mesh.triangles), 2u);
+    EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-12);
+}
+
+TEST(RemoveDoubledFaces, HolesAndClosedMeshesAreLeftAlone) {
+    auto closed = boxMesh(kLow, kHigh).triangles;
+    EXPECT_EQ(removeDoubledFaces(boxMesh(kLow, kHigh).vertices, closed), 0u);
+    EXPECT_EQ(closed.size(), 12u);
+    auto open = boxMesh(kLow, kHigh).triangles;
+    open.resize(10);
+    EXPECT_EQ(removeDoubledFaces(boxMesh(kLow, kHigh).vertices, open), 0u);
+    EXPECT_EQ(open.size(), 10u);
+}
+
+TEST(OrientConsistently, TurnedFacesAreTurnedBack) {
+    for (const std::vector<std::size_t>& turned : {std::vector<std::size_t>{0}, {3, 4}, {1, 5, 8, 11}}) {
+        auto mesh = boxMesh(kLow, kHigh);
+        for (const std::size_t t : turned) std::swap(mesh.triangles[t].corners[1], mesh.triangles[t].corners[2]);
+        EXPECT_EQ(orientConsistently(mesh.triangles), turned.size());
+        EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
+        EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-12);
+    }
+}
+
+TEST(OrientConsistently, ComponentThatAgreesStays) {
+    auto mesh = boxMesh(kLow, kHigh);
+    test::turnOver(mesh.triangles);  // inwards, but of one mind
+    append(mesh, boxMesh({10, 0, 0}, {11, 1, 1}));
+    std::swap(mesh.triangles[12].corners[1], mesh.triangles[12].corners[2]);
+    EXPECT_EQ(orientConsistently(mesh.triangles), 1u);
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), -24 + 1, 1e-12);
+}
+
+TEST(OrientConsistently, MoebiusStripStays) {
+    // A strip of five quads whose end is joined turned.
+    std::vector<std::array<std::uint32_t, 3>> corners;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        corners.push_back({2 * i, 2 * i + 2, 2 * i + 1});
+        corners.push_back({2 * i + 1, 2 * i + 2, 2 * i + 3});
+    }
+    corners.push_back({8, 1, 9});
+    corners.push_back({9, 1, 0});
+    auto triangles = trianglesOf(corners);
+    EXPECT_EQ(orientConsistently(triangles), 0u);
+    for (std::size_t t = 0; t < corners.size(); ++t) EXPECT_EQ(triangles[t].corners, corners[t]);
+}
+
+TEST(OrientOutwards, InwardBoxIsTurned) {
+    auto mesh = boxMesh(kLow, kHigh);
+    EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 0u);
+    test::turnOver(mesh.triangles);
+    EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 12u);
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-12);
+}
+
+TEST(OrientOutwards, VoidsKeepFacingInwards) {
+    auto hole = boxMesh({1, 1, 0.5}, {2, 2, 1.5});
+    test::turnOver(hole.triangles);
+    auto outerFirst = boxMesh(kLow, kHigh);
+    append(outerFirst, hole);
+    auto voidFirst = hole;
+    append(voidFirst, boxMesh(kLow, kHigh));
+    for (auto& mesh : {&outerFirst, &voidFirst}) {
+        EXPECT_EQ(orientOutwards(mesh->vertices, mesh->triangles), 0u);
+        EXPECT_NEAR(signedVolume(mesh->vertices, mesh->triangles), 23, 1e-12);
+    }
+}
+
+TEST(OrientOutwards, InwardBoxBesideAnotherIsNoVoid) {
+    // Its box lies in the bounding box of an L, but not in the L.
+    ObjectMesh mesh;
+    std::vector<Vec3d> plan{{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}};
+    for (const double z : {0.0, 3.0})
+        for (const Vec3d& p : plan) mesh.vertices.push_back({p.x, p.y, z});
+    std::vector<std::vector<std::uint32_t>> rings{{6, 7, 8, 9}, {6, 9, 10, 11}, {3, 2, 1, 0}, {5, 4, 3, 0}};
+    for (std::uint32_t i = 0; i < 6; ++i) rings.push_back({i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i});
+    mesh = meshOfRings(mesh.vertices, rings);
+    ASSERT_TRUE(findOpenEdges(mesh.triangles).empty());
+    auto inward = boxMesh({2, 2, 1}, {3, 3, 2});
+    test::turnOver(inward.triangles);
+    append(mesh, inward);
+    EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 12u);
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 7 * 3 + 1, 1e-12);
+}
+
+TEST(FindComponents, NumbersGoByTheFirstTriangle) {
+    auto mesh = boxMesh(kLow, kHigh);
+    append(mesh, boxMesh({10, 0, 0}, {11, 1, 1}));
+    std::swap(mesh.triangles[1], mesh.triangles[13]);
+    const auto component = findComponents(mesh.triangles);
+    ASSERT_EQ(component.size(), 24u);
+    for (std::size_t t = 0; t < 24; ++t) EXPECT_EQ(component[t], t == 1 || (t >= 12 && t != 13) ? 1u : 0u) << t;
+}
+
+TEST(FindComponents, ATouchingCornerJoinsNothing) {
+    const auto component = findComponents(trianglesOf({{0, 1, 2}, {2, 3, 4}, {3, 2, 5}}));
+    EXPECT_EQ(component, (std::vector<std::uint32_t>{0, 1, 1}));
+}
+
+TEST(FindBoundaryLoops, LoopBoundsTheMissingFace) {
+    auto mesh = boxMesh(kLow, kHigh);
+    std::erase_if(mesh.triangles, [](const Triangle& t) {  // the top: corners 4 to 7
+        return std::all_of(t.corners.begin(), t.corners.end(), [](std::uint32_t c) { return c >= 4; });
+    });
+    const auto loops = findBoundaryLoops(findOpenEdges(mesh.triangles));
+    ASSERT_EQ(loops.size(), 1u);
+    EXPECT_EQ(loops[0], (std::vector<std::uint32_t>{4, 5, 7, 6}));  // counter-clockwise from above
+}
+
+TEST(FindBoundaryLoops, LoopsThatTouchInACornerAreTold) {
+    // Two triangles of missing face that meet in corner 0: edges of the neighbours run against them.
+    const auto loops = findBoundaryLoops({{0, 2}, {0, 4}, {1, 0}, {2, 1}, {3, 0}, {4, 3}});
+    ASSERT_EQ(loops.size(), 2u);
+    for (const auto& loop : loops) EXPECT_EQ(loop.size(), 3u);
+}
+
+TEST(FindBoundaryLoops, ChainsThatDoNotCloseAreLeftOut) {
+    EXPECT_TRUE(findBoundaryLoops({{0, 1}, {1, 2}, {2, 3}}).empty());
+    const auto loops = findBoundaryLoops({{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 4}});
+    ASSERT_EQ(loops.size(), 1u);
+    EXPECT_EQ(loops[0].size(), 3u);
+}
+
+TEST(SignedVolume, IsExactFarFromTheOrigin) {
+    const Vec3d world{458877, 5438353, 111};
+    const auto mesh = boxMesh(kLow + world, kHigh + world);
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-9);
+    EXPECT_EQ(signedVolume({}, {}), 0);
+}
+
+}  // namespace
+}  // namespace svt::mesh

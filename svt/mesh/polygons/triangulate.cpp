@@ -1,0 +1,147 @@
+#include <svt/mesh/polygons/triangulate.hpp>
+
+#include <GL/glu.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <memory>
+
+namespace svt::mesh {
+namespace {
+
+struct Tessellation {
+    Triangulation* result = nullptr;
+    std::size_t inputCount = 0;
+    std::vector<std::uint32_t> corners;
+    std::deque<std::array<double, 3>> extraCoordinates;  // GLU keeps pointers into it
+};
+
+void onBegin(GLenum, void*) {}
+void onEnd(void*) {}
+// Present only so that GLU sends single triangles instead of strips and fans.
+void onEdgeFlag(GLboolean, void*) {}
+
+std::uint32_t indexFromData(const void* data) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(data) - 1);
+}
+void* dataFromIndex(std::size_t index) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index) + 1); }
+
+void onVertex(void* data, void* user) { static_cast<Tessellation*>(user)->corners.push_back(indexFromData(data)); }
+
+void onError(GLenum, void* user) { static_cast<Tessellation*>(user)->result->hasFailed = true; }
+
+void onCombine(const GLdouble coordinates[3], void* data[4], GLfloat weights[4], void** out, void* user) {
+    auto* tessellation = static_cast<Tessellation*>(user);
+    tessellation->result->isSelfTouching = true;
+    // Two points that coincide: one of them stands for both, so that neighbours still match.
+    if (data[2] == nullptr) {
+        *out = weights[0] >= weights[1] ? data[0] : data[1];
+        return;
+    }
+    auto& extra = tessellation->result->extraPoints;
+    extra.push_back({coordinates[0], coordinates[1], coordinates[2]});
+    *out = dataFromIndex(tessellation->inputCount + extra.size() - 1);
+}
+
+using Callback = void (*)();
+template <class F>
+Callback asCallback(F* function) {
+    return reinterpret_cast<Callback>(function);
+}
+
+// Quads whose two triangles along 0-2 both follow the polygon's normal.
+bool isConvexQuad(std::span<const Vec3d> q, Vec3d normal) {
+    const auto area = [&](int a, int b, int c) { return dot(cross(q[b] - q[a], q[c] - q[a]), normal); };
+    const double smallest = 1e-9 * dot(normal, normal);
+    return area(0, 1, 2) > smallest && area(0, 2, 3) > smallest && area(0, 1, 3) > smallest && area(1, 2, 3) > smallest;
+}
+
+double deviationFromPlane(std::span<const Vec3d> points, Vec3d unitNormal) {
+    Vec3d center{};
+    for (const Vec3d& point : points) center = center + point;
+    center = center / static_cast<double>(points.size());
+    double deviation = 0;
+    for (const Vec3d& point : points) deviation = std::max(deviation, std::abs(dot(point - center, unitNormal)));
+    return deviation;
+}
+
+void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal,
+                Triangulation& result) {
+    const std::unique_ptr<GLUtesselator, void (*)(GLUtesselator*)> tess(gluNewTess(), gluDeleteTess);
+    Tessellation state;
+    state.result = &result;
+    state.inputCount = points.size();
+    gluTessCallback(tess.get(), GLU_TESS_BEGIN_DATA, asCallback(onBegin));
+    gluTessCallback(tess.get(), GLU_TESS_END_DATA, asCallback(onEnd));
+    gluTessCallback(tess.get(), GLU_TESS_EDGE_FLAG_DATA, asCallback(onEdgeFlag));
+    gluTessCallback(tess.get(), GLU_TESS_VERTEX_DATA, asCallback(onVertex));
+    gluTessCallback(tess.get(), GLU_TESS_ERROR_DATA, asCallback(onError));
+    gluTessCallback(tess.get(), GLU_TESS_COMBINE_DATA, asCallback(onCombine));
+    gluTessProperty(tess.get(), GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_ODD);
+    gluTessNormal(tess.get(), normal.x, normal.y, normal.z);
+    gluTessBeginPolygon(tess.get(), &state);
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : ringEnds) {
+        if (end - begin >= 3) {
+            gluTessBeginContour(tess.get());
+            for (std::uint32_t i = begin; i < end; ++i) {
+                // The location is read only: GLU copies it.
+                GLdouble location[3] = {points[i].x, points[i].y, points[i].z};
+                gluTessVertex(tess.get(), location, dataFromIndex(i));
+            }
+            gluTessEndContour(tess.get());
+        }
+        begin = end;
+    }
+    gluTessEndPolygon(tess.get());
+    for (std::size_t i = 0; i + 2 < state.corners.size(); i += 3) {
+        const std::array<std::uint32_t, 3> triangle{state.corners[i], state.corners[i + 1], state.corners[i + 2]};
+        if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[0] == triangle[2]) continue;
+        result.triangles.push_back(triangle);
+    }
+}
+
+}  // namespace
+
+Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
+    Vec3d normal{};
+    if (ring.empty()) return normal;
+    // Relative to the first point: world coordinates are large, their differences are not.
+    const Vec3d base = ring[0];
+    for (std::size_t i = 0; i < ring.size(); ++i)
+        normal = normal + cross(ring[i] - base, ring[(i + 1) % ring.size()] - base);
+    return normal;
+}
+
+Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds) {
+    Triangulation result;
+    if (ringEnds.empty() || ringEnds[0] < 3) {
+        result.isZeroArea = true;
+        return result;
+    }
+    const auto exterior = points.first(ringEnds[0]);
+    const Vec3d normal = newellNormal(exterior);
+    double perimeter = 0;
+    for (std::size_t i = 0; i < exterior.size(); ++i)
+        perimeter += length(exterior[(i + 1) % exterior.size()] - exterior[i]);
+    result.isZeroArea = !(length(normal) > 1e-12 * perimeter * perimeter);
+    if (points.size() == 3) {
+        // Kept even without area: tessellated models are full of such slivers, and their edges belong to the shell.
+        result.triangles.push_back({0, 1, 2});
+        return result;
+    }
+    if (result.isZeroArea) return result;
+    const Vec3d unit = normalized(normal);
+    result.planeDeviation = deviationFromPlane(points, unit);
+    if (ringEnds.size() == 1 && points.size() == 4 && isConvexQuad(exterior, normal)) {
+        result.triangles = {{0, 1, 2}, {0, 2, 3}};
+        return result;
+    }
+    tessellate(points, ringEnds, unit, result);
+    if (result.hasFailed) result.triangles.clear();
+    if (result.triangles.empty() && !result.hasFailed) result.isZeroArea = true;
+    return result;
+}
+
+}  // namespace svt::mesh

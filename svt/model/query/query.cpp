@@ -1,0 +1,239 @@
+#include <svt/model/query.hpp>
+
+#include <svt/model/classes.hpp>
+#include <svt/model/query/query_node.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+
+namespace svt::model {
+
+using query::Node;
+
+namespace {
+
+using Kind = Node::Kind;
+using Key = Node::Key;
+using Op = Node::Op;
+using Rows = std::span<const QueryRow>;
+using Mask = std::vector<char>;  ///< per row: 1 where it matches
+
+constexpr std::size_t kMaxSearchedBytes = 4096;
+
+char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+template <class T>
+bool parses(std::string_view text, T& value) noexcept {
+    // from_chars also takes "inf" and "nan", which are names rather than numbers here.
+    const bool looksNumeric = !text.empty() && (text[0] == '-' || text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+    return looksNumeric && parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+}
+
+template <class T>
+bool holds(Op op, const T& left, const T& right) {
+    switch (op) {
+        case Op::Equal: return left == right;
+        case Op::NotEqual: return left != right;
+        case Op::Less: return left < right;
+        case Op::LessEqual: return left <= right;
+        case Op::Greater: return left > right;
+        case Op::GreaterEqual: return left >= right;
+        default: return false;
+    }
+}
+
+bool isFound(const Node& node, std::string_view text) {
+    return node.pattern->isFoundIn(text.substr(0, kMaxSearchedBytes)) == (node.op == Op::Found);
+}
+
+bool textHolds(const Node& node, std::string_view text) {
+    return node.pattern ? isFound(node, text) : holds(node.op, text, std::string_view(node.value));
+}
+
+bool numberHolds(const Node& node, double number) {
+    double value = 0;
+    return parses(node.value, value) && holds(node.op, number, value);
+}
+
+bool attributeHolds(const Node& node, const AttributeValue& attribute) {
+    const auto* known = std::get_if<std::string>(&attribute);
+    const std::string made = known == nullptr ? toText(attribute) : std::string();
+    const std::string_view text = known == nullptr ? made : *known;
+    if (node.pattern) return isFound(node, text);
+    // Integers first: doubles lose digits of long numbers.
+    std::int64_t leftInteger = 0, rightInteger = 0;
+    if (parses(text, leftInteger) && parses(node.value, rightInteger)) return holds(node.op, leftInteger, rightInteger);
+    double left = 0, right = 0;
+    if (parses(text, left) && parses(node.value, right)) return holds(node.op, left, right);
+    if (std::holds_alternative<bool>(attribute) && query::isSameWord(text, node.value)) return holds(node.op, 0, 0);
+    return holds(node.op, text, std::string_view(node.value));
+}
+
+bool anyAttributeHolds(const Node& node, const QueryRow& row) {
+    return std::any_of(row.attributes.begin(), row.attributes.end(), [&](const Attribute& attribute) {
+        return query::isSameWord(attribute.name, node.name) && attributeHolds(node, attribute.value);
+    });
+}
+
+bool classHolds(const Node& node, const QueryRow& row) {
+    const std::string name = canonicalClassName(row.className);
+    if (node.pattern) return isFound(node, name);
+    return query::isSameWord(name, node.value) == (node.op == Op::Equal);
+}
+
+/// Rows below each row: by the tree, and as members of groups.
+struct Below {
+    std::vector<std::uint32_t> begins, rows;  ///< below row i: rows[begins[i]] .. rows[begins[i + 1]]
+
+    explicit Below(Rows all) : begins(all.size() + 1, 0) {
+        const auto forEachAbove = [&](std::size_t i, const auto& visit) {
+            if (all[i].parent < all.size()) visit(all[i].parent);
+            for (const std::uint32_t group : all[i].groups)
+                if (group < all.size()) visit(group);
+        };
+        for (std::size_t i = 0; i < all.size(); ++i) forEachAbove(i, [&](std::uint32_t above) { ++begins[above + 1]; });
+        for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+        rows.resize(begins.back());
+        std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            forEachAbove(i, [&](std::uint32_t above) { rows[next[above]++] = static_cast<std::uint32_t>(i); });
+    }
+
+    /// All rows that can be reached downwards from the rows where `isStart`; these themselves only if reached.
+    [[nodiscard]] Mask reachedFrom(const Mask& isStart) const {
+        Mask isReached(isStart.size(), 0);
+        std::vector<std::uint32_t> stack;
+        for (std::size_t i = 0; i < isStart.size(); ++i)
+            if (isStart[i]) stack.push_back(static_cast<std::uint32_t>(i));
+        while (!stack.empty()) {
+            const std::uint32_t above = stack.back();
+            stack.pop_back();
+            for (std::uint32_t k = begins[above]; k < begins[above + 1]; ++k) {
+                if (isReached[rows[k]]) continue;
+                isReached[rows[k]] = 1;
+                if (!isStart[rows[k]]) stack.push_back(rows[k]);
+            }
+        }
+        return isReached;
+    }
+};
+
+template <class Condition>
+Mask rowsWhere(Rows rows, const Condition& condition) {
+    Mask mask(rows.size(), 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) mask[i] = condition(rows[i]) ? 1 : 0;
+    return mask;
+}
+
+Mask selectUnder(const Node& node, Rows rows) {
+    const Mask starts = rowsWhere(rows, [&](const QueryRow& row) {
+        return row.id == node.value || (!row.name.empty() && row.name == node.value);
+    });
+    Mask mask = Below(rows).reachedFrom(starts);
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= starts[i];
+    return mask;
+}
+
+/// For != and !~ too: a row of two storeys matches where one of them is another one.
+Mask selectStorey(const Node& node, Rows rows) {
+    const Mask starts = rowsWhere(rows, [&](const QueryRow& row) {
+        if (!query::isStorey(row)) return false;
+        const bool hasName = !row.name.empty();
+        const bool isWanted = node.op == Op::Equal || node.op == Op::Found;
+        const auto matches = [&](std::string_view text) {
+            return node.pattern ? node.pattern->isFoundIn(text.substr(0, kMaxSearchedBytes)) : text == node.value;
+        };
+        return (matches(row.id) || (hasName && matches(row.name))) == isWanted;
+    });
+    return Below(rows).reachedFrom(starts);
+}
+
+Mask selectCompare(const Node& node, Rows rows) {
+    switch (node.key) {
+        case Key::Class: return rowsWhere(rows, [&](const QueryRow& row) { return classHolds(node, row); });
+        case Key::Id: return rowsWhere(rows, [&](const QueryRow& row) { return textHolds(node, row.id); });
+        case Key::Name:
+            return rowsWhere(rows, [&](const QueryRow& row) { return !row.name.empty() && textHolds(node, row.name); });
+        case Key::Storey: return selectStorey(node, rows);
+        case Key::Volume: return rowsWhere(rows, [&](const QueryRow& row) { return numberHolds(node, row.volume); });
+        case Key::Voxels:
+            return rowsWhere(rows,
+                             [&](const QueryRow& row) { return numberHolds(node, static_cast<double>(row.voxels)); });
+        case Key::Attribute: return rowsWhere(rows, [&](const QueryRow& row) { return anyAttributeHolds(node, row); });
+    }
+    return Mask(rows.size(), 0);
+}
+
+/// The depth of nodes is limited by the parser.
+Mask evaluate(const Node& node, Rows rows) {
+    switch (node.kind) {
+        case Kind::All: return Mask(rows.size(), 1);
+        case Kind::None: return Mask(rows.size(), 0);
+        case Kind::Under: return selectUnder(node, rows);
+        case Kind::Compare: return selectCompare(node, rows);
+        case Kind::Not: {
+            Mask mask = evaluate(node.children.front(), rows);
+            for (char& matches : mask) matches ^= 1;
+            return mask;
+        }
+        case Kind::And:
+        case Kind::Or: {
+            Mask mask = evaluate(node.children.front(), rows);
+            for (std::size_t k = 1; k < node.children.size(); ++k) {
+                const Mask other = evaluate(node.children[k], rows);
+                for (std::size_t i = 0; i < mask.size(); ++i)
+                    mask[i] = node.kind == Kind::And ? mask[i] & other[i] : mask[i] | other[i];
+            }
+            return mask;
+        }
+    }
+    return Mask(rows.size(), 0);
+}
+
+}  // namespace
+
+namespace query {
+
+bool isSameWord(std::string_view a, std::string_view b) noexcept {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
+bool containsWord(std::string_view text, std::string_view word) noexcept {
+    return std::search(text.begin(), text.end(), word.begin(), word.end(),
+                       [](char x, char y) { return lower(x) == lower(y); }) != text.end();
+}
+
+bool isStorey(const QueryRow& row) {
+    const std::string className = canonicalClassName(row.className);
+    if (className == "Storey") return true;
+    if (className != "CityObjectGroup") return false;
+    return std::any_of(row.attributes.begin(), row.attributes.end(), [](const Attribute& attribute) {
+        const bool says = isSameWord(attribute.name, "function") || isSameWord(attribute.name, "class") ||
+                          isSameWord(attribute.name, "usage");
+        const auto* text = std::get_if<std::string>(&attribute.value);
+        return says && text != nullptr &&
+               (containsWord(*text, "storey") || containsWord(*text, "geschoss") ||
+                containsWord(*text, "gescho\u00df"));
+    });
+}
+
+}  // namespace query
+
+Result<Query> Query::parse(std::string_view text) {
+    auto root = query::parse(text);
+    if (!root) return root.error();
+    return Query(std::string(text), std::make_shared<const Node>(std::move(*root)));
+}
+
+std::vector<std::uint32_t> Query::select(std::span<const QueryRow> rows) const {
+    const Mask mask = evaluate(*root_, rows);
+    std::vector<std::uint32_t> selected;
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        if (mask[i]) selected.push_back(static_cast<std::uint32_t>(i));
+    return selected;
+}
+
+}  // namespace svt::model

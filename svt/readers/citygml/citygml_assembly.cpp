@@ -1,0 +1,362 @@
+#include <svt/readers/citygml/citygml_assembly.hpp>
+
+#include <svt/model/classes.hpp>
+#include <svt/readers/citygml/citygml_materials.hpp>
+#include <svt/readers/citygml/citygml_references.hpp>
+#include <svt/readers/citygml/citygml_resolver.hpp>
+#include <svt/readers/gml/gml_crs.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace svt::readers::citygml {
+namespace {
+
+using model::BuildingModel;
+using model::Feature;
+using model::FeatureIndex;
+using std::string_view;
+
+// References that are not needed to make the model as large as the file allows for: see GeometryResolver.
+constexpr std::uint64_t kBudgetBase = 16'000'000;
+constexpr std::uint64_t kBudgetPerByte = 10;
+
+// Six times the signed volume of the cone from `apex` over a polygon; the sum over a closed shell is six times its
+// volume. Rings of holes run the other way and so subtract.
+double coneVolume(const model::Polygon& polygon, Vec3d apex) {
+    double volume = 0;
+    std::size_t begin = 0;
+    for (const std::uint32_t end : polygon.ringEnds) {
+        for (std::size_t i = begin + 1; i + 1 < end; ++i)
+            volume += dot(polygon.points[begin] - apex, cross(polygon.points[i] - apex, polygon.points[i + 1] - apex));
+        begin = end;
+    }
+    return volume;
+}
+
+// Whether faces look outward as given (+1) or with x and y exchanged (-1): by the volumes of solids and by roofs,
+// which look up, and grounds, which look down. 0 where less than nine tenths agree, or there is nothing to tell by.
+int handedness(const BuildingModel& model) {
+    double sum = 0;
+    double total = 0;
+    for (const Feature& feature : model.features) {
+        const double up = feature.className == "RoofSurface" ? 1 : feature.className == "GroundSurface" ? -1 : 0;
+        for (const model::Geometry& geometry : feature.geometries) {
+            for (const model::Solid& solid : geometry.solids) {
+                const Vec3d apex = model.polygons[solid.exterior.front().polygon].points.front();
+                double volume = 0;
+                for (const model::SurfaceUse use : solid.exterior)
+                    volume += (use.isReversed ? -1 : 1) * coneVolume(model.polygons[use.polygon], apex);
+                sum += volume;
+                total += std::abs(volume);
+            }
+            if (up == 0) continue;
+            for (const model::SurfaceUse use : geometry.surfaces) {
+                const model::Polygon& polygon = model.polygons[use.polygon];
+                // A cone of height 1 from below: its volume has the sign of the normal's z.
+                const double area =
+                    coneVolume(polygon, polygon.points.front() - Vec3d{0, 0, 1}) * (use.isReversed ? -up : up);
+                sum += area;
+                total += std::abs(area);
+            }
+        }
+    }
+    return std::abs(sum) < 0.9 * total || total == 0 ? 0 : sum > 0 ? 1 : -1;
+}
+
+class Assembly {
+public:
+    Assembly(Part&& part, const DocumentFacts& facts, Diagnostics& diagnostics)
+        : part_(std::move(part)), facts_(facts), diagnostics_(diagnostics) {}
+
+    Result<BuildingModel> run() {
+        makeIdsUnique();
+        makeMissingIds();
+        const References references(part_, facts_.fileName);
+        for (const NodeIndex node : references.duplicates())
+            report(Severity::Warning, Code::DuplicateId, "this id was used before; references mean its first use",
+                   part_.nodes[node].offset, idOfNode(part_, node));
+        followLinks(references);
+        const GeometriesByFeature geometries(part_);
+        GeometryResolver resolver(part_, references, geometries, kBudgetBase + kBudgetPerByte * facts_.bytes,
+                                  [this](Severity severity, Code code, std::string message, std::uint64_t offset,
+                                         string_view id) { report(severity, code, std::move(message), offset, id); });
+        applyMaterials(part_, references, resolver, geometries, materials_);
+        std::vector<std::vector<model::Geometry>> resolved = resolveAll(resolver, geometries);
+        if (resolver.isOverBudget())
+            return Error(
+                Code::InputTooBig,
+                fmt::format("references multiply the geometry beyond the limit of {} steps for a file of {} bytes",
+                            kBudgetBase + kBudgetPerByte * facts_.bytes, facts_.bytes),
+                {facts_.fileName, 0, 0, {}});
+        for (std::size_t i = 0; i < resolved.size(); ++i) part_.features[i].geometries = std::move(resolved[i]);
+        std::move(resolver.placedPolygons().begin(), resolver.placedPolygons().end(),
+                  std::back_inserter(part_.polygons));
+        dropUnusedPolygons();
+        noteUnknown();
+        noteEmpty();
+        return finish();
+    }
+
+private:
+    void report(Severity severity, Code code, std::string message, std::uint64_t offset, string_view id) {
+        // Beyond what is kept, counting is enough; finding a line means reading the file again.
+        const bool isKept = diagnostics_.count(code) < Diagnostics::kKeptPerCode;
+        diagnostics_.add(severity, code, std::move(message),
+                         isKept ? Place{facts_.fileName, facts_.lineOf(offset), 0, std::string(id)} : Place{});
+    }
+
+    // The first feature keeps its id; later ones get "_2", "_3".
+    void makeIdsUnique() {
+        std::unordered_set<string_view> used;
+        std::vector<FeatureIndex> duplicates;
+        used.reserve(part_.features.size());
+        for (FeatureIndex i = 0; i < part_.features.size(); ++i) {
+            const std::string& id = part_.features[i].id;
+            if (!id.empty() && !used.insert(id).second) duplicates.push_back(i);
+        }
+        std::unordered_map<std::string, std::uint32_t> counters;
+        std::unordered_set<std::string> made;
+        for (const FeatureIndex i : duplicates) {
+            std::string& id = part_.features[i].id;
+            std::uint32_t& counter = counters.try_emplace(id, 1).first->second;
+            std::string unique;
+            do unique = fmt::format("{}_{}", id, ++counter);
+            while (used.count(unique) != 0 || made.count(unique) != 0);
+            report(Severity::Warning, Code::DuplicateId,
+                   fmt::format("this id was used before; this {} is now '{}'", part_.features[i].className, unique),
+                   part_.featureOffsets[i], id);
+            made.insert(unique);
+            id = std::move(unique);
+        }
+    }
+
+    // "parent/WallSurface[2]": the second WallSurface of its parent, counted among all of that class.
+    void makeMissingIds() {
+        std::unordered_set<std::string> used;
+        std::size_t missing = 0;
+        for (const Feature& feature : part_.features) missing += feature.id.empty() ? 1 : 0;
+        if (missing == 0) return;
+        for (const Feature& feature : part_.features)
+            if (feature.id.find('[') != std::string::npos) used.insert(feature.id);
+
+        struct Made {
+            std::size_t count = 0;
+            FeatureIndex first = 0;
+        };
+        std::map<string_view, Made> perClass;
+        const auto nameChildren = [&](string_view parentId, const std::vector<FeatureIndex>& children) {
+            std::map<string_view, std::uint32_t> ordinals;
+            for (const FeatureIndex child : children) {
+                Feature& feature = part_.features[child];
+                const std::uint32_t ordinal = ++ordinals[feature.className];
+                if (!feature.id.empty()) continue;
+                std::string id =
+                    fmt::format("{}{}{}[{}]", parentId, parentId.empty() ? "" : "/", feature.className, ordinal);
+                while (!used.insert(id).second) id += '_';
+                feature.id = std::move(id);
+                Made& made = perClass[feature.className];
+                if (made.count++ == 0) made.first = child;
+            }
+        };
+        nameChildren({}, part_.roots);
+        // A parent stands before its children, so it has its id by then.
+        for (const Feature& feature : part_.features) nameChildren(feature.id, feature.children);
+        for (const auto& [className, made] : perClass)
+            report(Severity::Note, Code::MissingId,
+                   fmt::format("{} features of class {} have no gml:id; ids were made from their place in the file, "
+                               "this is the first",
+                               made.count, className),
+                   part_.featureOffsets[made.first], part_.features[made.first].id);
+    }
+
+    // Properties that point elsewhere: memberships, or geometry where the target is one.
+    void followLinks(const References& references) {
+        for (Link& link : part_.links) {
+            const std::string& href = part_.hrefs[link.href];
+            const Target target = references.feature(href);
+            const Feature& owner = part_.features[link.feature];
+            const auto shown = string_view(href).substr(0, 200);
+            if (target.kind == Target::Kind::Feature) {
+                if (target.index == link.feature) {
+                    report(Severity::Warning, Code::ReferenceCycle,
+                           fmt::format("{} '{}' refers to itself", owner.className, shown), link.offset, owner.id);
+                    continue;
+                }
+                const bool isGroupMember = link.property == "groupMember";
+                std::string role = link.role.empty() && !isGroupMember ? link.property : std::move(link.role);
+                memberships_.push_back({link.feature, target.index, std::move(role)});
+            } else if (target.kind == Target::Kind::Node) {
+                part_.geometries.push_back({link.feature, target.index, -1});
+            } else if (target.kind == Target::Kind::Elsewhere) {
+                report(Severity::Warning, Code::ExternalReference,
+                       fmt::format("{} '{}' stands in another file, which is not read", link.property, shown),
+                       link.offset, owner.id);
+            } else {
+                report(Severity::Warning, Code::DanglingReference,
+                       fmt::format("{}: nothing in this file has the id '{}'", link.property, idOfHref(shown)),
+                       link.offset, owner.id);
+            }
+        }
+    }
+
+    std::vector<std::vector<model::Geometry>> resolveAll(GeometryResolver& resolver,
+                                                         const GeometriesByFeature& geometries) {
+        std::vector<std::vector<model::Geometry>> all(part_.features.size());
+        for (FeatureIndex i = 0; i < part_.features.size() && !resolver.isOverBudget(); ++i)
+            for (const FeatureGeometry* geometry = geometries.begin(i); geometry != geometries.end(i); ++geometry)
+                addGeometries(all[i], resolver, i, *geometry);
+        return all;
+    }
+
+    void addGeometries(std::vector<model::Geometry>& geometries, GeometryResolver& resolver, FeatureIndex feature,
+                       const FeatureGeometry& geometry) {
+        const double lod = geometry.lod >= 0 ? geometry.lod : statedLod(feature);
+        Resolved resolved = resolver.resolve(geometry.node, lod, part_.features[feature].id);
+        const std::string id(idOfNode(part_, geometry.node));
+        if (!resolved.solids.empty()) {
+            model::Geometry solids;
+            solids.kind = model::GeometryKind::Solid;
+            solids.lod = lod;
+            solids.id = id;
+            solids.solids = std::move(resolved.solids);
+            geometries.push_back(std::move(solids));
+        }
+        if (!resolved.surfaces.empty()) {
+            model::Geometry surfaces;
+            surfaces.kind = model::GeometryKind::Surface;
+            surfaces.lod = lod;
+            surfaces.id = id;
+            surfaces.surfaces = std::move(resolved.surfaces);
+            geometries.push_back(std::move(surfaces));
+        }
+    }
+
+    // Reliefs state their level in a property of their own.
+    double statedLod(FeatureIndex feature) const {
+        for (int up = 0; up < 2 && feature != model::kNoFeature; ++up) {
+            for (const Attribute& attribute : part_.features[feature].attributes)
+                if (attribute.name == "lod")
+                    if (const auto* lod = std::get_if<std::int64_t>(&attribute.value); lod && *lod >= 0 && *lod <= 4)
+                        return static_cast<double>(*lod);
+            feature = part_.features[feature].parent;
+        }
+        return -1;
+    }
+
+    // Prototypes and the remains of what was left out.
+    void dropUnusedPolygons() {
+        std::vector<std::uint32_t> newIndex(part_.polygons.size(), kNone);
+        const auto forEachUse = [this](auto&& visit) {
+            for (Feature& feature : part_.features)
+                for (model::Geometry& geometry : feature.geometries) {
+                    for (model::SurfaceUse& use : geometry.surfaces) visit(use);
+                    for (model::Solid& solid : geometry.solids) {
+                        for (model::SurfaceUse& use : solid.exterior) visit(use);
+                        for (auto& interior : solid.interiors)
+                            for (model::SurfaceUse& use : interior) visit(use);
+                    }
+                }
+        };
+        forEachUse([&](const model::SurfaceUse& use) { newIndex[use.polygon] = 0; });
+        std::uint32_t kept = 0;
+        for (std::uint32_t& index : newIndex)
+            if (index != kNone) index = kept++;
+        if (kept == newIndex.size()) return;
+        for (std::size_t i = 0; i < newIndex.size(); ++i)
+            if (newIndex[i] != kNone && newIndex[i] != i) part_.polygons[newIndex[i]] = std::move(part_.polygons[i]);
+        part_.polygons.resize(kept);
+        forEachUse([&](model::SurfaceUse& use) { use.polygon = newIndex[use.polygon]; });
+    }
+
+    void noteUnknown() {
+        for (std::size_t i = 0; i < part_.unknownNames.size(); ++i)
+            report(Severity::Note, Code::UnknownElement,
+                   fmt::format("<{}> is not known here and was skipped, wherever it stands", part_.unknownNames[i]),
+                   part_.unknownOffsets[i], {});
+    }
+
+    void noteEmpty() {
+        std::vector<bool> isGroup(part_.features.size(), false);
+        for (const auto& membership : memberships_) isGroup[membership.group] = true;
+        bool hasGeometry = false;
+        for (FeatureIndex i = 0; i < part_.features.size(); ++i) {
+            const Feature& feature = part_.features[i];
+            hasGeometry = hasGeometry || !feature.geometries.empty();
+            const bool isEmpty = feature.geometries.empty() && feature.children.empty() && !isGroup[i];
+            if (isEmpty)
+                report(Severity::Note, Code::NoGeometry,
+                       fmt::format("this {} has no geometry that bounds anything, and no parts", feature.className),
+                       part_.featureOffsets[i], feature.id);
+        }
+        if (!hasGeometry)
+            diagnostics_.add(Severity::Warning, Code::EmptyModel, "no feature of this file has geometry",
+                             {facts_.fileName, 0, 0, {}});
+    }
+
+    Result<BuildingModel> finish() {
+        BuildingModel model;
+        model.source = facts_.fileName;
+        model.format = facts_.format;
+        model.name = std::move(part_.modelName);
+        model.features = std::move(part_.features);
+        model.roots = std::move(part_.roots);
+        model.polygons = std::move(part_.polygons);
+        model.materials = std::move(materials_);
+        model.memberships = std::move(part_.memberships);
+        model.memberships.insert(model.memberships.end(), memberships_.begin(), memberships_.end());
+        if (Result<void> decided = decideCrs(model); !decided) return decided.error();
+        return model;
+    }
+
+    Result<void> decideCrs(BuildingModel& model) {
+        Box3d box;
+        for (const model::Polygon& polygon : model.polygons)
+            for (const Vec3d& point : polygon.points) box.add(point);
+        if (!part_.crsNames.empty()) model.crs.name = part_.crsNames.front().name;
+        model.crs.epsg = gml::epsgCode(model.crs.name);
+        for (const CrsName& other : part_.crsNames)
+            if (!gml::isSameCrs(model.crs.name, other.name))
+                report(Severity::Warning, Code::MixedCrs,
+                       fmt::format("srsName '{}' differs from the file's '{}'; all coordinates are taken to be in the "
+                                   "latter",
+                                   other.name, model.crs.name),
+                       other.offset, {});
+        const gml::AxisDecision axes = gml::decideAxes(model.crs.name, box, handedness(model));
+        if (axes.isGeographic)
+            return Error(
+                Code::GeographicCrs,
+                fmt::format("the coordinates are degrees (srsName '{}'), but a volume needs metres; project the "
+                            "file first, for instance to the UTM zone of its place",
+                            model.crs.name),
+                {facts_.fileName, part_.crsNames.empty() ? 0 : facts_.lineOf(part_.crsNames.front().offset), 0, {}});
+        if (!axes.remark.empty())
+            diagnostics_.add(Severity::Warning, Code::BadValue,
+                             fmt::format("srsName '{}': {}", model.crs.name, axes.remark),
+                             {facts_.fileName, facts_.lineOf(part_.crsNames.front().offset), 0, {}});
+        model.crs.axesSwapped = axes.isNorthFirst;
+        if (axes.isNorthFirst)
+            for (model::Polygon& polygon : model.polygons)
+                for (Vec3d& point : polygon.points) std::swap(point.x, point.y);
+        return {};
+    }
+
+    Part part_;
+    const DocumentFacts& facts_;
+    Diagnostics& diagnostics_;
+    std::vector<model::Material> materials_;
+    std::vector<model::Membership> memberships_;
+};
+
+}  // namespace
+
+Result<BuildingModel> assemble(Part&& part, const DocumentFacts& facts, Diagnostics& diagnostics) {
+    return Assembly(std::move(part), facts, diagnostics).run();
+}
+
+}  // namespace svt::readers::citygml

@@ -1,0 +1,262 @@
+#include <svt/readers/citygml/citygml_documents_test.hpp>
+
+#include <random>
+
+namespace svt::readers {
+namespace {
+
+using namespace gmltest;
+
+std::string goodModel() {
+    return cityModel(
+        2, "<gml:name>n</gml:name><gml:boundedBy><gml:Envelope srsName=\"EPSG:25832\"/></gml:boundedBy>\n" +
+               building("b",
+                        "<gml:name>house</gml:name><gen:genericAttributeSet name=\"s\"><gen:intAttribute "
+                        "name=\"i\"><gen:value>1</gen:value></gen:intAttribute></gen:genericAttributeSet>"
+                        "<bldg:lod2Solid>" +
+                            solid("so", surfaceReference("#p") +
+                                            surfaceMember("<gml:OrientableSurface orientation=\"-\"><gml:baseSurface "
+                                                          "xlink:href=\"#q\"/></gml:OrientableSurface>")) +
+                            "</bldg:lod2Solid>\n<bldg:boundedBy><bldg:WallSurface gml:id=\"w\">" +
+                            lod2Surfaces(2, multiSurface(surfaceMember(square("p")) + surfaceMember(square("q", 1)))) +
+                            "</bldg:WallSurface></bldg:boundedBy>\n") +
+               member("<frn:CityFurniture "
+                      "gml:id=\"f\"><frn:lod3ImplicitRepresentation><core:ImplicitGeometry><core:transformationMatrix>"
+                      "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</core:transformationMatrix>"
+                      "<core:relativeGMLGeometry xlink:href=\"#so\"/><core:referencePoint><gml:Point><gml:pos>1 2 "
+                      "3</gml:pos></gml:Point></core:referencePoint></core:ImplicitGeometry>"
+                      "</frn:lod3ImplicitRepresentation></frn:CityFurniture>") +
+               "\n<app:appearanceMember><app:Appearance><app:theme>t</"
+               "app:theme><app:surfaceDataMember><app:X3DMaterial><app:diffuseColor>1 0 "
+               "0</app:diffuseColor><app:target>#so</app:target>"
+               "</app:X3DMaterial></app:surfaceDataMember></app:Appearance></app:appearanceMember>" +
+               member("<grp:CityObjectGroup gml:id=\"g\"><grp:groupMember role=\"r\" "
+                      "xlink:href=\"#b\"/></grp:CityObjectGroup>"));
+}
+
+TEST(CityGmlDefects, TheGoodModelIsGood) {
+    const Reading reading = read(goodModel());
+    ASSERT_TRUE(reading.result);
+    EXPECT_TRUE(reading.diagnostics.items().empty()) << reading.findings();
+    EXPECT_EQ(reading.model().polygons.size(), 4u);
+    EXPECT_EQ(reading.model().polygons[3].material, 0);
+}
+
+TEST(CityGmlDefects, ACutOffFileIsAnErrorWhereverItIsCut) {
+    const std::string text = goodModel();
+    const std::size_t end = text.find("</core:CityModel>") + std::string_view("</core:CityModel>").size();
+    for (std::size_t size = 0; size < end; ++size) {
+        const Reading reading = read(std::string_view(text).substr(0, size));
+        ASSERT_FALSE(reading.result) << size;
+        ASSERT_EQ(reading.code(), Code::BadXml) << size << reading.result.error().toString();
+        EXPECT_GT(reading.result.error().where().line, 0u);
+        EXPECT_GT(reading.result.error().where().column, 0u);
+    }
+}
+
+TEST(CityGmlDefects, BadXmlIsRefusedWithItsPlace) {
+    struct Case {
+        std::string_view from, to;
+    };
+    const Case cases[] = {
+        {"</bldg:WallSurface>", "</bldg:RoofSurface>"},
+        {"</gml:Polygon>", "</gml:Poly>"},
+        {"</bldg:Building>", "</bldg:Room>"},
+        {"</core:CityModel>", "</core:City>"},
+        {"<gml:pos>", "<gml:pos a=1>"},
+        {"<gml:pos>", "<gml:pos a=\"1>"},
+        {"<gml:pos>", "<gml:pos a=\"<\" < >"},
+        {"<gml:pos>1", "<gml:pos>< 1"},
+        {"<gml:pos>", "<gml:pos <gml:pos>"},
+        {"<gml:pos>", "<!-- <gml:pos>"},
+        {"<gml:pos>", "<![CDATA[<gml:pos>"},
+        {"</core:CityModel>", "</core:CityModel><a/>"},
+        {"</core:CityModel>", "</core:CityModel>text"},
+        {"<gml:pos>", "<!gml:pos>"},
+        {"</bldg:boundedBy>", ""},
+    };
+    for (const Case& bad : cases) {
+        std::string text = goodModel();
+        const std::size_t at = text.find(bad.from);
+        ASSERT_NE(at, std::string::npos) << bad.from;
+        text.replace(at, bad.from.size(), bad.to);
+        const Reading reading = read(text);
+        EXPECT_EQ(reading.code(), Code::BadXml) << bad.to;
+        EXPECT_GE(reading.result ? 0 : reading.result.error().where().line, 2u) << bad.to;
+    }
+}
+
+TEST(CityGmlDefects, DtdAndEntitiesAreRefused) {
+    const std::string bomb =
+        "<?xml version=\"1.0\"?><!DOCTYPE core:CityModel [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;\">]>" +
+        goodModel().substr(goodModel().find("<core"));
+    EXPECT_TRUE(looksLikeCityGml(bytesOf(bomb)));
+    EXPECT_EQ(read(bomb).code(), Code::DtdRefused);
+    std::string inside = goodModel();
+    inside.insert(inside.find("<bldg:"), "<!ENTITY x SYSTEM \"file:///etc/passwd\">");
+    EXPECT_EQ(read(inside).code(), Code::DtdRefused);
+}
+
+TEST(CityGmlDefects, DeepNestingIsRefusedBeforeItIsParsed) {
+    std::string open, close;
+    for (int i = 0; i < 10000; ++i) {
+        open += "<bldg:consistsOfBuildingPart><bldg:BuildingPart>";
+        close += "</bldg:BuildingPart></bldg:consistsOfBuildingPart>";
+    }
+    const Reading deep = readMembers(2, building("b", open + close));
+    EXPECT_EQ(deep.code(), Code::InputTooBig);
+    EXPECT_EQ(readMembers(2, building("b", open)).code(), Code::InputTooBig) << "cut off as well";
+    ReadOptions generous;
+    generous.maxDepth = 1u << 30;
+    EXPECT_EQ(read(cityModel(2, building("b", open + close)), generous).code(), Code::InputTooBig)
+        << "the stack sets a limit too";
+}
+
+TEST(CityGmlDefects, NestingUpToTheLimitIsRead) {
+    std::string open, close;
+    for (int i = 0; i < 480; ++i) {
+        open += "<bldg:consistsOfBuildingPart><bldg:BuildingPart>";
+        close += "</bldg:BuildingPart></bldg:consistsOfBuildingPart>";
+    }
+    ReadOptions options;
+    options.maxDepth = 1000;
+    const Reading reading = read(cityModel(2, building("b", open + close)), options);
+    ASSERT_TRUE(reading.result) << reading.result.error().toString();
+    EXPECT_EQ(reading.model().features.size(), 481u);
+}
+
+TEST(CityGmlDefects, WrongRootOrVersionIsNamed) {
+    EXPECT_EQ(read("<a/>").code(), Code::UnknownFormat);
+    EXPECT_EQ(read("<CityModel/>").code(), Code::UnknownVersion);
+    EXPECT_EQ(read("<CityModel xmlns=\"http://www.opengis.net/citygml/9.0\"/>").code(), Code::UnknownVersion);
+    const Reading old = read("<CityModel xmlns=\"http://www.citygml.org/citygml/1/0/0\"/>");
+    EXPECT_EQ(old.code(), Code::UnknownVersion);
+    EXPECT_NE(old.result.error().message().find("0.4"), std::string::npos);
+    EXPECT_EQ(read("<CityModel xmlns=\"http://www.opengis.net/citygml/2.0\"/>").count(Code::EmptyModel), 1u);
+}
+
+TEST(CityGmlDefects, EncodingsAreConvertedOrRefused) {
+    const std::string utf8 = cityModel(2, building("b",
+                                                   "<gml:name>Stra\xC3\x9F"
+                                                   "e \xE2\x82\xAC \xF0\x9F\x8F\xA0</gml:name>"));
+    std::string latin = cityModel(2, building("b",
+                                              "<gml:name>Stra\xDF"
+                                              "e</gml:name>"));
+    EXPECT_EQ(read(latin).code(), Code::BadEncoding);
+    EXPECT_EQ(read(latin).result.error().where().line, 3u);
+    latin.replace(latin.find("UTF-8"), 5, "ISO-8859-1");
+    EXPECT_EQ(read(latin).feature("b").name,
+              "Stra\xC3\x9F"
+              "e");
+    latin.replace(latin.find("ISO-8859-1"), 10, "windows-1252");
+    latin.replace(latin.find("\xDF"), 1, "\x80");
+    EXPECT_EQ(read(latin).feature("b").name,
+              "Stra\xE2\x82\xAC"
+              "e");
+    latin.replace(latin.find("windows-1252"), 12, "EBCDIC");
+    EXPECT_EQ(read(latin).code(), Code::BadEncoding);
+
+    for (const bool isBigEndian : {false, true}) {
+        std::string wide = isBigEndian ? "\xFE\xFF" : "\xFF\xFE";
+        const auto put = [&](unsigned unit) {
+            const char high = static_cast<char>(unit >> 8), low = static_cast<char>(unit & 0xFF);
+            wide += isBigEndian ? high : low;
+            wide += isBigEndian ? low : high;
+        };
+        const std::string ascii = cityModel(2, building("b", "<gml:name>@</gml:name>"));
+        for (const char c : ascii) {
+            if (c != '@') {
+                put(static_cast<unsigned char>(c));
+                continue;
+            }
+            put(0xDF), put(0x20AC), put(0xD83C), put(0xDFE0);
+        }
+        EXPECT_TRUE(looksLikeCityGml(bytesOf(wide)));
+        EXPECT_EQ(read(wide).feature("b").name, "\xC3\x9F\xE2\x82\xAC\xF0\x9F\x8F\xA0");
+        EXPECT_EQ(read(std::string_view(wide).substr(0, wide.size() - 1)).code(), Code::BadEncoding);
+    }
+    EXPECT_EQ(read(utf8).feature("b").name,
+              "Stra\xC3\x9F"
+              "e \xE2\x82\xAC \xF0\x9F\x8F\xA0");
+    std::string nul = utf8;
+    nul[nul.find("Stra")] = '\0';
+    EXPECT_EQ(read(nul).code(), Code::BadEncoding);
+}
+
+TEST(CityGmlDefects, HopelessFilesDoNotFillTheMemory) {
+    std::string members;
+    for (int i = 0; i < 5000; ++i)
+        members += surfaceMember("<gml:Polygon><gml:exterior>" + ring("0 0 0 1 1") + "</gml:exterior></gml:Polygon>") +
+                   surfaceReference("#x");
+    const Reading reading = readMembers(2, building("b", lod2Surfaces(2, multiSurface(members))));
+    ASSERT_TRUE(reading.result);
+    EXPECT_EQ(reading.count(Code::BadValue), 5000u);
+    EXPECT_EQ(reading.count(Code::DanglingReference), 5000u);
+    EXPECT_LE(reading.diagnostics.items().size(), 2u * Diagnostics::kKeptPerCode + 2);
+}
+
+TEST(CityGmlDefects, LimitsAreStatedWithBothNumbers) {
+    ReadOptions options;
+    options.maxBytes = 100;
+    const Reading reading = read(goodModel(), options);
+    EXPECT_EQ(reading.code(), Code::InputTooBig);
+    EXPECT_NE(reading.result.error().message().find("100"), std::string::npos);
+}
+
+TEST(CityGmlDefects, SelfReferencesEverywhereAreHarmless) {
+    const Reading reading = readMembers(
+        3,
+        building("b",
+                 "<core:lod2Solid xlink:href=\"#b\"/><core:lod3MultiSurface><gml:MultiSurface "
+                 "gml:id=\"m\"><gml:surfaceMember xlink:href=\"#m\"/></gml:MultiSurface></core:lod3MultiSurface>"
+                 "<bldg:buildingRoom xlink:href=\"#b\"/><core:lod1ImplicitRepresentation><core:ImplicitGeometry "
+                 "gml:id=\"i\"><core:transformationMatrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</core:transformationMatrix>"
+                 "<core:referencePoint><gml:Point><gml:pos>1 2 "
+                 "3</gml:pos></gml:Point></core:referencePoint><core:relativeGeometry "
+                 "xlink:href=\"#i\"/></core:ImplicitGeometry></core:lod1ImplicitRepresentation>"));
+    ASSERT_TRUE(reading.result);
+    EXPECT_GE(reading.count(Code::ReferenceCycle), 4u) << reading.findings();
+    EXPECT_TRUE(reading.feature("b").geometries.empty());
+}
+
+// Any change of a few bytes gives a model or an error, never a crash; what it gives is the same each time.
+TEST(CityGmlDefects, MutatedFilesNeverCrash) {
+    const std::string good = goodModel();
+    const std::string_view words[] = {"<",           ">",    "</",    "/>",   "\"",
+                                      "#p",          "#so",  "<!--",  "]]>",  "NaN",
+                                      "1e308",       "&#0;", "&amp;", "gml:", "xmlns:gml=\"\" ",
+                                      "<gml:Solid>", "\xFF"};
+    std::mt19937 random(20240611);  // NOLINT: the same changes in every run
+    const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
+    for (int round = 0; round < 2000; ++round) {
+        std::string text = good;
+        const std::size_t changes = 1 + below(4);
+        for (std::size_t change = 0; change < changes && !text.empty(); ++change) {
+            const std::size_t at = below(text.size());
+            switch (below(5)) {
+                case 0: text[at] = static_cast<char>(random()); break;
+                case 1: text.erase(at, 1 + below(30)); break;
+                case 2: text.insert(at, words[below(std::size(words))]); break;
+                case 3: text.insert(at, text.substr(below(text.size()), 1 + below(60))); break;
+                default: text.resize(at); break;
+            }
+        }
+        ReadOptions single;
+        single.threads = 1;
+        const Reading reading = read(text, single);
+        const Reading again = read(text);
+        ASSERT_EQ(reading.result.hasValue(), again.result.hasValue());
+        ASSERT_EQ(reading.findings(), again.findings());
+        if (!reading.result) {
+            ASSERT_EQ(reading.result.error().toString(), again.result.error().toString());
+            continue;
+        }
+        for (const Feature& feature : reading.model().features)
+            for (const Geometry& geometry : feature.geometries)
+                for (const model::SurfaceUse use : geometry.surfaces)
+                    ASSERT_LT(use.polygon, reading.model().polygons.size());
+    }
+}
+
+}  // namespace
+}  // namespace svt::readers

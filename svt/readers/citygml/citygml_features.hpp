@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// The children of a CityModel, parsed, into a part: features, attributes, appearances.
+/// Works by the rules of GML, not by a list of classes: properties are written lowerCamel, objects
+/// UpperCamel, and an object within a property of a feature is a feature itself unless it is
+/// geometry or a known data type. So modules and ADEs need no code of their own. Internal to the readers.
+
+#include <svt/readers/citygml/citygml_part.hpp>
+#include <svt/readers/citygml/gml_geometry.hpp>
+#include <svt/readers/xml/xml_names.hpp>
+
+#include <functional>
+#include <string_view>
+
+namespace svt::readers::citygml {
+
+class FeatureReader {
+public:
+    /// \param offsetOf  byte offset in the document of a node of the walked tree
+    FeatureReader(xml::NameScope& scope, Part& part, std::function<std::uint64_t(pugi::xml_node)> offsetOf);
+
+    /// Reads a child of the root: cityObjectMember, featureMembers, appearanceMember, gml:name, ...
+    /// \param continues  its first object is the later stretch of the last one of the part before
+    void readMember(const xml::Element& member, bool continues);
+
+private:
+    void readTopLevel(const xml::Element& object, bool continues);
+    model::FeatureIndex readFeature(const xml::Element& element, model::FeatureIndex parent, bool continues);
+    void readProperty(model::FeatureIndex feature, const xml::Element& property);
+    void readGmlProperty(model::FeatureIndex feature, const xml::Element& property);
+    void readPlainProperty(model::FeatureIndex feature, const xml::Element& property);
+    void readObject(model::FeatureIndex feature, const xml::Element& property, const xml::Element& object);
+    void readGroupRole(model::FeatureIndex feature, const xml::Element& role);
+    void readEnvelope(const xml::Element& boundedBy);
+    void readAppearance(const xml::Element& element, bool continues);
+    void readMaterial(const xml::Element& element, MaterialRecord record);
+    void readId(const xml::Element& element, model::Feature& feature);
+    void addLink(model::FeatureIndex feature, const xml::Element& property, std::string_view href, std::string role);
+    void addMembership(model::FeatureIndex group, model::FeatureIndex member, std::string role);
+    void reportValue(model::FeatureIndex feature, const xml::Element& property);
+    [[nodiscard]] bool isFeature(const xml::Element& element);
+
+    xml::NameScope& scope_;
+    Part& part_;
+    std::function<std::uint64_t(pugi::xml_node)> offsetOf_;
+    gml::GeometryReader geometryReader_;
+    std::string scratch_;
+};
+
+/// 2 for "lod2MultiSurface", -1 where the name states no level.
+[[nodiscard]] double lodOfProperty(std::string_view name) noexcept;
+
+}  // namespace svt::readers::citygml

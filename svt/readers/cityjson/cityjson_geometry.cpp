@@ -1,0 +1,586 @@
+#include <svt/readers/cityjson/cityjson_geometry.hpp>
+
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <unordered_map>
+
+namespace svt::readers::cityjson {
+namespace {
+
+/// Absurdly large: farther than the Earth's surface in millimetres.
+constexpr double kMaxCoordinate = 1e10;
+
+using Matrix = std::array<double, 16>;  ///< row-major, world = matrix * (x, y, z, 1) + anchor
+
+/// An array that runs beside another one; absent where the file says null or too little.
+class Beside {
+public:
+    Beside(std::optional<json::element> value, bool& hasBadNesting) {
+        if (!value) return;
+        if (const auto array = asArray(*value)) {
+            next_ = array->begin();
+            end_ = array->end();
+            isArray_ = true;
+        } else if (!value->is_null()) {
+            hasBadNesting = true;
+        }
+    }
+    std::optional<json::element> next() {
+        if (!isArray_ || !(next_ != end_)) return std::nullopt;
+        const json::element value = *next_;
+        ++next_;
+        if (value.is_null()) return std::nullopt;
+        return value;
+    }
+
+private:
+    json::array::iterator next_, end_;
+    bool isArray_ = false;
+};
+
+/// What a geometry says of its parts beside the boundaries, on one level of nesting.
+struct Values {
+    std::optional<json::element> semantics, material;
+};
+
+/// Both arrays of values, walked beside the boundaries.
+class BesideValues {
+public:
+    BesideValues(const Values& values, bool& hasBadNesting)
+        : semantics_(values.semantics, hasBadNesting), material_(values.material, hasBadNesting) {}
+    Values next() {
+        const auto semantics = semantics_.next();
+        return {semantics, material_.next()};
+    }
+
+private:
+    Beside semantics_, material_;
+};
+
+/// True where three of the points differ from each other.
+bool hasThreePoints(std::span<const Vec3d> points) noexcept {
+    std::size_t second = 1;
+    while (second < points.size() && points[second] == points[0]) ++second;
+    for (std::size_t i = second + 1; i < points.size(); ++i)
+        if (points[i] != points[0] && points[i] != points[second]) return true;
+    return false;
+}
+
+class GeometryReader {
+public:
+    GeometryReader(const TextContext& context, ParsedObject& object) : context_(context), object_(object) {}
+
+    void readAll(json::array geometries) {
+        for (const json::element geometry : geometries) {
+            if (const auto members = asObject(geometry))
+                read(*members);
+            else
+                report(Code::BadJson, "is no JSON object; left out");
+            ++geometryNumber_;
+        }
+        giveSurfacesOrder();
+    }
+
+private:
+    void report(Code code, std::string_view what, Severity severity = Severity::Warning) {
+        object_.diagnostics.add(severity, code, fmt::format("geometry {} {}", geometryNumber_, what),
+                                {std::string(context_.origin.file), object_.feature.line, 0, shortened(object_.id)});
+    }
+
+    void read(json::object geometry) {
+        const auto type = textMember(geometry, "type");
+        points_ = context_.vertices;
+        isInstance_ = false;
+        materialBegin_ = context_.materialBegin;
+        materialEnd_ = context_.materialEnd;
+        if (type == "GeometryInstance")
+            readInstance(geometry);
+        else
+            readBoundaries(geometry, type);
+    }
+
+    static std::string_view textMember(json::object object, std::string_view key) {
+        const auto value = memberOf(object, key);
+        return value ? asString(*value).value_or(std::string_view()) : std::string_view();
+    }
+
+    void readInstance(json::object instance) {
+        const auto number = memberOf(instance, "template");
+        const auto index = number ? asInteger(*number) : std::nullopt;
+        const TemplateSet& templates = *context_.templates;
+        if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= templates.geometries.size())
+            return report(Code::DanglingReference,
+                          fmt::format("refers to template {}, the file has {}; left out",
+                                      index ? fmt::format("{}", *index) : "(none)", templates.geometries.size()));
+        const auto geometry = asObject(templates.geometries[static_cast<std::size_t>(*index)]);
+        if (!geometry) return report(Code::BadJson, "refers to a template that is no JSON object; left out");
+        const std::string_view type = textMember(*geometry, "type");
+        if (type == "GeometryInstance")
+            return report(Code::ReferenceCycle, "refers to a template that is an instance itself; left out");
+        if (!readAnchor(instance) || !readMatrix(instance)) return;
+        points_ = templates.vertices;
+        isInstance_ = true;
+        materialBegin_ = 0;
+        materialEnd_ = context_.templateMaterialEnd;
+        readBoundaries(*geometry, type);
+    }
+
+    bool readAnchor(json::object instance) {
+        const auto boundaries = memberOf(instance, "boundaries");
+        const auto array = boundaries ? asArray(*boundaries) : std::nullopt;
+        json::element first;
+        const bool hasFirst = array && array->at(0).get(first) == simdjson::SUCCESS;
+        const auto index = hasFirst ? asInteger(first) : std::nullopt;
+        if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= context_.vertices.size()) {
+            report(Code::BadIndex, "is an instance without a reference vertex that exists; left out");
+            return false;
+        }
+        anchor_ = context_.vertices[static_cast<std::size_t>(*index)];
+        if (isFinite(anchor_)) return true;
+        report(Code::BadCoordinate, "is an instance at a vertex that cannot be used; left out");
+        return false;
+    }
+
+    bool readMatrix(json::object instance) {
+        matrix_ = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        const auto value = memberOf(instance, "transformationMatrix");
+        if (!value) return true;
+        const auto array = asArray(*value);
+        std::size_t count = 0;
+        if (array)
+            for (const json::element item : *array) {
+                const auto number = asNumber(item);
+                if (!number || count == matrix_.size()) {
+                    count = 0;
+                    break;
+                }
+                matrix_[count++] = *number;
+            }
+        if (count == matrix_.size()) return true;
+        report(Code::BadValue, "has a transformationMatrix that is not 16 numbers; left out");
+        return false;
+    }
+
+    void readBoundaries(json::object geometry, std::string_view type) {
+        const bool isSurface = type == "MultiSurface" || type == "CompositeSurface";
+        const bool isSolidList = type == "MultiSolid" || type == "CompositeSolid";
+        if (!isSurface && !isSolidList && type != "Solid") {
+            if (type != "MultiPoint" && type != "MultiLineString")
+                report(Code::UnknownElement, fmt::format("has the unknown type '{}'; left out", shortened(type)));
+            return;
+        }
+        const auto boundaries = memberOf(geometry, "boundaries");
+        const auto parts = boundaries ? asArray(*boundaries) : std::nullopt;
+        if (!parts) return report(Code::BadJson, "has no array 'boundaries'; left out");
+
+        model::Geometry result;
+        result.kind = isSurface ? model::GeometryKind::Surface : model::GeometryKind::Solid;
+        result.lod = readLod(geometry);
+        result.id = textMember(geometry, "id");
+        beginSemantics(geometry, result.lod);
+        const Values values{semanticValues_, materialValues(geometry)};
+        hasBadNesting_ = hasBadNestingOfValues_ = false;
+        surfaceNumber_ = 0;
+        if (isSurface) {
+            readSurfaces(*parts, values, result.surfaces);
+        } else if (isSolidList) {
+            BesideValues beside(values, hasBadNestingOfValues_);
+            for (const json::element part : *parts) {
+                const Values inner = beside.next();
+                if (const auto shells = asArray(part))
+                    readSolid(*shells, inner, result.solids);
+                else
+                    hasBadNesting_ = true;
+            }
+        } else {
+            readSolid(*parts, values, result.solids);
+        }
+        if (hasBadNesting_)
+            report(Code::BadValue,
+                   fmt::format("has boundaries that are not nested as a {} is; those parts are left out", type));
+        if (hasBadNestingOfValues_)
+            report(Code::BadValue,
+                   fmt::format("has semantics or material values that are not nested as a {} is; those are left out",
+                               type));
+        if (!result.solids.empty() || !result.surfaces.empty()) object_.feature.geometries.push_back(std::move(result));
+        endSemantics();
+    }
+
+    double readLod(json::object geometry) {
+        const auto value = memberOf(geometry, "lod");
+        if (!value || value->is_null()) return -1;
+        double lod = -1;
+        if (const auto text = asString(*value)) {
+            const auto parsed = std::from_chars(text->data(), text->data() + text->size(), lod);
+            if (parsed.ec != std::errc() || parsed.ptr != text->data() + text->size()) lod = -1;
+        } else {
+            lod = asNumber(*value).value_or(-1);
+        }
+        if (lod >= 0 && lod < 100) return lod;
+        report(Code::BadValue, "has a 'lod' that is no level of detail; taken as not stated");
+        return -1;
+    }
+
+    void readSolid(json::array shells, const Values& values, std::vector<model::Solid>& solids) {
+        model::Solid solid;
+        BesideValues beside(values, hasBadNestingOfValues_);
+        bool isExterior = true;
+        for (const json::element shell : shells) {
+            const Values inner = beside.next();
+            std::vector<model::SurfaceUse> uses;
+            if (const auto surfaces = asArray(shell))
+                readSurfaces(*surfaces, inner, uses);
+            else
+                hasBadNesting_ = true;
+            if (isExterior)
+                solid.exterior = std::move(uses);
+            else if (!uses.empty())
+                solid.interiors.push_back(std::move(uses));
+            isExterior = false;
+        }
+        if (!solid.exterior.empty()) solids.push_back(std::move(solid));
+    }
+
+    void readSurfaces(json::array surfaces, const Values& values, std::vector<model::SurfaceUse>& uses) {
+        uses.reserve(surfaces.size());
+        BesideValues beside(values, hasBadNestingOfValues_);
+        for (const json::element surface : surfaces) {
+            const Values own = beside.next();
+            model::Polygon polygon;
+            const auto rings = asArray(surface);
+            if (!rings) {
+                hasBadNesting_ = true;
+            } else if (readPolygon(*rings, polygon)) {
+                polygon.material = materialOf(own.material);
+                const auto index = static_cast<model::PolygonIndex>(object_.polygons.size());
+                object_.polygons.push_back(std::move(polygon));
+                uses.push_back({index, false});
+                giveToSemantics(own.semantics, index);
+            }
+            ++surfaceNumber_;
+        }
+    }
+
+    bool readPolygon(json::array rings, model::Polygon& polygon) {
+        std::size_t capacity = 0;
+        for (const json::element ring : rings)
+            if (const auto indices = asArray(ring)) capacity += indices->size();
+        polygon.points.reserve(capacity);
+        polygon.ringEnds.reserve(rings.size());
+        bool isExterior = true;
+        for (const json::element ring : rings) {
+            const auto indices = asArray(ring);
+            if (!indices) {
+                hasBadNesting_ = true;
+                return false;
+            }
+            const std::size_t begin = polygon.points.size();
+            if (!readRing(*indices, polygon.points)) return false;
+            if (polygon.points.size() - begin > 1 && polygon.points.back() == polygon.points[begin])
+                polygon.points.pop_back();
+            if (!hasThreePoints(std::span(polygon.points).subspan(begin))) {
+                report(Code::TooFewPoints,
+                       fmt::format("surface {} has {} ring of fewer than three distinct points; left out",
+                                   surfaceNumber_, isExterior ? "an exterior" : "an interior"));
+                if (isExterior) return false;
+                polygon.points.resize(begin);
+                continue;
+            }
+            polygon.ringEnds.push_back(static_cast<std::uint32_t>(polygon.points.size()));
+            isExterior = false;
+        }
+        if (polygon.ringEnds.empty())
+            report(Code::TooFewPoints, fmt::format("surface {} has no ring; left out", surfaceNumber_));
+        return !polygon.ringEnds.empty();
+    }
+
+    bool readRing(json::array indices, std::vector<Vec3d>& points) {
+        for (const json::element item : indices) {
+            if (item.is_array()) {
+                hasBadNesting_ = true;
+                return false;
+            }
+            const auto index = asInteger(item);
+            if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= points_.size()) {
+                report(Code::BadIndex, fmt::format("surface {} refers to vertex {}, there are {}; left out",
+                                                   surfaceNumber_, shortened(simdjson::minify(item)), points_.size()));
+                return false;
+            }
+            const Vec3d point = place(points_[static_cast<std::size_t>(*index)]);
+            if (!isFinite(point) ||
+                std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) > kMaxCoordinate) {
+                report(Code::BadCoordinate,
+                       fmt::format("surface {} uses vertex {}, which is not three usable numbers; left out",
+                                   surfaceNumber_, *index));
+                return false;
+            }
+            points.push_back(point);
+        }
+        return true;
+    }
+
+    [[nodiscard]] Vec3d place(Vec3d p) const {
+        if (!isInstance_) return p;
+        const auto row = [&](int i) {
+            return matrix_[4 * i] * p.x + matrix_[4 * i + 1] * p.y + matrix_[4 * i + 2] * p.z + matrix_[4 * i + 3];
+        };
+        return Vec3d{row(0), row(1), row(2)} + anchor_;
+    }
+
+    // Materials
+
+    std::optional<json::element> materialValues(json::object geometry) {
+        uniformMaterial_ = -1;
+        const auto value = memberOf(geometry, "material");
+        const auto themes = value ? asObject(*value) : std::nullopt;
+        if (!themes) return std::nullopt;
+        std::optional<json::object> chosen;
+        std::string_view chosenName;
+        for (const auto [name, theme] : *themes) {
+            const auto members = asObject(theme);
+            if (!members) continue;
+            const bool isDefault = !context_.materialTheme.empty() && name == context_.materialTheme;
+            if (!chosen || isDefault || name < chosenName) {
+                chosen = members;
+                chosenName = name;
+            }
+            if (isDefault) break;
+        }
+        if (!chosen) return std::nullopt;
+        const auto uniform = memberOf(*chosen, "value");
+        if (uniform && !uniform->is_null()) uniformMaterial_ = materialOf(*uniform);
+        return memberOf(*chosen, "values");
+    }
+
+    std::int32_t materialOf(const std::optional<json::element>& value) {
+        if (!value) return uniformMaterial_;
+        const auto index = asInteger(*value);
+        if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < materialEnd_ - materialBegin_)
+            return static_cast<std::int32_t>(materialBegin_ + static_cast<std::size_t>(*index));
+        report(Code::BadIndex,
+               fmt::format("refers to a material that does not exist; there are {}", materialEnd_ - materialBegin_));
+        return -1;
+    }
+
+    // Semantics: the surfaces of this geometry, each with the polygons it owns.
+
+    struct Draft {
+        json::object members;
+        std::int32_t parent = kNoSurface;  ///< into drafts_
+        bool isKept = false;
+        std::vector<model::SurfaceUse> uses;
+    };
+
+    void beginSemantics(json::object geometry, double lod) {
+        drafts_.clear();
+        semanticValues_.reset();
+        lod_ = lod;
+        const auto value = memberOf(geometry, "semantics");
+        if (!value || value->is_null()) return;
+        const auto semantics = asObject(*value);
+        const auto list = semantics ? memberOf(*semantics, "surfaces") : std::nullopt;
+        const auto surfaces = list ? asArray(*list) : std::nullopt;
+        if (!surfaces) return report(Code::BadValue, "has 'semantics' without an array 'surfaces'; left out");
+        for (const json::element item : *surfaces) {
+            const auto members = asObject(item);
+            if (!members) report(Code::BadValue, "has a semantic surface that is no JSON object; left out");
+            drafts_.push_back({members.value_or(json::object()), kNoSurface, false, {}});
+            if (!members) drafts_.back().parent = kNotAnObject;
+        }
+        semanticValues_ = memberOf(*semantics, "values");
+        readSurfaceParents();
+    }
+
+    /// `parent` of the child counts; `children` of the parent where the child says nothing.
+    void readSurfaceParents() {
+        const auto count = static_cast<std::int64_t>(drafts_.size());
+        const auto isUsable = [&](std::optional<std::int64_t> index) {
+            return index && *index >= 0 && *index < count && drafts_[*index].parent != kNotAnObject;
+        };
+        std::vector<std::int32_t> parents(drafts_.size(), kNoSurface);
+        for (std::size_t i = 0; i < drafts_.size(); ++i) {
+            if (drafts_[i].parent == kNotAnObject) continue;
+            const auto value = memberOf(drafts_[i].members, "parent");
+            if (!value || value->is_null()) continue;
+            const auto index = asInteger(*value);
+            if (isUsable(index))
+                parents[i] = static_cast<std::int32_t>(*index);
+            else
+                report(Code::DanglingReference, fmt::format("semantic surface {} has a parent that does not exist", i));
+        }
+        for (std::size_t i = 0; i < drafts_.size(); ++i) {
+            if (drafts_[i].parent == kNotAnObject) continue;
+            const auto value = memberOf(drafts_[i].members, "children");
+            const auto children = value ? asArray(*value) : std::nullopt;
+            if (!children) continue;
+            for (const json::element child : *children) {
+                const auto index = asInteger(child);
+                if (!isUsable(index))
+                    report(Code::DanglingReference,
+                           fmt::format("semantic surface {} has a child that does not exist", i));
+                else if (parents[*index] == kNoSurface)
+                    parents[*index] = static_cast<std::int32_t>(i);
+            }
+        }
+        for (const std::int32_t i : breakCycles(parents))
+            report(Code::ReferenceCycle,
+                   fmt::format("semantic surface {} is its own ancestor; its parent is left out", i));
+        for (std::size_t i = 0; i < drafts_.size(); ++i)
+            if (drafts_[i].parent != kNotAnObject) drafts_[i].parent = parents[i];
+    }
+
+    void giveToSemantics(const std::optional<json::element>& value, model::PolygonIndex polygon) {
+        if (!value) return;
+        const auto index = asInteger(*value);
+        if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= drafts_.size())
+            return report(Code::BadIndex,
+                          fmt::format("surface {} refers to semantic surface {}, there are {}", surfaceNumber_,
+                                      shortened(simdjson::minify(*value)), drafts_.size()));
+        Draft& draft = drafts_[static_cast<std::size_t>(*index)];
+        if (draft.parent != kNotAnObject) draft.uses.push_back({polygon, false});
+    }
+
+    void endSemantics() {
+        for (std::size_t i = 0; i < drafts_.size(); ++i) {
+            if (drafts_[i].uses.empty()) continue;
+            for (auto k = static_cast<std::int32_t>(i); k >= 0 && !drafts_[k].isKept; k = drafts_[k].parent)
+                drafts_[k].isKept = true;
+        }
+        std::vector<std::int32_t> surfaceOfDraft(drafts_.size(), kNoSurface);
+        for (std::size_t i = 0; i < drafts_.size(); ++i)
+            if (drafts_[i].isKept) surfaceOfDraft[i] = surfaceFor(drafts_[i]);
+        for (std::size_t i = 0; i < drafts_.size(); ++i) {
+            if (!drafts_[i].isKept) continue;
+            const std::int32_t surface = surfaceOfDraft[i];
+            std::int32_t& parent = object_.surfaces[surface].parent;
+            const std::int32_t own = drafts_[i].parent >= 0 ? surfaceOfDraft[drafts_[i].parent] : kNoSurface;
+            if (parent == kNoSurface && own != surface) parent = own;
+        }
+    }
+
+    /// A new semantic surface; or, where an earlier geometry has one of the same id and type, that one.
+    std::int32_t surfaceFor(Draft& draft) {
+        const auto type = textMember(draft.members, "type");
+        if (type.empty()) report(Code::BadValue, "has a semantic surface without type; read as GenericThematicSurface");
+        const std::string className = type.empty() ? "GenericThematicSurface" : model::canonicalClassName(type);
+        std::string_view idKey = "id";
+        if (textMember(draft.members, idKey).empty()) idKey = "gml:id";
+        const std::string_view id = textMember(draft.members, idKey);
+
+        auto index = static_cast<std::int32_t>(object_.surfaces.size());
+        if (!id.empty()) {
+            const auto [known, isNew] = surfaceOfId_.emplace(std::string(id), index);
+            if (!isNew && object_.surfaces[known->second].feature.className == className) index = known->second;
+        }
+        if (index == static_cast<std::int32_t>(object_.surfaces.size())) {
+            SemanticSurface& surface = object_.surfaces.emplace_back();
+            model::Feature& feature = surface.feature;
+            feature.id = id;
+            feature.className = className;
+            feature.line = object_.feature.line;
+            for (const auto [key, value] : draft.members)
+                if (key != "type" && key != "parent" && key != "children" && (id.empty() || key != idKey))
+                    appendAttribute(key, value, feature.attributes);
+            feature.name = nameOf(feature.attributes);
+        }
+        if (!draft.uses.empty()) addUses(object_.surfaces[index].feature, std::move(draft.uses));
+        return index;
+    }
+
+    void addUses(model::Feature& feature, std::vector<model::SurfaceUse> uses) const {
+        if (!feature.geometries.empty() && feature.geometries.back().lod == lod_) {
+            auto& surfaces = feature.geometries.back().surfaces;
+            surfaces.insert(surfaces.end(), uses.begin(), uses.end());
+            return;
+        }
+        model::Geometry& geometry = feature.geometries.emplace_back();
+        geometry.lod = lod_;
+        geometry.surfaces = std::move(uses);
+    }
+
+    /// Brings object_.surfaces into tree order, so that a parent stands before its children.
+    void giveSurfacesOrder() {
+        const std::size_t count = object_.surfaces.size();
+        if (count == 0) return;
+        std::vector<std::int32_t> parents(count);
+        for (std::size_t i = 0; i < count; ++i) parents[i] = object_.surfaces[i].parent;
+        // Surfaces that two geometries share by id can close a cycle that neither has.
+        for (const std::int32_t i : breakCycles(parents)) {
+            report(Code::ReferenceCycle,
+                   fmt::format("semantic surface '{}' is its own ancestor; its parent is left out",
+                               shortened(object_.surfaces[i].feature.id)));
+        }
+        std::vector<std::vector<std::int32_t>> children(count);
+        std::vector<std::int32_t> stack, placeOf(count);
+        for (std::size_t i = count; i-- > 0;) {
+            if (parents[i] == kNoSurface)
+                stack.push_back(static_cast<std::int32_t>(i));
+            else
+                children[parents[i]].push_back(static_cast<std::int32_t>(i));
+        }
+        std::vector<SemanticSurface> sorted;
+        sorted.reserve(count);
+        while (!stack.empty()) {
+            const std::int32_t i = stack.back();
+            stack.pop_back();
+            placeOf[i] = static_cast<std::int32_t>(sorted.size());
+            sorted.push_back(std::move(object_.surfaces[i]));
+            sorted.back().parent = parents[i] == kNoSurface ? kNoSurface : placeOf[parents[i]];
+            stack.insert(stack.end(), children[i].begin(), children[i].end());
+        }
+        object_.surfaces = std::move(sorted);
+    }
+
+    static constexpr std::int32_t kNotAnObject = -2;  ///< as a draft's parent: the draft cannot be used
+
+    const TextContext& context_;
+    ParsedObject& object_;
+    std::size_t geometryNumber_ = 0;
+    std::size_t surfaceNumber_ = 0;
+    bool hasBadNesting_ = false;
+    bool hasBadNestingOfValues_ = false;
+
+    std::span<const Vec3d> points_;
+    bool isInstance_ = false;
+    Vec3d anchor_;
+    Matrix matrix_{};
+
+    std::size_t materialBegin_ = 0, materialEnd_ = 0;
+    std::int32_t uniformMaterial_ = -1;
+
+    double lod_ = -1;
+    std::vector<Draft> drafts_;
+    std::optional<json::element> semanticValues_;
+    std::unordered_map<std::string, std::int32_t> surfaceOfId_;
+};
+
+}  // namespace
+
+std::uint64_t instancedBytes(json::element cityObject, const TemplateSet& templates) {
+    if (templates.geometries.empty()) return 0;
+    const auto object = asObject(cityObject);
+    const auto geometry = object ? memberOf(*object, "geometry") : std::nullopt;
+    const auto geometries = geometry ? asArray(*geometry) : std::nullopt;
+    if (!geometries) return 0;
+    std::uint64_t bytes = 0;
+    for (const json::element item : *geometries) {
+        const auto members = asObject(item);
+        const auto number = members ? memberOf(*members, "template") : std::nullopt;
+        const auto index = number ? asInteger(*number) : std::nullopt;
+        if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < templates.textBytes.size())
+            bytes += templates.textBytes[static_cast<std::size_t>(*index)];
+    }
+    return bytes;
+}
+
+void readGeometries(json::array geometries, const TextContext& context, ParsedObject& object) {
+    GeometryReader(context, object).readAll(geometries);
+}
+
+}  // namespace svt::readers::cityjson

@@ -1,0 +1,248 @@
+#include <svt/readers/cityjson/cityjson_objects.hpp>
+
+#include <svt/model/classes.hpp>
+#include <svt/readers/cityjson/cityjson_geometry.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace svt::readers::cityjson {
+namespace {
+
+// Members of deeper objects share their path, so path and depth are limited: text must not grow with both.
+constexpr std::size_t kMaxPathBytes = 256;
+constexpr int kMaxPathParts = 16;
+
+constexpr std::array<std::string_view, 48> kObjectTypes{"Bridge",
+                                                        "BridgePart",
+                                                        "BridgeConstructionElement",
+                                                        "BridgeConstructiveElement",
+                                                        "BridgeFurniture",
+                                                        "BridgeInstallation",
+                                                        "BridgeRoom",
+                                                        "Building",
+                                                        "BuildingPart",
+                                                        "BuildingFurniture",
+                                                        "BuildingInstallation",
+                                                        "BuildingConstructiveElement",
+                                                        "BuildingRoom",
+                                                        "BuildingStorey",
+                                                        "BuildingUnit",
+                                                        "CityFurniture",
+                                                        "CityObjectGroup",
+                                                        "GenericCityObject",
+                                                        "LandUse",
+                                                        "OtherConstruction",
+                                                        "PlantCover",
+                                                        "Railway",
+                                                        "Road",
+                                                        "SolitaryVegetationObject",
+                                                        "TINRelief",
+                                                        "TransportSquare",
+                                                        "TransportationComplex",
+                                                        "Track",
+                                                        "Square",
+                                                        "Tunnel",
+                                                        "TunnelPart",
+                                                        "TunnelConstructiveElement",
+                                                        "TunnelFurniture",
+                                                        "TunnelHollowSpace",
+                                                        "TunnelInstallation",
+                                                        "WaterBody",
+                                                        "Waterway",
+                                                        "GenericOccupiedSpace",
+                                                        "Storey",
+                                                        "Room",
+                                                        "HollowSpace",
+                                                        "ReliefFeature",
+                                                        "IntBuildingInstallation",
+                                                        "Door",
+                                                        "Window",
+                                                        "Section",
+                                                        "Intersection",
+                                                        "AuxiliaryTrafficSpace"};
+
+std::optional<AttributeValue> scalarOf(json::element value) {
+    switch (value.type()) {
+        case json::element_type::STRING: return AttributeValue(std::string(*asString(value)));
+        case json::element_type::INT64: return AttributeValue(*asInteger(value));
+        case json::element_type::UINT64:
+        case json::element_type::DOUBLE: return AttributeValue(*asNumber(value));
+        case json::element_type::BOOL: {
+            bool isTrue = false;
+            if (value.get_bool().get(isTrue) != simdjson::SUCCESS) return std::nullopt;
+            return AttributeValue(isTrue);
+        }
+        default: return std::nullopt;
+    }
+}
+
+/// {"value": 22.3, "uom": "m"}: a measure, not two attributes.
+bool appendMeasure(const std::string& name, json::object object, std::vector<Attribute>& attributes) {
+    const auto value = memberOf(object, "value");
+    const auto unit = memberOf(object, "uom");
+    if (!value || !unit || !value->is_number() || !unit->is_string() || object.size() != 2) return false;
+    attributes.push_back({name, *scalarOf(*value), std::string(*asString(*unit))});
+    return true;
+}
+
+void appendValue(std::string name, json::element value, int parts, std::vector<Attribute>& attributes) {
+    if (value.is_null()) return;
+    if (auto scalar = scalarOf(value)) {
+        attributes.push_back({std::move(name), std::move(*scalar), {}});
+        return;
+    }
+    const auto object = asObject(value);
+    if (object && appendMeasure(name, *object, attributes)) return;
+    if (!object || name.size() > kMaxPathBytes || parts >= kMaxPathParts) {
+        attributes.push_back({std::move(name), simdjson::minify(value), {}});
+        return;
+    }
+    for (const auto [key, member] : *object)
+        appendValue(fmt::format("{}/{}", name, key), member, parts + 1, attributes);
+}
+
+std::vector<std::string> readIds(json::object object, std::string_view key, ParsedObject& parsed, const Place& place) {
+    std::vector<std::string> ids;
+    const auto value = memberOf(object, key);
+    if (!value || value->is_null()) return ids;
+    const auto array = asArray(*value);
+    if (!array) {
+        parsed.diagnostics.add(Severity::Warning, Code::BadValue, fmt::format("'{}' is no array of ids; left out", key),
+                               place);
+        return ids;
+    }
+    for (const json::element item : *array) {
+        if (const auto id = asString(item))
+            ids.emplace_back(*id);
+        else
+            parsed.diagnostics.add(Severity::Warning, Code::BadValue,
+                                   fmt::format("an entry of '{}' is no text; left out", key), place);
+    }
+    return ids;
+}
+
+/// Entries of `children_roles` belong to the entries of `children`, so one that is no text stays, as an empty role.
+std::vector<std::string> readRoles(json::object object) {
+    std::vector<std::string> roles;
+    const auto value = memberOf(object, "children_roles");
+    const auto array = value ? asArray(*value) : std::nullopt;
+    if (!array) return roles;
+    for (const json::element item : *array) roles.emplace_back(asString(item).value_or(std::string_view()));
+    return roles;
+}
+
+void readAddresses(json::element value, std::vector<Attribute>& attributes) {
+    const auto addresses = asArray(value);
+    if (!addresses) return;
+    std::size_t number = 0;
+    for (const json::element item : *addresses) {
+        const std::string prefix = ++number == 1 ? "address/" : fmt::format("address[{}]/", number);
+        const auto address = asObject(item);
+        if (!address) continue;
+        for (const auto [key, member] : *address)
+            if (auto scalar = scalarOf(member))
+                attributes.push_back({prefix + std::string(key), std::move(*scalar), {}});
+    }
+}
+
+void readType(json::object object, ParsedObject& parsed, const Place& place) {
+    const auto value = memberOf(object, "type");
+    const auto type = value ? asString(*value) : std::nullopt;
+    if (!type || type->empty()) {
+        parsed.diagnostics.add(Severity::Warning, Code::BadValue,
+                               "a city object without type; read as GenericOccupiedSpace", place);
+        parsed.feature.className = "GenericOccupiedSpace";
+        return;
+    }
+    parsed.isGroup = *type == "CityObjectGroup";
+    parsed.feature.className = model::canonicalClassName(*type);
+    const bool isExtension = type->front() == '+';
+    if (!isExtension && std::find(kObjectTypes.begin(), kObjectTypes.end(), *type) == kObjectTypes.end())
+        parsed.diagnostics.add(Severity::Note, Code::UnknownElement,
+                               fmt::format("'{}' is no type of CityJSON; kept under this name", shortened(*type)),
+                               place);
+}
+
+}  // namespace
+
+void appendAttribute(std::string_view name, json::element value, std::vector<Attribute>& attributes) {
+    appendValue(std::string(name), value, 1, attributes);
+}
+
+void appendAttributes(json::object object, std::string_view prefix, std::vector<Attribute>& attributes) {
+    for (const auto [key, value] : object) appendAttribute(fmt::format("{}{}", prefix, key), value, attributes);
+}
+
+std::string nameOf(std::span<const Attribute> attributes) {
+    for (const std::string_view key : {"name", "gml:name"})
+        for (const Attribute& attribute : attributes)
+            if (attribute.name == key)
+                if (const auto* text = std::get_if<std::string>(&attribute.value)) return *text;
+    return {};
+}
+
+ParsedObject readCityObject(std::string_view id, json::element value, const TextContext& context) {
+    ParsedObject parsed;
+    parsed.id = id;
+    parsed.feature.id = id;
+    // Only a sequence has a line per object; a whole document says nothing about lines once it is parsed.
+    const bool hasLine = context.origin.firstLine > 1;
+    parsed.feature.line = hasLine ? context.origin.firstLine : 0;
+    const Place place{std::string(context.origin.file), parsed.feature.line, 0, shortened(id)};
+    const auto object = asObject(value);
+    if (!object) {
+        parsed.diagnostics.add(Severity::Warning, Code::BadJson, "a city object that is no JSON object; kept empty",
+                               place);
+        parsed.feature.className = "GenericOccupiedSpace";
+        return parsed;
+    }
+    readType(*object, parsed, place);
+    parsed.parents = readIds(*object, "parents", parsed, place);
+    // CityJSON 1.0 calls the children of a group "members".
+    parsed.children = readIds(*object, "children", parsed, place);
+    if (parsed.isGroup && parsed.children.empty()) parsed.children = readIds(*object, "members", parsed, place);
+    if (parsed.isGroup) parsed.childrenRoles = readRoles(*object);
+    for (const auto [key, member] : *object) {
+        if (key == "attributes") {
+            if (const auto attributes = asObject(member))
+                appendAttributes(*attributes, {}, parsed.feature.attributes);
+            else if (!member.is_null())
+                parsed.diagnostics.add(Severity::Warning, Code::BadValue, "'attributes' is no object; left out", place);
+        } else if (key == "address") {
+            readAddresses(member, parsed.feature.attributes);
+        } else if (!key.empty() && key.front() == '+') {
+            appendAttribute(key, member, parsed.feature.attributes);
+        } else if (key == "geometry" && !member.is_null()) {
+            if (const auto geometries = asArray(member))
+                readGeometries(*geometries, context, parsed);
+            else
+                parsed.diagnostics.add(Severity::Warning, Code::BadValue, "'geometry' is no array; left out", place);
+        }
+    }
+    parsed.feature.name = nameOf(parsed.feature.attributes);
+    return parsed;
+}
+
+std::vector<std::int32_t> breakCycles(std::span<std::int32_t> parents) {
+    std::vector<std::int32_t> broken;
+    std::vector<std::int32_t> walkOf(parents.size(), -1);  // the walk that came by first
+    for (std::int32_t walk = 0; walk < static_cast<std::int32_t>(parents.size()); ++walk) {
+        std::int32_t node = walk;
+        while (node >= 0 && walkOf[node] < 0) {
+            walkOf[node] = walk;
+            node = parents[node];
+        }
+        if (node < 0 || walkOf[node] != walk) continue;
+        std::int32_t lowest = node;
+        for (std::int32_t next = parents[node]; next != node; next = parents[next]) lowest = std::min(lowest, next);
+        parents[lowest] = -1;
+        broken.push_back(lowest);
+    }
+    std::sort(broken.begin(), broken.end());
+    return broken;
+}
+
+}  // namespace svt::readers::cityjson

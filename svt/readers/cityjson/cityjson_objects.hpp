@@ -1,0 +1,69 @@
+#pragma once
+/// \file
+/// Internal: one city object, read without knowledge of the others, so objects can be read in parallel.
+
+#include <svt/readers/cityjson/cityjson_json.hpp>
+
+#include <svt/core/vec.hpp>
+#include <svt/model/building_model.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace svt::readers::cityjson {
+
+inline constexpr std::int32_t kNoSurface = -1;
+
+/// Template geometries of the head.
+struct TemplateSet {
+    std::vector<json::element> geometries;
+    std::vector<std::uint64_t> textBytes;  ///< of each geometry as compact JSON
+    std::vector<Vec3d> vertices;           ///< never put through the transform
+};
+
+/// What the objects of one JSON text share. A vertex that cannot be used has x = NaN.
+struct TextContext {
+    TextOrigin origin;
+    std::span<const Vec3d> vertices;
+    const TemplateSet* templates = nullptr;  ///< never null
+    std::size_t materialBegin = 0;           ///< materials of this text are [begin, end) of the numbering in polygons
+    std::size_t materialEnd = 0;
+    std::size_t templateMaterialEnd = 0;  ///< materials of templates are [0, end)
+    std::string_view materialTheme;       ///< default-theme-material, or empty
+};
+
+/// A semantic surface that owns polygons, or is above one that does.
+struct SemanticSurface {
+    model::Feature feature;            ///< id empty where the file gives none; parent and children unused
+    std::int32_t parent = kNoSurface;  ///< into ParsedObject::surfaces
+};
+
+/// A city object; its polygon indices count from 0 into its own polygons.
+struct ParsedObject {
+    std::string id;
+    bool isGroup = false;
+    model::Feature feature;
+    std::vector<std::string> parents, children, childrenRoles;
+    std::vector<model::Polygon> polygons;
+    std::vector<SemanticSurface> surfaces;  ///< a parent before its children
+    Diagnostics diagnostics;
+};
+
+/// Reads the member `id`: `value` of CityObjects. Cost: linear in its text.
+[[nodiscard]] ParsedObject readCityObject(std::string_view id, json::element value, const TextContext& context);
+
+/// Appends the members of `object` as attributes; `prefix` is empty or ends with '/'.
+void appendAttributes(json::object object, std::string_view prefix, std::vector<Attribute>& attributes);
+void appendAttribute(std::string_view name, json::element value, std::vector<Attribute>& attributes);
+
+/// Value of the text attribute "name", else "gml:name", else empty.
+[[nodiscard]] std::string nameOf(std::span<const Attribute> attributes);
+
+/// Makes `parents` (index of the parent, -1: none) a forest: of every cycle the lowest index loses its parent.
+/// \return those indices, ascending. Cost: O(n).
+[[nodiscard]] std::vector<std::int32_t> breakCycles(std::span<std::int32_t> parents);
+
+}  // namespace svt::readers::cityjson

@@ -1,0 +1,438 @@
+#include <svt/readers/cityjson/cityjson_reader.hpp>
+
+#include <svt/core/parallel.hpp>
+#include <svt/readers/cityjson/cityjson_crs.hpp>
+#include <svt/readers/cityjson/cityjson_geometry.hpp>
+#include <svt/readers/cityjson/cityjson_link.hpp>
+#include <svt/readers/cityjson/cityjson_objects.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <map>
+#include <tuple>
+
+namespace svt::readers {
+namespace {
+
+using namespace cityjson;
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
+/// A few bytes of instance stand for a whole template, so the sum of what they stand for is limited.
+constexpr std::uint64_t kMaxInstancedBytes = std::uint64_t{1} << 28;
+
+std::string_view trimmed(std::string_view text) noexcept {
+    const std::size_t first = text.find_first_not_of(kBlanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+/// A JSON text never has '}' and then '{' with only blanks between, so a sequence shows at the end of its first line.
+bool isSequence(std::string_view text) noexcept {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    const std::size_t lineEnd = begin == std::string_view::npos ? begin : text.find('\n', begin);
+    if (lineEnd == std::string_view::npos) return false;
+    const std::string_view line = trimmed(text.substr(begin, lineEnd - begin));
+    const std::size_t next = text.find_first_not_of(kBlanks, lineEnd);
+    return line.ends_with('}') && next != std::string_view::npos && text[next] == '{';
+}
+
+/// The members of a CityJSON object or feature, found in one pass.
+struct RootMembers {
+    std::optional<json::element> type, version, transform, cityObjects, vertices, metadata, appearance, templates;
+
+    RootMembers(json::object root, const Place& place, Diagnostics& diagnostics) {
+        for (const auto [key, value] : root) {
+            std::optional<json::element>* member = find(key);
+            if (member == nullptr) continue;
+            if (*member)
+                diagnostics.add(Severity::Warning, Code::DuplicateId,
+                                fmt::format("a second member '{}'; the first counts", key), place);
+            else
+                *member = value;
+        }
+    }
+
+private:
+    std::optional<json::element>* find(std::string_view key) noexcept {
+        if (key == "type") return &type;
+        if (key == "version") return &version;
+        if (key == "transform") return &transform;
+        if (key == "CityObjects") return &cityObjects;
+        if (key == "vertices") return &vertices;
+        if (key == "metadata") return &metadata;
+        if (key == "appearance") return &appearance;
+        if (key == "geometry-templates") return &templates;
+        return nullptr;
+    }
+};
+
+/// v * scale + translate.
+struct Transform {
+    Vec3d scale{1, 1, 1}, translate{0, 0, 0};
+
+    [[nodiscard]] Vec3d apply(Vec3d v) const noexcept {
+        // Written out: the same two roundings for the same integer, so shared vertices have equal bits.
+        return {v.x * scale.x + translate.x, v.y * scale.y + translate.y, v.z * scale.z + translate.z};
+    }
+};
+
+std::optional<Vec3d> readVec3(json::element value) {
+    const auto array = asArray(value);
+    if (!array) return std::nullopt;
+    Vec3d result;
+    int axis = 0;
+    for (const json::element item : *array) {
+        const auto number = asNumber(item);
+        if (!number || axis == 3) return std::nullopt;
+        result[axis++] = *number;
+    }
+    return axis == 3 ? std::optional(result) : std::nullopt;
+}
+
+/// A vertex that is not three numbers gets NaN; the surfaces that use it are reported and left out.
+std::vector<Vec3d> readVertices(json::array array, const Transform& transform) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Vec3d> vertices;
+    vertices.reserve(array.size());
+    for (const json::element item : array) {
+        const auto v = readVec3(item);
+        vertices.push_back(v ? transform.apply(*v) : Vec3d{kNan, kNan, kNan});
+    }
+    return vertices;
+}
+
+std::vector<model::Material> readMaterials(const std::optional<json::element>& appearance) {
+    std::vector<model::Material> materials;
+    const auto members = appearance ? asObject(*appearance) : std::nullopt;
+    const auto list = members ? memberOf(*members, "materials") : std::nullopt;
+    const auto array = list ? asArray(*list) : std::nullopt;
+    if (!array) return materials;
+    const auto toUnit = [](double value) { return static_cast<float>(value >= 0 ? std::min(value, 1.0) : 0.0); };
+    for (const json::element item : *array) {
+        model::Material& material = materials.emplace_back();
+        const auto object = asObject(item);
+        if (!object) continue;
+        if (const auto name = memberOf(*object, "name")) material.name = asString(*name).value_or(std::string_view());
+        const auto diffuse = memberOf(*object, "diffuseColor");
+        if (const auto color = diffuse ? readVec3(*diffuse) : std::nullopt)
+            material.diffuse = {toUnit(color->x), toUnit(color->y), toUnit(color->z)};
+        if (const auto value = memberOf(*object, "transparency"))
+            material.transparency = toUnit(asNumber(*value).value_or(0));
+    }
+    return materials;
+}
+
+std::string_view readTheme(const std::optional<json::element>& appearance) {
+    const auto members = appearance ? asObject(*appearance) : std::nullopt;
+    const auto theme = members ? memberOf(*members, "default-theme-material") : std::nullopt;
+    return theme ? asString(*theme).value_or(std::string_view()) : std::string_view();
+}
+
+/// The objects of one line of a sequence.
+struct ParsedLine {
+    std::string_view text;
+    std::uint64_t number = 0;  ///< 1-based
+    std::vector<ParsedObject> objects;
+    std::vector<model::Material> materials;  ///< of the line alone
+    Diagnostics diagnostics;
+};
+
+class CityJsonReader {
+public:
+    CityJsonReader(std::string_view text, std::string_view name, const ReadOptions& options, Diagnostics& diagnostics)
+        : text_(text), name_(name), options_(options), diagnostics_(diagnostics) {}
+
+    Result<model::BuildingModel> read() {
+        const bool hasLines = isSequence(text_);
+        std::string_view head = text_;
+        std::uint64_t headLine = 1;
+        if (hasLines) {
+            const std::size_t begin = text_.find_first_not_of(kBlanks);
+            headLine += static_cast<std::uint64_t>(
+                std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
+            head = text_.substr(begin, text_.find('\n', begin) - begin);
+            rest_ = text_.substr(begin + head.size());
+        }
+        if (auto done = readHead(head, headLine, hasLines); !done) return done.error();
+        if (hasLines)
+            if (auto done = readLines(headLine); !done) return done.error();
+        if (Progress::isCancelled(options_.progress)) return cancelled();
+        if (auto done = linkObjects(std::move(objects_), name_, model_, diagnostics_); !done) return done.error();
+        if (auto done = settleCrs(model_, name_, diagnostics_); !done) return done.error();
+        Progress::tell(options_.progress, "read", 1);
+        return std::move(model_);
+    }
+
+private:
+    [[nodiscard]] Place place(std::uint64_t line) const { return {std::string(name_), line, 0, {}}; }
+    [[nodiscard]] Error tooManyInstances() const {
+        return Error(
+            Code::InputTooBig,
+            fmt::format(
+                "template geometries are used so often that they would take {} bytes of JSON; at most {} can be read",
+                instancedBytes_.load(), kMaxInstancedBytes),
+            place(0));
+    }
+    [[nodiscard]] Error cancelled() const { return Error(Code::Cancelled, "reading was cancelled", place(0)); }
+
+    Result<void> readHead(std::string_view text, std::uint64_t line, bool hasLines) {
+        const TextOrigin origin{name_, line};
+        auto root = headText_.parse(text, origin, options_.maxDepth, diagnostics_);
+        if (!root) return root.error();
+        if (Progress::isCancelled(options_.progress)) return cancelled();
+        Progress::tell(options_.progress, "read", hasLines ? 0 : 0.5);
+        const auto object = asObject(*root);
+        if (!object) return Error(Code::BadJson, "the text is no JSON object; expected a CityJSON object", place(line));
+        const RootMembers members(*object, place(0), diagnostics_);
+        const auto type = members.type ? asString(*members.type) : std::nullopt;
+        if (type == "CityJSONFeature")
+            return Error(Code::BadJson,
+                         "a CityJSONFeature without the CityJSON object that has its transform; "
+                         "expected that object in the first line",
+                         place(line));
+        if (type != "CityJSON")
+            return Error(
+                Code::BadJson,
+                fmt::format("the member 'type' is '{}', expected 'CityJSON'", type ? shortened(*type) : "(absent)"),
+                place(line));
+        if (auto done = readVersion(members.version, hasLines); !done) return done;
+        if (auto done = readTransform(members.transform); !done) return done;
+        readMetadata(members.metadata, model_, name_, diagnostics_);
+        model_.source = name_;
+        model_.materials = readMaterials(members.appearance);
+        headMaterials_ = model_.materials.size();
+        theme_ = readTheme(members.appearance);
+        readTemplates(members.templates);
+
+        const auto cityObjects = members.cityObjects ? asObject(*members.cityObjects) : std::nullopt;
+        if (!cityObjects)
+            return Error(Code::BadJson, "the member 'CityObjects' is absent or no JSON object", place(line));
+        const auto vertices = members.vertices ? asArray(*members.vertices) : std::nullopt;
+        if (!vertices && !(hasLines && cityObjects->size() == 0))
+            return Error(Code::BadJson, "the member 'vertices' is absent or no array", place(line));
+        std::vector<Vec3d> points;
+        if (vertices) points = readVertices(*vertices, transform_);
+        return readObjects(*cityObjects, contextOf(origin, points));
+    }
+
+    [[nodiscard]] TextContext contextOf(const TextOrigin& origin, std::span<const Vec3d> vertices) {
+        return {origin, vertices, &templates_, 0, headMaterials_, headMaterials_, theme_};
+    }
+
+    Result<void> readVersion(const std::optional<json::element>& value, bool hasLines) {
+        std::string version;
+        if (value) {
+            if (const auto text = asString(*value))
+                version = *text;
+            else if (const auto number = asNumber(*value))
+                version = fmt::format("{:.1f}", *number);
+        }
+        if (version.empty()) {
+            diagnostics_.add(Severity::Warning, Code::UnknownVersion, "no 'version'; read as 2.0", place(0));
+            version = "2.0";
+        }
+        const bool hasMajor = version.starts_with("1.") || version.starts_with("2.");
+        if (!hasMajor)
+            return Error(Code::UnknownVersion,
+                         fmt::format("version '{}' cannot be read, only 1.x and 2.x; convert the file with "
+                                     "cjio or citygml-tools first",
+                                     shortened(version)),
+                         place(0));
+        const std::string_view main = std::string_view(version).substr(0, 3);
+        if (main != "1.0" && main != "1.1" && main != "2.0")
+            diagnostics_.add(Severity::Note, Code::UnknownVersion,
+                             fmt::format("version '{}' is not known; read as {}", shortened(version),
+                                         main[0] == '1' ? "1.1" : "2.0"),
+                             place(0));
+        model_.format = fmt::format("{} {}", hasLines ? "CityJSONSeq" : "CityJSON", shortened(version));
+        isTransformOptional_ = main == "1.0";
+        return {};
+    }
+
+    Result<void> readTransform(const std::optional<json::element>& value) {
+        if (!value) {
+            if (!isTransformOptional_)
+                diagnostics_.add(Severity::Warning, Code::BadValue, "no 'transform'; vertices are taken as they are",
+                                 place(0));
+            return {};
+        }
+        const auto object = asObject(*value);
+        const auto scale = object ? memberOf(*object, "scale") : std::nullopt;
+        const auto translate = object ? memberOf(*object, "translate") : std::nullopt;
+        const auto scaleValues = scale ? readVec3(*scale) : std::nullopt;
+        const auto translateValues = translate ? readVec3(*translate) : std::nullopt;
+        if (!scaleValues || !translateValues || scaleValues->x == 0 || scaleValues->y == 0 || scaleValues->z == 0)
+            return Error(
+                Code::BadValue,
+                "'transform' needs a 'scale' of three numbers that are not 0 and a 'translate' of three numbers",
+                place(0));
+        transform_ = {*scaleValues, *translateValues};
+        return {};
+    }
+
+    void readTemplates(const std::optional<json::element>& value) {
+        const auto object = value ? asObject(*value) : std::nullopt;
+        if (!object) return;
+        const auto geometries = memberOf(*object, "templates");
+        const auto vertices = memberOf(*object, "vertices-templates");
+        if (const auto array = geometries ? asArray(*geometries) : std::nullopt)
+            for (const json::element geometry : *array) {
+                templates_.geometries.push_back(geometry);
+                // At least what a feature takes, so that empty templates count as well.
+                templates_.textBytes.push_back(std::max<std::size_t>(64, simdjson::minify(geometry).size()));
+            }
+        if (const auto array = vertices ? asArray(*vertices) : std::nullopt)
+            templates_.vertices = readVertices(*array, {});
+    }
+
+    Result<void> readObjects(json::object cityObjects, const TextContext& context) {
+        std::vector<std::pair<std::string_view, json::element>> members;
+        members.reserve(cityObjects.size());
+        for (const auto [id, value] : cityObjects) members.emplace_back(id, value);
+        for (const auto& [id, value] : members) instancedBytes_ += instancedBytes(value, templates_);
+        if (instancedBytes_ > kMaxInstancedBytes) return tooManyInstances();
+        objects_.resize(members.size());
+        parallelFor(members.size(), 8, options_.threads, [&](std::size_t begin, std::size_t end) {
+            if (Progress::isCancelled(options_.progress)) return;
+            for (std::size_t i = begin; i < end; ++i)
+                objects_[i] = readCityObject(members[i].first, members[i].second, context);
+        });
+        if (Progress::isCancelled(options_.progress)) return cancelled();
+        return {};
+    }
+
+    /// Lines in batches of a fixed number of bytes; a batch is parsed in parallel and joined in order.
+    Result<void> readLines(std::uint64_t headLine) {
+        std::uint64_t number = headLine;
+        std::size_t position = 0;
+        while (position < rest_.size()) {
+            std::vector<ParsedLine> batch;
+            for (std::size_t bytes = 0; position < rest_.size() && bytes < kBatchBytes;) {
+                const std::size_t end = std::min(rest_.find('\n', position), rest_.size());
+                const std::string_view line = trimmed(rest_.substr(position, end - position));
+                if (!line.empty()) batch.push_back({line, number, {}, {}, {}});
+                bytes += line.size();
+                position = end + 1;
+                ++number;
+            }
+            parallelFor(batch.size(), 16, options_.threads, [&](std::size_t begin, std::size_t end) {
+                if (Progress::isCancelled(options_.progress)) return;
+                JsonText json;
+                for (std::size_t i = begin; i < end; ++i) readLine(json, batch[i]);
+            });
+            if (Progress::isCancelled(options_.progress)) return cancelled();
+            if (instancedBytes_ > kMaxInstancedBytes) return tooManyInstances();
+            for (ParsedLine& line : batch) joinLine(line);
+            Progress::tell(options_.progress, "read",
+                           static_cast<double>(std::min(position, rest_.size())) / static_cast<double>(rest_.size()));
+        }
+        return {};
+    }
+
+    /// Runs beside other lines: reads the members of this reader, writes `line` alone.
+    void readLine(JsonText& json, ParsedLine& line) {
+        const TextOrigin origin{name_, line.number};
+        const auto leaveOut = [&](std::string_view why) {
+            line.diagnostics.add(Severity::Error, Code::BadJson, fmt::format("{}; the line is left out", why),
+                                 place(line.number));
+        };
+        auto root = json.parse(line.text, origin, options_.maxDepth, line.diagnostics);
+        if (!root) {
+            line.diagnostics.add(Severity::Error, root.error().code(),
+                                 fmt::format("{}; the line is left out", root.error().message()), root.error().where());
+            return;
+        }
+        const auto object = asObject(*root);
+        if (!object) return leaveOut("no JSON object");
+        const RootMembers members(*object, place(line.number), line.diagnostics);
+        const auto type = members.type ? asString(*members.type) : std::nullopt;
+        if (type != "CityJSONFeature")
+            return leaveOut(fmt::format("the member 'type' is '{}', expected 'CityJSONFeature'",
+                                        type ? shortened(*type) : "(absent)"));
+        const auto cityObjects = members.cityObjects ? asObject(*members.cityObjects) : std::nullopt;
+        const auto vertices = members.vertices ? asArray(*members.vertices) : std::nullopt;
+        if (!cityObjects || !vertices) return leaveOut("the object 'CityObjects' or the array 'vertices' is absent");
+        // The sum over a batch decides, so that the order of threads does not: a reading fails always or never.
+        for (const auto [id, value] : *cityObjects) instancedBytes_ += instancedBytes(value, templates_);
+        if (instancedBytes_ > kMaxInstancedBytes) return;
+        const std::vector<Vec3d> points = readVertices(*vertices, transform_);
+        TextContext context = contextOf(origin, points);
+        line.materials = readMaterials(members.appearance);
+        if (!line.materials.empty()) {
+            // Numbered after those of the head here; joinLine() gives the numbers of the model.
+            context.materialBegin = headMaterials_;
+            context.materialEnd = context.materialBegin + line.materials.size();
+        }
+        if (const auto theme = readTheme(members.appearance); !theme.empty()) context.materialTheme = theme;
+        line.objects.reserve(cityObjects->size());
+        for (const auto [id, value] : *cityObjects) line.objects.push_back(readCityObject(id, value, context));
+    }
+
+    void joinLine(ParsedLine& line) {
+        diagnostics_.append(line.diagnostics);
+        // Lines repeat the same few materials; each stands in the model once.
+        std::vector<std::int32_t> numberOf;
+        for (model::Material& material : line.materials) {
+            const auto next = static_cast<std::int32_t>(model_.materials.size());
+            const auto [entry, isNew] =
+                materialNumbers_.emplace(std::tuple(material.name, material.diffuse.x, material.diffuse.y,
+                                                    material.diffuse.z, material.transparency),
+                                         next);
+            if (isNew) model_.materials.push_back(std::move(material));
+            numberOf.push_back(entry->second);
+        }
+        const auto first = static_cast<std::int32_t>(headMaterials_);
+        for (ParsedObject& object : line.objects) {
+            for (model::Polygon& polygon : object.polygons)
+                if (polygon.material >= first)
+                    polygon.material = numberOf[static_cast<std::size_t>(polygon.material - first)];
+            objects_.push_back(std::move(object));
+        }
+    }
+
+    std::string_view text_, rest_, name_;
+    const ReadOptions& options_;
+    Diagnostics& diagnostics_;
+    JsonText headText_;  ///< keeps the templates and the theme alive
+    Transform transform_;
+    bool isTransformOptional_ = false;
+    TemplateSet templates_;
+    std::atomic<std::uint64_t> instancedBytes_{0};
+    std::string_view theme_;
+    std::size_t headMaterials_ = 0;
+    /// Name, colour and transparency of the materials of lines.
+    std::map<std::tuple<std::string, float, float, float, float>, std::int32_t> materialNumbers_;
+    std::vector<ParsedObject> objects_;
+    model::BuildingModel model_;
+};
+
+}  // namespace
+
+bool looksLikeCityJson(std::span<const std::byte> head) noexcept {
+    std::string_view text(reinterpret_cast<const char*>(head.data()), std::min<std::size_t>(head.size(), 4096));
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    text = trimmed(text);
+    if (!text.starts_with('{')) return false;
+    for (const std::string_view word :
+         {"\"CityJSON\"", "\"CityJSONFeature\"", "\"CityObjects\"", "\"geometry-templates\""})
+        if (text.find(word) != std::string_view::npos) return true;
+    return trimmed(text.substr(1)).starts_with("\"vertices\"");
+}
+
+Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std::string_view name,
+                                          const ReadOptions& options, Diagnostics* diagnostics) {
+    Diagnostics unheard;
+    if (bytes.size() > options.maxBytes)
+        return Error(Code::InputTooBig, fmt::format("{} bytes; at most {} are read", bytes.size(), options.maxBytes),
+                     {std::string(name), 0, 0, {}});
+    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    return CityJsonReader(text, name, options, diagnostics != nullptr ? *diagnostics : unheard).read();
+}
+
+}  // namespace svt::readers

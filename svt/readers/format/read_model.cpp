@@ -1,0 +1,238 @@
+#include <svt/readers/read_model.hpp>
+
+#include <svt/model/classes.hpp>
+
+#include <svt/readers/citygml/citygml_reader.hpp>
+#include <svt/readers/cityjson/cityjson_reader.hpp>
+#include <svt/readers/xml/xml_names.hpp>
+#include <svt/readers/xml/xml_scanner.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace svt::readers {
+namespace {
+
+using std::string_view;
+using Bytes = std::span<const std::byte>;
+
+constexpr std::size_t kHeadBytes = 1 << 20;
+
+constexpr Format kFormats[] = {
+    {"CityGML 1.0 to 3.0", looksLikeCityGml, readCityGml},
+    {"CityJSON and CityJSONSeq", looksLikeCityJson, readCityJson},
+};
+
+string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+// A file in memory as long as the object lives.
+class MappedFile {
+public:
+    static Result<std::unique_ptr<MappedFile>> open(const std::filesystem::path& path, std::uint64_t maxBytes) {
+        const auto fail = [&](Code code, std::string message) {
+            return Error(code, std::move(message), {path.string(), 0, 0, {}});
+        };
+        std::unique_ptr<MappedFile> file(new MappedFile);
+        file->descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+        if (file->descriptor_ < 0)
+            return fail(Code::CannotOpen, fmt::format("cannot be opened: {}", std::strerror(errno)));
+        struct stat status {};
+        if (::fstat(file->descriptor_, &status) != 0)
+            return fail(Code::CannotOpen, fmt::format("cannot be read: {}", std::strerror(errno)));
+        if (!S_ISREG(status.st_mode)) return fail(Code::CannotOpen, "is no regular file");
+        const auto size = static_cast<std::uint64_t>(status.st_size);
+        if (size > maxBytes) return fail(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", size, maxBytes));
+        if (size == 0) return file;
+        void* const data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file->descriptor_, 0);
+        if (data == MAP_FAILED)
+            return fail(Code::CannotOpen, fmt::format("cannot be mapped: {}", std::strerror(errno)));
+        file->data_ = data;
+        file->size_ = size;
+        ::madvise(data, size, MADV_SEQUENTIAL);
+        return file;
+    }
+    MappedFile(const MappedFile&) = delete;
+    MappedFile& operator=(const MappedFile&) = delete;
+    ~MappedFile() {
+        if (data_ != nullptr) ::munmap(data_, size_);
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    [[nodiscard]] Bytes bytes() const noexcept { return {static_cast<const std::byte*>(data_), size_}; }
+
+private:
+    MappedFile() = default;
+    int descriptor_ = -1;
+    void* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+bool isGzip(Bytes bytes) noexcept { return asText(bytes).starts_with("\x1F\x8B\x08"); }
+
+// All members of a gzip file, one after the other.
+Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::uint64_t maxBytes) {
+    const auto fail = [&](Code code, std::string message) {
+        return Error(code, std::move(message), {std::string(name), 0, 0, {}});
+    };
+    z_stream stream{};
+    if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) throw std::bad_alloc();
+    const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
+
+    constexpr std::size_t kStep = 1 << 30;  // counters of zlib have 32 bits
+    std::vector<std::byte> output(
+        std::min<std::uint64_t>(std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), maxBytes));
+    std::size_t written = 0;
+    std::size_t taken = 0;
+    int status = Z_OK;
+    while (true) {
+        if (written == output.size()) {
+            if (output.size() >= maxBytes)
+                return fail(Code::InputTooBig,
+                            fmt::format("more than {} bytes after decompression, which is the limit", maxBytes));
+            output.resize(std::min<std::uint64_t>(2 * output.size(), maxBytes));
+        }
+        const std::size_t input = std::min(bytes.size() - taken, kStep);
+        const std::size_t room = std::min(output.size() - written, kStep);
+        stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data() + taken));
+        stream.avail_in = static_cast<uInt>(input);
+        stream.next_out = reinterpret_cast<Bytef*>(output.data() + written);
+        stream.avail_out = static_cast<uInt>(room);
+        status = inflate(&stream, Z_NO_FLUSH);
+        taken += input - stream.avail_in;
+        written += room - stream.avail_out;
+        if (status == Z_STREAM_END) {
+            if (!isGzip(bytes.subspan(taken))) break;
+            inflateReset(&stream);
+        } else if (status != Z_OK && status != Z_BUF_ERROR) {
+            return fail(Code::CannotOpen, fmt::format("damaged gzip data at byte {}", taken));
+        } else if (taken == bytes.size() && written < output.size()) {
+            return fail(Code::CannotOpen, "the gzip data ends too early; the file seems to be cut off");
+        }
+    }
+    output.resize(written);
+    return output;
+}
+
+// Content that people try, with what it is and what to do about it.
+struct KnownOther {
+    string_view beginsWith;
+    string_view isWhat;
+};
+constexpr KnownOther kOthers[] = {
+    {"ISO-10303-21", "an IFC (STEP) file; convert it to CityGML or CityJSON"},
+    {"PK\x03\x04", "a zip archive; unpack it first"},
+    {"%PDF", "a PDF"},
+    {"\x89PNG", "a PNG picture"},
+    {"glTF", "a binary glTF, which has no semantics"},
+    {"ply", "a PLY mesh, which has no semantics"},
+    {"NRRD", "an NRRD volume"},
+    {"\x1F\x8B", "gzip data within gzip data; decompress it first"},
+    {"BZh", "a bzip2 file; decompress it first"},
+    {"\xFD"
+     "7zXZ",
+     "an xz file; decompress it first"},
+    {"\x28\xB5\x2F\xFD", "a zstd file; decompress it first"},
+};
+constexpr KnownOther kOtherRoots[] = {
+    {"html", "an HTML page, perhaps an error page that was saved instead of the file"},
+    {"IndoorFeatures", "IndoorGML; convert it to CityGML 3.0 or CityJSON"},
+    {"kml", "KML"},
+    {"ifcXML", "ifcXML; convert it to CityGML or CityJSON"},
+    {"LandXML", "LandXML"},
+    {"COLLADA", "COLLADA, which has no semantics"},
+    {"X3D", "X3D, which has no semantics"},
+};
+
+std::string lowered(string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
+
+std::string describeUnknown(string_view text) {
+    if (text.empty()) return "the file is empty";
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    const string_view trimmed = xml::trimmed(text.substr(0, 4096));
+    if (trimmed.empty()) return "the file holds nothing but blanks";
+    for (const KnownOther& other : kOthers)
+        if (trimmed.starts_with(other.beginsWith)) return fmt::format("this is {}", other.isWhat);
+    if (lowered(trimmed.substr(0, 14)) == "<!doctype html") return fmt::format("this is {}", kOtherRoots[0].isWhat);
+    if (trimmed[0] == '<') {
+        const xml::Prolog prolog = xml::readProlog(text);
+        const string_view root = xml::splitName(prolog.rootName).localName;
+        for (const KnownOther& other : kOtherRoots)
+            if (lowered(root) == lowered(other.beginsWith)) return fmt::format("this is {}", other.isWhat);
+        if (prolog.hasRoot) return fmt::format("this is XML with the root <{}>", prolog.rootName.substr(0, 60));
+        return "this begins like XML, but has no root element";
+    }
+    if (trimmed[0] == '{' || trimmed[0] == '[') return "this is JSON, but no CityJSON";
+    const bool isText = std::all_of(
+        trimmed.begin(), trimmed.begin() + std::min<std::ptrdiff_t>(64, static_cast<std::ptrdiff_t>(trimmed.size())),
+        [](char c) { return static_cast<unsigned char>(c) >= 0x20 || xml::isBlank(c); });
+    if (!isText) return "this is binary data of an unknown kind";
+    return fmt::format("this is text of an unknown kind, it begins with '{}'",
+                       trimmed.substr(0, std::min<std::size_t>(24, trimmed.find_first_of("\r\n"))));
+}
+
+Error unknownFormat(Bytes bytes, string_view name) {
+    std::string known;
+    for (const Format& format : kFormats) known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
+    return {Code::UnknownFormat,
+            fmt::format("{}. Can be read: {}, also compressed with gzip", describeUnknown(asText(bytes)), known),
+            {std::string(name), 0, 0, {}}};
+}
+
+Result<model::BuildingModel> readPlain(Bytes bytes, string_view name, const ReadOptions& options,
+                                       Diagnostics* diagnostics) {
+    const Bytes head = bytes.first(std::min(bytes.size(), kHeadBytes));
+    for (const Format& format : kFormats)
+        if (format.looksLike(head)) return format.read(bytes, name, options, diagnostics);
+    return unknownFormat(bytes, name);
+}
+
+// A feature whose format has no class for it may state one: walls as solids in CityGML 2.0, for example.
+Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> model) {
+    if (!model) return model;
+    for (model::Feature& feature : model->features)
+        for (const Attribute& attribute : feature.attributes)
+            if (attribute.name == "svtClass")
+                if (const auto* stated = std::get_if<std::string>(&attribute.value);
+                    stated != nullptr && !stated->empty())
+                    feature.className = model::canonicalClassName(*stated);
+    return model;
+}
+
+}  // namespace
+
+std::span<const Format> formats() noexcept { return kFormats; }
+
+Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const ReadOptions& options,
+                                       Diagnostics* diagnostics) {
+    if (bytes.size() > options.maxBytes)
+        return Error(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", bytes.size(), options.maxBytes),
+                     {std::string(name), 0, 0, {}});
+    if (!isGzip(bytes)) return withStatedClasses(readPlain(bytes, name, options, diagnostics));
+    const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);
+    if (!plain) return plain.error();
+    return withStatedClasses(readPlain(*plain, name, options, diagnostics));
+}
+
+Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
+                                       Diagnostics* diagnostics) {
+    const Result<std::unique_ptr<MappedFile>> file = MappedFile::open(path, options.maxBytes);
+    if (!file) return file.error();
+    return readModel((*file)->bytes(), path.string(), options, diagnostics);
+}
+
+}  // namespace svt::readers

@@ -1,0 +1,87 @@
+#include <svt/render/light/surface_light.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::render {
+namespace {
+
+Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
+
+std::uint64_t part(std::int32_t c, int shift) noexcept { return static_cast<std::uint64_t>(c) << shift; }
+
+}  // namespace
+
+Surface SurfaceLight::at(const LinearStyle& style, const SurfaceHit& hit) const {
+    Surface surface = facing(style, hit);
+    const bool isOpen = !style.isBody || surface.isAroundEye || frame_.spec.light.ambientOcclusion <= 0;
+    const Vec3d point = hit.origin + hit.direction * hit.from;
+    surface.light = lightOn(surface.normal, hit.view, isOpen ? 1 : openness(point, surface.away, surface.crease));
+    return surface;
+}
+
+double SurfaceLight::on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept {
+    const bool isOpen = !style.isBody || frame_.spec.light.ambientOcclusion <= 0;
+    return lightOn(normal, view, isOpen ? 1 : openness(point, volume_.directions.away(normal), 0));
+}
+
+Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) const {
+    Surface surface;
+    DirectionTable::Directions found;
+    bool isAway = false;
+    if (hit.cap) {
+        found.normal =
+            hit.cap.normalAt(volume_.grid.worldFromIndex(hit.origin + hit.direction * hit.from - Vec3d{0.5, 0.5, 0.5}));
+        found.away = volume_.directions.away(found.normal);
+        isAway = dot(found.normal, hit.view) < 0;
+        surface.isCap = true;
+    } else if (hit.plane != volume::BrickVolume::kNoPlane) {
+        found = volume_.directions.plane(hit.plane);
+        isAway = dot(volume_.bricks.oblique()[hit.plane].normal, hit.direction) > 0;
+    } else if (hit.axis < 0) {
+        found.normal = hit.view;
+        surface.isAroundEye = true;
+    } else if (style.isBody && hit.isVoxel) {
+        const SurfaceNormal& fitted = normalAt(hit.cell, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
+        found = volume_.directions.directions(toDouble(fitted.indexNormal));
+        surface.crease =
+            std::clamp((double(fitted.coverage) - double(SurfaceNormal::kPlaneCoverage) - 0.05) * 2.5, 0.0, 1.0);
+    } else {
+        found = volume_.directions.axis(hit.axis);
+        isAway = hit.direction[hit.axis] > 0;
+    }
+    surface.normal = isAway ? -found.normal : found.normal;
+    surface.away = isAway ? -found.away : found.away;
+    return surface;
+}
+
+const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) const {
+    // 17 bits a coordinate, 3 the face, 6 the pass.
+    const std::uint64_t key = part(cell.x, 0) | part(cell.y, 17) | part(cell.z, 34) |
+                              part(2 * axis + (sign > 0 ? 1 : 0), 51) | part(std::int32_t(passNumber_), 54);
+    NormalCache::Slot& slot = cache_.slot(key);
+    if (slot.key != key) {
+        slot.key = key;
+        const PassTable& table = pass_.table;
+        slot.normal = surfaceNormal(volume_.bricks, cell, axis, sign,
+                                    [&](volume::Scalar scalar) { return table[scalar].isBody; });
+    }
+    return slot.normal;
+}
+
+// 1 in the open, less in corners.
+double SurfaceLight::openness(Vec3d point, Vec3d away, double crease) const noexcept {
+    const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, away) + 0.35 * crease);
+    return 1 - double(frame_.spec.light.ambientOcclusion) * occlusion;
+}
+
+// Key light, sky and a little light from the viewer; corners get less of all.
+double SurfaceLight::lightOn(Vec3d normal, Vec3d view, double open) const noexcept {
+    const Light& light = frame_.spec.light;
+    const double key = std::max(0.0, dot(normal, frame_.towardsLight));
+    const double facing = std::max(0.0, dot(normal, view));
+    const double sky = 0.80 + 0.20 * normal.z;
+    return double(light.ambient) * open * (0.82 * sky + 0.18 * facing) + double(light.key) * key * (0.45 + 0.55 * open);
+}
+
+}  // namespace svt::render

@@ -1,0 +1,88 @@
+#pragma once
+/// \file
+/// Casts rays in packets, with the results of SampleCaster to the last bit. Internal to render.
+
+#include <svt/render/light/fragments.hpp>
+#include <svt/render/light/sample.hpp>
+#include <svt/render/light/surface_normal.hpp>
+#include <svt/render/packet/packet_kernel.hpp>
+#include <svt/render/prepare/prepared_frame.hpp>
+
+#include <span>
+#include <vector>
+
+namespace svt::render {
+
+/// The passes of a picture as the packet kernel reads them; shared by all threads.
+class PacketPasses {
+public:
+    explicit PacketPasses(const PreparedFrame& frame);
+
+    [[nodiscard]] const PacketPass& operator[](std::size_t pass) const noexcept { return passes_[pass]; }
+    /// The same, ending at the first label.
+    [[nodiscard]] PacketPass labelsOnly(std::size_t pass) const noexcept;
+
+private:
+    std::vector<std::vector<PacketStyle>> styles_;
+    std::vector<std::vector<PacketFace>> faces_;  // by volume
+    std::vector<PacketPass> passes_;
+};
+
+/// Casts packets of one tile; belongs to one thread.
+class PacketCaster {
+public:
+    PacketCaster(const PreparedFrame& frame, const PacketPasses& passes)
+        : frame_(frame), passes_(passes), visible_(frame.passes.size()), finder_(frame) {}
+
+    /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if
+    /// isFull().
+    void add(double u, double v, std::size_t place) noexcept {
+        rays_.u[count_] = u;
+        rays_.v[count_] = v;
+        places_[count_++] = place;
+    }
+    [[nodiscard]] bool isFull() const noexcept { return count_ == kPacketRays; }
+    /// Whether rays through `rect` may see anything.
+    [[nodiscard]] bool isAnyIn(const ViewRect& rect) const noexcept;
+    /// Casts the rays that there are, if any.
+    void cast(bool withColor, std::span<Sample> samples);
+
+private:
+    void setUpRays(std::size_t volume);
+    void castPasses(bool withColor, std::span<Sample> samples);
+    void castPass(std::size_t pass, const PacketPass& packetScene);
+    void castParts(PacketPass& pass);
+    void findLines(std::size_t block);
+    void walkVisible(const PacketPass& pass);
+    void addLastFragments();
+    void findParts(std::size_t ray);
+    double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
+    void writeSample(std::size_t ray, Sample& sample) const noexcept;
+    void addFragment(std::size_t ray);
+    static void fragmentOf(void* context, std::size_t ray);
+    [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
+
+    const PreparedFrame& frame_;
+    const PacketPasses& passes_;
+    NormalCache cache_;
+    std::size_t count_ = 0;
+    std::array<std::size_t, kPacketRays> places_;
+    PacketRays rays_;
+    PacketSamples seen_;
+    std::vector<Sample> ofPasses_;  // kPacketRays a pass
+    std::size_t pass_ = 0;
+    std::size_t volume_ = 0;        // that the rays are set up for
+    std::vector<RaySpan> visible_;  // by pass: outside of it no ray sees anything
+    std::array<CapFace, kPacketRays> caps_{};
+    PacketSpans spans_{};
+    FragmentFinder finder_;
+    std::vector<DrawnInterval> parts_;  // of all rays of the packet, ray by ray
+    Fragments fragments_;               // the same
+    struct Range {
+        std::size_t next = 0, end = 0;
+    };
+    std::array<Range, kPacketRays> rayParts_{}, rayFragments_{};
+    bool withColor_ = true, hasShapes_ = false;
+};
+
+}  // namespace svt::render

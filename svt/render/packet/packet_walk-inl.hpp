@@ -1,0 +1,276 @@
+/// \file
+/// The way of rays through a volume, many rays at once: walkRuns() of the plain caster. Internal to render.
+
+// Highway includes this once for each set of instructions.
+#if defined(SVT_RENDER_PACKET_WALK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVT_RENDER_PACKET_WALK_INL_HPP
+#undef SVT_RENDER_PACKET_WALK_INL_HPP
+#else
+#define SVT_RENDER_PACKET_WALK_INL_HPP
+#endif
+
+#include <svt/render/packet/packet_vectors-inl.hpp>
+#include <svt/render/walk/plane_crossing.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace svt::render::HWY_NAMESPACE {
+namespace {
+
+// Voxels [low, high) of a box, and the same as rays of one direction come upon them.
+struct Bounds {
+    double low[3], high[3];
+    double ahead[3], behind[3];
+};
+
+// Walks as many rays as one vector takes, and writes down where their labels change.
+class Walk {
+public:
+    HWY_INLINE Walk(const PacketPass& pass, const PacketRays& rays, const RayVectors& vectors, std::size_t first,
+                    ChangeRows& changes)
+        : frame_(pass), rays_(rays), vectors_(vectors), styles_(pass), first_(first), changes_(changes) {}
+
+    // Starts on [from, to); not where a ray has ended before.
+    HWY_INLINE void begin(const Lanes<double>& from, const Lanes<double>& to, const Lanes<std::int64_t>& isDone) {
+        const D d;
+        t_ = hn::Load(d, from.data() + first_);
+        end_ = hn::Load(d, to.data() + first_);
+        const M isOver = toDoubles(hn::Ne(hn::Load(DI(), isDone.data() + first_), hn::Zero(DI())));
+        t_ = hn::IfThenElse(andNot(isOver, hn::Lt(t_, end_)), t_, hn::Set(d, kInfinity));
+        runScalar_ = crossed_ = hn::Set(DI(), -1);
+    }
+
+    // Ends rays.
+    HWY_INLINE void end(M lanes) { t_ = hn::IfThenElse(lanes, hn::Set(D(), kInfinity), t_); }
+
+    // Where the rays are; infinity for those that have ended.
+    HWY_INLINE V times() const { return t_; }
+    // The voxel that one of them is in at t, see VoxelRay::cellAt().
+    HWY_INLINE Vec3i cell(std::size_t lane, double t) const {
+        const std::size_t ray = first_ + lane;
+        Vec3i cell;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double along = rays_.direction[axis][ray], position = rays_.origin[axis][ray] + t * along;
+            const auto plane = static_cast<std::int64_t>(position + 0.5);
+            const auto inner = static_cast<std::int64_t>(position);
+            const double aside = position - static_cast<double>(plane);
+            const double time = (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
+            // Beside a plane rounding must not decide. Without branches: nobody foretells them.
+            const bool isBeside = (std::abs(aside) <= rays_.slack[ray]) & (along != 0);
+            const std::int64_t decided = plane - std::int64_t{(time <= t) == (along < 0)};
+            const std::int64_t at = isBeside ? decided : inner;
+            const auto last = static_cast<std::int64_t>(frame_.count[axis]) - 1;
+            cell[static_cast<int>(axis)] = static_cast<std::int32_t>(std::clamp<std::int64_t>(at, 0, last));
+        }
+        return cell;
+    }
+
+    // The box that rays are in.
+    struct Inside {
+        M lanes;
+        V exit;  // when they leave it
+    };
+    HWY_INLINE Inside findInside(const Bounds& box) const {
+        const D d;
+        if (HWY_LIKELY(vectors_.isPlain)) {
+            const auto time = [&](const Axis& axis, double plane) { return axis.planeTime(hn::Set(d, plane)); };
+            const V exit = hn::Min(hn::Min(time(vectors_.x, box.ahead[0]), time(vectors_.y, box.ahead[1])),
+                                   time(vectors_.z, box.ahead[2]));
+            const V entry = hn::Max(hn::Max(time(vectors_.x, box.behind[0]), time(vectors_.y, box.behind[1])),
+                                    time(vectors_.z, box.behind[2]));
+            return {hn::And(hn::Le(entry, t_), hn::Lt(t_, exit)), exit};
+        }
+        return findInsideByLane(box);
+    }
+
+    // Through a box of one label.
+    HWY_INLINE void crossUniform(const Inside& inside, std::int64_t scalar) {
+        const DI di;
+        const M lanes = change(inside.lanes, hn::Set(di, scalar), false);
+        crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+        advance(lanes, inside.exit);
+    }
+
+    // Through a coded box, from side to side.
+    HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
+        const D d;
+        Side sides[volume::BrickVolume::kMostSides];
+        std::size_t count = 0;
+        const auto addCut = [&](const Axis& axis, std::size_t number) {
+            if (((code.cutAxes >> number) & 1u) == 0) return;
+            const V place = hn::Set(d, static_cast<double>(code.cut[number]));
+            Side& side = sides[count++];
+            side.time = axis.planeTime(place);
+            side.isBeyondAfter = hn::Not(axis.isNegative);
+            // Not along this axis: on one side for good.
+            if (!vectors_.areMoving)
+                side.isBeyondAfter = hn::And(side.isBeyondAfter, hn::Or(axis.isMoving, hn::Lt(axis.origin, place)));
+            side.plane = -1;
+        };
+        addCut(vectors_.x, 0);
+        addCut(vectors_.y, 1);
+        addCut(vectors_.z, 2);
+        for (const std::uint32_t number : code.plane) {
+            if (number == volume::BrickVolume::kNoPlane) continue;
+            Side& side = sides[count++];
+            findCrossing(frame_.volume.oblique[number], side.time, side.isBeyondAfter);
+            side.plane = number;
+        }
+        const volume::Scalar* scalars = frame_.volume.palettes.data() + code.cells;
+        switch (count) {
+            case 1: return crossSides<1>(inside, sides, scalars);
+            case 2: return crossSides<2>(inside, sides, scalars);
+            case 3: return crossSides<3>(inside, sides, scalars);
+            case 4: return crossSides<4>(inside, sides, scalars);
+            case 5: return crossSides<5>(inside, sides, scalars);
+            default: return crossSides<6>(inside, sides, scalars);
+        }
+    }
+
+    // Through a brick of voxels, from voxel to voxel.
+    HWY_INLINE void crossVoxels(const Inside& inside, const Bounds& box,
+                                const volume::BrickVolume::PaletteBrick& brick) {
+        const D d;
+        const DI di;
+        const V one = hn::Set(d, 1.0);
+        const std::uint64_t* words = frame_.volume.words.data() + brick.planes;
+        const volume::Scalar* scalars = frame_.volume.palettes.data() + brick.palette;
+        M lanes = inside.lanes;
+        const V3 cell = vectors_.cells(t_);
+        const auto local = [&](V at, int axis) {
+            return hn::IfThenElseZero(lanes, hn::Sub(at, hn::Set(d, box.low[axis])));
+        };
+        // Which bit of which word.
+        VI bit = toInt(hn::Add(local(cell.x, 0), hn::Mul(local(cell.y, 1), hn::Set(d, 8.0))));
+        VI word = toInt(local(cell.z, 2));
+        // Faces of the voxel before the rays; they move by a voxel.
+        const auto sign = [&](const Axis& axis) { return hn::IfThenElse(axis.isNegative, hn::Neg(one), one); };
+        const V3 step{sign(vectors_.x), sign(vectors_.y), sign(vectors_.z)};
+        const auto faceAhead = [&](const Axis& axis, V at) {
+            return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one));
+        };
+        V3 far{faceAhead(vectors_.x, cell.x), faceAhead(vectors_.y, cell.y), faceAhead(vectors_.z, cell.z)};
+        const VI stepX = toInt(step.x), stepY = hn::ShiftLeft<3>(toInt(step.y)), stepZ = toInt(step.z);
+        crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+        while (true) {
+            VI index = hn::Zero(di);
+            for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
+                const VI bits = shiftRightBy(lookUp(words + std::size_t{8} * plane, word), bit);
+                index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
+            }
+            const VI scalar = lookUp(scalars, brick.paletteSize, index);
+            lanes = change(lanes, scalar, true);
+            const V3 leave{vectors_.x.planeTime(far.x), vectors_.y.planeTime(far.y), vectors_.z.planeTime(far.z)};
+            const V next = hn::Min(hn::Min(leave.x, leave.y), leave.z);
+            lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
+            if (!any(lanes)) return;
+            const auto move = [&](V time, V by, VI bits, V& face, VI& place) {
+                const M crosses = hn::And(lanes, hn::Eq(time, next));
+                face = hn::IfThenElse(crosses, hn::Add(face, by), face);
+                place = hn::IfThenElse(toInts(crosses), hn::Add(place, bits), place);
+            };
+            move(leave.x, step.x, stepX, far.x, bit);
+            move(leave.y, step.y, stepY, far.y, bit);
+            move(leave.z, step.z, stepZ, far.z, word);
+        }
+    }
+
+private:
+    HWY_NOINLINE Inside findInsideByLane(const Bounds& box) const {
+        const D d;
+        Inside inside;
+        inside.lanes = hn::Lt(t_, end_);
+        const auto leaveTime = [&](const Axis& axis, std::size_t number) {
+            const V low = hn::Set(d, box.low[number]), high = hn::Set(d, box.high[number]);
+            const V leave = axis.planeTime(hn::IfThenElse(axis.isNegative, low, high));
+            const V enter = axis.planeTime(hn::IfThenElse(axis.isNegative, high, low));
+            const M isIn = hn::And(hn::Le(enter, t_), hn::Lt(t_, leave));
+            const M stays = andNot(axis.isMoving, hn::And(hn::Ge(axis.origin, low), hn::Lt(axis.origin, high)));
+            inside.lanes = hn::And(inside.lanes, hn::Or(isIn, stays));
+            return leave;
+        };
+        const V x = leaveTime(vectors_.x, 0), y = leaveTime(vectors_.y, 1), z = leaveTime(vectors_.z, 2);
+        inside.exit = hn::Min(hn::Min(x, y), z);
+        return inside;
+    }
+
+    // When the rays change sides of a cut or plane; whether they are beyond from then on, or until then.
+    struct Side {
+        V time;
+        M isBeyondAfter;
+        std::int64_t plane;  // its number, or -1
+    };
+
+    // From side to side, which stand in the order of the bits of a cell's number.
+    template <std::size_t kCount>
+    HWY_INLINE void crossSides(const Inside& inside, const Side* sides, const volume::Scalar* scalars) {
+        const DI di;
+        M lanes = inside.lanes;
+        while (true) {
+            VI cell = hn::Zero(di), nextPlane = hn::Set(di, -1);
+            V next = inside.exit;
+            for (std::size_t s = 0; s < kCount; ++s) {
+                const M isAfter = hn::Ge(t_, sides[s].time);
+                const M isNotBeyond = hn::Xor(isAfter, sides[s].isBeyondAfter);
+                cell = hn::Or(cell, hn::IfThenZeroElse(toInts(isNotBeyond), hn::Set(di, std::int64_t{1} << s)));
+                const M isNext = andNot(isAfter, hn::Lt(sides[s].time, next));
+                next = hn::IfThenElse(isNext, sides[s].time, next);
+                nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
+            }
+            lanes = change(lanes, lookUp(scalars, std::size_t{1} << kCount, cell), false);
+            crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
+            lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
+            if (!any(lanes)) return;
+        }
+    }
+
+    // PlaneCrossing of the plain caster.
+    HWY_INLINE void findCrossing(const volume::BrickPlane& plane, V& time, M& isRising) const {
+        const D d;
+        const V zero = hn::Zero(d);
+        const V3 normal = broadcast(plane.normal);
+        const V height =
+            hn::Add(dot(normal, {vectors_.x.origin, vectors_.y.origin, vectors_.z.origin}), hn::Set(d, plane.offset));
+        const V rise = dot(normal, {vectors_.x.direction, vectors_.y.direction, vectors_.z.direction});
+        const M crosses = hn::Ne(rise, zero);
+        time = hn::IfThenElse(crosses, hn::Div(hn::Neg(height), rise), hn::Set(d, kInfinity));
+        isRising = hn::Or(hn::Gt(rise, zero), hn::Not(hn::Or(crosses, hn::Gt(height, zero))));
+    }
+
+    // Lanes go on to `t`; returns those that have not ended.
+    HWY_INLINE M advance(M lanes, V t) {
+        const D d;
+        const M goesOn = hn::And(lanes, hn::Lt(t, end_));
+        t_ = hn::IfThenElse(lanes, hn::IfThenElse(goesOn, t, hn::Set(d, kInfinity)), t_);
+        return goesOn;
+    }
+
+    // The lanes are in `scalar` from t on; returns those that do not end there.
+    HWY_INLINE M change(M lanes, VI scalar, bool isVoxel) {
+        const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
+        if (!any(changed)) return lanes;
+        runScalar_ = hn::IfThenElse(toInts(changed), scalar, runScalar_);
+        changes_.add(changed, t_, scalar, crossed_, isVoxel);
+        if (frame_.hasOpaque) {
+            const VI kind = styles_.integer<offsetof(PacketStyle, kind)>(styles_.looksOf(scalar, changed));
+            const M ending = hn::And(changed, toDoubles(isSet(kind, PacketKind::kOpaque)));
+            end(ending);
+            lanes = andNot(ending, lanes);
+        }
+        return lanes;
+    }
+
+    const PacketPass& frame_;
+    const PacketRays& rays_;
+    const RayVectors& vectors_;
+    Styles styles_;
+    std::size_t first_;
+    ChangeRows& changes_;
+    V t_, end_;
+    VI runScalar_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
+};
+
+}  // namespace
+}  // namespace svt::render::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,187 @@
+#include <svt/core/parallel.hpp>
+#include <svt/image/color.hpp>
+#include <svt/render/picture/tile_renderer.hpp>
+#include <svt/render/ray_caster.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace svt::render {
+namespace {
+
+Result<void> checkCall(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options) {
+    if (auto checked = checkFrameSpec(spec); !checked) return checked;
+    if (volumes.empty() || volumes.size() > FrameSpec::kMaxPasses)
+        return Error(Code::BadArgument,
+                     fmt::format("{} volumes to draw; 1 to {} are possible", volumes.size(), FrameSpec::kMaxPasses));
+    for (const DrawnVolume& volume : volumes)
+        if (volume.bricks().dimension() != volume.grid().dimension())
+            return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    for (std::size_t n = 0; n < spec.passes.size(); ++n)
+        if (spec.passes[n].volume >= volumes.size())
+            return Error(Code::BadFrame, fmt::format("pass {} draws volume {}, but there are {}; the first is 0", n,
+                                                     spec.passes[n].volume, volumes.size()));
+    if (!(options.opaqueAt > 0 && options.opaqueAt <= 1) || !(options.labelAt >= 0 && options.labelAt < 1))
+        return Error(Code::BadArgument,
+                     fmt::format("opaqueAt of {} or labelAt of {} is out of range; (0, 1] and [0, 1) are "
+                                 "possible",
+                                 options.opaqueAt, options.labelAt));
+    return {};
+}
+
+Vec3d towardsLight(const Light& light, const CameraRays& rays) {
+    Vec3d direction = light.direction;
+    if (light.space == Light::Space::Camera)
+        direction = rays.right() * direction.x + rays.up() * direction.y - rays.forward() * direction.z;
+    return normalized(direction);
+}
+
+// Where the volume's box is seen, a pixel wider; the whole picture where the eye is in it or beside it.
+PixelRect drawnPixels(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
+    const PixelRect whole{0, 0, static_cast<double>(spec.width), static_cast<double>(spec.height)};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    PixelRect rect{kInfinity, kInfinity, -kInfinity, -kInfinity};
+    const Vec3i n = grid.dimension();
+    double nearest = kInfinity, farthest = -kInfinity;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        const Vec3d seen = rays.seenAt(grid.worldFromIndex(index) - spec.camera.eye);
+        const double x = (seen.x + 1) / 2 * spec.width, y = (1 - seen.y) / 2 * spec.height;
+        rect = {std::min(rect.left, x - 1), std::min(rect.top, y - 1), std::max(rect.right, x + 1),
+                std::max(rect.bottom, y + 1)};
+        nearest = std::min(nearest, seen.z);
+        farthest = std::max(farthest, seen.z);
+    }
+    return rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest)) ? whole : rect;
+}
+
+// Is each voxel at least a pixel wide, wherever the volume is seen?
+bool arePixelsFine(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
+    double farthest = 0;
+    const Vec3i n = grid.dimension();
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        farthest = std::max(farthest, dot(grid.worldFromIndex(index) - spec.camera.eye, rays.forward()));
+    }
+    const Vec3d spacing = grid.spacing();
+    return rays.pixelSize(farthest) <= std::min({spacing.x, spacing.y, spacing.z});
+}
+
+PassTable tableOf(const Pass& pass, const FrameSpec& spec, const DrawnVolume& volume) {
+    if (volume.level() != nullptr) return PassTable(pass, spec.objectOfScalar, *volume.level());
+    return PassTable(pass, spec.objectOfScalar, volume.bricks().scalarCount());
+}
+
+Result<PreparedPass> preparedPass(const Pass& pass, const PreparedFrame& frame, const DrawnVolume& drawn) {
+    const FrameSpec& spec = frame.spec;
+    const PreparedVolume& volume = frame.volumes[pass.volume];
+    const int threads = frame.options.threads;
+    PreparedPass prepared{tableOf(pass.triangles.empty() ? pass : voxelsOf(pass, spec.objectOfScalar), spec, drawn),
+                          Clipper(pass.clips, volume.grid),
+                          {},
+                          pass.join,
+                          static_cast<std::uint8_t>(pass.volume)};
+    auto shapes = PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, frame.lineSamples,
+                                   SampleLayout(spec).blockMargin(frame.isAdaptive), threads);
+    if (!shapes) return shapes.error();
+    prepared.shapes = std::move(*shapes);
+    if (!frame.isReference) prepared.hull = VisibleHull(volume.bricks, prepared.table, volume.rays, threads);
+    if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
+        const PassTable& table = prepared.table;
+        prepared.occlusion = OcclusionField(
+            volume.bricks, volume.voxelSize, [&table](volume::Scalar scalar) { return table[scalar].isBody; },
+            prepared.clipper, threads);
+    }
+    return prepared;
+}
+
+Result<PreparedFrame> prepareFrame(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
+                                   const CastOptions& options, bool isReference) {
+    PreparedFrame frame{.spec = spec, .options = options, .isReference = isReference, .isAdaptive = options.isAdaptive};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    frame.drawn = {kInfinity, kInfinity, -kInfinity, -kInfinity};
+    for (const DrawnVolume& drawn : volumes) {
+        const PreparedVolume& volume = frame.volumes.emplace_back(drawn, spec);
+        frame.drawn.include(drawnPixels(volume.rays, volume.grid, spec));
+        frame.isAdaptive = frame.isAdaptive && arePixelsFine(volume.rays, volume.grid, spec);
+    }
+    if (!frame.isAdaptive) frame.lineSamples = std::round(std::sqrt(spec.samplesPerPixel));
+    frame.towardsLight = towardsLight(spec.light, frame.rays());
+    frame.hatchColor = image::linearFromSrgb(spec.hatches.color);
+    for (const Pass& pass : spec.passes) {
+        auto prepared = preparedPass(pass, frame, volumes[pass.volume]);
+        if (!prepared) return prepared.error();
+        frame.hasShapes = frame.hasShapes || !prepared->shapes.isEmpty();
+        frame.drawn.widen(prepared->shapes.reach());
+        frame.passes.push_back(std::move(*prepared));
+    }
+    return frame;
+}
+
+Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options,
+                        bool isReference) {
+    if (auto checked = checkCall(volumes, spec, options); !checked) return checked.error();
+    auto prepared = prepareFrame(volumes, spec, options, isReference);
+    if (!prepared) return prepared.error();
+    const PreparedFrame& frame = *prepared;
+    std::optional<PacketPasses> packets;
+    if (!isReference) packets.emplace(frame);
+    Frame picture;
+    // Side by side: what new memory takes is seen in fast frames.
+    parallelFor(3, 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t image = begin; image < end; ++image) {
+            if (image == 0) picture.color = image::Image<image::Rgba8>(spec.width, spec.height);
+            if (image == 1) picture.label = image::Image<volume::Scalar>(spec.width, spec.height);
+            if (image == 2)
+                picture.depth = image::Image<float>(spec.width, spec.height, std::numeric_limits<float>::infinity());
+        }
+    });
+    const auto tilesX = static_cast<std::size_t>((spec.width + kTilePixels - 1) / kTilePixels);
+    const auto tilesY = static_cast<std::size_t>((spec.height + kTilePixels - 1) / kTilePixels);
+    std::atomic<bool> isCancelled{false};
+    parallelFor(tilesX * tilesY, 4, options.threads, [&](std::size_t begin, std::size_t end) {
+        TileRenderer renderer(frame, packets ? &*packets : nullptr, picture);
+        for (std::size_t tile = begin; tile < end; ++tile) {
+            if (Progress::isCancelled(options.progress)) {
+                isCancelled = true;
+                return;
+            }
+            renderer.render(static_cast<std::int32_t>(tile % tilesX) * kTilePixels,
+                            static_cast<std::int32_t>(tile / tilesX) * kTilePixels);
+        }
+    });
+    if (isCancelled) return Error(Code::Cancelled, "the picture was cancelled");
+    return picture;
+}
+
+}  // namespace
+
+Result<Frame> castRays(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options) {
+    return castFrame(volumes, spec, options, false);
+}
+
+Result<Frame> castRaysReference(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
+                                const CastOptions& options) {
+    return castFrame(volumes, spec, options, true);
+}
+
+int levelForView(const FrameSpec& spec, const volume::Grid& grid, int coarsest) {
+    const CameraRays rays(spec, grid);
+    double nearest = std::numeric_limits<double>::infinity();
+    const Vec3i n = grid.dimension();
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index{(corner & 1) * n.x - 0.5, ((corner >> 1) & 1) * n.y - 0.5, (corner >> 2) * n.z - 0.5};
+        nearest = std::min(nearest, dot(grid.worldFromIndex(index) - spec.camera.eye, rays.forward()));
+    }
+    const Vec3d spacing = grid.spacing();
+    const double voxelsAPixel = rays.pixelSize(nearest) / std::max({spacing.x, spacing.y, spacing.z});
+    if (!(voxelsAPixel >= 4) || nearest <= 0) return 0;
+    return std::min(coarsest, static_cast<int>(std::log2(voxelsAPixel)) - 1);
+}
+
+}  // namespace svt::render

@@ -1,0 +1,197 @@
+#include <svt/render/light/cap_hatch.hpp>
+#include <svt/render/light/fragments.hpp>
+#include <svt/render/light/surface_light.hpp>
+#include <svt/render/plain/sample_caster.hpp>
+#include <svt/render/walk/run_walk.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace svt::render {
+namespace {
+
+using Kind = LinearStyle::Kind;
+
+// exp(-x) for x >= 0 by basic arithmetic alone, so that every machine and compiler gives the same bits. With n the
+// whole number nearest to x / ln 2, exp(-x) = 2^-n * exp(-r)^2, |r| <= ln(2) / 4, and exp(-r) by its Taylor polynomial,
+// put together in pairs (Estrin), which keeps the chain short; error below 1e-7 of the value.
+double expOfMinus(double x) noexcept {
+    if (!(x < 80)) return 0;
+    const double halvings = x * 1.4426950408889634;
+    const auto n = static_cast<std::int64_t>(halvings + 0.5);
+    const double r = (halvings - static_cast<double>(n)) * 0.34657359027997264;
+    const double square = r * r;
+    const double sum = (1 - r) + square * ((0.5 - r * (1.0 / 6)) + square * (1.0 / 24 - r * (1.0 / 120)));
+    return sum * sum * std::bit_cast<double>((1023 - n) << 52);
+}
+
+// Takes the runs of one ray under one pass.
+class RunShader {
+public:
+    RunShader(const PreparedFrame& frame, std::size_t pass, NormalCache& cache, const CameraRay& ray,
+              const Fragments& fragments, bool withColor)
+        : frame_(frame),
+          pass_(frame.passes[pass]),
+          surfaceLight_(frame, pass, cache),
+          ray_(ray),
+          fragments_(fragments.items),
+          surfaces_(fragments.surfaces),
+          withColor_(withColor) {}
+
+    void beginInterval(const DrawnInterval& interval) noexcept {
+        interval_ = &interval;
+        previousObject_ = kNoObject;
+    }
+
+    bool enter(volume::Scalar scalar, double from, const RunStart& start) {
+        if (addFragments(from)) return true;
+        const LinearStyle& style = pass_.table[scalar];
+        if (style.kind == Kind::Hidden) {
+            previousObject_ = kNoObject;
+            return false;
+        }
+        const bool isNewObject = style.object != previousObject_;
+        previousObject_ = style.object;
+        if (withColor_ && isNewObject)
+            surface_ =
+                surfaceLight_.at(style, {from, ray_.index.origin, ray_.index.direction, normalized(-ray_.direction),
+                                         start.cell, ray_.index.entryAxis(from, start.cell), start.plane, start.isVoxel,
+                                         from == interval_->from ? interval_->cap : CapFace{}});
+        if (style.kind == Kind::Translucent) return false;
+        add(style, 1, from);
+        hasEnded_ = true;
+        return true;
+    }
+
+    bool leave(volume::Scalar scalar, double from, double to) {
+        const LinearStyle& style = pass_.table[scalar];
+        if (style.kind == Kind::Hidden) return addFragments(to);
+        auto addUpTo = [&, begin = from](double end) mutable {
+            add(style, 1 - expOfMinus(double(style.density) * (end - begin) * ray_.metresPerT), from);
+            begin = end;
+            return isDone();
+        };
+        while (next_ < fragments_.size() && fragments_[next_].depth <= to)
+            if (addUpTo(fragments_[next_].depth) || addFragment()) return true;
+        return addUpTo(to);
+    }
+
+    /// What lies behind all voxels.
+    void finish() { addFragments(std::numeric_limits<double>::infinity()); }
+
+    [[nodiscard]] bool isDone() const noexcept {
+        if (hasEnded_) return true;
+        return withColor_ ? 1 - transmittance_ >= double(frame_.options.opaqueAt) : sample_.hasHit();
+    }
+
+    [[nodiscard]] Sample result() const noexcept {
+        Sample sample = sample_;
+        finishSample(color_, transmittance_ * lines_, frame_.options, sample);
+        sample.hasLine = lines_ < 1;
+        drawHidden(fragments_.subspan(next_), sample);
+        return sample;
+    }
+
+private:
+    static constexpr std::uint64_t kNoObject = ~std::uint64_t{0};
+
+    // Those up to `depth`, outside of runs; true ends the ray.
+    bool addFragments(double depth) {
+        while (!isDone() && next_ < fragments_.size() && fragments_[next_].depth <= depth)
+            if (addFragment()) return true;
+        return isDone();
+    }
+    // The next one; true ends the ray.
+    bool addFragment() {
+        const Fragment& fragment = fragments_[next_++];
+        blend(fragment, color_, transmittance_, lines_);
+        if (!fragment.isLine() && !sample_.hasHit() && 1 - transmittance_ > double(frame_.options.labelAt)) {
+            const MetSurface& surface = surfaces_[static_cast<std::size_t>(fragment.surface)];
+            sample_.label = surface.label;
+            sample_.object = surface.object;
+            sample_.depth = static_cast<float>(fragment.depth);
+            sample_.normal = toFloat(surface.normal);
+            sample_.isCap = surface.isCap;
+        }
+        return isDone();
+    }
+
+    void add(const LinearStyle& style, double alpha, double from) {
+        const double share = transmittance_ * alpha;
+        const double light = 1 + (surface_.light - 1) * double(style.surface);
+        color_ = color_ + Vec3d{style.color.x, style.color.y, style.color.z} * (share * light * lines_);
+        transmittance_ -= share;
+        if (!sample_.hasHit() && 1 - transmittance_ > double(frame_.options.labelAt)) {
+            sample_.label = style.label;
+            sample_.object = style.object;
+            sample_.depth = static_cast<float>(from);
+            sample_.normal = toFloat(surface_.normal);
+            sample_.isCap = surface_.isCap;
+        }
+    }
+
+    const PreparedFrame& frame_;
+    const PreparedPass& pass_;
+    SurfaceLight surfaceLight_;
+    const CameraRay& ray_;
+    std::span<const Fragment> fragments_;
+    std::span<const MetSurface> surfaces_;
+    std::size_t next_ = 0;  // the first that the ray has not come to
+    bool withColor_;
+    bool hasEnded_ = false;
+    const DrawnInterval* interval_ = nullptr;
+    std::uint64_t previousObject_ = kNoObject;
+    Surface surface_;
+    Sample sample_;
+    Vec3d color_{};
+    double transmittance_ = 1, lines_ = 1;  // of voxels and surfaces, of lines
+};
+
+}  // namespace
+
+SampleCaster::SampleCaster(const PreparedFrame& frame)
+    : frame_(frame),
+      finder_(frame.hasShapes ? std::make_unique<FragmentFinder>(frame) : nullptr),
+      fragments_(std::make_unique<Fragments>()) {}
+SampleCaster::~SampleCaster() = default;
+
+Sample SampleCaster::cast(double u, double v, bool withColor) {
+    Sample joined;
+    for (std::size_t n = 0; n < frame_.passes.size(); ++n) {
+        const PreparedPass& pass = frame_.passes[n];
+        const PreparedVolume& volume = frame_.volumes[pass.volume];
+        const CameraRay ray = volume.rays.at(u, v);
+        const RaySpan span = spanInVolume(ray.index, volume.bricks.dimension());
+        const DrawnIntervals drawn = pass.clipper.cut(ray.index, span);
+        fragments_->clear();
+        double end = std::numeric_limits<double>::infinity();
+        if (!pass.shapes.isEmpty()) {
+            if (withColor) finder_->addLines(n, finder_->findLines(n, u, v), *fragments_);
+            end = finder_->addSurfaces(n, u, v, ray, {drawn.begin(), drawn.end()}, 0, *fragments_);
+        }
+        RunShader shader(frame_, n, cache_, ray, *fragments_, withColor);
+        for (DrawnInterval interval : drawn) {
+            interval.to = std::min(interval.to, end);
+            if (!(interval.from < interval.to)) break;
+            shader.beginInterval(interval);
+            if (frame_.isReference)
+                walkRunsReference(volume.bricks, ray.index, interval.from, interval.to, shader);
+            else
+                walkRuns(volume.bricks, ray.index, interval.from, interval.to, shader);
+            if (shader.isDone()) break;
+        }
+        shader.finish();
+        Sample sample = shader.result();
+        sample.volume = pass.volume;
+        if (sample.isCap) hatchCap(frame_, n, u, v, sample);
+        if (n == 0)
+            joined = sample;
+        else
+            joinPass(pass.join, n, sample, joined);
+    }
+    return joined;
+}
+
+}  // namespace svt::render

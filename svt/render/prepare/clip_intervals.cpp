@@ -1,0 +1,173 @@
+#include <svt/render/clip_intervals.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace svt::render {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// dot(direction, p) of world space p = origin + axes * (index * spacing), as a vector of voxel space.
+Vec3d inVoxels(Vec3d direction, const volume::Grid& grid) {
+    Vec3d result;
+    for (int axis = 0; axis < 3; ++axis)
+        result[axis] = dot(direction, grid.axes()[static_cast<std::size_t>(axis)]) * grid.spacing()[axis];
+    return result;
+}
+
+}  // namespace
+
+Clipper::Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid) {
+    for (const ClipRegion& clip : clips) {
+        Region region{{}, clip.mode};
+        for (const ConvexPart& convex : clip.parts) {
+            Part part;
+            for (const HalfSpace& half : convex.halfSpaces) {
+                // Voxel space is index space plus one half.
+                const Vec3d normal = inVoxels(half.normal, grid);
+                part.planes.push_back(
+                    {normal, half.offset + dot(half.normal, grid.origin()) - normal.x / 2 - normal.y / 2 - normal.z / 2,
+                     &half});
+            }
+            for (const RoundBody& round : convex.rounds) {
+                RoundBody body{round.kind, grid.indexFromWorld(round.center) + Vec3d{0.5, 0.5, 0.5}, {}};
+                for (std::size_t row = 0; row < 3; ++row) body.axes[row] = inVoxels(round.axes[row], grid);
+                part.rounds.push_back({body, &round});
+            }
+            region.parts.push_back(std::move(part));
+        }
+        regions_.push_back(std::move(region));
+    }
+}
+
+// Keeps what lies in [from, to] too, whose ends are on `face`.
+void Clipper::Stretch::meet(double from, double to, CapFace face) noexcept {
+    if (from > enter) {
+        enter = from;
+        enterFace = face;
+    }
+    if (to < exit) {
+        exit = to;
+        exitFace = face;
+    }
+}
+
+// Where a t^2 + 2 b t + c < 0, of a cone only before its tip.
+void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) noexcept {
+    const RoundBody& body = round.body;
+    const Vec3d from = line.origin - body.center;
+    const auto inFrame = [&](Vec3d v) {
+        return Vec3d{dot(body.axes[0], v), dot(body.axes[1], v), dot(body.axes[2], v)};
+    };
+    const Vec3d o = inFrame(from), d = inFrame(line.direction);
+    const double along = body.kind == RoundBody::Kind::Ball ? 1 : body.kind == RoundBody::Kind::Cylinder ? 0 : -1;
+    const double a = d.x * d.x + d.y * d.y + along * d.z * d.z;
+    const double b = o.x * d.x + o.y * d.y + along * o.z * d.z;
+    const double c = o.x * o.x + o.y * o.y + along * o.z * o.z - (along < 0 ? 0 : 1);
+    const CapFace face{nullptr, round.source};
+    if (a == 0) {
+        // Along a cylinder or a line of a cone.
+        if (b == 0 ? !(c < 0) : along >= 0) return stretch.meet(kInfinity, -kInfinity, face);
+        const double t = b == 0 ? 0 : -c / (2 * b);
+        const double low = b > 0 ? -kInfinity : b < 0 ? t : -kInfinity, high = b > 0 ? t : kInfinity;
+        if (along < 0 && !(o.z + d.z * (b == 0 ? 0 : t + (b > 0 ? -1 : 1)) > 0))
+            return stretch.meet(kInfinity, -kInfinity, face);
+        return stretch.meet(low, high, face);
+    }
+    const double square = b * b - a * c;
+    // A line that misses the surface lies outside; through a cone's inside there is none but by its tip.
+    if (!(square > 0) && !(a < 0)) return stretch.meet(kInfinity, -kInfinity, face);
+    // The root of larger magnitude first; the other without cancellation.
+    const double sum = -(b + std::copysign(std::sqrt(std::max(square, 0.0)), b));
+    double t0 = sum / a, t1 = sum != 0 ? c / sum : t0;
+    if (t1 < t0) std::swap(t0, t1);
+    if (a < 0) return d.z > 0 ? stretch.meet(t1, kInfinity, face) : stretch.meet(-kInfinity, t0, face);
+    if (along < 0 && !(o.z + d.z * (t0 + t1) / 2 > 0)) return stretch.meet(kInfinity, -kInfinity, face);
+    stretch.meet(t0, t1, face);
+}
+
+Clipper::Stretch Clipper::within(const Part& part, const Line& line) noexcept {
+    Stretch stretch{-kInfinity, kInfinity, {}, {}};
+    for (const Plane& plane : part.planes) {
+        const double at = dot(plane.normal, line.origin) + plane.offset;
+        const double slope = dot(plane.normal, line.direction);
+        const CapFace face{plane.source, nullptr};
+        if (slope == 0)
+            stretch.meet(-kInfinity, at > 0 ? kInfinity : -kInfinity, face);
+        else if (slope > 0)
+            stretch.meet(-at / slope, kInfinity, face);
+        else
+            stretch.meet(-kInfinity, -at / slope, face);
+    }
+    for (const Round& round : part.rounds) meetRound(round, line, stretch);
+    return stretch;
+}
+
+// The stretches within any part, ascending and apart; their count.
+std::size_t Clipper::within(const Region& region, const Line& line, Stretches& stretches) noexcept {
+    std::size_t count = 0;
+    for (const Part& part : region.parts) {
+        const Stretch stretch = within(part, line);
+        if (!(stretch.enter < stretch.exit)) continue;
+        std::size_t at = count++;
+        for (; at > 0 && stretches[at - 1].enter > stretch.enter; --at) stretches[at] = stretches[at - 1];
+        stretches[at] = stretch;
+    }
+    std::size_t kept = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+        if (kept == 0 || stretches[n].enter > stretches[kept - 1].exit) {
+            stretches[kept++] = stretches[n];
+        } else if (stretches[n].exit > stretches[kept - 1].exit) {
+            stretches[kept - 1].exit = stretches[n].exit;
+            stretches[kept - 1].exitFace = stretches[n].exitFace;
+        }
+    }
+    return kept;
+}
+
+DrawnIntervals Clipper::cut(Vec3d origin, Vec3d direction, RaySpan span) const noexcept {
+    const Line line{origin, direction};
+    DrawnIntervals drawn;
+    drawn.add({span.from, span.to, {}});
+    Stretches stretches;
+    for (const Region& region : regions_) {
+        if (drawn.isEmpty()) break;
+        const std::size_t count = within(region, line, stretches);
+        DrawnIntervals next;
+        for (const DrawnInterval& interval : drawn) {
+            DrawnInterval rest = interval;
+            for (std::size_t n = 0; n < count; ++n) {
+                const Stretch& stretch = stretches[n];
+                if (stretch.exit <= rest.from) continue;
+                if (region.mode == ClipRegion::Mode::KeepOnly) {
+                    DrawnInterval kept = rest;
+                    if (stretch.enter > kept.from) kept = {stretch.enter, rest.to, stretch.enterFace};
+                    kept.to = std::min(kept.to, stretch.exit);
+                    next.add(kept);
+                } else {
+                    next.add({rest.from, std::min(rest.to, stretch.enter), rest.cap});
+                    rest = {stretch.exit, rest.to, stretch.exitFace};
+                }
+            }
+            if (region.mode == ClipRegion::Mode::CutAway) next.add(rest);
+        }
+        drawn = next;
+    }
+    return drawn;
+}
+
+bool Clipper::keeps(Vec3d point) const noexcept {
+    return std::all_of(regions_.begin(), regions_.end(), [&](const Region& region) {
+        const bool isInside = std::any_of(region.parts.begin(), region.parts.end(), [&](const Part& part) {
+            return std::all_of(part.planes.begin(), part.planes.end(),
+                               [&](const Plane& plane) { return dot(plane.normal, point) + plane.offset > 0; }) &&
+                   std::all_of(part.rounds.begin(), part.rounds.end(),
+                               [&](const Round& round) { return round.body.contains(point); });
+        });
+        return isInside == (region.mode == ClipRegion::Mode::KeepOnly);
+    });
+}
+
+}  // namespace svt::render

@@ -1,0 +1,86 @@
+#pragma once
+/// \file
+/// A frame with all that its rays share: volumes with the camera's rays through them, and passes with their tables of
+/// styles, clips, occlusion, lines and hulls. Made once a frame, then only read.
+
+#include <svt/render/camera_rays.hpp>
+#include <svt/render/clip_intervals.hpp>
+#include <svt/render/frame_spec.hpp>
+#include <svt/render/occlusion.hpp>
+#include <svt/render/pass_shapes.hpp>
+#include <svt/render/pass_table.hpp>
+#include <svt/render/prepare/direction_table.hpp>
+#include <svt/render/prepare/visible_hull.hpp>
+#include <svt/render/ray_caster.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svt::render {
+
+/// Part of the picture, pixels.
+struct PixelRect {
+    double left = 0, top = 0, right = 0, bottom = 0;
+    void widen(double by) noexcept { *this = {left - by, top - by, right + by, bottom + by}; }
+    void include(const PixelRect& other) noexcept {
+        *this = {std::min(left, other.left), std::min(top, other.top), std::max(right, other.right),
+                 std::max(bottom, other.bottom)};
+    }
+    [[nodiscard]] bool overlaps(std::int32_t x, std::int32_t y, std::int32_t width,
+                                std::int32_t height) const noexcept {
+        return x <= right && x + width >= left && y <= bottom && y + height >= top;
+    }
+};
+
+/// A pass as all rays share it.
+struct PreparedPass {
+    PassTable table;
+    Clipper clipper;
+    OcclusionField occlusion;
+    Pass::Join join;
+    std::uint8_t volume;  ///< see PreparedFrame::volumes
+    PassShapes shapes{};
+    VisibleHull hull{};  ///< not of the reference, which walks all of its rays
+};
+
+/// A volume as all rays share it.
+struct PreparedVolume {
+    const volume::BrickVolume& bricks;
+    const volume::Grid& grid;
+    CameraRays rays;
+    DirectionTable directions;
+    double voxelSize;  ///< metres, the largest spacing
+
+    PreparedVolume(const DrawnVolume& drawn, const FrameSpec& spec)
+        : bricks(drawn.bricks()),
+          grid(drawn.grid()),
+          rays(spec, grid),
+          directions(bricks, grid),
+          voxelSize(std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z})) {}
+};
+
+/// The picture as all rays share it.
+struct PreparedFrame {
+    const FrameSpec& spec;
+    const CastOptions& options;
+    std::vector<PreparedVolume> volumes{};  ///< at least one
+    std::vector<PreparedPass> passes{};
+    Vec3d towardsLight{};  ///< world space, unit length
+    Vec3f hatchColor{};    ///< linear light
+    bool isReference = false;
+    bool isAdaptive = false;  ///< more samples only where pixels differ
+    PixelRect drawn{};        ///< outside of it no ray meets the volume or a line
+    bool hasShapes = false;   ///< any pass has
+    /// Samples along a pixel's side, over which lines fade out. Adaptive pictures have one in most pixels.
+    double lineSamples = 1;
+
+    /// What rays have in common whatever volume they cross: all but CameraRay::index.
+    [[nodiscard]] const CameraRays& rays() const noexcept { return volumes.front().rays; }
+    [[nodiscard]] const PreparedVolume& volumeOf(std::size_t pass) const noexcept {
+        return volumes[passes[pass].volume];
+    }
+};
+
+}  // namespace svt::render

@@ -1,0 +1,67 @@
+#pragma once
+/// \file
+/// Where a ray crosses the planes that code a brick, and which plane a label begins at on the side of a brick.
+
+#include <svt/render/voxel_ray.hpp>
+#include <svt/volume/brick_volume.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace svt::render {
+
+/// When a ray crosses an oblique plane, and which side it is on when.
+struct PlaneCrossing {
+    double time = std::numeric_limits<double>::infinity();
+    bool isRising = false;  ///< on the positive side from `time` on, else until then
+
+    PlaneCrossing(const volume::BrickPlane& plane, const VoxelRay& ray) noexcept {
+        const double height = dot(plane.normal, ray.origin) + plane.offset, rise = dot(plane.normal, ray.direction);
+        isRising = rise > 0;
+        if (rise != 0)
+            time = -height / rise;
+        else
+            isRising = !(height > 0);
+    }
+    [[nodiscard]] bool isPositiveAt(double t) const noexcept { return (t >= time) == isRising; }
+};
+
+/// The planes of a brick; none where it is not coded by any.
+using BrickPlanes = decltype(volume::BrickVolume::BoxCoding::plane);
+inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
+[[nodiscard]] inline BrickPlanes planesOf(const volume::BrickVolume& volume,
+                                          volume::BrickVolume::Entry entry) noexcept {
+    return entry.isCoded() ? volume.coding(entry).plane : kNoPlanes;
+}
+
+/// Bricks beside each other may have planes for one surface that do not quite meet, so that a label begins on the side
+/// of a brick: the first of `planes` that the point at t is near, among those that look along the side's axis;
+/// BrickVolume::kNoPlane if there is none.
+[[nodiscard]] inline std::uint32_t nearPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t, int axis,
+                                             const BrickPlanes& planes) noexcept {
+    const Vec3d point = ray.origin + ray.direction * t;
+    for (const std::uint32_t number : planes) {
+        if (number == volume::BrickVolume::kNoPlane) continue;
+        const volume::BrickPlane& plane = volume.oblique()[number];
+        const double distance = dot(plane.normal, point) + plane.offset;
+        if (std::abs(distance) < 0.75 && std::abs(plane.normal[axis]) > 0.2) return number;
+    }
+    return volume::BrickVolume::kNoPlane;
+}
+/// The same for where a ray comes into `cell` at t, if that is on the side of a brick.
+[[nodiscard]] inline std::uint32_t seamPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t,
+                                             Vec3i cell) noexcept {
+    const int axis = ray.entryAxis(t, cell);
+    if (axis < 0) return volume::BrickVolume::kNoPlane;
+    const std::int32_t face = ray.step[axis] < 0 ? cell[axis] + 1 : cell[axis];
+    if ((face & 7) != 0) return volume::BrickVolume::kNoPlane;
+    const BrickPlanes entered = planesOf(volume, volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3));
+    const std::uint32_t plane = nearPlane(volume, ray, t, axis, entered);
+    if (plane != volume::BrickVolume::kNoPlane) return plane;
+    Vec3i left = cell;
+    left[axis] -= ray.step[axis];
+    return nearPlane(volume, ray, t, axis, planesOf(volume, volume.entry(left.x >> 3, left.y >> 3, left.z >> 3)));
+}
+
+}  // namespace svt::render

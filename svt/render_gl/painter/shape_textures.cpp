@@ -1,0 +1,135 @@
+#include <svt/render_gl/painter/shape_textures.hpp>
+
+#include <svt/render/pass_shapes.hpp>
+#include <svt/render_gl/painter/view_depth.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+namespace svt::render_gl {
+namespace {
+
+using render::PassShapes;
+
+/// Lines of 3 texels, then looks of 3, then triangles of 6; see shapes.glsl.
+class ShapeTable {
+public:
+    [[nodiscard]] const std::vector<std::uint32_t>& words() const noexcept { return words_; }
+    [[nodiscard]] std::uint32_t texels() const noexcept { return static_cast<std::uint32_t>(words_.size() / 4); }
+
+    void add(const render::PictureLine& line) {
+        addFloats(line.x, line.y, line.dx, line.dy);
+        addFloats(line.perSquaredLength, line.depth, line.depthChange, line.length);
+        words_.insert(words_.end(), {line.look, 0u, 0u, 0u});
+    }
+    void add(const render::LineLook& look) {
+        addFloats(look.color.x, look.color.y, look.color.z, look.halfWidth);
+        addFloats(look.darkest, look.hiddenOpacity, look.dash, look.period);
+        words_.insert(words_.end(), {static_cast<std::uint32_t>(look.hidden), 0u, 0u, 0u});
+    }
+    /// \param from  where corners are counted from, from the eye, metres
+    void add(const render::PictureTriangle& triangle, Vec3d from, std::uint32_t hatch) {
+        for (const Vec3d corner : triangle.corners) addVector(corner - from, 0);
+        addVector(triangle.normal, 0);
+        const render::LinearStyle& style = triangle.style;
+        addVector({style.color.x, style.color.y, style.color.z}, triangle.opacity);
+        const std::uint32_t flags =
+            static_cast<std::uint32_t>(style.kind) | std::uint32_t{style.isBody} << 2 | hatch << 8;
+        words_.insert(words_.end(), {flags, style.object, bitsOf(style.surface), style.label});
+    }
+
+private:
+    void addFloats(double x, double y, double z, double w) {
+        for (const double value : {x, y, z, w}) words_.push_back(bitsOf(static_cast<float>(value)));
+    }
+    void addVector(Vec3d v, double w) { addFloats(v.x, v.y, v.z, w); }
+
+    std::vector<std::uint32_t> words_;
+};
+
+/// Which shapes lie near each square of 4 x 4 pixels.
+struct SortedShapes {
+    std::uint32_t countX, countY;
+    std::vector<std::uint32_t> cells;  ///< by square: first in the list, lines, triangles, 0
+    std::vector<std::uint32_t> list;
+    std::uint32_t triangleCount = 0;
+
+    SortedShapes(const PassShapes& shapes, const render::FrameSpec& spec)
+        : countX(static_cast<std::uint32_t>(spec.width + 3) / 4),
+          countY(static_cast<std::uint32_t>(spec.height + 3) / 4) {
+        std::unordered_map<const std::uint32_t*, std::uint32_t> known;  // squares may share a list
+        for (std::uint32_t y = 0; y < countY; ++y)
+            for (std::uint32_t x = 0; x < countX; ++x)
+                add(shapes.near(2 * (4.0 * x + 2) / spec.width - 1, 1 - 2 * (4.0 * y + 2) / spec.height), known);
+    }
+
+private:
+    void add(std::span<const std::uint32_t> near, std::unordered_map<const std::uint32_t*, std::uint32_t>& known) {
+        if (near.empty()) {
+            cells.insert(cells.end(), {0u, 0u, 0u, 0u});
+            return;
+        }
+        const auto firstTriangle = std::lower_bound(near.begin(), near.end(), PassShapes::kTriangle);
+        const auto lines = static_cast<std::uint32_t>(firstTriangle - near.begin());
+        const auto [place, isNew] = known.try_emplace(near.data(), static_cast<std::uint32_t>(list.size()));
+        if (isNew) list.insert(list.end(), near.begin(), near.end());
+        cells.insert(cells.end(), {place->second, lines, static_cast<std::uint32_t>(near.size()) - lines, 0u});
+        if (firstTriangle != near.end())
+            triangleCount = std::max(triangleCount, (near.back() & ~PassShapes::kTriangle) + 1);
+    }
+};
+
+}  // namespace
+
+Result<void> ShapeTextures::update(const render::Pass& pass, const render::FrameSpec& spec, const volume::Grid& grid,
+                                   Vec3i middle, const GlLimits& limits, int threads) {
+    isEmpty_ = true;
+    if (pass.lines.empty() && pass.triangles.empty()) return {};
+    const render::CameraRays rays(spec, grid);
+    lineSamples_ = std::round(std::sqrt(spec.samplesPerPixel));
+    const auto shapes =
+        PassShapes::make(pass, spec, rays, grid, render::Clipper(pass.clips, grid), lineSamples_, 0, threads);
+    if (!shapes) return shapes.error();
+    if (shapes->isEmpty()) return {};
+    const Vec3d spacing = grid.spacing();
+    voxelSize_ = std::max({spacing.x, spacing.y, spacing.z});
+    pixelSize_ = rays.pixelSize(1);
+    isPerspective_ = rays.isPerspective();
+
+    const SortedShapes sorted(*shapes, spec);
+    cellsX_ = sorted.countX;
+    cellsY_ = sorted.countY;
+    ShapeTable table;
+    for (const render::PictureLine& line : shapes->lines()) table.add(line);
+    looksFirst_ = table.texels();
+    for (const render::LineLook& look : shapes->looks()) table.add(look);
+    trianglesFirst_ = table.texels();
+    const Vec3d from = rays.forward() * middleDepthOf(spec.camera, rays, grid, middle);
+    for (std::uint32_t n = 0; n < sorted.triangleCount; ++n) {
+        const render::PictureTriangle& triangle = shapes->triangle(n);
+        table.add(triangle, from, static_cast<std::uint32_t>(pass.styles[triangle.style.label].hatch));
+    }
+    isEmpty_ = false;
+    hasTriangles_ = sorted.triangleCount > 0;
+    if (auto set = cells_.setArray(GL_RGBA32UI, sorted.cells.data(), sorted.cells.size() / 4, limits); !set) return set;
+    if (auto set = list_.setArray(GL_R32UI, sorted.list.data(), sorted.list.size(), limits); !set) return set;
+    return table_.setArray(GL_RGBA32UI, table.words().data(), table.texels(), limits);
+}
+
+void ShapeTextures::setUniforms(Program& program) const {
+    program.bind("shapeCells", cells_);
+    program.bind("shapeList", list_);
+    program.bind("shapeTable", table_);
+    program.setPair("shapeCellCount", static_cast<GLint>(cellsX_), static_cast<GLint>(cellsY_));
+    program.set("looksFirst", GLuint{looksFirst_});
+    program.set("trianglesFirst", GLuint{trianglesFirst_});
+    program.set("lineSamples", lineSamples_);
+    program.set("linePixelPerDepth", isPerspective_ ? pixelSize_ : 0.0);
+    program.set("linePixelSize", isPerspective_ ? 0.0 : pixelSize_);
+    program.set("lineBefore", 1.5 * voxelSize_);
+    program.set("lineTogether", 2 * voxelSize_);
+}
+
+}  // namespace svt::render_gl

@@ -1,0 +1,108 @@
+#include <svt/render_gl/painter/volume_textures.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace svt::render_gl {
+namespace {
+
+using volume::BrickVolume;
+
+// What textures hold is what stands in memory.
+static_assert(sizeof(volume::SameLabelBox) == 16);
+static_assert(sizeof(BrickVolume::BoxCoding) == 24);
+static_assert(sizeof(BrickVolume::PaletteBrick) == 16);
+static_assert(sizeof(volume::Scalar) == 4);
+
+// Planes in places from `middle`, as floats.
+std::vector<float> planesFrom(Vec3i middle, std::span<const volume::BrickPlane> planes) {
+    std::vector<float> values;
+    values.reserve(4 * planes.size());
+    for (const volume::BrickPlane& plane : planes) {
+        const Vec3d n = plane.normal;
+        const double offset = plane.offset + n.x * middle.x + n.y * middle.y + n.z * middle.z;
+        for (const double value : {n.x, n.y, n.z, offset}) values.push_back(static_cast<float>(value));
+    }
+    return values;
+}
+
+// Palette brick of each brick; all bits set where it holds one scalar.
+std::vector<std::uint32_t> patternsOf(const BrickVolume& volume) {
+    std::vector<std::uint32_t> patterns;
+    const Vec3i count = volume.brickCount();
+    for (std::int32_t z = 0; z < count.z; ++z)
+        for (std::int32_t y = 0; y < count.y; ++y)
+            for (std::int32_t x = 0; x < count.x; ++x) {
+                const BrickVolume::Entry entry = volume.entry(x, y, z);
+                patterns.push_back(entry.isMixed() ? static_cast<std::uint32_t>(volume.paletteBrickNumber(entry))
+                                                   : 0xFFFFFFFFu);
+            }
+    return patterns;
+}
+
+}  // namespace
+
+Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlLimits& limits) {
+    const BrickVolume::Arrays arrays = volume.arrays();
+    VolumeTextures made;
+    made.dimension = volume.dimension();
+    made.brickCount = volume.brickCount();
+    made.middle = {made.dimension.x / 2, made.dimension.y / 2, made.dimension.z / 2};
+    made.uniformBoxes = static_cast<std::uint32_t>(arrays.uniformBoxes);
+    made.boxCount = static_cast<std::uint32_t>(arrays.boxes.size());
+    const std::size_t count = static_cast<std::size_t>(made.brickCount.x) *
+                              static_cast<std::size_t>(made.brickCount.y) * static_cast<std::size_t>(made.brickCount.z);
+    const auto isVoxels = [&](std::uint32_t value) { return value >= made.boxCount; };
+    const bool isNarrow = !arrays.narrow.empty();
+    made.hasVoxels =
+        isNarrow
+            ? std::any_of(arrays.narrow.begin(), arrays.narrow.begin() + static_cast<std::ptrdiff_t>(count), isVoxels)
+            : std::any_of(arrays.wide.begin(), arrays.wide.begin() + static_cast<std::ptrdiff_t>(count), isVoxels);
+    const std::vector<float> planes = planesFrom(made.middle, arrays.oblique);
+
+    const std::vector<std::uint32_t> patterns = made.hasVoxels ? patternsOf(volume) : std::vector<std::uint32_t>();
+
+    clearGlErrors();
+    struct Upload {
+        Texture& texture;
+        GLenum form;
+        const void* data;
+        std::size_t count, bytes;
+    };
+    const Upload uploads[]{
+        {made.index, GLenum(isNarrow ? GL_R16UI : GL_R32UI),
+         isNarrow ? static_cast<const void*>(arrays.narrow.data()) : arrays.wide.data(), count, isNarrow ? 2u : 4u},
+        {made.boxes, GL_RGBA32UI, arrays.boxes.data(), arrays.boxes.size(), 16},
+        {made.codes, GL_RG32UI, arrays.codes.data(), 3 * arrays.codes.size(), 8},
+        {made.bricks, GL_RGBA32UI, arrays.bricks.data(), arrays.bricks.size(), 16},
+        {made.palettes, GL_R32UI, arrays.palettes.data(), arrays.palettes.size(), 4},
+        {made.words, GL_RG32UI, arrays.words.data(), arrays.words.size(), 8},
+        {made.planes, GL_RGBA32UI, planes.data(), arrays.oblique.size(), 16},
+        {made.patterns, GL_R32UI, patterns.data(), patterns.size(), 4}};
+    for (const Upload& upload : uploads) {
+        if (auto set = upload.texture.setArray(upload.form, upload.data, upload.count, limits); !set)
+            return set.error();
+        made.sizeBytes += upload.count * upload.bytes;
+    }
+    if (auto checked = checkGl("the bricks of the volume"); !checked) return checked.error();
+    return made;
+}
+
+void VolumeTextures::setUniforms(Program& program) const {
+    program.bind("brickIndex", index);
+    program.bind("boxes", boxes);
+    program.bind("codes", codes);
+    program.bind("bricks", bricks);
+    program.bind("palettes", palettes);
+    program.bind("words", words);
+    program.bind("planes", planes);
+    program.bind("patterns", patterns);
+    program.set("uniformBoxes", GLuint{uniformBoxes});
+    program.set("boxCount", GLuint{boxCount});
+    program.set("dimension", dimension);
+    program.set("brickCount", brickCount);
+    program.set("middle", middle);
+}
+
+}  // namespace svt::render_gl

@@ -1,0 +1,440 @@
+// CityGML 2.0, LoD4. It knows no constructive elements, storeys or units:
+//   full      walls, slabs, beams and roof members are (Int)BuildingInstallation with a solid and the attribute
+//             svtClass; doors and windows are openings whose surfaces close around their bodies
+//   thematic  the classical model: boundary surfaces, an outer hull made of them, rooms
+//   both      storeys are CityObjectGroups, units BuildingParts that contain their rooms
+//             and inner walls
+// A face between a room and what bounds it is written once; the room uses it reversed (gml:OrientableSurface).
+#include <svt/samples/formats/writers.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace svt::samples {
+namespace {
+
+class Writer {
+public:
+    Writer(SampleSource& source, bool isThematic, TextSink& out)
+        : source_(source), isThematic_(isThematic), out_(out), gml_(out) {}
+
+    void write() {
+        out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                "<core:CityModel xmlns:core=\"http://www.opengis.net/citygml/2.0\""
+                " xmlns:app=\"http://www.opengis.net/citygml/appearance/2.0\""
+                " xmlns:bldg=\"http://www.opengis.net/citygml/building/2.0\""
+                " xmlns:gen=\"http://www.opengis.net/citygml/generics/2.0\""
+                " xmlns:grp=\"http://www.opengis.net/citygml/cityobjectgroup/2.0\""
+                " xmlns:luse=\"http://www.opengis.net/citygml/landuse/2.0\""
+                " xmlns:gml=\"http://www.opengis.net/gml\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n<gml:name>"
+             << source_.title() << "</gml:name>\n";
+        gml_.envelope(source_);
+        ground();
+        for (std::int64_t i = 0; i < source_.buildingCount() && !out_.hasFailed(); ++i) {
+            document_ = source_.building(i);
+            templateId_.clear();
+            building();
+            for (const Level& level : document_.levels)
+                for (std::size_t c = 0; c < level.plan->components.size(); ++c)
+                    if (level.plan->components[c].kind == Kind::Storey) storeyGroup(level, int(c));
+        }
+        out_ << "</core:CityModel>\n";
+    }
+
+private:
+    void ground() {
+        const std::vector<WorldPoint> corners = source_.ground();
+        if (corners.empty()) return;
+        out_ << "<core:cityObjectMember>\n<luse:LandUse gml:id=\"ground\"><gml:name>Ground</gml:name>"
+                "<luse:lod1MultiSurface><gml:MultiSurface gml:id=\"ground_surface\"><gml:surfaceMember>"
+                "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>";
+        for (const WorldPoint& corner : corners) {
+            gml_.position(corner, source_.decimals());
+            out_ << " ";
+        }
+        gml_.position(corners.front(), source_.decimals());
+        out_ << "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface>"
+                "</luse:lod1MultiSurface></luse:LandUse>\n</core:cityObjectMember>\n";
+    }
+
+    void building() {
+        out_ << "<core:cityObjectMember>\n<bldg:Building gml:id=\"" << document_.id << "\"><gml:name>" << document_.name
+             << "</gml:name>\n";
+        appearance();
+        out_ << "<bldg:function>" << document_.function << "</bldg:function><bldg:roofType>" << document_.roofType
+             << "</bldg:roofType><bldg:storeysAboveGround>" << document_.storeys << "</bldg:storeysAboveGround>\n";
+        for (const bool isOutside : {true, false})
+            for (const Level& level : document_.levels)
+                for (std::size_t c = 0; c < level.plan->components.size(); ++c)
+                    installationOfBuilding(level, int(c), -1, isOutside);
+        if (isThematic_) hull();
+        for (const Level& level : document_.levels) rooms(level, -1);
+        for (const Level& level : document_.levels)
+            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
+                if (level.plan->components[c].kind == Kind::Unit) unit(level, int(c));
+        out_ << "</bldg:Building>\n</core:cityObjectMember>\n";
+    }
+
+    void appearance() {
+        const std::vector<MaterialTargets> materials = materialTargets(document_, isThematic_);
+        if (materials.empty()) return;
+        out_ << "<app:appearance><app:Appearance gml:id=\"" << document_.id
+             << "_appearance\"><app:theme>sample</app:theme>\n";
+        for (const MaterialTargets& material : materials) {
+            out_ << "<app:surfaceDataMember>";
+            gml_.material(material.material, document_.id + "_material" + std::to_string(int(material.material)));
+            for (const std::string& polygon : material.polygons) out_ << "<app:target>#" << polygon << "</app:target>";
+            out_ << "</app:X3DMaterial></app:surfaceDataMember>\n";
+        }
+        out_ << "</app:Appearance></app:appearance>\n";
+    }
+
+    void open(const Level& level, int component, std::string_view tag) {
+        out_ << "<" << tag << " gml:id=\"" << document_.idOf(level, component) << "\"><gml:name>"
+             << document_.nameOf(level, component) << "</gml:name>";
+        for (const Attribute& attribute : document_.attributesOf(level, component)) genericAttribute(attribute);
+        const Kind kind = level.plan->components[std::size_t(component)].kind;
+        if (kind == Kind::Element || kind == Kind::Unit)
+            genericAttribute({"svtClass", std::string(className(kind)), ""});
+        out_ << "\n";
+    }
+
+    void genericAttribute(const Attribute& attribute) {
+        std::string_view type = "stringAttribute";
+        if (std::holds_alternative<std::int64_t>(attribute.value)) type = "intAttribute";
+        if (std::holds_alternative<double>(attribute.value))
+            type = attribute.unit.empty() ? "doubleAttribute" : "measureAttribute";
+        out_ << "<gen:" << type << " name=\"" << attribute.name << "\"><gen:value";
+        if (!attribute.unit.empty()) out_ << " uom=\"" << attribute.unit << "\"";
+        out_ << ">";
+        if (const double* number = std::get_if<double>(&attribute.value))
+            out_ << decimalText(*number);
+        else
+            out_ << toText(attribute.value);
+        out_ << "</gen:value></gen:" << type << ">";
+    }
+
+    void function(const Component& component) {
+        if (!component.function.empty()) out_ << "<bldg:function>" << component.function << "</bldg:function>";
+    }
+
+    // gml:Solid, or gml:CompositeSolid of bodies that touch; every polygon has an id.
+    void solid(const Level& level, int component) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(level, component);
+        const bool isComposite = c.shells.size() > 1;
+        if (isComposite) out_ << "<gml:CompositeSolid gml:id=\"" << id << "_solid\">";
+        std::size_t number = 0;
+        for (std::size_t s = 0; s < c.shells.size(); ++s) {
+            if (isComposite) out_ << "<gml:solidMember>";
+            out_ << "<gml:Solid gml:id=\"" << id << "_solid";
+            if (isComposite) out_ << std::int64_t(s);
+            out_ << "\"><gml:exterior><gml:CompositeSurface>\n";
+            for (const Face& face : c.shells[s].faces) inlineMember(level, face, polygonId(id, number++));
+            out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid>";
+            if (isComposite) out_ << "</gml:solidMember>";
+        }
+        if (isComposite) out_ << "</gml:CompositeSolid>";
+    }
+
+    void inlineMember(const Level& level, const Face& face, std::string_view id) {
+        out_ << "<gml:surfaceMember>";
+        gml_.polygon(level, face, id);
+        out_ << "</gml:surfaceMember>\n";
+    }
+
+    void reversedMember(std::string_view id, std::string_view base) {
+        out_ << "<gml:surfaceMember><gml:OrientableSurface gml:id=\"" << id
+             << "\" orientation=\"-\"><gml:baseSurface xlink:href=\"#" << base
+             << "\"/></gml:OrientableSurface></gml:surfaceMember>\n";
+    }
+
+    static bool isAtHull(const Component& component) {
+        for (const Shell& shell : component.shells)
+            for (const Face& face : shell.faces)
+                if (face.neighbor < 0) return true;
+        return false;
+    }
+
+    // Of the building itself (unit -1) or of one unit.
+    void installationOfBuilding(const Level& level, int component, int unit, bool isOutside) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        const bool isElement = c.kind == Kind::Element && !isThematic_;
+        if ((c.kind != Kind::Installation && !isElement) || c.parent >= 0 || c.isGhost || c.unit != unit) return;
+        if ((isElement ? isAtHull(c) : c.isOutside) != isOutside) return;
+        const std::string_view property =
+            isOutside ? "bldg:outerBuildingInstallation" : "bldg:interiorBuildingInstallation";
+        out_ << "<" << property << ">";
+        installation(level, component, isOutside ? "bldg:BuildingInstallation" : "bldg:IntBuildingInstallation");
+        out_ << "</" << property << ">\n";
+    }
+
+    void installation(const Level& level, int component, std::string_view tag) {
+        open(level, component, tag);
+        function(level.plan->components[std::size_t(component)]);
+        out_ << "<bldg:lod4Geometry>";
+        solid(level, component);
+        out_ << "</bldg:lod4Geometry></" << tag << ">";
+    }
+
+    // The outer faces of all elements and fillings close around the building: together they are its solid.
+    void hull() {
+        std::vector<std::string> members;
+        for (const Level& level : document_.levels)
+            for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
+                const Component& component = level.plan->components[c];
+                if (component.kind != Kind::Element || component.isGhost) continue;
+                if (component.hullPart == HullPart::Ground) hullSurface(level, int(c), "GroundSurface", members);
+                hullSurface(level, int(c), component.hullPart == HullPart::Roof ? "RoofSurface" : "WallSurface",
+                            members);
+            }
+        out_ << "<bldg:lod4Solid><gml:Solid gml:id=\"" << document_.id
+             << "_solid\"><gml:exterior><gml:CompositeSurface>\n";
+        for (const std::string& id : members) out_ << "<gml:surfaceMember xlink:href=\"#" << id << "\"/>\n";
+        out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod4Solid>\n";
+    }
+
+    // Outer faces of the component that have the type, as (polygon number, face).
+    static std::vector<std::pair<std::size_t, const Face*>> outerFaces(const Plan& plan, const Component& component,
+                                                                       std::string_view type) {
+        std::vector<std::pair<std::size_t, const Face*>> faces;
+        std::size_t number = 0;
+        for (const Shell& shell : component.shells)
+            for (const Face& face : shell.faces) {
+                const bool isGround = component.hullPart == HullPart::Ground && normalOf(plan, face).z < 0;
+                if (face.neighbor < 0 && (type.empty() || isGround == (type == "GroundSurface")))
+                    faces.push_back({number, &face});
+                ++number;
+            }
+        return faces;
+    }
+
+    void outerMultiSurface(const Level& level, int component, std::string_view type,
+                           std::vector<std::string>& members) {
+        const std::string id = document_.idOf(level, component);
+        const Component& c = level.plan->components[std::size_t(component)];
+        out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
+        for (const auto& [number, face] : outerFaces(*level.plan, c, type)) {
+            members.push_back(polygonId(id, number));
+            inlineMember(level, *face, members.back());
+        }
+        out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
+    }
+
+    void hullSurface(const Level& level, int component, std::string_view type, std::vector<std::string>& members) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        if (outerFaces(*level.plan, c, type).empty()) return;
+        out_ << "<bldg:boundedBy><bldg:" << type << " gml:id=\"" << document_.idOf(level, component)
+             << (type == "GroundSurface" ? "_ground" : "_outer") << "\"><gml:name>"
+             << document_.nameOf(level, component) << "</gml:name>\n";
+        outerMultiSurface(level, component, type, members);
+        for (const int child : level.plan->children[std::size_t(component)]) {
+            const Component& filling = level.plan->components[std::size_t(child)];
+            if (outerFaces(*level.plan, filling, "").empty()) continue;
+            const std::string_view tag = filling.kind == Kind::Door ? "bldg:Door" : "bldg:Window";
+            out_ << "<bldg:opening>";
+            open(level, child, tag);
+            outerMultiSurface(level, child, "", members);
+            out_ << "</" << tag << "></bldg:opening>\n";
+        }
+        out_ << "</bldg:" << type << "></bldg:boundedBy>\n";
+    }
+
+    void rooms(const Level& level, int unit) {
+        for (std::size_t c = 0; c < level.plan->components.size() && !out_.hasFailed(); ++c) {
+            const Component& component = level.plan->components[c];
+            if (component.kind != Kind::Room || component.isGhost || component.unit != unit) continue;
+            out_ << "<bldg:interiorRoom>";
+            room(level, int(c));
+            out_ << "</bldg:interiorRoom>\n";
+        }
+    }
+
+    void room(const Level& level, int component) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(level, component);
+        const std::vector<BoundaryGroup> groups = boundaryGroups(*level.plan, component);
+        std::set<int> openingFaces;
+        for (const BoundaryGroup& group : groups)
+            for (const BoundaryGroup& opening : group.openings)
+                openingFaces.insert(opening.faces.begin(), opening.faces.end());
+        open(level, component, "bldg:Room");
+        function(c);
+        out_ << "<bldg:lod4Solid><gml:Solid gml:id=\"" << id << "_solid\"><gml:exterior><gml:CompositeSurface>\n";
+        for (std::size_t f = 0; f < c.shells.front().faces.size(); ++f) {
+            const Face& face = c.shells.front().faces[f];
+            if (!isThematic_ && openingFaces.count(int(f)) != 0)
+                reversedMember(polygonId(id, f),
+                               polygonId(document_.idOf(level, face.neighbor), std::size_t(face.neighborFace)));
+            else
+                out_ << "<gml:surfaceMember xlink:href=\"#" << polygonId(id, f) << "\"/>\n";
+        }
+        out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod4Solid>\n";
+        int number = 0;
+        for (const BoundaryGroup& group : groups) {
+            out_ << "<bldg:boundedBy><bldg:" << group.type << " gml:id=\"" << id << "_b" << std::int64_t(number++)
+                 << "\">";
+            if (!group.faces.empty()) roomSurfaces(level, component, group);
+            for (const BoundaryGroup& opening : group.openings) openingOfRoom(level, component, opening, number++);
+            out_ << "</bldg:" << group.type << "></bldg:boundedBy>\n";
+        }
+        furnish(level, component);
+        out_ << "</bldg:Room>";
+    }
+
+    // A face that an element or an earlier room has written already is used reversed.
+    bool isWrittenElsewhere(const Level& level, int room, const Face& face) const {
+        if (face.neighbor < 0 || face.neighborFace < 0) return false;
+        const Component& neighbor = level.plan->components[std::size_t(face.neighbor)];
+        if (neighbor.isGhost) return false;
+        return neighbor.kind == Kind::Room ? face.neighbor < room : neighbor.kind == Kind::Element && !isThematic_;
+    }
+
+    void roomSurfaces(const Level& level, int room, const BoundaryGroup& group) {
+        const std::string id = document_.idOf(level, room);
+        const Shell& shell = level.plan->components[std::size_t(room)].shells.front();
+        out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
+        for (const int f : group.faces) {
+            const Face& face = shell.faces[std::size_t(f)];
+            const std::string polygon = polygonId(id, std::size_t(f));
+            if (isWrittenElsewhere(level, room, face))
+                reversedMember(polygon,
+                               polygonId(document_.idOf(level, face.neighbor), std::size_t(face.neighborFace)));
+            else
+                inlineMember(level, face, polygon);
+        }
+        out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
+    }
+
+    // Full: the closed body of the filling, in the first room that touches it. Thematic: the side towards this room.
+    void openingOfRoom(const Level& level, int room, const BoundaryGroup& opening, int number) {
+        const int filling = opening.neighbor;
+        const std::string_view tag = opening.type == "DoorSurface" ? "bldg:Door" : "bldg:Window";
+        const std::string id = document_.idOf(level, filling);
+        if (isThematic_) {
+            out_ << "<bldg:opening><" << tag << " gml:id=\"" << document_.idOf(level, room) << "_b"
+                 << std::int64_t(number) << "\"><gml:name>" << document_.nameOf(level, filling) << "</gml:name>\n";
+            roomSurfaces(level, room, opening);
+        } else if (firstRoom(*level.plan, filling) != room) {
+            out_ << "<bldg:opening xlink:href=\"#" << id << "\"/>\n";
+            return;
+        } else {
+            out_ << "<bldg:opening>";
+            open(level, filling, tag);
+            out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
+            std::size_t polygon = 0;
+            for (const Shell& shell : level.plan->components[std::size_t(filling)].shells)
+                for (const Face& face : shell.faces) inlineMember(level, face, polygonId(id, polygon++));
+            out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
+        }
+        out_ << "</" << tag << "></bldg:opening>\n";
+    }
+
+    static int firstRoom(const Plan& plan, int filling) {
+        int first = -1;
+        for (const Shell& shell : plan.components[std::size_t(filling)].shells)
+            for (const Face& face : shell.faces) {
+                if (face.neighbor < 0 || plan.components[std::size_t(face.neighbor)].kind != Kind::Room) continue;
+                if (first < 0 || face.neighbor < first) first = face.neighbor;
+            }
+        return first;
+    }
+
+    void furnish(const Level& level, int room) {
+        for (const Kind kind : {Kind::Furniture, Kind::Installation})
+            for (const int child : level.plan->children[std::size_t(room)]) {
+                if (level.plan->components[std::size_t(child)].kind != kind) continue;
+                const bool isFurniture = kind == Kind::Furniture;
+                out_ << (isFurniture ? "<bldg:interiorFurniture>" : "<bldg:roomInstallation>");
+                if (isFurniture)
+                    furniture(level, child);
+                else
+                    installation(level, child, "bldg:IntBuildingInstallation");
+                out_ << (isFurniture ? "</bldg:interiorFurniture>\n" : "</bldg:roomInstallation>\n");
+            }
+    }
+
+    void furniture(const Level& level, int component) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        open(level, component, "bldg:BuildingFurniture");
+        function(c);
+        if (c.instance) {
+            implicitGeometry(level, component, *c.instance);
+        } else {
+            out_ << "<bldg:lod4Geometry>";
+            solid(level, component);
+            out_ << "</bldg:lod4Geometry>";
+        }
+        out_ << "</bldg:BuildingFurniture>";
+    }
+
+    // The first one holds the shape, the others point at it.
+    void implicitGeometry(const Level& level, int component, const Instance& instance) {
+        out_ << "<bldg:lod4ImplicitRepresentation><core:ImplicitGeometry><core:transformationMatrix>";
+        gml_.matrix(level, instance);
+        out_ << "</core:transformationMatrix>";
+        if (!templateId_.empty()) {
+            out_ << "<core:relativeGMLGeometry xlink:href=\"#" << templateId_ << "\"/>";
+        } else {
+            templateId_ = document_.idOf(level, component) + "_template";
+            out_ << "<core:relativeGMLGeometry><gml:Solid gml:id=\"" << templateId_
+                 << "\"><gml:exterior><gml:CompositeSurface>\n";
+            for (const Face& face : instance.shell.faces) {
+                out_ << "<gml:surfaceMember>";
+                gml_.localPolygon(instance, face);
+                out_ << "</gml:surfaceMember>\n";
+            }
+            out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></core:relativeGMLGeometry>";
+        }
+        out_ << "<core:referencePoint><gml:Point><gml:pos>";
+        gml_.position(level.placement.at(instance.shift), level.placement.decimals());
+        out_
+            << "</gml:pos></gml:Point></core:referencePoint></core:ImplicitGeometry></bldg:lod4ImplicitRepresentation>";
+    }
+
+    void unit(const Level& level, int component) {
+        out_ << "<bldg:consistsOfBuildingPart>";
+        open(level, component, "bldg:BuildingPart");
+        function(level.plan->components[std::size_t(component)]);
+        for (const bool isOutside : {true, false})
+            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
+                installationOfBuilding(level, int(c), component, isOutside);
+        out_ << "<bldg:lod4Solid>";
+        solid(level, component);
+        out_ << "</bldg:lod4Solid>\n";
+        rooms(level, component);
+        out_ << "</bldg:BuildingPart></bldg:consistsOfBuildingPart>\n";
+    }
+
+    void storeyGroup(const Level& level, int storey) {
+        out_ << "<core:cityObjectMember>\n";
+        open(level, storey, "grp:CityObjectGroup");
+        out_ << "<grp:class>buildingSeparation</grp:class><grp:function>storey</grp:function>\n";
+        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
+            const Component& component = level.plan->components[c];
+            if (component.storey != storey || !isGrouped(component)) continue;
+            if (isThematic_ && component.kind == Kind::Element) continue;
+            out_ << "<grp:groupMember role=\"" << className(component.kind) << "\" xlink:href=\"#"
+                 << document_.idOf(level, int(c)) << "\"/>\n";
+        }
+        out_ << "<grp:parent xlink:href=\"#" << document_.id
+             << "\"/></grp:CityObjectGroup>\n</core:cityObjectMember>\n";
+    }
+
+    SampleSource& source_;
+    bool isThematic_;
+    TextSink& out_;
+    GmlText gml_;
+    Document document_;
+    std::string templateId_;  ///< of the building's first implicit geometry
+};
+
+}  // namespace
+
+void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out) { Writer(source, isThematic, out).write(); }
+
+}  // namespace svt::samples

@@ -1,0 +1,286 @@
+// CityGML 3.0. One lod3Solid for each component; a room's solid points by XLink at the polygons of its boundary
+// surfaces. The order of the properties is that of the schema.
+#include <svt/samples/formats/writers.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace svt::samples {
+namespace {
+
+class Writer {
+public:
+    Writer(SampleSource& source, TextSink& out) : source_(source), out_(out), gml_(out) {}
+
+    void write() {
+        out_
+            << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+               "<core:CityModel xmlns:core=\"http://www.opengis.net/citygml/3.0\""
+               " xmlns:app=\"http://www.opengis.net/citygml/appearance/3.0\""
+               " xmlns:bldg=\"http://www.opengis.net/citygml/building/3.0\""
+               " xmlns:con=\"http://www.opengis.net/citygml/construction/3.0\""
+               " xmlns:gen=\"http://www.opengis.net/citygml/generics/3.0\""
+               " xmlns:luse=\"http://www.opengis.net/citygml/landuse/3.0\""
+               " xmlns:gml=\"http://www.opengis.net/gml/3.2\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n<gml:name>"
+            << source_.title() << "</gml:name>\n";
+        gml_.envelope(source_);
+        ground();
+        for (std::int64_t i = 0; i < source_.buildingCount() && !out_.hasFailed(); ++i) {
+            document_ = source_.building(i);
+            building();
+        }
+        out_ << "</core:CityModel>\n";
+    }
+
+private:
+    void ground() {
+        const std::vector<WorldPoint> corners = source_.ground();
+        if (corners.empty()) return;
+        out_ << "<core:cityObjectMember>\n<luse:LandUse gml:id=\"ground\"><gml:name>Ground</gml:name>"
+                "<core:lod1MultiSurface><gml:MultiSurface gml:id=\"ground_surface\"><gml:surfaceMember>"
+                "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>";
+        for (const WorldPoint& corner : corners) {
+            gml_.position(corner, source_.decimals());
+            out_ << " ";
+        }
+        gml_.position(corners.front(), source_.decimals());
+        out_ << "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface>"
+                "</core:lod1MultiSurface></luse:LandUse>\n</core:cityObjectMember>\n";
+    }
+
+    void building() {
+        out_ << "<core:cityObjectMember>\n<bldg:Building gml:id=\"" << document_.id << "\"><gml:name>" << document_.name
+             << "</gml:name>\n";
+        appearance();
+        out_ << "<bldg:function>" << document_.function << "</bldg:function><bldg:roofType>" << document_.roofType
+             << "</bldg:roofType><bldg:storeysAboveGround>" << document_.storeys << "</bldg:storeysAboveGround>\n";
+        eachTop(Kind::Element, "buildingConstructiveElement", &Writer::element);
+        eachTop(Kind::Installation, "buildingInstallation", &Writer::installation);
+        eachTop(Kind::Room, "buildingRoom", &Writer::room);
+        eachTop(Kind::Storey, "buildingSubdivision", &Writer::storey);
+        out_ << "</bldg:Building>\n</core:cityObjectMember>\n";
+    }
+
+    // Every component of the kind that the building itself owns, inside of the property.
+    void eachTop(Kind kind, std::string_view property, void (Writer::*writeOne)(const Level&, int)) {
+        for (const Level& level : document_.levels)
+            for (std::size_t c = 0; c < level.plan->components.size() && !out_.hasFailed(); ++c) {
+                const Component& component = level.plan->components[c];
+                if (component.kind != kind || component.parent >= 0 || component.isGhost) continue;
+                out_ << "<bldg:" << property << ">";
+                (this->*writeOne)(level, int(c));
+                out_ << "</bldg:" << property << ">\n";
+            }
+    }
+
+    void eachChild(const Level& level, int parent, Kind kind, std::string_view property,
+                   void (Writer::*writeOne)(const Level&, int)) {
+        for (const int child : level.plan->children[std::size_t(parent)]) {
+            if (level.plan->components[std::size_t(child)].kind != kind) continue;
+            out_ << "<" << property << ">";
+            (this->*writeOne)(level, child);
+            out_ << "</" << property << ">\n";
+        }
+    }
+
+    void appearance() {
+        const std::vector<MaterialTargets> materials = materialTargets(document_, false);
+        if (materials.empty()) return;
+        out_ << "<core:appearance><app:Appearance gml:id=\"" << document_.id
+             << "_appearance\"><app:theme>sample</app:theme>\n";
+        for (const MaterialTargets& material : materials) {
+            out_ << "<app:surfaceData>";
+            gml_.material(material.material, document_.id + "_material" + std::to_string(int(material.material)));
+            for (const std::string& polygon : material.polygons) out_ << "<app:target>#" << polygon << "</app:target>";
+            out_ << "</app:X3DMaterial></app:surfaceData>\n";
+        }
+        out_ << "</app:Appearance></core:appearance>\n";
+    }
+
+    // Opening tag, name and attributes.
+    void open(const Level& level, int component, std::string_view tag) {
+        out_ << "<" << tag << " gml:id=\"" << document_.idOf(level, component) << "\"><gml:name>"
+             << document_.nameOf(level, component) << "</gml:name>";
+        for (const Attribute& attribute : document_.attributesOf(level, component)) genericAttribute(attribute);
+        out_ << "\n";
+    }
+
+    void genericAttribute(const Attribute& attribute) {
+        std::string_view type = "StringAttribute";
+        if (std::holds_alternative<std::int64_t>(attribute.value)) type = "IntAttribute";
+        if (std::holds_alternative<double>(attribute.value))
+            type = attribute.unit.empty() ? "DoubleAttribute" : "MeasureAttribute";
+        out_ << "<core:genericAttribute><gen:" << type << "><gen:name>" << attribute.name << "</gen:name><gen:value";
+        if (!attribute.unit.empty()) out_ << " uom=\"" << attribute.unit << "\"";
+        out_ << ">";
+        if (const double* number = std::get_if<double>(&attribute.value))
+            out_ << decimalText(*number);
+        else
+            out_ << toText(attribute.value);
+        out_ << "</gen:value></gen:" << type << "></core:genericAttribute>";
+    }
+
+    void function(const Level& level, int component) {
+        const std::string& text = level.plan->components[std::size_t(component)].function;
+        if (!text.empty()) out_ << "<bldg:function>" << text << "</bldg:function>";
+    }
+
+    // One gml:Solid, or a gml:CompositeSolid of bodies that touch.
+    void solid(const Level& level, int component) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(level, component);
+        const bool isComposite = c.shells.size() > 1;
+        out_ << "<core:lod3Solid>";
+        if (isComposite) out_ << "<gml:CompositeSolid gml:id=\"" << id << "_solid\">";
+        std::size_t number = 0;
+        for (std::size_t s = 0; s < c.shells.size(); ++s) {
+            const bool isColored = info(document_.shown(c.shells[s].material)).isColoredInGml;
+            if (isComposite) out_ << "<gml:solidMember>";
+            out_ << "<gml:Solid gml:id=\"" << id << "_solid";
+            if (isComposite) out_ << std::int64_t(s);
+            out_ << "\"><gml:exterior><gml:Shell>\n";
+            for (const Face& face : c.shells[s].faces) {
+                out_ << "<gml:surfaceMember>";
+                gml_.polygon(level, face, isColored ? polygonId(id, number) : std::string());
+                out_ << "</gml:surfaceMember>\n";
+                ++number;
+            }
+            out_ << "</gml:Shell></gml:exterior></gml:Solid>";
+            if (isComposite) out_ << "</gml:solidMember>";
+        }
+        if (isComposite) out_ << "</gml:CompositeSolid>";
+        out_ << "</core:lod3Solid>\n";
+    }
+
+    void element(const Level& level, int component) {
+        open(level, component, "bldg:BuildingConstructiveElement");
+        solid(level, component);
+        const Component& c = level.plan->components[std::size_t(component)];
+        for (const Attribute& attribute : c.attributes)
+            if (attribute.name == "loadBearing")
+                out_ << "<con:isStructuralElement>" << toText(attribute.value) << "</con:isStructuralElement>";
+        eachChild(level, component, Kind::Window, "con:filling", &Writer::filling);
+        eachChild(level, component, Kind::Door, "con:filling", &Writer::filling);
+        function(level, component);
+        out_ << "</bldg:BuildingConstructiveElement>";
+    }
+
+    void filling(const Level& level, int component) {
+        const bool isDoor = level.plan->components[std::size_t(component)].kind == Kind::Door;
+        const std::string_view tag = isDoor ? "con:Door" : "con:Window";
+        open(level, component, tag);
+        solid(level, component);
+        out_ << "</" << tag << ">";
+    }
+
+    void installation(const Level& level, int component) {
+        open(level, component, "bldg:BuildingInstallation");
+        solid(level, component);
+        const bool isOutside = level.plan->components[std::size_t(component)].isOutside;
+        out_ << "<con:relationToConstruction>" << (isOutside ? "outside" : "inside") << "</con:relationToConstruction>";
+        function(level, component);
+        out_ << "</bldg:BuildingInstallation>";
+    }
+
+    void furniture(const Level& level, int component) {
+        open(level, component, "bldg:BuildingFurniture");
+        solid(level, component);
+        function(level, component);
+        out_ << "</bldg:BuildingFurniture>";
+    }
+
+    void surfaces(const Level& level, int room, const BoundaryGroup& group, const std::string& id) {
+        if (!group.faces.empty()) {
+            out_ << "<core:lod3MultiSurface><gml:MultiSurface gml:id=\"" << id << "_surface\">\n";
+            const Shell& shell = level.plan->components[std::size_t(room)].shells.front();
+            for (const int f : group.faces) {
+                out_ << "<gml:surfaceMember>";
+                gml_.polygon(level, shell.faces[std::size_t(f)],
+                             polygonId(document_.idOf(level, room), std::size_t(f)));
+                out_ << "</gml:surfaceMember>\n";
+            }
+            out_ << "</gml:MultiSurface></core:lod3MultiSurface>";
+        }
+    }
+
+    void room(const Level& level, int component) {
+        const Component& c = level.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(level, component);
+        open(level, component, "bldg:BuildingRoom");
+        int number = 0;
+        for (const BoundaryGroup& group : boundaryGroups(*level.plan, component)) {
+            const std::string tag = (group.type == "ClosureSurface" ? "core:" : "con:") + std::string(group.type);
+            const std::string surfaceId = id + "_b" + std::to_string(number++);
+            out_ << "<core:boundary><" << tag << " gml:id=\"" << surfaceId << "\">";
+            surfaces(level, component, group, surfaceId);
+            for (const BoundaryGroup& opening : group.openings) {
+                const std::string openingTag = "con:" + std::string(opening.type);
+                const std::string openingId = id + "_b" + std::to_string(number++);
+                out_ << "<con:fillingSurface><" << openingTag << " gml:id=\"" << openingId << "\">";
+                surfaces(level, component, opening, openingId);
+                out_ << "</" << openingTag << "></con:fillingSurface>";
+            }
+            out_ << "</" << tag << "></core:boundary>\n";
+        }
+        out_ << "<core:lod3Solid><gml:Solid gml:id=\"" << id << "_solid\"><gml:exterior><gml:Shell>\n";
+        for (std::size_t f = 0; f < c.shells.front().faces.size(); ++f)
+            out_ << "<gml:surfaceMember xlink:href=\"#" << polygonId(id, f) << "\"/>\n";
+        out_ << "</gml:Shell></gml:exterior></gml:Solid></core:lod3Solid>\n";
+        function(level, component);
+        eachChild(level, component, Kind::Furniture, "bldg:buildingFurniture", &Writer::furniture);
+        eachChild(level, component, Kind::Installation, "bldg:buildingInstallation", &Writer::installation);
+        out_ << "</bldg:BuildingRoom>";
+    }
+
+    // Links to the components for which `isMember` holds.
+    template <class Predicate>
+    void links(const Level& level, Kind kind, std::string_view property, const Predicate& isMember) {
+        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
+            const Component& component = level.plan->components[c];
+            if (component.kind != kind || !isGrouped(component) || !isMember(component)) continue;
+            out_ << "<bldg:" << property << " xlink:href=\"#" << document_.idOf(level, int(c)) << "\"/>\n";
+        }
+    }
+
+    void storey(const Level& level, int storey) {
+        open(level, storey, "bldg:Storey");
+        const auto isMember = [storey](const Component& c) { return c.storey == storey; };
+        function(level, storey);
+        links(level, Kind::Element, "buildingConstructiveElement", isMember);
+        links(level, Kind::Installation, "buildingInstallation", isMember);
+        links(level, Kind::Room, "buildingRoom", isMember);
+        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
+            const Component& component = level.plan->components[c];
+            if (component.kind != Kind::Unit || component.storey != storey) continue;
+            out_ << "<bldg:buildingUnit>";
+            unit(level, int(c));
+            out_ << "</bldg:buildingUnit>\n";
+        }
+        out_ << "</bldg:Storey>";
+    }
+
+    void unit(const Level& level, int unit) {
+        open(level, unit, "bldg:BuildingUnit");
+        const auto isMember = [unit](const Component& c) { return c.unit == unit; };
+        solid(level, unit);
+        function(level, unit);
+        links(level, Kind::Element, "buildingConstructiveElement", isMember);
+        links(level, Kind::Installation, "buildingInstallation", isMember);
+        links(level, Kind::Room, "buildingRoom", isMember);
+        out_ << "</bldg:BuildingUnit>";
+    }
+
+    SampleSource& source_;
+    TextSink& out_;
+    GmlText gml_;
+    Document document_;
+};
+
+}  // namespace
+
+void writeCityGml3(SampleSource& source, TextSink& out) { Writer(source, out).write(); }
+
+}  // namespace svt::samples

@@ -1,0 +1,111 @@
+#include <svt/samples/sample.hpp>
+
+#include <svt/samples/designs/source.hpp>
+#include <svt/samples/formats/writers.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace svt::samples {
+namespace {
+
+constexpr std::int64_t kMostDescribed = 10000;  // houses
+
+// n . local <= c with local = inverse(world), in millimetres, becomes a half-space of the world in metres.
+HalfSpace worldHalfSpace(const Placement& placement, Vec3d normal, double limit) {
+    const double size = length(normal);
+    const Vec3d anchor = normal * (limit / dot(normal, normal));
+    const Vec3d worldNormal = placement.worldDirection(normal) / size;
+    return {worldNormal, dot(worldNormal, placement.worldPosition(anchor))};
+}
+
+SamplePiece worldPiece(const Placement& placement, Axis axis, const Piece& piece) {
+    SamplePiece result;
+    result.adds = piece.adds;
+    const bool alongX = axis == Axis::X;
+    const Vec3d along = alongX ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+    const Vec3d across = alongX ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+    result.sides.push_back(worldHalfSpace(placement, along, double(piece.to)));
+    result.sides.push_back(worldHalfSpace(placement, -along, -double(piece.from)));
+    for (const HalfPlane& side : piece.sides)
+        result.sides.push_back(
+            worldHalfSpace(placement, across * double(side.across) + Vec3d{0, 0, double(side.up)}, double(side.limit)));
+    return result;
+}
+
+SampleComponent describe(const Document& document, const Level& level, int index) {
+    const Component& component = level.plan->components[std::size_t(index)];
+    SampleComponent result;
+    result.id = document.idOf(level, index);
+    result.className = className(component.kind);
+    result.name = document.nameOf(level, index);
+    result.parent = document.parentIdOf(level, index);
+    if (component.storey >= 0) result.storey = document.idOf(level, component.storey);
+    if (component.unit >= 0) result.unit = document.idOf(level, component.unit);
+    result.volume = component.volume;
+    for (const Body& body : component.bodies) {
+        auto& pieces = result.bodies.emplace_back();
+        for (const Piece& piece : body.pieces) pieces.push_back(worldPiece(level.placement, body.axis, piece));
+    }
+    return result;
+}
+
+}  // namespace
+
+bool SampleComponent::contains(Vec3d point) const {
+    const auto isInPiece = [&](const SamplePiece& piece) {
+        return std::all_of(piece.sides.begin(), piece.sides.end(),
+                           [&](const HalfSpace& side) { return dot(side.normal, point) <= side.offset; });
+    };
+    for (const auto& pieces : bodies) {
+        const auto last = std::find_if(pieces.rbegin(), pieces.rend(), isInPiece);
+        if (last != pieces.rend() && last->adds) return true;
+    }
+    return false;
+}
+
+Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptions& options, const SampleSink& sink) {
+    Result<SampleSource> source = SampleSource::make(kind, options);
+    if (!source) return source.error();
+    TextSink out(sink);
+    switch (format) {
+        case SampleFormat::CityGml3: writeCityGml3(*source, out); break;
+        case SampleFormat::CityGml2: writeCityGml2(*source, options.thematic, out); break;
+        case SampleFormat::CityJson2: writeCityJson(*source, out); break;
+        case SampleFormat::CityJsonSeq2: writeCityJsonSeq(*source, out); break;
+    }
+    out.flush();
+    if (out.hasFailed()) return Error(Code::CannotWrite, "the sink took no more of the sample");
+    return {};
+}
+
+Result<std::string> writeSample(SampleKind kind, SampleFormat format, const SampleOptions& options) {
+    std::string text;
+    const Result<void> written = writeSample(kind, format, options, [&](std::string_view part) {
+        text += part;
+        return true;
+    });
+    if (!written) return written.error();
+    return text;
+}
+
+Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const SampleOptions& options) {
+    Result<SampleSource> source = SampleSource::make(kind, options);
+    if (!source) return source.error();
+    if (source->buildingCount() > kMostDescribed)
+        return Error(Code::BadArgument, fmt::format("columns x rows is {}, at most {} houses can be described",
+                                                    source->buildingCount(), kMostDescribed));
+    std::vector<SampleComponent> result;
+    for (std::int64_t i = 0; i < source->buildingCount(); ++i) {
+        const Document document = source->building(i);
+        result.push_back({document.id, "Building", document.name, "", "", "", 0, {}});
+        for (const Level& level : document.levels)
+            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
+                if (!level.plan->components[c].isGhost) result.push_back(describe(document, level, int(c)));
+    }
+    return result;
+}
+
+}  // namespace svt::samples

@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// The writers of the three formats. Each writes one building after the other and keeps nothing of it.
+
+#include <svt/samples/designs/source.hpp>
+#include <svt/samples/formats/sample_text.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace svt::samples {
+
+void writeCityGml3(SampleSource& source, TextSink& out);
+void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out);
+void writeCityJson(SampleSource& source, TextSink& out);
+void writeCityJsonSeq(SampleSource& source, TextSink& out);
+
+/// Pieces of GML that both versions share. Ids and names of samples need no escapes.
+class GmlText {
+public:
+    explicit GmlText(TextSink& out) : out_(out) {}
+
+    /// Coordinates of `point`, separated by blanks.
+    void position(const WorldPoint& point, int decimals);
+    /// A gml:Polygon; no id where `id` is empty.
+    void polygon(const Level& level, const Face& face, std::string_view id);
+    /// A gml:Polygon of a shape in its own axes.
+    void localPolygon(const Instance& instance, const Face& face);
+    /// gml:boundedBy of the whole model.
+    void envelope(SampleSource& source);
+    /// The 16 numbers of a transformation matrix: quarter turns, then the turn of the placement.
+    void matrix(const Level& level, const Instance& instance);
+    /// app:X3DMaterial of a material without its targets and without the closing tag.
+    void material(Material material, std::string_view id);
+
+private:
+    template <class Coordinates>
+    void rings(const Face& face, const Coordinates& write);
+
+    TextSink& out_;
+};
+
+/// Polygon ids of a component: its id, "_p", and the number over all its shells.
+[[nodiscard]] std::string polygonId(const std::string& componentId, std::size_t number);
+
+/// Colored materials of a building with the polygons that have them.
+struct MaterialTargets {
+    Material material = Material::Brick;
+    std::vector<std::string> polygons;
+};
+/// \param isThematic  only outer faces: those of the elements that stand in the hull
+[[nodiscard]] std::vector<MaterialTargets> materialTargets(const Document& document, bool isThematic);
+
+/// A number with up to six decimals and no trailing zeros.
+[[nodiscard]] std::string decimalText(double value);
+
+}  // namespace svt::samples

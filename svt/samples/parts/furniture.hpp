@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// Furniture as unions of boxes, in its own axes: the footprint starts at (0, 0), the back is at greater y.
+
+#include <svt/samples/parts/plan.hpp>
+
+#include <string>
+
+namespace svt::samples {
+
+enum class Item : std::uint8_t {
+    Table,
+    Chair,
+    CoffeeTable,
+    Sofa,
+    Armchair,
+    Shelf,
+    Sideboard,
+    Counter,
+    Fridge,
+    Wardrobe,
+    Bed,
+    DoubleBed,
+    Desk,
+    Bathtub,
+    Basin,
+    Toilet,
+    WashingMachine
+};
+
+/// \return the item's body, standing on z = 0
+[[nodiscard]] Body furnitureBody(Item item);
+
+/// `body` turned counter-clockwise about z by quarter turns and shifted. Boxes only.
+[[nodiscard]] Body placed(const Body& body, int quarterTurns, Point shift);
+
+/// Sets an item into a room, its turned footprint starting at (x, y), standing on z.
+/// \param isInstance  formats that have templates write it as a use of one
+/// \return the component
+int addFurniture(Plan& plan, int room, Item item, Length x, Length y, Length z, int quarterTurns, std::string id,
+                 std::string name, bool isInstance = false);
+
+}  // namespace svt::samples

@@ -1,0 +1,73 @@
+#include <svt/samples/parts/placement.hpp>
+
+#include <cmath>
+
+namespace svt::samples {
+namespace {
+
+Vec3d turnedBy(const Turn& turn, Vec3d p) {
+    const double dx = p.x - turn.centerX, dy = p.y - turn.centerY;
+    return {turn.centerX + turn.cosine * dx - turn.sine * dy, turn.centerY + turn.sine * dx + turn.cosine * dy, p.z};
+}
+
+Vec3d turnedDirection(const Turn& turn, Vec3d d) {
+    return {turn.cosine * d.x - turn.sine * d.y, turn.sine * d.x + turn.cosine * d.y, d.z};
+}
+
+}  // namespace
+
+Turn Turn::byDegrees(double degrees, double centerX, double centerY) {
+    constexpr double kRadians = 0.017453292519943295;
+    const double quarters = degrees / 90;
+    if (quarters == std::floor(quarters)) {
+        const int quarter = ((int(quarters) % 4) + 4) % 4;
+        return {quarter == 0   ? 1.0
+                : quarter == 2 ? -1.0
+                               : 0.0,
+                quarter == 1   ? 1.0
+                : quarter == 3 ? -1.0
+                               : 0.0,
+                centerX, centerY};
+    }
+    // Mathematical libraries differ in the last bits of sine and cosine.
+    return {std::round(std::cos(degrees * kRadians) * 1e12) / 1e12,
+            std::round(std::sin(degrees * kRadians) * 1e12) / 1e12, centerX, centerY};
+}
+
+bool Turn::isExact() const {
+    if (cosine != 0 && sine != 0) return false;
+    const double kept = centerX - cosine * centerX + sine * centerY;
+    const double other = centerY - sine * centerX - cosine * centerY;
+    return kept == std::floor(kept) && other == std::floor(other);
+}
+
+Vec3d Placement::turned(Vec3d p) const {
+    const Vec3d local = turnedBy(buildingTurn_, p);
+    return turnedBy(modelTurn_, {local.x + double(shift_.x), local.y + double(shift_.y), local.z + double(shift_.z)});
+}
+
+WorldPoint Placement::at(Point p) const {
+    const Vec3d q = turned({double(p.x), double(p.y), double(p.z)});
+    const std::int64_t scale = decimals() == 3 ? 1 : 1000;
+    const auto whole = [&](double value, Length origin) {
+        return std::int64_t(std::llround(value * double(scale))) + origin * scale;
+    };
+    return {whole(q.x, origin_.x), whole(q.y, origin_.y), whole(q.z, origin_.z)};
+}
+
+Vec3d Placement::worldPosition(Vec3d millimetres) const {
+    const Vec3d q = turned(millimetres);
+    return {(q.x + double(origin_.x)) / 1000, (q.y + double(origin_.y)) / 1000, (q.z + double(origin_.z)) / 1000};
+}
+
+Vec3d Placement::worldDirection(Vec3d direction) const {
+    return turnedDirection(modelTurn_, turnedDirection(buildingTurn_, direction));
+}
+
+Placement Placement::lifted(Length height) const {
+    Placement result = *this;
+    result.shift_.z += height;
+    return result;
+}
+
+}  // namespace svt::samples

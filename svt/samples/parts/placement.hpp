@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// Where a plan stands in the world: a turn of the building about its centre, a shift onto its lot, a turn of the whole
+/// model about its centre, and the origin.
+
+#include <svt/samples/parts/solid.hpp>
+
+#include <cstdint>
+
+namespace svt::samples {
+
+/// A turn in plan about a centre, counter-clockwise.
+struct Turn {
+    double cosine = 1, sine = 0;
+    double centerX = 0, centerY = 0;  ///< millimetres
+
+    /// By any angle; quarter turns are exact, the others rounded to 1e-12 so that no machine differs.
+    [[nodiscard]] static Turn byDegrees(double degrees, double centerX, double centerY);
+    /// True for multiples of a quarter turn about whole or half millimetres that keep whole millimetres whole.
+    [[nodiscard]] bool isExact() const;
+};
+
+/// World coordinates as whole numbers of 10^-decimals metres.
+struct WorldPoint {
+    std::int64_t x = 0, y = 0, z = 0;
+};
+
+class Placement {
+public:
+    Placement() = default;
+    /// world = modelTurn(buildingTurn(p) + shift) + origin, all in millimetres.
+    Placement(const Turn& buildingTurn, Point shift, const Turn& modelTurn, Point origin)
+        : buildingTurn_(buildingTurn), shift_(shift), modelTurn_(modelTurn), origin_(origin) {}
+
+    /// 3 where every point falls on a whole millimetre, else 6.
+    [[nodiscard]] int decimals() const { return buildingTurn_.isExact() && modelTurn_.isExact() ? 3 : 6; }
+    /// Rounded to decimals().
+    [[nodiscard]] WorldPoint at(Point p) const;
+    /// Not rounded; metres.
+    [[nodiscard]] Vec3d worldPosition(Vec3d millimetres) const;
+    [[nodiscard]] Vec3d worldDirection(Vec3d direction) const;
+
+    [[nodiscard]] Placement lifted(Length height) const;
+
+private:
+    [[nodiscard]] Vec3d turned(Vec3d p) const;  // without the origin; millimetres
+
+    Turn buildingTurn_;
+    Point shift_;
+    Turn modelTurn_;
+    Point origin_;
+};
+
+}  // namespace svt::samples

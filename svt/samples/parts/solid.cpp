@@ -1,0 +1,486 @@
+#include <svt/samples/parts/solid.hpp>
+
+#include <svt/core/check.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+namespace svt::samples {
+namespace {
+
+constexpr Length kUnits = kUnitsPerMillimetre;
+// Cells of this width around a body tell what lies on the other side of its faces.
+constexpr Length kMargin = 10;
+
+struct Vertex2 {
+    Length v = 0, z = 0;
+};
+
+bool inProfile(const Piece& piece, double v, double z) {
+    for (const HalfPlane& side : piece.sides)
+        if (double(side.across) * v + double(side.up) * z > double(side.limit)) return false;
+    return true;
+}
+
+// The piece's profile clipped from a square much larger than any model.
+std::vector<std::array<double, 2>> profileOf(const Piece& piece) {
+    constexpr double kFar = 1e8;
+    std::vector<std::array<double, 2>> polygon{{-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {-kFar, kFar}};
+    for (const HalfPlane& side : piece.sides) {
+        std::vector<std::array<double, 2>> clipped;
+        const auto distance = [&](const std::array<double, 2>& p) {
+            return double(side.across) * p[0] + double(side.up) * p[1] - double(side.limit);
+        };
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const auto& p = polygon[i];
+            const auto& q = polygon[(i + 1) % polygon.size()];
+            const double dp = distance(p), dq = distance(q);
+            if (dp <= 0) clipped.push_back(p);
+            if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
+                const double t = dp / (dp - dq);
+                clipped.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+            }
+        }
+        polygon = std::move(clipped);
+    }
+    return polygon;
+}
+
+Box3d boxAround(Axis axis, const Piece& piece) {
+    Box3d result;
+    for (const auto& p : profileOf(piece))
+        for (const Length u : {piece.from, piece.to})
+            result.add(axis == Axis::X ? Vec3d{double(u), p[0], p[1]} : Vec3d{p[0], double(u), p[1]});
+    return result;
+}
+
+// Outwards to whole millimetres.
+Bounds rounded(const Box3d& box) {
+    const auto down = [](double value) { return Length(std::floor(value + 1e-6)); };
+    const auto up = [](double value) { return Length(std::ceil(value - 1e-6)); };
+    return {{down(box.min.x), down(box.min.y), down(box.min.z)}, {up(box.max.x), up(box.max.y), up(box.max.z)}};
+}
+
+bool touch(const Bounds& a, const Bounds& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
+           b.min.z <= a.max.z;
+}
+
+// A rectangle cut by whole lines into convex faces that meet edge to edge.
+//
+//     +------+---+----+
+//     |      |  /|    |     every line runs through, so no vertex lies inside an edge
+//     +------+-/-+----+
+//     |      |/  |    |
+//     +------+---+----+
+class Arrangement {
+public:
+    Arrangement(Length v0, Length v1, Length z0, Length z1) {
+        vertices_ = {{v0 * kUnits, z0 * kUnits},
+                     {v1 * kUnits, z0 * kUnits},
+                     {v1 * kUnits, z1 * kUnits},
+                     {v0 * kUnits, z1 * kUnits}};
+        faces_ = {{0, 1, 2, 3}};
+    }
+
+    void split(const HalfPlane& line) {
+        std::vector<Length> distance(vertices_.size());
+        bool anyBelow = false, anyAbove = false;
+        for (std::size_t i = 0; i < vertices_.size(); ++i) {
+            distance[i] = line.across * vertices_[i].v + line.up * vertices_[i].z - line.limit * kUnits;
+            anyBelow = anyBelow || distance[i] < 0;
+            anyAbove = anyAbove || distance[i] > 0;
+        }
+        if (!anyBelow || !anyAbove) return;
+        std::map<std::pair<int, int>, int> cuts;
+        const std::size_t count = faces_.size();
+        for (std::size_t f = 0; f < count; ++f) splitFace(f, distance, cuts);
+    }
+
+    // Call once after the last split().
+    void connect() {
+        for (std::size_t f = 0; f < faces_.size(); ++f)
+            for (std::size_t i = 0; i < faces_[f].size(); ++i)
+                owners_[key(faces_[f][i], faces_[f][(i + 1) % faces_[f].size()])] = int(f);
+    }
+
+    [[nodiscard]] int across(int from, int to) const {
+        const auto found = owners_.find(key(to, from));
+        return found == owners_.end() ? -1 : found->second;
+    }
+    [[nodiscard]] const std::vector<std::vector<int>>& faces() const { return faces_; }
+    [[nodiscard]] const Vertex2& vertex(int i) const { return vertices_[std::size_t(i)]; }
+
+    // Millimetres.
+    [[nodiscard]] std::array<double, 2> center(int face) const {
+        double v = 0, z = 0;
+        const auto& ring = faces_[std::size_t(face)];
+        for (const int i : ring) {
+            v += double(vertex(i).v);
+            z += double(vertex(i).z);
+        }
+        const double scale = 1.0 / (double(ring.size()) * double(kUnits));
+        return {v * scale, z * scale};
+    }
+
+    // Twice the area, in squares of the unit.
+    [[nodiscard]] Length doubleArea(int face) const {
+        Length sum = 0;
+        const auto& ring = faces_[std::size_t(face)];
+        const Vertex2 o = vertex(ring[0]);
+        for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+            const Vertex2 p = vertex(ring[i]), q = vertex(ring[i + 1]);
+            sum += (p.v - o.v) * (q.z - o.z) - (p.z - o.z) * (q.v - o.v);
+        }
+        return sum;
+    }
+
+private:
+    static std::uint64_t key(int from, int to) {
+        return (std::uint64_t(std::uint32_t(from)) << 32) | std::uint32_t(to);
+    }
+
+    int cutEdge(int p, int q, const std::vector<Length>& distance, std::map<std::pair<int, int>, int>& cuts) {
+        const auto [it, isNew] = cuts.try_emplace(std::minmax(p, q), int(vertices_.size()));
+        if (isNew) {
+            const Vertex2 a = vertex(p), b = vertex(q);
+            const Length dp = distance[std::size_t(p)], dq = distance[std::size_t(q)];
+            const Length v = (b.v - a.v) * dp, z = (b.z - a.z) * dp;
+            // The designs keep to pitches whose crossings lie on the grid of 1/120 mm.
+            SVT_CHECK(v % (dp - dq) == 0 && z % (dp - dq) == 0);
+            vertices_.push_back({a.v + v / (dp - dq), a.z + z / (dp - dq)});
+        }
+        return it->second;
+    }
+
+    void splitFace(std::size_t face, const std::vector<Length>& distance, std::map<std::pair<int, int>, int>& cuts) {
+        const std::vector<int> ring = faces_[face];
+        bool isBelow = false, isAbove = false;
+        for (const int i : ring) {
+            isBelow = isBelow || distance[std::size_t(i)] < 0;
+            isAbove = isAbove || distance[std::size_t(i)] > 0;
+        }
+        if (!isBelow || !isAbove) return;
+        std::vector<int> below, above;
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const int p = ring[k], q = ring[(k + 1) % ring.size()];
+            const Length dp = distance[std::size_t(p)], dq = distance[std::size_t(q)];
+            if (dp <= 0) below.push_back(p);
+            if (dp >= 0) above.push_back(p);
+            if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
+                const int cut = cutEdge(p, q, distance, cuts);
+                below.push_back(cut);
+                above.push_back(cut);
+            }
+        }
+        faces_[face] = std::move(below);
+        faces_.push_back(std::move(above));
+    }
+
+    std::vector<Vertex2> vertices_;
+    std::vector<std::vector<int>> faces_;
+    std::unordered_map<std::uint64_t, int> owners_;
+};
+
+HalfPlane normalizedLine(HalfPlane side) {
+    const Length divisor = std::gcd(std::gcd(side.across, side.up), side.limit);
+    const bool flips = side.across < 0 || (side.across == 0 && side.up < 0);
+    const Length factor = flips ? -divisor : divisor;
+    return {side.across / factor, side.up / factor, side.limit / factor};
+}
+
+using Edge = std::pair<Point, Point>;
+using Quad = std::vector<Point>;
+
+// One cell face of the boundary, with the plane it lies in and what is on its other side.
+struct Fragment {
+    std::tuple<int, HalfPlane, Length, bool, int> group;
+    Quad ring;
+};
+
+Vec3d toVec(Point p) { return {double(p.x), double(p.y), double(p.z)}; }
+
+Point minus(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+Vec3d normalOf(const std::vector<Point>& ring) {
+    Vec3d sum;
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i)
+        sum = sum + cross(toVec(minus(ring[i], ring[0])), toVec(minus(ring[i + 1], ring[0])));
+    return sum;
+}
+
+std::size_t findRoot(std::vector<std::size_t>& parents, std::size_t i) {
+    while (parents[i] != i) i = parents[i] = parents[parents[i]];
+    return i;
+}
+
+// Closed loops of directed edges. Where several leave a vertex the sharpest turn to the right is taken, so that a
+// hole that touches the outer ring stays a ring of its own.
+std::vector<std::vector<Point>> traceLoops(const std::set<Edge>& edges, Vec3d normal) {
+    std::multimap<Point, Point> next(edges.begin(), edges.end());
+    std::vector<std::vector<Point>> loops;
+    while (!next.empty()) {
+        std::vector<Point> loop;
+        auto step = next.begin();
+        const Point start = step->first;
+        for (;;) {
+            const Point from = step->first, to = step->second;
+            loop.push_back(from);
+            next.erase(step);
+            if (to == start) break;
+            const Vec3d incoming = toVec(minus(to, from));
+            const auto [first, last] = next.equal_range(to);
+            double best = 10;
+            step = next.end();
+            for (auto it = first; it != last; ++it) {
+                const Vec3d outgoing = toVec(minus(it->second, to));
+                const double turn =
+                    std::atan2(dot(normal, cross(incoming, outgoing)) / length(normal), dot(incoming, outgoing));
+                if (turn < best) {
+                    best = turn;
+                    step = it;
+                }
+            }
+            SVT_CHECK(step != next.end());
+        }
+        loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
+// Joins the fragments of one plane and one neighbour into maximal faces with holes.
+void joinFragments(const std::vector<Quad>& fragments, int neighbor, std::vector<RawFace>& faces) {
+    const Vec3d normal = normalOf(fragments.front());
+    std::map<Edge, std::size_t> owners;
+    for (std::size_t f = 0; f < fragments.size(); ++f)
+        for (std::size_t i = 0; i < fragments[f].size(); ++i)
+            owners[{fragments[f][i], fragments[f][(i + 1) % fragments[f].size()]}] = f;
+    std::vector<std::size_t> parents(fragments.size());
+    std::iota(parents.begin(), parents.end(), std::size_t{0});
+    for (const auto& [edge, f] : owners) {
+        const auto twin = owners.find({edge.second, edge.first});
+        if (twin != owners.end()) parents[findRoot(parents, f)] = findRoot(parents, twin->second);
+    }
+    std::map<std::size_t, std::set<Edge>> outlines;
+    std::vector<std::size_t> order;
+    for (const auto& [edge, f] : owners) {
+        if (owners.count({edge.second, edge.first}) != 0) continue;
+        const std::size_t root = findRoot(parents, f);
+        if (outlines[root].empty()) order.push_back(root);
+        outlines[root].insert(edge);
+    }
+    for (const std::size_t root : order) {
+        RawFace face;
+        face.neighbor = neighbor;
+        for (std::vector<Point>& loop : traceLoops(outlines[root], normal)) {
+            const bool isOuter = dot(normalOf(loop), normal) > 0;
+            face.rings.insert(isOuter ? face.rings.begin() : face.rings.end(), std::move(loop));
+        }
+        faces.push_back(std::move(face));
+    }
+}
+
+// The cell complex of one body and what touches it.
+class CellComplex {
+public:
+    CellComplex(const Body& body, std::span<const Neighbor> neighbors) : body_(body), bounds_(boundsOf(body)) {
+        for (const Neighbor& neighbor : neighbors)
+            if (neighbor.body != &body && touch(bounds_, neighbor.bounds)) neighbors_.push_back(&neighbor);
+        margin_ = neighbors_.empty() ? 0 : kMargin;
+        collectPlanes();
+        markCells();
+    }
+
+    [[nodiscard]] Boundary extract() {
+        Boundary result;
+        Length doubleVolume = 0;  // mm times squares of the unit
+        std::map<decltype(Fragment::group), std::vector<Quad>> groups;
+        for (std::size_t slice = 0; slice + 1 < stops_.size(); ++slice)
+            for (std::size_t f = 0; f < faceCount(); ++f) {
+                if (!isInside(slice, f)) continue;
+                doubleVolume += arrangement().doubleArea(int(f)) * (stops_[slice + 1] - stops_[slice]);
+                addFragments(slice, f, groups);
+            }
+        for (const auto& [group, fragments] : groups) joinFragments(fragments, std::get<4>(group), result.faces);
+        result.volume = double(doubleVolume) / (2.0 * double(kUnits * kUnits)) * 1e-9;
+        return result;
+    }
+
+private:
+    [[nodiscard]] const Arrangement& arrangement() const { return arrangement_; }
+    [[nodiscard]] std::size_t faceCount() const { return arrangement_.faces().size(); }
+
+    void collectPlanes() {
+        const bool alongX = body_.axis == Axis::X;
+        const Length u0 = (alongX ? bounds_.min.x : bounds_.min.y) - margin_;
+        const Length u1 = (alongX ? bounds_.max.x : bounds_.max.y) + margin_;
+        const Length v0 = (alongX ? bounds_.min.y : bounds_.min.x) - margin_;
+        const Length v1 = (alongX ? bounds_.max.y : bounds_.max.x) + margin_;
+        std::set<Length> stops{u0, u1};
+        std::set<HalfPlane> lines;
+        const auto take = [&](const Piece& piece) {
+            for (const Length stop : {piece.from, piece.to})
+                if (stop > u0 && stop < u1) stops.insert(stop);
+            for (const HalfPlane& side : piece.sides) lines.insert(normalizedLine(side));
+        };
+        for (const Piece& piece : body_.pieces) take(piece);
+        // Pieces of a neighbour that stay away from this body divide nothing.
+        Bounds reach = bounds_;
+        reach.min = {reach.min.x - margin_, reach.min.y - margin_, reach.min.z - margin_};
+        reach.max = {reach.max.x + margin_, reach.max.y + margin_, reach.max.z + margin_};
+        for (const Neighbor* neighbor : neighbors_)
+            for (std::size_t i = 0; i < neighbor->pieces.size(); ++i)
+                if (touch(reach, neighbor->pieces[i])) take(neighbor->body->pieces[i]);
+        stops_.assign(stops.begin(), stops.end());
+        arrangement_ = Arrangement(v0, v1, bounds_.min.z - margin_, bounds_.max.z + margin_);
+        for (const HalfPlane& line : lines) arrangement_.split(line);
+        arrangement_.connect();
+        for (std::size_t f = 0; f < faceCount(); ++f) centers_.push_back(arrangement_.center(int(f)));
+    }
+
+    void markCells() {
+        inside_.assign((stops_.size() - 1) * faceCount(), 0);
+        for (const Piece& piece : body_.pieces)
+            for (std::size_t f = 0; f < faceCount(); ++f) {
+                const auto [v, z] = centers_[f];
+                if (!inProfile(piece, v, z)) continue;
+                for (std::size_t slice = 0; slice + 1 < stops_.size(); ++slice)
+                    if (piece.from <= stops_[slice] && stops_[slice + 1] <= piece.to)
+                        inside_[slice * faceCount() + f] = piece.adds ? 1 : 0;
+            }
+    }
+
+    [[nodiscard]] bool isInside(std::size_t slice, std::size_t face) const {
+        return inside_[slice * faceCount() + face] != 0;
+    }
+
+    // Tag of the neighbour that fills the cell, or -1.
+    [[nodiscard]] int tagOf(std::ptrdiff_t slice, int face) const {
+        if (neighbors_.empty() || slice < 0 || face < 0 || slice + 1 >= std::ptrdiff_t(stops_.size())) return -1;
+        const auto [v, z] = centers_[std::size_t(face)];
+        const double u = 0.5 * double(stops_[std::size_t(slice)] + stops_[std::size_t(slice) + 1]);
+        const Vec3d p = body_.axis == Axis::X ? Vec3d{u, v, z} : Vec3d{v, u, z};
+        for (const Neighbor* neighbor : neighbors_) {
+            const Bounds& b = neighbor->bounds;
+            if (p.x < double(b.min.x) || p.x > double(b.max.x) || p.y < double(b.min.y) || p.y > double(b.max.y) ||
+                p.z < double(b.min.z) || p.z > double(b.max.z))
+                continue;
+            if (contains(*neighbor->body, p)) return neighbor->tag;
+        }
+        return -1;
+    }
+
+    [[nodiscard]] Point at(std::size_t stop, int vertex) const {
+        const Vertex2 p = arrangement_.vertex(vertex);
+        const Length u = stops_[stop] * kUnits;
+        return body_.axis == Axis::X ? Point{u, p.v, p.z} : Point{p.v, u, p.z};
+    }
+
+    void addFragments(std::size_t slice, std::size_t face,
+                      std::map<decltype(Fragment::group), std::vector<Quad>>& groups) {
+        const std::vector<int>& ring = arrangement_.faces()[face];
+        // (axis, across, up) is right-handed for Axis::X and left-handed for Axis::Y.
+        const auto emit = [&](decltype(Fragment::group) group, Quad quad) {
+            if (body_.axis == Axis::Y) std::reverse(quad.begin(), quad.end());
+            groups[std::move(group)].push_back(std::move(quad));
+        };
+        for (const bool isFront : {false, true}) {
+            const std::ptrdiff_t other = std::ptrdiff_t(slice) + (isFront ? 1 : -1);
+            const bool exists = other >= 0 && other + 1 < std::ptrdiff_t(stops_.size());
+            if (exists && isInside(std::size_t(other), face)) continue;
+            const std::size_t stop = slice + (isFront ? 1 : 0);
+            Quad quad;
+            for (const int i : ring) quad.push_back(at(stop, i));
+            if (!isFront) std::reverse(quad.begin(), quad.end());
+            emit({0, HalfPlane{}, stops_[stop], isFront, tagOf(other, int(face))}, std::move(quad));
+        }
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const int p = ring[i], q = ring[(i + 1) % ring.size()];
+            const int other = arrangement_.across(p, q);
+            if (other >= 0 && isInside(slice, std::size_t(other))) continue;
+            const Vertex2 a = arrangement_.vertex(p), b = arrangement_.vertex(q);
+            const Length dv = b.v - a.v, dz = b.z - a.z;
+            const HalfPlane line = normalizedLine({dz, -dv, dz * a.v - dv * a.z});
+            const bool isFlipped = dz < 0 || (dz == 0 && dv > 0);
+            emit({1, line, 0, isFlipped, tagOf(std::ptrdiff_t(slice), other)},
+                 {at(slice, p), at(slice, q), at(slice + 1, q), at(slice + 1, p)});
+        }
+    }
+
+    const Body& body_;
+    Bounds bounds_;
+    std::vector<const Neighbor*> neighbors_;
+    Length margin_ = 0;
+    std::vector<Length> stops_;
+    Arrangement arrangement_{0, 1, 0, 1};
+    std::vector<std::array<double, 2>> centers_;
+    std::vector<std::uint8_t> inside_;
+};
+
+bool isCorner(Point before, Point at, Point after) {
+    const Point d = minus(at, before), e = minus(after, at);
+    return d.y * e.z != d.z * e.y || d.z * e.x != d.x * e.z || d.x * e.y != d.y * e.x;
+}
+
+}  // namespace
+
+Body& Body::add(Piece piece) {
+    piece.adds = true;
+    pieces.push_back(std::move(piece));
+    return *this;
+}
+
+Body& Body::cut(Piece piece) {
+    piece.adds = false;
+    pieces.push_back(std::move(piece));
+    return *this;
+}
+
+Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1) {
+    return {x0, x1, {{1, 0, y1}, {-1, 0, -y0}, {0, 1, z1}, {0, -1, -z0}}, true};
+}
+
+bool contains(const Body& body, Vec3d point) {
+    const double u = body.axis == Axis::X ? point.x : point.y;
+    const double v = body.axis == Axis::X ? point.y : point.x;
+    for (auto piece = body.pieces.rbegin(); piece != body.pieces.rend(); ++piece)
+        if (u >= double(piece->from) && u <= double(piece->to) && inProfile(*piece, v, point.z)) return piece->adds;
+    return false;
+}
+
+Neighbor::Neighbor(const Body& of, int number) : body(&of), tag(number), bounds(boundsOf(of)) {
+    for (const Piece& piece : of.pieces) pieces.push_back(rounded(boxAround(of.axis, piece)));
+}
+
+Bounds boundsOf(const Body& body) {
+    Box3d all;
+    for (const Piece& piece : body.pieces)
+        if (piece.adds) all.add(boxAround(body.axis, piece));
+    SVT_CHECK(!all.isEmpty());
+    return rounded(all);
+}
+
+Boundary boundary(const Body& body, std::span<const Neighbor> neighbors) {
+    return CellComplex(body, neighbors).extract();
+}
+
+void collectCorners(const RawFace& face, std::vector<Point>& corners) {
+    for (const auto& ring : face.rings)
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            if (isCorner(ring[(i + ring.size() - 1) % ring.size()], ring[i], ring[(i + 1) % ring.size()]))
+                corners.push_back(ring[i]);
+}
+
+void simplify(RawFace& face, std::span<const Point> corners) {
+    for (auto& ring : face.rings)
+        std::erase_if(ring, [&](const Point& p) { return !std::binary_search(corners.begin(), corners.end(), p); });
+}
+
+}  // namespace svt::samples

@@ -1,0 +1,780 @@
+#include <svt/volume/bricks/brick_coder.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
+// Voxels that have a neighbor in the brick along x and along y.
+constexpr std::uint64_t kNotLastX = 0x7F7F7F7F7F7F7F7Full, kNotLastY = 0x00FFFFFFFFFFFFFFull;
+// A sample nearer to a plane than this, in voxels, lies on no side of it.
+constexpr double kMargin = 1e-6;
+
+void addChanges(const std::uint64_t* words, Changes& changes) noexcept {
+    for (std::size_t k = 0; k < 8; ++k) {
+        changes[0][k] |= (words[k] ^ (words[k] >> 1)) & kNotLastX;
+        changes[1][k] |= (words[k] ^ (words[k] >> 8)) & kNotLastY;
+        if (k < 7) changes[2][k] |= words[k] ^ words[k + 1];
+    }
+}
+
+// Folded to places along the axis: bit p is set where voxels p and p + 1 differ anywhere.
+std::uint32_t placesOf(const SideMask& changes, int axis) noexcept {
+    std::uint32_t found = 0;
+    if (axis == 2) {
+        for (std::size_t k = 0; k < 8; ++k) found |= static_cast<std::uint32_t>(changes[k] != 0) << k;
+        return found;
+    }
+    std::uint64_t all = 0;
+    for (const std::uint64_t word : changes) all |= word;
+    for (int b = 0; b < 8; ++b) {
+        const auto byte = static_cast<std::uint32_t>(all >> (8 * b)) & 0xFFu;
+        found |= axis == 0 ? byte : static_cast<std::uint32_t>(byte != 0) << b;
+    }
+    return found;
+}
+
+SideMask cutMask(int axis, std::uint32_t cut) noexcept {
+    SideMask mask;
+    for (std::uint32_t k = 0; k < 8; ++k)
+        mask[k] = axis == 0   ? 0x0101010101010101ull * ((0xFFu << cut) & 0xFFu)
+                  : axis == 1 ? kAll << (8 * cut)
+                  : k >= cut  ? kAll
+                              : 0;
+    return mask;
+}
+
+// Palette index of all voxels in `cell`; nothing where they differ.
+std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask& cell) noexcept {
+    std::uint32_t index = 0;
+    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) {
+        std::uint64_t ones = 0, zeros = 0;
+        for (std::size_t k = 0; k < 8; ++k) {
+            ones |= pattern.planes[8 * p + k] & cell[k];
+            zeros |= ~pattern.planes[8 * p + k] & cell[k];
+        }
+        if (ones != 0 && zeros != 0) return std::nullopt;
+        if (ones != 0) index |= std::uint32_t{1} << p;
+    }
+    return index;
+}
+
+// Labels of the cells that the sides make, each checked. Cells without a sample are slivers between the others: they
+// take the label from beyond as few sides as possible, cuts rather than planes, and of the planes the later ones, which
+// are less sure to be faces of the model.
+bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
+               std::vector<Scalar>& cells) {
+    const std::size_t count = std::size_t{1} << sides.size();
+    cells.assign(count, 0);
+    std::uint64_t known = 0;
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        SideMask mask;
+        mask.fill(kAll);
+        for (std::size_t s = 0; s < sides.size(); ++s)
+            for (std::size_t k = 0; k < 8; ++k) mask[k] &= ((cell >> s) & 1u) != 0 ? sides[s][k] : ~sides[s][k];
+        if (std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; })) continue;
+        const auto index = indexIn(pattern, mask);
+        if (!index) return false;
+        cells[cell] = pattern.palette[*index];
+        known |= std::uint64_t{1} << cell;
+    }
+    const auto distance = [&](std::size_t differing) {
+        std::size_t sum = 0;
+        for (std::size_t s = 0; s < sides.size(); ++s)
+            if (((differing >> s) & 1u) != 0) sum += s < cuts ? 1 : std::size_t{1} << (sides.size() - s);
+        return sum;
+    };
+    for (std::size_t cell = 0; cell < count; ++cell) {
+        if (((known >> cell) & 1u) != 0) continue;
+        std::size_t nearest = count;
+        for (std::size_t other = 0; other < count; ++other)
+            if (((known >> other) & 1u) != 0 && (nearest == count || distance(other ^ cell) < distance(nearest ^ cell)))
+                nearest = other;
+        cells[cell] = cells[nearest];
+    }
+    return true;
+}
+
+}  // namespace
+
+BrickSide::BrickSide(const SideMask& sideMask) noexcept : mask(sideMask) { addChanges(mask.data(), changes); }
+
+Changes changesOf(const BrickPattern& pattern) noexcept {
+    Changes changes{};
+    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) addChanges(pattern.planes.data() + 8 * p, changes);
+    return changes;
+}
+
+std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
+                                     std::initializer_list<const BrickSide*> planes) {
+    BrickCode code;
+    std::array<SideMask, BrickVolume::kMostSides> sides;
+    std::size_t count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        SideMask rest = changes[a];  // what no side explains
+        std::uint64_t any = 0;
+        for (std::size_t k = 0; k < 8; ++k) {
+            for (const BrickSide* plane : planes) rest[k] &= ~plane->changes[a][k];
+            any |= rest[k];
+        }
+        if (any == 0) continue;
+        const std::uint32_t cuts = placesOf(rest, axis);
+        if ((cuts & (cuts - 1)) != 0) return std::nullopt;
+        code.cut[a] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
+        sides[count++] = cutMask(axis, code.cut[a]);
+    }
+    const std::size_t cuts = count;
+    for (const BrickSide* plane : planes) sides[count++] = plane->mask;
+    if (!fillCells(pattern, std::span(sides).first(count), cuts, code.cells)) return std::nullopt;
+    return code;
+}
+
+namespace {
+
+// A pattern of two labels as heights over one of the axes: how many voxels from below belong to the lower label.
+struct Heights {
+    bool isSurface = false;  // each line along the axis has one change at most, and all the same label below
+    std::array<std::int8_t, 64> height{};  // by p + 8 q; (p, q) are the other axes, in order
+    Scalar low = 0, high = 0;
+};
+
+constexpr std::array<std::array<int, 2>, 3> kAcross{{{1, 2}, {0, 2}, {0, 1}}};
+
+Heights heightsAlong(const BrickPattern& pattern, int axis) {
+    Heights heights;
+    if (pattern.palette.size() != 2) return heights;
+    const auto bit = [&](int p, int q, int h) {
+        const int i = axis == 0 ? h : p, j = axis == 0 ? p : axis == 1 ? h : q, k = axis == 2 ? h : q;
+        return static_cast<int>(pattern.planes[std::size_t(k)] >> (i + 8 * j)) & 1;
+    };
+    int low = -1;
+    for (int q = 0; q < 8; ++q)
+        for (int p = 0; p < 8; ++p) {
+            int line = 0;
+            for (int h = 0; h < 8; ++h) line |= bit(p, q, h) << h;
+            if (line == 0 || line == 0xFF) continue;
+            const int first = line & 1;
+            if (low < 0) low = first;
+            // What is above must be one stretch up to the top.
+            const int above = first != 0 ? ~line & 0xFF : line;
+            if (low != first || above + (above & -above) != 0x100) return heights;
+        }
+    if (low < 0) return heights;
+    for (int q = 0; q < 8; ++q)
+        for (int p = 0; p < 8; ++p) {
+            int count = 0;
+            for (int h = 0; h < 8; ++h) count += bit(p, q, h) == low ? 1 : 0;
+            heights.height[std::size_t(p + 8 * q)] = static_cast<std::int8_t>(count);
+        }
+    heights.isSurface = true;
+    heights.low = pattern.palette[std::size_t(low)];
+    heights.high = pattern.palette[std::size_t(1 - low)];
+    return heights;
+}
+
+int steepestAxis(const BrickPattern& pattern) noexcept {
+    const Changes changes = changesOf(pattern);
+    int best = 0, most = -1;
+    for (int axis = 0; axis < 3; ++axis) {
+        int count = 0;
+        for (const std::uint64_t word : changes[std::size_t(axis)]) count += std::popcount(word);
+        if (count > most) best = axis, most = count;
+    }
+    return best;
+}
+
+// Height over (p, q): a p + b q + c, voxels, from the brick's corner.
+struct Slope {
+    double a = 0, b = 0, c = 0;
+    [[nodiscard]] double at(double p, double q) const noexcept { return a * p + b * q + c; }
+};
+
+// Least squares of heights over places.
+class SlopeFit {
+public:
+    void add(double p, double q, double h) noexcept {
+        n_ += 1;
+        p_ += p, q_ += q, h_ += h;
+        pp_ += p * p, pq_ += p * q, qq_ += q * q, ph_ += p * h, qh_ += q * h;
+    }
+    [[nodiscard]] std::optional<Slope> solve() const noexcept {
+        if (n_ < 6) return std::nullopt;
+        const double pp = pp_ - p_ * p_ / n_, pq = pq_ - p_ * q_ / n_, qq = qq_ - q_ * q_ / n_;
+        const double ph = ph_ - p_ * h_ / n_, qh = qh_ - q_ * h_ / n_;
+        const double determinant = pp * qq - pq * pq;
+        if (!(determinant > 0.02 * n_ * n_)) return std::nullopt;  // all in a line, or nearly
+        Slope slope;
+        slope.a = (ph * qq - qh * pq) / determinant;
+        slope.b = (qh * pp - ph * pq) / determinant;
+        slope.c = (h_ - slope.a * p_ - slope.b * q_) / n_;
+        return slope;
+    }
+
+private:
+    double n_ = 0, p_ = 0, q_ = 0, h_ = 0, pp_ = 0, pq_ = 0, qq_ = 0, ph_ = 0, qh_ = 0;
+};
+
+// Moves the surface up or down as little as the brick's own voxels ask for; false where that is not enough.
+bool moveInto(const Heights& heights, Slope& slope) noexcept {
+    double low = -1e9, high = 1e9;
+    for (int q = 0; q < 8; ++q)
+        for (int p = 0; p < 8; ++p) {
+            const int h = heights.height[std::size_t(p + 8 * q)];
+            const double rest = h - (slope.a * (p + 0.5) + slope.b * (q + 0.5));
+            if (h > 0) low = std::max(low, rest - 0.5);
+            if (h < 8) high = std::min(high, rest + 0.5);
+        }
+    const double room = high - low;
+    if (!(room > 1e-4)) return false;
+    const double inset = std::min(0.02, room / 4);
+    slope.c = std::clamp(slope.c, low + inset, high - inset);
+    return true;
+}
+
+// So that a cut between voxels, or none, says the same all along the volume.
+bool isAcrossAxis(Vec3d normal) noexcept {
+    return std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)}) > 1 - 1e-12;
+}
+
+double valueAt(const BrickPlane& plane, Vec3d point) noexcept { return dot(plane.normal, point) + plane.offset; }
+
+constexpr std::array<Vec3i, 26> makeNeighbors() {
+    std::array<Vec3i, 26> neighbors;
+    std::size_t count = 0;
+    for (int distance = 1; distance <= 3; ++distance)
+        for (std::int32_t z = -1; z <= 1; ++z)
+            for (std::int32_t y = -1; y <= 1; ++y)
+                for (std::int32_t x = -1; x <= 1; ++x)
+                    if (x * x + y * y + z * z == distance) neighbors[count++] = {x, y, z};
+    return neighbors;
+}
+constexpr std::array<Vec3i, 26> kNeighbors = makeNeighbors();
+
+class TileCoder {
+public:
+    TileCoder(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
+              const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces)
+        : places_(places),
+          patterns_(patterns),
+          isCoded_(isCoded),
+          knowsFaces_(!faces.empty()),
+          heights_(patterns.size()),
+          faces_(patterns.size()),
+          codeOf_(places.patternOf.size(), kNone) {
+        for (const FacePlane& face : faces)
+            (isAcrossAxis(face.plane.normal) ? cutPlanes_ : facePlanes_).push_back(face);
+    }
+
+    TileCodes code() {
+        if (!facePlanes_.empty())
+            forEachPlace([&](Vec3i at) {
+                if (needsCode(at) || isStep(at)) codeByFaces(at);
+            });
+        forEachPlace([&](Vec3i at) {
+            if (needsCode(at) && patternAt(at).palette.size() == 2) codeSurface(at, true);
+        });
+        forEachPlace([&](Vec3i at) {
+            if (!isStep(at)) return;
+            if (patternAt(at).palette.size() == 2)
+                codeSurface(at, false);
+            else
+                codeMeeting(at);
+        });
+        forEachPlace([&](Vec3i at) {
+            if (needsCode(at)) codeMeeting(at);
+        });
+        codeRims();
+        std::sort(result_.codes.begin(), result_.codes.end(),
+                  [](const PlacedCode& p, const PlacedCode& q) { return p.place < q.place; });
+        return std::move(result_);
+    }
+
+private:
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    // Candidates for a brick: planes of the model, planes where surfaces meet, cuts; and how many are tried by threes.
+    static constexpr std::size_t kMostFaces = 12, kMostAround = 8, kMostCuts = 4, kMostOfThree = 7;
+
+    template <class Body>
+    void forEachPlace(const Body& body) const {
+        for (std::int32_t z = 0; z < places_.count.z; ++z)
+            for (std::int32_t y = 0; y < places_.count.y; ++y)
+                for (std::int32_t x = 0; x < places_.count.x; ++x) body(Vec3i{x, y, z});
+    }
+    // Places beside `at`: faces first, then edges, then corners.
+    template <class Body>
+    void forEachNeighbor(Vec3i at, const Body& body) const {
+        for (const Vec3i away : kNeighbors)
+            if (isInside(at + away)) body(at + away);
+    }
+    [[nodiscard]] bool isInside(Vec3i at) const noexcept {
+        return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < places_.count.x && at.y < places_.count.y &&
+               at.z < places_.count.z;
+    }
+    [[nodiscard]] std::size_t place(Vec3i at) const noexcept { return places_.at(at.x, at.y, at.z); }
+    [[nodiscard]] bool isMixed(Vec3i at) const noexcept { return places_.patternOf[place(at)] != TilePlaces::kUniform; }
+    [[nodiscard]] const BrickPattern& patternAt(Vec3i at) const noexcept {
+        return patterns_[places_.patternOf[place(at)]];
+    }
+    [[nodiscard]] bool needsCode(Vec3i at) const noexcept {
+        return isMixed(at) &&
+               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Uncoded) &&
+               codeOf_[place(at)] == kNone;
+    }
+    [[nodiscard]] const BrickCode* codeAt(Vec3i at) const noexcept {
+        const std::uint32_t number = codeOf_[place(at)];
+        return number == kNone ? nullptr : &result_.codes[number].code;
+    }
+    [[nodiscard]] Vec3d corner(Vec3i at) const noexcept {
+        return {places_.origin.x + 8.0 * at.x, places_.origin.y + 8.0 * at.y, places_.origin.z + 8.0 * at.z};
+    }
+
+    const Heights& heightsAt(Vec3i at, int axis) {
+        auto& known = heights_[places_.patternOf[place(at)]];
+        auto& heights = known[std::size_t(axis)];
+        if (!heights) heights = heightsAlong(patternAt(at), axis);
+        return *heights;
+    }
+
+    // The side of each sample; nothing where one lies too near.
+    std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
+        const Vec3d n = plane.normal;
+        const double base = valueAt(plane, corner(at) + Vec3d{0.5, 0.5, 0.5});
+        // In a row along x the sides change once; only there can a sample be near.
+        const double inverse = n.x != 0 ? -1 / n.x : 0;
+        SideMask mask{};
+        for (int k = 0; k < 8; ++k)
+            for (int j = 0; j < 8; ++j) {
+                const double row = base + n.y * j + n.z * k;
+                const int change = static_cast<int>(std::clamp(row * inverse, -1.0, 7.0) + 1);  // 0..8
+                const int before = std::max(change - 1, 0), after = std::min(change, 7);
+                const double low = row + n.x * before, high = row + n.x * after;
+                if (std::min(std::abs(low), std::abs(high)) < kMargin) return std::nullopt;
+                // The side of the samples before the change, and of those from it on.
+                const std::uint64_t first = low > 0 ? 0xFF : 0, rest = high > 0 ? 0xFF : 0;
+                const std::uint64_t from = (0xFFull << change) & 0xFF;
+                mask[std::size_t(k)] |= ((first & ~from) | (rest & from)) << (8 * j);
+            }
+        return mask;
+    }
+
+    void setCode(Vec3i at, BrickCode code) {
+        codeOf_[place(at)] = static_cast<std::uint32_t>(result_.codes.size());
+        result_.codes.push_back({static_cast<std::uint32_t>(place(at)), std::move(code)});
+    }
+
+    bool tryPlane(Vec3i at, std::uint32_t plane) {
+        const auto mask = sideMask(result_.planes[plane], at);
+        if (!mask) return false;
+        const BrickSide side(*mask);
+        auto code = codeBySides(patternAt(at), changesOf(patternAt(at)), {&side});
+        if (!code || code->cut != std::array<std::uint8_t, 3>{}) return false;
+        code->plane[0] = plane;
+        setCode(at, std::move(*code));
+        return true;
+    }
+
+    // Two cuts may be the corner of a surface that rises by a voxel.
+    [[nodiscard]] bool isStep(Vec3i at) const noexcept {
+        return isMixed(at) && codeOf_[place(at)] == kNone &&
+               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Step);
+    }
+
+    // \param mayStandAlone  whether a plane will do that the bricks around do not share
+    void codeSurface(Vec3i at, bool mayStandAlone) {
+        std::array<std::uint32_t, 4> tried{kNone, kNone, kNone, kNone};
+        std::size_t count = 0;
+        bool isDone = false;
+        forEachNeighbor(at, [&](Vec3i other) {
+            const BrickCode* code = codeAt(other);
+            if (isDone || code == nullptr || count == tried.size()) return;
+            if (std::find(tried.begin(), tried.end(), code->plane[0]) != tried.end()) return;
+            tried[count++] = code->plane[0];
+            isDone = tryPlane(at, code->plane[0]);
+        });
+        if (isDone) return;
+        const int axis = steepestAxis(patternAt(at));
+        const Heights& own = heightsAt(at, axis);
+        if (!own.isSurface) return;
+        auto local = fit(own);
+        if (!local) return;
+        auto wide = fitAround(at, axis, own, *local);
+        if (moveInto(own, wide)) {
+            if (addPlane(at, axis, wide)) return;
+        }
+        if (mayStandAlone && moveInto(own, *local)) addPlane(at, axis, *local);
+    }
+
+    static std::optional<Slope> fit(const Heights& heights) noexcept {
+        SlopeFit sums;
+        for (int q = 0; q < 8; ++q)
+            for (int p = 0; p < 8; ++p) {
+                const int h = heights.height[std::size_t(p + 8 * q)];
+                if (h > 0 && h < 8) sums.add(p + 0.5, q + 0.5, h);
+            }
+        return sums.solve();
+    }
+
+    // The same with the surfaces of the bricks around, as far as they go on from this one.
+    Slope fitAround(Vec3i at, int axis, const Heights& own, Slope slope) {
+        for (const double tolerance : {1.25, 0.8}) {
+            SlopeFit sums;
+            const auto add = [&](Vec3i other, const Heights& heights) {
+                const Vec3i away = (other - at) * 8;
+                const int p0 = away[kAcross[std::size_t(axis)][0]], q0 = away[kAcross[std::size_t(axis)][1]];
+                for (int q = 0; q < 8; ++q)
+                    for (int p = 0; p < 8; ++p) {
+                        const int h = heights.height[std::size_t(p + 8 * q)];
+                        if (h <= 0 || h >= 8) continue;
+                        const double x = p0 + p + 0.5, y = q0 + q + 0.5, z = away[axis] + h;
+                        if (std::abs(z - slope.at(x, y)) <= tolerance) sums.add(x, y, z);
+                    }
+            };
+            add(at, own);
+            forEachNeighbor(at, [&](Vec3i other) {
+                if (!isMixed(other) || patternAt(other).palette.size() != 2) return;
+                const Heights& heights = heightsAt(other, axis);
+                if (heights.isSurface && heights.low == own.low && heights.high == own.high) add(other, heights);
+            });
+            const auto better = sums.solve();
+            if (!better) break;
+            slope = *better;
+        }
+        return slope;
+    }
+
+    [[nodiscard]] BrickPlane planeOf(Vec3i at, int axis, const Slope& slope) const noexcept {
+        BrickPlane plane;
+        plane.normal[axis] = 1;
+        plane.normal[kAcross[std::size_t(axis)][0]] = -slope.a;
+        plane.normal[kAcross[std::size_t(axis)][1]] = -slope.b;
+        const double scale = 1 / length(plane.normal);
+        plane.normal = plane.normal * scale;
+        plane.offset = -slope.c * scale - dot(plane.normal, corner(at));
+        return plane;
+    }
+
+    bool addPlane(Vec3i at, int axis, const Slope& slope) {
+        result_.planes.push_back(planeOf(at, axis, slope));
+        if (tryPlane(at, static_cast<std::uint32_t>(result_.planes.size() - 1))) return true;
+        result_.planes.pop_back();
+        return false;
+    }
+
+    // What the faces of the model around say.
+    void codeByFaces(Vec3i at) {
+        startCandidates(at);
+        addFacePlanes(at, kMostFaces);
+        if (sides_.empty()) return;
+        if (isStep(at)) {
+            // Cuts say it as well. Planes say it better, but where it is cuts that the model has.
+            if (const auto own = codeBySides(patternAt(at), changes_); own && !hasCutsOfModel(*own, at))
+                tryCandidates(at, 0);
+            return;
+        }
+        addCuts(at, kMostFaces + kMostCuts);
+        tryCandidates(at, 0);
+    }
+
+    // Whether faces of the model are where the code's cuts are; yes where no faces are known.
+    [[nodiscard]] bool hasCutsOfModel(const BrickCode& code, Vec3i at) const noexcept {
+        if (!knowsFaces_) return true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            if (code.cut[a] == 0) continue;
+            const double place = (places_.origin + at * 8)[axis] + code.cut[a];
+            // Samples on both sides of the cut have the face between them.
+            if (std::none_of(cutPlanes_.begin(), cutPlanes_.end(), [&](const FacePlane& face) {
+                    return std::abs(face.plane.normal[axis]) > 0.5 &&
+                           std::abs(face.plane.offset * face.plane.normal[axis] + place) <= 0.5 && isBeside(face, at);
+                }))
+                return false;
+        }
+        return true;
+    }
+
+    // Whether faces on the plane are in the brick or beside it.
+    [[nodiscard]] bool isBeside(const FacePlane& face, Vec3i at) const noexcept {
+        const Vec3i low = places_.origin + at * 8;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            if (face.min[a] > low[axis] + 8 || face.max[a] < low[axis]) return false;
+        }
+        return true;
+    }
+
+    void startCandidates(Vec3i at) {
+        candidates_.clear();
+        sides_.clear();
+        changes_ = changesOf(patternAt(at));
+    }
+
+    void addFacePlanes(Vec3i at, std::size_t most) {
+        for (const FacePlane& face : facePlanes_) {
+            if (sides_.size() == most) return;
+            if (isBeside(face, at) && cutsBox(face.plane, at)) addCandidate(face.plane, sideMask(face.plane, at));
+        }
+    }
+
+    // Where surfaces meet: planes of the model and of the bricks around, and second cuts across an axis.
+    void codeMeeting(Vec3i at) {
+        startCandidates(at);
+        if (!isStep(at)) addFacePlanes(at, kMostAround - 2);
+        forEachNeighbor(at, [&](Vec3i other) {
+            const BrickCode* code = codeAt(other);
+            if (code == nullptr) return;
+            for (const std::uint32_t number : code->plane) {
+                if (number == BrickVolume::kNoPlane || sides_.size() == kMostAround) continue;
+                const BrickPlane& plane = result_.planes[number];
+                if (!cutsBox(plane, at) ||
+                    std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end())
+                    continue;
+                addCandidate(plane, sideMask(plane, at));
+            }
+        });
+        if (!isStep(at)) addCuts(at, kMostAround + kMostCuts);
+        if (tryCandidates(at, 0) || isStep(at)) return;
+        const std::size_t known = sides_.size();
+        addFitted(at);
+        if (sides_.size() > known) tryCandidates(at, known);
+    }
+
+    // One candidate, or two or three of which one at least is number `from` or later. Cuts beside them must be of the
+    // model: else they are the steps of an oblique face that is not among the candidates, and voxels look better.
+    bool tryCandidates(Vec3i at, std::size_t from) {
+        const auto isDone = [&](std::initializer_list<std::size_t> planes,
+                                std::initializer_list<const BrickSide*> sides) {
+            auto code = codeBySides(patternAt(at), changes_, sides);
+            if (!code || !hasCutsOfModel(*code, at)) return false;
+            std::size_t count = 0;
+            for (const std::size_t plane : planes) code->plane[count++] = numberOf(candidates_[plane]);
+            setCode(at, std::move(*code));
+            return true;
+        };
+        for (std::size_t a = from; a < sides_.size(); ++a)
+            if (isDone({a}, {&sides_[a]})) return true;
+        for (std::size_t b = std::max<std::size_t>(from, 1); b < sides_.size(); ++b)
+            for (std::size_t a = 0; a < b; ++a)
+                if (isDone({a, b}, {&sides_[a], &sides_[b]})) return true;
+        const std::size_t end = std::min(sides_.size(), kMostOfThree);
+        for (std::size_t c = std::max<std::size_t>(from, 2); c < end; ++c)
+            for (std::size_t b = 1; b < c; ++b)
+                for (std::size_t a = 0; a < b; ++a)
+                    if (isDone({a, b, c}, {&sides_[a], &sides_[b], &sides_[c]})) return true;
+        return false;
+    }
+
+    // False where the plane tells no voxels apart, or those that another does.
+    bool addCandidate(const BrickPlane& plane, const std::optional<SideMask>& mask) {
+        if (!mask || isTrivial(*mask)) return false;
+        if (std::any_of(sides_.begin(), sides_.end(), [&](const BrickSide& side) { return side.mask == *mask; }))
+            return false;
+        candidates_.push_back(plane);
+        sides_.emplace_back(*mask);
+        return true;
+    }
+
+    // Planes of least squares through the faces between two labels, one above the other along an axis.
+    void addFitted(Vec3i at) {
+        constexpr std::size_t kMost = 4, kFewest = 8;
+        struct Pair {
+            int axis;
+            Scalar low, high;
+            std::size_t faces;
+        };
+        std::vector<Pair> pairs;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const FaceGroup& group : facesAt(at)[std::size_t(axis)].groups)
+                if (group.size() >= kFewest) pairs.push_back({axis, group.low, group.high, group.size()});
+        std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.faces > q.faces; });
+        std::size_t added = 0;
+        for (const Pair& pair : pairs) {
+            if (added == kMost) break;
+            const auto slope = fitFaces(at, pair.axis, pair.low, pair.high);
+            // A plane that is steeper over this axis is found over another.
+            if (!slope || std::max(std::abs(slope->a), std::abs(slope->b)) > 1.3) continue;
+            const BrickPlane plane = planeOf(at, pair.axis, *slope);
+            if (addCandidate(plane, sideMask(plane, at))) ++added;
+        }
+    }
+
+    std::optional<Slope> fitFaces(Vec3i at, int axis, Scalar low, Scalar high) {
+        std::optional<Slope> slope;
+        for (const double tolerance : {1e9, 1.0}) {
+            SlopeFit sums;
+            const auto add = [&](Vec3i other) {
+                const Vec3i away = (other - at) * 8;
+                const int p0 = away[kAcross[std::size_t(axis)][0]], q0 = away[kAcross[std::size_t(axis)][1]];
+                for (const Face& face : facesAt(other)[std::size_t(axis)].between(low, high)) {
+                    const double x = p0 + face.p + 0.5, y = q0 + face.q + 0.5, z = away[axis] + face.height;
+                    if (!slope || std::abs(z - slope->at(x, y)) <= tolerance) sums.add(x, y, z);
+                }
+            };
+            add(at);
+            if (slope)
+                for (std::size_t n = 0; n < 6; ++n) {  // over the faces
+                    const Vec3i other = at + kNeighbors[n];
+                    if (isInside(other) && isMixed(other)) add(other);
+                }
+            const auto better = sums.solve();
+            if (!better) return slope;
+            slope = better;
+        }
+        return slope;
+    }
+
+    // A face between two voxels: over (p, q), `height` voxels up.
+    struct Face {
+        std::uint8_t p, q, height;
+    };
+    // Those with `low` below and `high` above.
+    struct FaceGroup {
+        Scalar low, high;
+        std::uint32_t begin, end;  // of AxisFaces::faces
+        [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
+    };
+    struct AxisFaces {
+        std::vector<Face> faces;
+        std::vector<FaceGroup> groups;
+
+        [[nodiscard]] std::span<const Face> between(Scalar low, Scalar high) const noexcept {
+            for (const FaceGroup& group : groups)
+                if (group.low == low && group.high == high) return std::span(faces).subspan(group.begin, group.size());
+            return {};
+        }
+    };
+    using Faces = std::array<AxisFaces, 3>;
+    const Faces& facesAt(Vec3i at) {
+        auto& faces = faces_[places_.patternOf[place(at)]];
+        if (faces) return *faces;
+        faces.emplace();
+        const BrickPattern& pattern = patternAt(at);
+        const Changes changes = changesOf(pattern);
+        const auto scalarAt = [&](std::size_t word, std::size_t bit) {
+            std::size_t index = 0;
+            for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p)
+                index |= static_cast<std::size_t>((pattern.planes[8 * p + word] >> bit) & 1u) << p;
+            return pattern.palette[index];
+        };
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            AxisFaces& ofAxis = (*faces)[axis];
+            newFaces_.clear();
+            const auto add = [&](std::size_t word, std::size_t bit) {
+                const std::size_t x = bit % 8, y = bit / 8, z = word;
+                const Scalar low = scalarAt(word, bit);
+                const Scalar high = axis == 2 ? scalarAt(word + 1, bit) : scalarAt(word, bit + (axis == 0 ? 1 : 8));
+                const auto known =
+                    std::find_if(ofAxis.groups.begin(), ofAxis.groups.end(),
+                                 [&](const FaceGroup& group) { return group.low == low && group.high == high; });
+                const auto group = static_cast<std::uint32_t>(known - ofAxis.groups.begin());
+                if (known == ofAxis.groups.end()) ofAxis.groups.push_back({low, high, 0, 0});
+                ++ofAxis.groups[group].end;
+                newFaces_.push_back(
+                    {group,
+                     {static_cast<std::uint8_t>(axis == 0 ? y : x), static_cast<std::uint8_t>(axis == 2 ? y : z),
+                      static_cast<std::uint8_t>((axis == 0   ? x
+                                                 : axis == 1 ? y
+                                                             : z) +
+                                                1)}});
+            };
+            for (std::size_t word = 0; word < 8; ++word)
+                for (std::uint64_t bits = changes[axis][word]; bits != 0; bits &= bits - 1)
+                    add(word, static_cast<std::size_t>(std::countr_zero(bits)));
+            std::uint32_t begin = 0;
+            for (FaceGroup& group : ofAxis.groups) {
+                const std::uint32_t size = group.end;
+                group.begin = group.end = begin;
+                begin += size;
+            }
+            ofAxis.faces.resize(newFaces_.size());
+            for (const auto& [group, face] : newFaces_) ofAxis.faces[ofAxis.groups[group].end++] = face;
+        }
+        return *faces;
+    }
+
+    // Planes between voxels across axes that need more than one cut.
+    void addCuts(Vec3i at, std::size_t most) {
+        for (int axis = 0; axis < 3; ++axis) {
+            std::uint32_t places = placesOf(changes_[std::size_t(axis)], axis);
+            if (std::popcount(places) < 2 || std::popcount(places) > 3) continue;
+            for (; places != 0 && sides_.size() < most; places &= places - 1) {
+                const auto cut = static_cast<std::uint32_t>(std::countr_zero(places)) + 1;
+                BrickCode alone;
+                alone.cut[std::size_t(axis)] = static_cast<std::uint8_t>(cut);
+                if (!hasCutsOfModel(alone, at)) continue;
+                BrickPlane plane;
+                plane.normal[axis] = 1;
+                plane.offset = -(corner(at)[axis] + cut);
+                addCandidate(plane, cutMask(axis, cut));
+            }
+        }
+    }
+
+    std::uint32_t numberOf(const BrickPlane& plane) {
+        const auto known = std::find(result_.planes.rbegin(), result_.planes.rend(), plane);
+        if (known != result_.planes.rend()) return static_cast<std::uint32_t>(result_.planes.rend() - known) - 1;
+        result_.planes.push_back(plane);
+        return static_cast<std::uint32_t>(result_.planes.size() - 1);
+    }
+
+    static bool isTrivial(const SideMask& mask) noexcept {
+        const auto isAll = [&](std::uint64_t value) {
+            return std::all_of(mask.begin(), mask.end(), [&](std::uint64_t word) { return word == value; });
+        };
+        return isAll(0) || isAll(kAll);
+    }
+
+    // Does the plane cut the box of the brick itself?
+    [[nodiscard]] bool cutsBox(const BrickPlane& plane, Vec3i at) const noexcept {
+        const double middle = valueAt(plane, corner(at) + Vec3d{4, 4, 4});
+        const double reach = 4 * (std::abs(plane.normal.x) + std::abs(plane.normal.y) + std::abs(plane.normal.z));
+        return std::abs(middle) < reach - 1e-3;
+    }
+
+    void codeRims() {
+        const std::size_t count = result_.codes.size();
+        for (std::size_t n = 0; n < count; ++n) {
+            if (result_.codes[n].code.cells.size() != 2) continue;
+            const BrickCode code = result_.codes[n].code;
+            const BrickPlane& plane = result_.planes[code.plane[0]];
+            const auto place = static_cast<std::int32_t>(result_.codes[n].place);
+            const Vec3i from{place % places_.count.x, place / places_.count.x % places_.count.y,
+                             place / (places_.count.x * places_.count.y)};
+            forEachNeighbor(from, [&](Vec3i at) {
+                if (isMixed(at) || codeAt(at) != nullptr || !cutsBox(plane, at)) return;
+                const auto mask = sideMask(plane, at);
+                if (mask && isTrivial(*mask) &&
+                    code.cells[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
+                    setCode(at, code);
+            });
+        }
+    }
+
+    const TilePlaces& places_;
+    const std::vector<BrickPattern>& patterns_;
+    const std::vector<std::uint8_t>& isCoded_;
+    std::vector<FacePlane> facePlanes_, cutPlanes_;  // of the model; across an axis the latter
+    bool knowsFaces_;
+    std::vector<std::array<std::optional<Heights>, 3>> heights_;
+    std::vector<std::optional<Faces>> faces_;               // by pattern
+    std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // of one axis, with the number of their group
+    std::vector<std::uint32_t> codeOf_;
+    std::vector<BrickPlane> candidates_;
+    std::vector<BrickSide> sides_;  // of the candidates
+    Changes changes_{};             // of the brick
+    TileCodes result_;
+};
+
+}  // namespace
+
+TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
+                   const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces) {
+    return TileCoder(places, patterns, isCoded, faces).code();
+}
+
+}  // namespace svt::volume

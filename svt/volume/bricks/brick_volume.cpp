@@ -1,0 +1,734 @@
+#include <svt/core/parallel.hpp>
+#include <svt/volume/brick_volume.hpp>
+#include <svt/volume/bricks/code_boxes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <unordered_map>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::uint32_t kMixedBit = 0x80000000u;
+// Kinds of entries while bricks are made: the rest is a box of coded bricks, or a palette brick.
+constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
+constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
+constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t value) noexcept {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15ull;
+    return hash ^ (hash >> 29);
+}
+
+// Numbers distinct things by first use. The things themselves stay with the caller, who compares them.
+class Numbering {
+public:
+    // isEqual(number): is the thing that is looked up equal to the one of that number?
+    // Returns the known number, or kNew after noting `next` for it.
+    static constexpr std::uint32_t kNew = 0xFFFFFFFFu;
+
+    template <class IsEqual>
+    std::uint32_t find(std::uint64_t hash, std::uint32_t next, const IsEqual& isEqual) {
+        const auto [place, isFirst] = first_.try_emplace(hash, next);
+        if (isFirst) {
+            chain_.push_back(kNew);
+            return kNew;
+        }
+        std::uint32_t number = place->second;
+        while (!isEqual(number)) {
+            if (chain_[number] == kNew) {
+                chain_[number] = next;
+                chain_.push_back(kNew);
+                return kNew;
+            }
+            number = chain_[number];
+        }
+        return number;
+    }
+
+private:
+    std::unordered_map<std::uint64_t, std::uint32_t> first_;
+    std::vector<std::uint32_t> chain_;
+};
+
+// One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of
+// `scalars`, or of `patterns` with the mixed bit.
+struct TileBricks {
+    std::array<std::uint8_t, kBricksPerTile * kBricksPerTile> columnOf{};
+    std::vector<std::uint32_t> entries;
+    std::vector<Scalar> scalars;
+    std::vector<BrickPattern> patterns;
+    // What codeBricks() makes of them.
+    std::vector<BrickPlane> planes;
+    TileBoxes boxes;
+    std::vector<std::uint32_t> codedPatterns;  // of the coded bricks, in order of places
+
+    [[nodiscard]] std::uint32_t entryAt(std::int32_t x, std::int32_t y, std::int32_t z,
+                                        std::int32_t bricksZ) const noexcept {
+        const std::size_t column = columnOf[static_cast<std::size_t>(x + kBricksPerTile * y)];
+        return entries[column * static_cast<std::size_t>(bricksZ) + static_cast<std::size_t>(z)];
+    }
+};
+
+// One of the distinct columns over a brick's 8 x 8 footprint.
+struct FootprintColumn {
+    std::uint64_t mask = 0;  // bit i + 8 j: this column stands there
+    const Run* run = nullptr;
+};
+
+class TileBricker {
+public:
+    TileBricker(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t bricksZ)
+        : tile_(tile),
+          width_(width),
+          height_(height),
+          nz_(tile.runs.back().end),
+          top_(static_cast<std::uint32_t>(bricksZ) * 8) {}
+
+    TileBricks make() {
+        std::vector<std::array<std::uint16_t, 64>> footprints;
+        for (std::int32_t by = 0; by * 8 < height_; ++by)
+            for (std::int32_t bx = 0; bx * 8 < width_; ++bx) {
+                const std::array<std::uint16_t, 64> footprint = footprintAt(bx, by);
+                const auto known = std::find(footprints.rbegin(), footprints.rend(), footprint);
+                std::size_t number = static_cast<std::size_t>(footprints.rend() - known) - 1;
+                if (known == footprints.rend()) {
+                    number = footprints.size();
+                    footprints.push_back(footprint);
+                    addBrickColumn(footprint);
+                }
+                result_.columnOf[static_cast<std::size_t>(bx + kBricksPerTile * by)] =
+                    static_cast<std::uint8_t>(number);
+            }
+        return std::move(result_);
+    }
+
+private:
+    // Column numbers of the 8 x 8 footprint; beyond the border they repeat it.
+    std::array<std::uint16_t, 64> footprintAt(std::int32_t bx, std::int32_t by) const {
+        std::array<std::uint16_t, 64> footprint;
+        for (std::int32_t j = 0; j < 8; ++j) {
+            const auto row = static_cast<std::size_t>(std::min(by * 8 + j, height_ - 1));
+            const std::uint16_t* numbers =
+                tile_.rowColumns.data() + static_cast<std::size_t>(tile_.rowOf[row]) * static_cast<std::size_t>(width_);
+            for (std::int32_t i = 0; i < 8; ++i)
+                footprint[static_cast<std::size_t>(i + 8 * j)] = numbers[std::min(bx * 8 + i, width_ - 1)];
+        }
+        return footprint;
+    }
+
+    void addBrickColumn(const std::array<std::uint16_t, 64>& footprint) {
+        columns_.clear();
+        numbers_.clear();
+        std::size_t known = 0;
+        for (std::size_t n = 0; n < 64; ++n) {
+            if (n == 0 || footprint[n] != footprint[n - 1]) {
+                known = 0;
+                while (known < numbers_.size() && numbers_[known] != footprint[n]) ++known;
+                if (known == numbers_.size()) {
+                    numbers_.push_back(footprint[n]);
+                    columns_.push_back({0, tile_.column(footprint[n]).data()});
+                }
+            }
+            columns_[known].mask |= std::uint64_t{1} << n;
+        }
+        std::uint32_t bottom = 0;
+        while (bottom < top_) {
+            // No run ends inside [bottom, same), so all whole bricks in there are equal.
+            std::uint32_t same = top_;
+            bool isUniform = true;
+            for (FootprintColumn& column : columns_) {
+                while (column.run->end <= bottom) ++column.run;
+                same = std::min(same, endOf(*column.run));
+                isUniform = isUniform && column.run->scalar == columns_.front().run->scalar;
+            }
+            const std::uint32_t bricks = std::max<std::uint32_t>(same / 8 - bottom / 8, 1);
+            isUniform = isUniform && same >= bottom + 8;
+            const std::uint32_t entry = isUniform ? scalarNumber(columns_.front().run->scalar) : brickNumber(bottom);
+            result_.entries.insert(result_.entries.end(), bricks, entry);
+            bottom += bricks * 8;
+        }
+    }
+
+    // The last run is taken to fill the last brick.
+    std::uint32_t endOf(const Run& run) const { return run.end == nz_ ? top_ : run.end; }
+
+    std::uint32_t scalarNumber(Scalar scalar) {
+        const auto known = std::find(result_.scalars.rbegin(), result_.scalars.rend(), scalar);
+        if (known != result_.scalars.rend()) return static_cast<std::uint32_t>(result_.scalars.rend() - known) - 1;
+        result_.scalars.push_back(scalar);
+        return static_cast<std::uint32_t>(result_.scalars.size()) - 1;
+    }
+
+    std::uint32_t brickNumber(std::uint32_t bottom) {
+        palette_.clear();
+        words_.fill(0);
+        // Voxel order, so that the palette is in order of first use and a pattern is the same for any labels.
+        std::uint32_t same = 0;  // up to here the layers are equal
+        for (std::uint32_t k = 0; k < 8; ++k) {
+            if (k < same) {
+                for (std::size_t word = k; word < words_.size(); word += 8) words_[word] = words_[word - 1];
+                continue;
+            }
+            same = 8;
+            for (const FootprintColumn& column : columns_) {
+                const Run* run = column.run;
+                while (endOf(*run) <= bottom + k) ++run;
+                same = std::min(same, endOf(*run) - bottom);
+                std::size_t index = 0;
+                while (index < palette_.size() && palette_[index] != run->scalar) ++index;
+                if (index == palette_.size()) palette_.push_back(run->scalar);
+                for (std::size_t plane = 0; (index >> plane) != 0; ++plane)
+                    if (((index >> plane) & 1u) != 0) words_[8 * plane + k] |= column.mask;
+            }
+        }
+        const std::span<const std::uint64_t> planes(
+            words_.data(), 8 * std::max<std::size_t>(1, static_cast<std::size_t>(std::bit_width(palette_.size() - 1))));
+        std::uint64_t hash = planes.size();
+        for (const std::uint64_t word : planes) hash = mix(hash, word);
+        for (const Scalar scalar : palette_) hash = mix(hash, scalar);
+        const auto next = static_cast<std::uint32_t>(result_.patterns.size());
+        std::uint32_t number = numbering_.find(hash, next, [&](std::uint32_t other) {
+            const BrickPattern& pattern = result_.patterns[other];
+            return pattern.palette == palette_ && std::equal(planes.begin(), planes.end(), pattern.planes.begin());
+        });
+        if (number == Numbering::kNew) {
+            number = next;
+            result_.patterns.push_back({palette_, {planes.begin(), planes.end()}});
+        }
+        return number | kMixedBit;
+    }
+
+    ColumnTile tile_;
+    std::int32_t width_, height_;
+    std::uint32_t nz_, top_;  // top of the last voxel, and of the last brick
+    std::vector<FootprintColumn> columns_;
+    std::vector<std::uint16_t> numbers_;  // of the columns
+    std::vector<Scalar> palette_;
+    std::array<std::uint64_t, 8 * 9> words_{};
+    Numbering numbering_;
+    TileBricks result_;
+};
+
+// Codes the bricks of a tile: patterns by cuts alone, once each, then by planes, where they stand.
+class TileCoding {
+public:
+    TileCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {
+        for (std::int32_t z = 0; z < count.z; ++z)
+            for (std::int32_t y = 0; y < count.y; ++y)
+                for (std::int32_t x = 0; x < count.x; ++x) {
+                    const std::uint32_t entry = tile_.entryAt(x, y, z, count.z);
+                    const bool isMixed = (entry & kMixedBit) != 0;
+                    places_.patternOf.push_back(isMixed ? entry & ~kMixedBit : TilePlaces::kUniform);
+                    places_.scalarOf.push_back(isMixed ? 0 : tile_.scalars[entry]);
+                }
+    }
+
+    // Fills boxes, planes and codedPatterns of the tile. Returns by place: the scalar's number, kCoded and the box, or
+    // kVoxels and the pattern.
+    std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes) {
+        codeOf_.assign(places_.patternOf.size(), TileBoxes::kNone);
+        if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks(planes);
+        std::vector<std::uint32_t> index;
+        index.reserve(codeOf_.size());
+        std::size_t place = 0;
+        for (std::int32_t z = 0; z < places_.count.z; ++z)
+            for (std::int32_t y = 0; y < places_.count.y; ++y)
+                for (std::int32_t x = 0; x < places_.count.x; ++x, ++place) {
+                    const std::uint32_t pattern = places_.patternOf[place];
+                    if (codeOf_[place] != TileBoxes::kNone) {
+                        index.push_back(tile_.boxes.boxOf[place] | kCodedBit);
+                        tile_.codedPatterns.push_back(
+                            pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[place]));
+                    } else {
+                        index.push_back(pattern != TilePlaces::kUniform ? pattern | kVoxelsBit
+                                                                        : tile_.entryAt(x, y, z, places_.count.z));
+                    }
+                }
+        tile_.entries = {};
+        return index;
+    }
+
+private:
+    void codeBricks(std::span<const FacePlane> planes) {
+        std::vector<std::uint8_t> kinds;
+        std::vector<BrickCode> codes;
+        std::vector<std::uint32_t> byCuts;  // by pattern
+        bool isAllCoded = true;
+        for (const BrickPattern& pattern : tile_.patterns) {
+            auto code = codeBySides(pattern, changesOf(pattern));
+            const PatternKind kind = !code                    ? PatternKind::Uncoded
+                                     : code->cells.size() > 2 ? PatternKind::Step
+                                                              : PatternKind::Coded;
+            kinds.push_back(static_cast<std::uint8_t>(kind));
+            isAllCoded = isAllCoded && kind == PatternKind::Coded;
+            byCuts.push_back(code ? static_cast<std::uint32_t>(codes.size()) : TileBoxes::kNone);
+            if (code) codes.push_back(std::move(*code));
+        }
+        for (std::size_t place = 0; place < codeOf_.size(); ++place)
+            if (places_.patternOf[place] != TilePlaces::kUniform) codeOf_[place] = byCuts[places_.patternOf[place]];
+        if (!isAllCoded) {
+            TileCodes found = codeTile(places_, tile_.patterns, kinds, planes);
+            tile_.planes = std::move(found.planes);
+            for (PlacedCode& placed : found.codes) {
+                codeOf_[placed.place] = static_cast<std::uint32_t>(codes.size());
+                codes.push_back(std::move(placed.code));
+            }
+        }
+        tile_.boxes = findCodeBoxes(places_, codeOf_, codes, tile_.planes);
+    }
+
+    std::uint32_t uniformPattern(Scalar scalar) {
+        const auto [place, isNew] = uniform_.try_emplace(scalar, static_cast<std::uint32_t>(tile_.patterns.size()));
+        if (isNew) tile_.patterns.push_back({{scalar}, std::vector<std::uint64_t>(8, 0)});
+        return place->second;
+    }
+
+    TileBricks& tile_;
+    TilePlaces places_;
+    std::vector<std::uint32_t> codeOf_;  // by place: a number of the codes, or kNone
+    std::unordered_map<Scalar, std::uint32_t> uniform_;
+};
+
+// A box of bricks that are all uniform with one scalar.
+struct BrickBox {
+    Vec3i min, max;
+    std::uint32_t entry = 0;  // the index entry that all its bricks have
+};
+
+// Covers the uniform bricks with boxes. Each box is grown from the first brick that has none yet, along x, then y, then
+// z, over all bricks of its scalar, whether other boxes hold them or not: boxes may overlap and a ray goes far in each.
+// What that costs is bounded by a budget; when it is spent, boxes keep to bricks that have none.
+class BoxFinder {
+public:
+    BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count) : index_(index), count_(count) {
+        findRuns();
+        boxOf_.assign(index_.size(), kNone);
+        budget_ = 12 * static_cast<std::int64_t>(index_.size());
+        std::size_t brick = 0;
+        for (std::int32_t z = 0; z < count_.z; ++z)
+            for (std::int32_t y = 0; y < count_.y; ++y)
+                for (std::int32_t x = 0; x < count_.x; ++x, ++brick)
+                    if ((index_[brick] & kAnyMixed) == 0 && boxOf_[brick] == kNone) addBoxAt({x, y, z});
+    }
+
+    [[nodiscard]] const std::vector<BrickBox>& boxes() const noexcept { return boxes_; }
+    /// By brick; kNone for mixed ones.
+    [[nodiscard]] const std::vector<std::uint32_t>& boxOf() const noexcept { return boxOf_; }
+
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+private:
+    [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
+        return static_cast<std::size_t>(x) +
+               static_cast<std::size_t>(count_.x) *
+                   (static_cast<std::size_t>(y) + static_cast<std::size_t>(count_.y) * static_cast<std::size_t>(z));
+    }
+
+    // First x beyond each brick's stretch of equal entries along its row.
+    void findRuns() {
+        runEnd_.resize(index_.size());
+        for (std::size_t row = 0; row < index_.size(); row += static_cast<std::size_t>(count_.x))
+            for (std::int32_t x = count_.x - 1, end = count_.x; x >= 0; --x) {
+                const std::size_t brick = row + static_cast<std::size_t>(x);
+                if (x + 1 < count_.x && index_[brick + 1] != index_[brick]) end = x + 1;
+                runEnd_[brick] = static_cast<std::uint16_t>(end);
+            }
+    }
+
+    // May the bricks [minX, maxX) of a row join a box?
+    [[nodiscard]] bool mayJoin(const BrickBox& box, std::int32_t y, std::int32_t z) {
+        const std::size_t first = at(box.min.x, y, z);
+        --budget_;
+        if (index_[first] != box.entry || runEnd_[first] < box.max.x) return false;
+        if (budget_ > 0) return true;
+        for (std::int32_t x = box.min.x; x < box.max.x; ++x)
+            if (boxOf_[first + static_cast<std::size_t>(x - box.min.x)] != kNone) return false;
+        return true;
+    }
+    [[nodiscard]] bool mayJoinLayer(const BrickBox& box, std::int32_t z) {
+        for (std::int32_t y = box.min.y; y < box.max.y; ++y)
+            if (!mayJoin(box, y, z)) return false;
+        return true;
+    }
+
+    void addBoxAt(Vec3i seed) {
+        const std::size_t brick = at(seed.x, seed.y, seed.z);
+        BrickBox box{seed, {seed.x + 1, seed.y + 1, seed.z + 1}, index_[brick]};
+        const auto isSame = [&](std::int32_t x) {
+            const std::size_t other = at(x, seed.y, seed.z);
+            return index_[other] == box.entry && (budget_ > 0 || boxOf_[other] == kNone);
+        };
+        while (box.max.x < count_.x && isSame(box.max.x)) ++box.max.x;
+        while (box.min.x > 0 && isSame(box.min.x - 1)) --box.min.x;
+        while (box.max.y < count_.y && mayJoin(box, box.max.y, seed.z)) ++box.max.y;
+        while (box.min.y > 0 && mayJoin(box, box.min.y - 1, seed.z)) --box.min.y;
+        while (box.max.z < count_.z && mayJoinLayer(box, box.max.z)) ++box.max.z;
+        while (box.min.z > 0 && mayJoinLayer(box, box.min.z - 1)) --box.min.z;
+        const auto number = static_cast<std::uint32_t>(boxes_.size());
+        // No brick before the seed is without a box.
+        for (std::int32_t z = seed.z; z < box.max.z; ++z)
+            for (std::int32_t y = z == seed.z ? seed.y : box.min.y; y < box.max.y; ++y) {
+                std::uint32_t* row = boxOf_.data() + at(0, y, z);
+                for (std::int32_t x = box.min.x; x < box.max.x; ++x)
+                    if (row[x] == kNone) row[x] = number;
+                budget_ -= (box.max.x - box.min.x) / 8;
+            }
+        boxes_.push_back(box);
+    }
+
+    const std::vector<std::uint32_t>& index_;
+    Vec3i count_;
+    std::int64_t budget_ = 0;
+    std::vector<std::uint16_t> runEnd_;
+    std::vector<std::uint32_t> boxOf_;
+    std::vector<BrickBox> boxes_;
+};
+
+}  // namespace
+
+// Joins the tiles' bricks, in tile order, into one volume.
+class BrickMerger {
+public:
+    BrickMerger(BrickVolume& volume, std::int32_t tilesX) : volume_(volume), tilesX_(tilesX) {}
+
+    // Allocates the index; placeTile() and numberTile() fill it.
+    void begin(std::size_t tiles) {
+        const Vec3i count = volume_.brickCount_;
+        volume_.wide_.resize(volume_.placeOf(0, 0, count.z));
+        numbers_.resize(tiles);
+    }
+    // The tile's own numbers, one a place. Tiles may be placed side by side.
+    void placeTile(std::size_t tile, const std::vector<std::uint32_t>& index) {
+        std::size_t place = 0;
+        forEachPlace(tile, [&](std::size_t brick) { volume_.wide_[brick] = index[place++]; });
+    }
+
+    // Takes what the tile has found, and notes its numbers.
+    void addTile(std::size_t number, TileBricks& tile) {
+        Numbers& numbers = numbers_[number];
+        for (const Scalar scalar : tile.scalars) numbers.scalars.push_back(scalarNumber(scalar));
+        for (const BrickPattern& pattern : tile.patterns) numbers.patterns.push_back(brickNumber(pattern));
+        numbers.firstBox = static_cast<std::uint32_t>(codeBoxes_.size());
+        const auto firstCode = static_cast<std::uint32_t>(volume_.codes_.size());
+        std::vector<std::uint32_t> planes;
+        for (const BrickPlane& plane : tile.planes) planes.push_back(planeNumber(plane));
+        for (const BoxCode& code : tile.boxes.codes) addCode(code, planes);
+        const Vec3i first = firstBrick(number);
+        for (const CodeBox& found : tile.boxes.boxes)
+            codeBoxes_.push_back(boxOf(first + found.min, first + found.max, firstCode + found.code));
+        numbers.codedPatterns = std::move(tile.codedPatterns);
+        tile = {};
+    }
+
+    // The volume's numbers for the tile's.
+    void numberTile(std::size_t tile) {
+        const Numbers& numbers = numbers_[tile];
+        forEachPlace(tile, [&](std::size_t brick) {
+            std::uint32_t& entry = volume_.wide_[brick];
+            if ((entry & kCodedBit) != 0)
+                entry += numbers.firstBox;
+            else if ((entry & kVoxelsBit) != 0)
+                entry = numbers.patterns[entry & ~kVoxelsBit] | kVoxelsBit;
+            else
+                entry = numbers.scalars[entry];
+        });
+    }
+
+    void takeBoxes(const BoxFinder& finder) {
+        for (const BrickBox& found : finder.boxes())
+            volume_.boxes_.push_back(boxOf(found.min, found.max, scalars_[found.entry]));
+        volume_.uniformBoxes_ = volume_.boxes_.size();
+        volume_.boxes_.insert(volume_.boxes_.end(), codeBoxes_.begin(), codeBoxes_.end());
+        for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick) {
+            std::uint32_t& entry = volume_.wide_[brick];
+            if ((entry & kAnyMixed) == 0) entry = finder.boxOf()[brick];
+        }
+    }
+
+    // The index as it is read.
+    void finishIndex() {
+        const auto uniform = static_cast<std::uint32_t>(volume_.uniformBoxes_);
+        const auto boxes = static_cast<std::uint32_t>(volume_.boxes_.size());
+        const auto finished = [&](std::uint32_t entry) {
+            if ((entry & kCodedBit) != 0) return (entry & ~kCodedBit) + uniform;
+            if ((entry & kVoxelsBit) != 0) return (entry & ~kVoxelsBit) + boxes;
+            return entry;
+        };
+        if (boxes + volume_.bricks_.size() <= 65536) {
+            volume_.narrow_.reserve(volume_.wide_.size() + 4);
+            for (const std::uint32_t entry : volume_.wide_)
+                volume_.narrow_.push_back(static_cast<std::uint16_t>(finished(entry)));
+            volume_.narrow_.insert(volume_.narrow_.end(), 4, 0);
+            volume_.wide_ = {};
+        } else {
+            for (std::uint32_t& entry : volume_.wide_) entry = finished(entry);
+            volume_.wide_.insert(volume_.wide_.end(), 2, 0);
+        }
+        volume_.palettes_.insert(volume_.palettes_.end(), 7, 0);
+    }
+
+    // Palette bricks of the coded bricks, by rank.
+    void rankCoded() {
+        const std::size_t words = volume_.wide_.size() / 64 + 1;
+        volume_.codedBricks_.resize(words);
+        volume_.codedBefore_.resize(words);
+        for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick)
+            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0} << (brick % 64);
+        std::uint32_t before = 0;
+        for (std::size_t word = 0; word < words; ++word) {
+            volume_.codedBefore_[word] = before;
+            before += static_cast<std::uint32_t>(std::popcount(volume_.codedBricks_[word]));
+        }
+        volume_.codedPatterns_.resize(before);
+        for (std::size_t tile = 0; tile < numbers_.size(); ++tile) {
+            const Numbers& numbers = numbers_[tile];
+            std::size_t next = 0;
+            forEachPlace(tile, [&](std::size_t brick) {
+                if ((volume_.wide_[brick] & kCodedBit) == 0) return;
+                const std::uint64_t below = volume_.codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
+                volume_.codedPatterns_[volume_.codedBefore_[brick / 64] +
+                                       static_cast<std::uint32_t>(std::popcount(below))] =
+                    numbers.patterns[numbers.codedPatterns[next++]];
+            });
+        }
+    }
+
+private:
+    // The volume's numbers by the tile's.
+    struct Numbers {
+        std::vector<std::uint32_t> scalars, patterns, codedPatterns;
+        std::uint32_t firstBox = 0;
+    };
+
+    [[nodiscard]] Vec3i firstBrick(std::size_t tile) const noexcept {
+        return {static_cast<std::int32_t>(tile) % tilesX_ * kBricksPerTile,
+                static_cast<std::int32_t>(tile) / tilesX_ * kBricksPerTile, 0};
+    }
+    template <class Body>
+    void forEachPlace(std::size_t tile, const Body& body) const {
+        const Vec3i first = firstBrick(tile), count = volume_.brickCount_;
+        const std::int32_t endX = std::min(first.x + kBricksPerTile, count.x),
+                           endY = std::min(first.y + kBricksPerTile, count.y);
+        for (std::int32_t z = 0; z < count.z; ++z)
+            for (std::int32_t y = first.y; y < endY; ++y) {
+                std::size_t brick = volume_.placeOf(first.x, y, z);
+                for (std::int32_t x = first.x; x < endX; ++x) body(brick++);
+            }
+    }
+    [[nodiscard]] SameLabelBox boxOf(Vec3i min, Vec3i max, std::uint32_t value) const noexcept {
+        SameLabelBox box;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            box.min[a] = static_cast<std::uint16_t>(min[axis] * 8);
+            box.max[a] = static_cast<std::uint16_t>(std::min(max[axis] * 8, volume_.dimension_[axis]));
+        }
+        box.scalar = value;
+        return box;
+    }
+
+    void addCode(const BoxCode& code, const std::vector<std::uint32_t>& planes) {
+        BrickVolume::BoxCoding coding;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (code.cut[axis] == BoxCode::kNoCut) continue;
+            coding.cut[axis] = static_cast<std::uint16_t>(code.cut[axis]);
+            coding.cutAxes = static_cast<std::uint16_t>(coding.cutAxes | (1u << axis));
+        }
+        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p)
+            if (code.plane[p] != BrickVolume::kNoPlane) coding.plane[p] = planes[code.plane[p]];
+        coding.cells = offsetOf(code.cells, volume_.palettes_, palettes_);
+        volume_.codes_.push_back(coding);
+    }
+
+    std::uint32_t scalarNumber(Scalar scalar) {
+        const auto [place, isNew] = scalarNumbers_.try_emplace(scalar, static_cast<std::uint32_t>(scalars_.size()));
+        if (isNew) {
+            scalars_.push_back(scalar);
+            volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
+        }
+        return place->second;
+    }
+
+    // A plane of the model is one in all tiles.
+    std::uint32_t planeNumber(const BrickPlane& plane) {
+        std::uint64_t hash = 0;
+        for (const double part : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
+            hash = mix(hash, std::bit_cast<std::uint64_t>(part));
+        const auto next = static_cast<std::uint32_t>(volume_.oblique_.size());
+        const std::uint32_t known =
+            planeNumbers_.find(hash, next, [&](std::uint32_t other) { return volume_.oblique_[other] == plane; });
+        if (known != Numbering::kNew) return known;
+        volume_.oblique_.push_back(plane);
+        return next;
+    }
+
+    std::uint32_t brickNumber(const BrickPattern& pattern) {
+        std::uint64_t hash = pattern.planes.size();
+        for (const std::uint64_t word : pattern.planes) hash = mix(hash, word);
+        for (const Scalar scalar : pattern.palette) hash = mix(hash, scalar);
+        const auto next = static_cast<std::uint32_t>(volume_.bricks_.size());
+        const auto equals = [](const auto& wanted, const auto& stored, std::uint32_t first) {
+            return std::equal(wanted.begin(), wanted.end(), stored.begin() + first);
+        };
+        const std::uint32_t known = brickNumbers_.find(hash, next, [&](std::uint32_t other) {
+            const BrickVolume::PaletteBrick& candidate = volume_.bricks_[other];
+            return candidate.paletteSize == pattern.palette.size() &&
+                   equals(pattern.palette, volume_.palettes_, candidate.palette) &&
+                   equals(pattern.planes, volume_.planes_, candidate.planes);
+        });
+        if (known != Numbering::kNew) return known;
+        BrickVolume::PaletteBrick added;
+        added.palette = offsetOf(pattern.palette, volume_.palettes_, palettes_);
+        added.planes = offsetOf(pattern.planes, volume_.planes_, planeSets_);
+        added.planeCount = static_cast<std::uint32_t>(pattern.planes.size() / 8);
+        added.paletteSize = static_cast<std::uint32_t>(pattern.palette.size());
+        for (const Scalar scalar : pattern.palette)
+            volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
+        volume_.bricks_.push_back(added);
+        return next;
+    }
+
+    // Sets of values that are stored once each, one behind the other.
+    struct SharedSets {
+        Numbering numbering;
+        std::vector<std::pair<std::uint32_t, std::size_t>> sets;  // first, size
+    };
+    template <class T>
+    static std::uint32_t offsetOf(const std::vector<T>& set, std::vector<T>& store, SharedSets& shared) {
+        std::uint64_t hash = set.size();
+        for (const T value : set) hash = mix(hash, value);
+        const auto next = static_cast<std::uint32_t>(shared.sets.size());
+        const std::uint32_t known = shared.numbering.find(hash, next, [&](std::uint32_t other) {
+            const auto [first, size] = shared.sets[other];
+            return size == set.size() && std::equal(set.begin(), set.end(), store.begin() + first);
+        });
+        if (known != Numbering::kNew) return shared.sets[known].first;
+        const auto offset = static_cast<std::uint32_t>(store.size());
+        shared.sets.emplace_back(offset, set.size());
+        store.insert(store.end(), set.begin(), set.end());
+        return offset;
+    }
+
+    BrickVolume& volume_;
+    std::int32_t tilesX_;
+    std::vector<Numbers> numbers_;  // by tile
+    std::vector<SameLabelBox> codeBoxes_;
+    std::vector<Scalar> scalars_;
+    std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
+    Numbering brickNumbers_, planeNumbers_;
+    SharedSets palettes_, planeSets_;
+};
+
+namespace {
+
+// Planes with faces around each tile, in their order.
+class PlanesByTile {
+public:
+    PlanesByTile(std::span<const FacePlane> planes, const ColumnVolume& columns) : tilesX_(columns.tilesX()) {
+        // What planes may ask for in all, so that a bad file does not take forever: real ones stay far below.
+        constexpr std::int64_t kMostTests = std::int64_t{1} << 27;
+        constexpr std::size_t kMostPlanes = 256;
+        std::int64_t tests = 0;
+        planes_.resize(columns.tiles().size());
+        for (const FacePlane& plane : planes) {
+            const Vec3i low = tileAt(plane.min, columns, -1), high = tileAt(plane.max, columns, 1);
+            tests += std::int64_t{1} * (high.x - low.x + 1) * (high.y - low.y + 1);
+            if (tests > kMostTests) return;
+            for (std::int32_t y = low.y; y <= high.y; ++y)
+                for (std::int32_t x = low.x; x <= high.x; ++x) {
+                    std::vector<FacePlane>& ofTile = planes_[static_cast<std::size_t>(x + tilesX_ * y)];
+                    if (ofTile.size() < kMostPlanes && isIn(plane, x, y, columns.dimension().z))
+                        ofTile.push_back(plane);
+                }
+        }
+    }
+    [[nodiscard]] std::span<const FacePlane> of(std::size_t tile) const noexcept { return planes_[tile]; }
+
+private:
+    static constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+
+    static Vec3i tileAt(const std::array<std::uint16_t, 3>& corner, const ColumnVolume& columns, std::int32_t beside) {
+        const Vec3i n = columns.dimension();
+        return {std::clamp(corner[0] + beside, 0, n.x - 1) / kTile, std::clamp(corner[1] + beside, 0, n.y - 1) / kTile,
+                0};
+    }
+    static bool isIn(const FacePlane& face, std::int32_t x, std::int32_t y, std::int32_t depth) noexcept {
+        const Vec3d n = face.plane.normal;
+        const double half = kTile / 2.0, middle = dot(n, Vec3d{(x + 0.5) * kTile, (y + 0.5) * kTile, depth / 2.0});
+        const double reach = std::abs(n.x) * half + std::abs(n.y) * half + std::abs(n.z) * (depth / 2.0 + 8);
+        return std::abs(middle + face.plane.offset) <= reach + 8;
+    }
+
+    std::int32_t tilesX_;
+    std::vector<std::vector<FacePlane>> planes_;
+};
+
+}  // namespace
+
+Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const Options& options) {
+    BrickVolume volume;
+    const Vec3i dimension = columns.dimension();
+    std::uint64_t bricks = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (dimension[axis] > 65535)
+            return Error(Code::GridTooLarge,
+                         fmt::format("a dimension of {} is over the limit of 65535 for bricks", dimension[axis]));
+        volume.brickCount_[axis] = (dimension[axis] + kBrickSize - 1) / kBrickSize;
+        bricks *= static_cast<std::uint64_t>(volume.brickCount_[axis]);
+    }
+    if (bricks > kMaxBricks)
+        return Error(Code::GridTooLarge,
+                     fmt::format("{} bricks are over the limit of {}; choose a coarser spacing or a "
+                                 "coarser level of detail.",
+                                 bricks, kMaxBricks));
+    volume.dimension_ = dimension;
+    if (bricks == 0) return volume;
+    const std::span<const ColumnTile> tiles = columns.tiles();
+    std::vector<TileBricks> tileBricks(tiles.size());
+    const auto tilesX = static_cast<std::size_t>(columns.tilesX());
+    BrickMerger merger(volume, columns.tilesX());
+    merger.begin(tiles.size());
+    const PlanesByTile planes(options.planes, columns);
+    parallelFor(tiles.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const auto x = static_cast<std::int32_t>(n % tilesX), y = static_cast<std::int32_t>(n / tilesX);
+            const std::int32_t width = columns.tileWidth(x), height = columns.tileHeight(y);
+            tileBricks[n] = TileBricker(tiles[n], width, height, volume.brickCount_.z).make();
+            TileCoding coding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
+                              {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z});
+            merger.placeTile(n, coding.run(options.faces, planes.of(n)));
+        }
+    });
+    std::uint64_t words = 0;
+    for (const TileBricks& tile : tileBricks) {
+        for (const BrickPattern& pattern : tile.patterns)
+            words += std::max(pattern.palette.size(), pattern.planes.size());
+        for (const BoxCode& code : tile.boxes.codes) words += code.cells.size();
+    }
+    if (words > 0xFFFFFFFFu)
+        return Error(Code::GridTooLarge, fmt::format("the mixed bricks hold {} words, over the limit of {}; choose a "
+                                                     "coarser spacing or a coarser level of detail.",
+                                                     words, 0xFFFFFFFFu));
+    for (std::size_t n = 0; n < tileBricks.size(); ++n) merger.addTile(n, tileBricks[n]);
+    parallelFor(tiles.size(), 4, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) merger.numberTile(n);
+    });
+    merger.takeBoxes(BoxFinder(volume.wide_, volume.brickCount_));
+    merger.rankCoded();
+    merger.finishIndex();
+    return volume;
+}
+
+std::size_t BrickVolume::sizeBytes() const noexcept {
+    return narrow_.size() * sizeof(std::uint16_t) + wide_.size() * sizeof(std::uint32_t) +
+           boxes_.size() * sizeof(SameLabelBox) + codes_.size() * sizeof(BoxCoding) +
+           oblique_.size() * sizeof(BrickPlane) + bricks_.size() * sizeof(PaletteBrick) +
+           palettes_.size() * sizeof(Scalar) + planes_.size() * sizeof(std::uint64_t) +
+           codedBricks_.size() * sizeof(std::uint64_t) + codedBefore_.size() * sizeof(std::uint32_t) +
+           codedPatterns_.size() * sizeof(std::uint32_t);
+}
+
+}  // namespace svt::volume

@@ -1,0 +1,248 @@
+#include <svt/core/file.hpp>
+#include <svt/volume/file/zip_container.hpp>
+#include <svt/volume/svt_file.hpp>
+#include <svt/volume/volume_json.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace svt::volume {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the index of the blocks is used as it stands in the file");
+
+constexpr std::string_view kMimeType = "application/vnd.svt+zip";
+constexpr std::size_t kMimeOffset = 38;  // 30 bytes of local header and the 8 of its name
+
+constexpr std::string_view kMimeEntry = "mimetype";
+constexpr std::string_view kHeader = "svt.json";
+constexpr std::string_view kLabels = "labels.json";
+constexpr std::string_view kIndex = "columns/index";
+constexpr std::string_view kBlocks = "columns/blocks";
+// Only where there are any:
+constexpr std::string_view kVectors = "meshes/parts";
+constexpr std::string_view kPlanes = "meshes/planes";
+constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes};
+
+Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
+
+Error named(const Error& error, const std::string& file) {
+    return Error(error.code(), error.message(), Place{file, 0, 0, {}});
+}
+
+Result<void> checkWritable(const SemanticVolume& volume) {
+    const auto wrong = [](std::string message) { return Error(Code::BadArgument, std::move(message)); };
+    const Vec3i grid = volume.grid.dimension();
+    const Vec3i columns = volume.columns.dimension();
+    if (grid != columns)
+        return wrong(fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}", grid.x, grid.y,
+                                 grid.z, columns.x, columns.y, columns.z));
+    if (auto checked = checkLabels(volume.labels); !checked) return wrong(checked.error().message());
+    const Scalar scalarCount = volume.labels.scalarCount();
+    for (const ColumnTile& tile : volume.columns.tiles())
+        for (const Run& run : tile.runs)
+            if (run.scalar >= scalarCount) return wrong(fmt::format("scalar {} belongs to no label", run.scalar));
+    if (auto checked = checkVectorParts(volume.vectors, volume.labels.labels.size()); !checked)
+        return wrong(checked.error().message());
+    if (auto checked = checkFacePlanes(volume.planes, grid); !checked) return wrong(checked.error().message());
+    return {};
+}
+
+/// The entries of a file by name.
+class Entries {
+public:
+    explicit Entries(std::vector<ZipEntry> entries) : entries_(std::move(entries)) {}
+
+    [[nodiscard]] bool has(std::string_view name) const {
+        return std::any_of(entries_.begin(), entries_.end(), [&](const ZipEntry& entry) { return entry.name == name; });
+    }
+    [[nodiscard]] Result<ZipEntry> find(std::string_view name) const {
+        for (const ZipEntry& entry : entries_)
+            if (entry.name == name) return entry;
+        return bad(fmt::format("the entry '{}' is missing; the file is no complete .svt, build it again", name));
+    }
+    /// Checked data of an entry of any kind, unpacked into `buffer` where they are deflated.
+    [[nodiscard]] Result<std::string_view> text(std::string_view name, std::uint64_t maxBytes,
+                                                std::vector<std::byte>& buffer) const {
+        const auto entry = find(name);
+        if (!entry) return entry.error();
+        const auto data = unpack(*entry, maxBytes, buffer);
+        if (!data) return data.error();
+        return std::string_view(reinterpret_cast<const char*>(data->data()), data->size());
+    }
+    /// An entry that must be stored, as it stands in the file; its CRC is not checked.
+    [[nodiscard]] Result<ZipEntry> stored(std::string_view name) const {
+        auto entry = find(name);
+        if (entry && entry->isDeflated)
+            return bad(fmt::format(
+                "the entry '{}' is deflated, it must be stored; pack the file again with 'zip -0 -X'", name));
+        return entry;
+    }
+    /// Stored entries of other names: not used, but damage in them is told.
+    [[nodiscard]] Result<void> checkOthers() const {
+        std::vector<std::byte> buffer;
+        for (const ZipEntry& entry : entries_) {
+            if (entry.isDeflated || std::find(std::begin(kUsed), std::end(kUsed), entry.name) != std::end(kUsed))
+                continue;
+            if (auto checked = unpack(entry, entry.size, buffer); !checked) return checked.error();
+        }
+        return {};
+    }
+
+private:
+    std::vector<ZipEntry> entries_;
+};
+
+Result<Entries> openEntries(std::span<const std::byte> bytes) {
+    if (bytes.empty()) return bad("the file is empty");
+    if (!looksLikeSvt(bytes))
+        return bad(
+            "this is no .svt: a ZIP whose first entry is 'mimetype' with 'application/vnd.svt+zip' is expected, "
+            "and the file may be cut short. Build one from a model with 'svt build'.");
+    auto found = readZip(bytes);
+    if (!found) return found.error();
+    return Entries(std::move(*found));
+}
+
+Result<SvtBlocks> readTables(const Entries& entries) {
+    std::vector<std::byte> buffer;
+    const auto mime = entries.stored(kMimeEntry);
+    if (!mime) return mime.error();
+    const auto mimeText = entries.text(kMimeEntry, mime->size, buffer);
+    if (!mimeText) return mimeText.error();
+    if (*mimeText != kMimeType) return bad("the entry 'mimetype' says something else than application/vnd.svt+zip");
+    const auto headerText = entries.text(kHeader, kMaxHeaderBytes, buffer);
+    if (!headerText) return headerText.error();
+    auto header = readHeaderJson(*headerText);
+    if (!header) return header.error();
+    const auto labelsText = entries.text(kLabels, kMaxLabelsBytes, buffer);
+    if (!labelsText) return labelsText.error();
+    auto labels = readLabelsJson(*labelsText);
+    if (!labels) return labels.error();
+    if (labels->scalarCount() != header->scalarCount)
+        return bad(fmt::format("svt.json speaks of {} scalars, the labels have {}", header->scalarCount,
+                               labels->scalarCount()));
+    const auto index = entries.stored(kIndex);
+    if (!index) return index.error();
+    if (auto checked = unpack(*index, index->size, buffer); !checked) return checked.error();
+    const auto frames = entries.stored(kBlocks);
+    if (!frames) return frames.error();
+    auto blocks = ColumnBlocks::open(header->grid.dimension(), header->scalarCount, index->data, frames->data.size());
+    if (!blocks) return blocks.error();
+    return SvtBlocks{header->grid,
+                     std::move(*labels),
+                     std::move(*blocks),
+                     frames->data,
+                     std::move(header->crsName),
+                     std::move(header->modelName),
+                     std::move(header->source)};
+}
+
+/// What `read` makes of the frame of an entry that may be missing.
+template <class Content, class Read>
+Result<Content> readOptional(const Entries& entries, std::string_view name, Read read) {
+    if (!entries.has(name)) return Content();
+    const auto entry = entries.stored(name);
+    if (!entry) return entry.error();
+    std::vector<std::byte> buffer;
+    const auto frame = unpack(*entry, entry->size, buffer);
+    if (!frame) return frame.error();
+    return read(*frame);
+}
+
+Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
+    const auto entries = openEntries(bytes);
+    if (!entries) return entries.error();
+    auto tables = readTables(*entries);
+    if (!tables) return tables.error();
+    std::vector<std::byte> buffer;
+    const auto frames = entries->stored(kBlocks);
+    if (!frames) return frames.error();
+    if (auto checked = unpack(*frames, frames->size, buffer); !checked) return checked.error();
+    if (auto others = entries->checkOthers(); !others) return others.error();
+    auto columns = tables->blocks.decodeAll(tables->frames);
+    if (!columns) return columns.error();
+    using Frame = std::span<const std::byte>;
+    auto vectors = readOptional<VectorParts>(
+        *entries, kVectors, [&](Frame frame) { return readVectorParts(frame, tables->labels.labels.size()); });
+    if (!vectors) return vectors.error();
+    auto planes = readOptional<std::vector<FacePlane>>(
+        *entries, kPlanes, [&](Frame frame) { return readFacePlanes(frame, tables->grid.dimension()); });
+    if (!planes) return planes.error();
+    return SemanticVolume{tables->grid,
+                          std::move(tables->labels),
+                          std::move(*columns),
+                          std::move(tables->crsName),
+                          std::move(tables->modelName),
+                          std::move(tables->source),
+                          std::move(*vectors),
+                          std::move(*planes)};
+}
+
+}  // namespace
+
+bool looksLikeSvt(std::span<const std::byte> head) noexcept {
+    constexpr std::string_view kLocalHeader("PK\3\4", 4);
+    if (head.size() < kMimeOffset + kMimeType.size()) return false;
+    const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    return text.starts_with(kLocalHeader) && text.substr(30, 8) == kMimeEntry &&
+           text.substr(kMimeOffset, kMimeType.size()) == kMimeType;
+}
+
+Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path) {
+    if (auto checked = checkWritable(volume); !checked) return checked.error();
+    const std::string header = writeHeaderJson(volume);
+    const std::string labels = writeLabelsJson(volume.labels);
+    if (labels.size() > kMaxLabelsBytes)
+        return Error(Code::BadArgument, fmt::format("the label table takes {} bytes as JSON, {} are possible",
+                                                    labels.size(), kMaxLabelsBytes));
+    const auto compressed = compressColumns(volume.columns);
+    if (!compressed) return compressed.error();
+    std::vector<std::byte> vectors, planes;
+    if (!volume.vectors.isEmpty()) {
+        auto frame = compressVectorParts(volume.vectors);
+        if (!frame) return frame.error();
+        vectors = std::move(*frame);
+    }
+    if (!volume.planes.empty()) {
+        auto frame = compressFacePlanes(volume.planes);
+        if (!frame) return frame.error();
+        planes = std::move(*frame);
+    }
+    std::vector<ZipSource> entries(5);
+    for (std::size_t e = 0; e < entries.size(); ++e) entries[e].name = kUsed[e];
+    entries[0].isAligned = false;
+    entries[0].parts = {std::as_bytes(std::span(kMimeType))};
+    entries[1].parts = {std::as_bytes(std::span(header))};
+    entries[2].parts = {std::as_bytes(std::span(labels))};
+    entries[2].isDeflated = true;
+    entries[3].parts = {std::as_bytes(std::span(compressed->index))};
+    entries[4].parts.assign(compressed->frames.begin(), compressed->frames.end());
+    if (!vectors.empty()) entries.push_back({std::string(kVectors), {std::span<const std::byte>(vectors)}});
+    if (!planes.empty()) entries.push_back({std::string(kPlanes), {std::span<const std::byte>(planes)}});
+    return writeZip(path, entries);
+}
+
+Result<SemanticVolume> readSvt(std::span<const std::byte> bytes, const std::string& name) {
+    auto volume = readEntries(bytes);
+    if (!volume) return named(volume.error(), name);
+    return volume;
+}
+
+Result<SemanticVolume> readSvt(const std::filesystem::path& path) {
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    return readSvt(file->bytes(), path.string());
+}
+
+Result<SvtBlocks> openSvt(std::span<const std::byte> bytes, const std::string& name) {
+    const auto entries = openEntries(bytes);
+    if (!entries) return named(entries.error(), name);
+    auto tables = readTables(*entries);
+    if (!tables) return named(tables.error(), name);
+    return tables;
+}
+
+}  // namespace svt::volume

@@ -1,0 +1,111 @@
+#include <svt/volume/file/number_frame.hpp>
+#include <svt/volume/vector_parts.hpp>
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::string_view kWhat = "the vector parts";
+/// Fewest bytes that a point, a segment and a triangle take.
+constexpr std::uint64_t kPointBytes = 3, kSegmentBytes = 3, kTriangleBytes = 4;
+
+Error bad(const std::string& message) { return Error(Code::BadVolume, fmt::format("{}: {}", kWhat, message)); }
+
+std::uint32_t bitsOf(std::int32_t value) noexcept { return static_cast<std::uint32_t>(value); }
+
+template <class Part, class Corners>
+Result<void> checkPart(const std::vector<Part>& list, Corners corners, std::string_view name, std::size_t labelCount,
+                       std::size_t pointCount) {
+    std::uint32_t before = 0;
+    for (std::size_t n = 0; n < list.size(); ++n) {
+        if (list[n].label >= labelCount)
+            return bad(fmt::format("{} {} is of label {}, there are {}", name, n, list[n].label, labelCount));
+        if (list[n].label < before) return bad(fmt::format("{} {} is out of the order of labels", name, n));
+        before = list[n].label;
+        for (const std::uint32_t point : list[n].*corners)
+            if (point >= pointCount)
+                return bad(fmt::format("{} {} uses point {}, there are {}", name, n, point, pointCount));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> checkVectorParts(const VectorParts& parts, std::size_t labelCount) {
+    if (auto checked =
+            checkPart(parts.segments, &VectorParts::Segment::ends, "segment", labelCount, parts.points.size());
+        !checked)
+        return checked;
+    return checkPart(parts.triangles, &VectorParts::Triangle::corners, "triangle", labelCount, parts.points.size());
+}
+
+Result<std::vector<std::byte>> compressVectorParts(const VectorParts& parts) {
+    NumberWriter writer;
+    const std::uint64_t most = kMaxNumberBytes / 20;  // a triangle takes 20 bytes at most
+    if (parts.points.size() + parts.segments.size() + parts.triangles.size() > most)
+        return Error(Code::BadArgument,
+                     fmt::format("{} points, segments and triangles are over the limit of {}",
+                                 parts.points.size() + parts.segments.size() + parts.triangles.size(), most));
+    writer.number(static_cast<std::uint32_t>(parts.points.size()));
+    writer.number(static_cast<std::uint32_t>(parts.segments.size()));
+    writer.number(static_cast<std::uint32_t>(parts.triangles.size()));
+    Vec3i before{};
+    for (const Vec3i point : parts.points) {
+        for (int axis = 0; axis < 3; ++axis) writer.difference(bitsOf(point[axis]), bitsOf(before[axis]));
+        before = point;
+    }
+    const auto writeList = [&](const auto& list, auto corners) {
+        std::uint32_t label = 0, last = 0;
+        for (const auto& part : list) {
+            writer.number(part.label - label);
+            label = part.label;
+            for (const std::uint32_t corner : part.*corners) {
+                writer.difference(corner, last);
+                last = corner;
+            }
+        }
+    };
+    writeList(parts.segments, &VectorParts::Segment::ends);
+    writeList(parts.triangles, &VectorParts::Triangle::corners);
+    return compressNumbers(writer.bytes(), kWhat);
+}
+
+Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_t labelCount) {
+    const auto bytes = unpackNumbers(frame, kWhat);
+    if (!bytes) return bytes.error();
+    NumberReader reader(*bytes);
+    const std::uint64_t points = reader.number(), segments = reader.number(), triangles = reader.number();
+    if (!reader.isGood() ||
+        points * kPointBytes + segments * kSegmentBytes + triangles * kTriangleBytes > reader.left())
+        return bad(fmt::format("{} points, {} segments and {} triangles are said to be in {} bytes", points, segments,
+                               triangles, reader.left()));
+    VectorParts parts;
+    parts.points.resize(static_cast<std::size_t>(points));
+    parts.segments.resize(static_cast<std::size_t>(segments));
+    parts.triangles.resize(static_cast<std::size_t>(triangles));
+    Vec3i before{};
+    for (Vec3i& point : parts.points) {
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] = static_cast<std::int32_t>(reader.difference(bitsOf(before[axis])));
+        before = point;
+    }
+    const auto readList = [&](auto& list, auto corners) {
+        std::uint32_t label = 0, last = 0;
+        for (auto& part : list) {
+            // A sum that wraps around is found out of order.
+            part.label = label += reader.number();
+            for (std::uint32_t& corner : part.*corners) corner = last = reader.difference(last);
+        }
+    };
+    readList(parts.segments, &VectorParts::Segment::ends);
+    readList(parts.triangles, &VectorParts::Triangle::corners);
+    if (!reader.isGood()) return bad("a number is cut short or longer than 32 bits");
+    if (reader.left() != 0) return bad(fmt::format("{} bytes are left over", reader.left()));
+    if (auto checked = checkVectorParts(parts, labelCount); !checked) return checked.error();
+    return parts;
+}
+
+}  // namespace svt::volume

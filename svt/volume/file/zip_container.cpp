@@ -1,0 +1,558 @@
+#include <svt/core/file.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/volume/file/zip_container.hpp>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <unordered_set>
+
+namespace svt::volume {
+namespace {
+
+// Little-endian records are copied to and from memory as they are.
+static_assert(std::endian::native == std::endian::little, "the .svt codec needs a little-endian machine");
+
+constexpr std::uint32_t kLocalSignature = 0x04034B50;
+constexpr std::uint32_t kCentralSignature = 0x02014B50;
+constexpr std::uint32_t kEndSignature = 0x06054B50;
+constexpr std::uint32_t kEnd64Signature = 0x06064B50;
+constexpr std::uint32_t kLocator64Signature = 0x07064B50;
+constexpr std::size_t kLocalSize = 30;
+constexpr std::size_t kCentralSize = 46;
+constexpr std::size_t kEndSize = 22;
+constexpr std::size_t kEnd64Size = 56;
+constexpr std::size_t kLocator64Size = 20;
+
+constexpr std::uint16_t kZip64Extra = 0x0001;
+constexpr std::uint16_t kPaddingExtra = 0x5653;  // the bytes "SV": zeros up to the alignment
+constexpr std::uint16_t kVersion20 = 20;
+constexpr std::uint16_t kVersion45 = 45;  // ZIP64
+constexpr std::uint16_t kMadeByUnix = 3 << 8;
+constexpr std::uint16_t kDate1980 = (1 << 5) | 1;  // 1 January 1980, the earliest a ZIP can say
+constexpr std::uint32_t kFileMode = 0100644u << 16;
+constexpr std::uint32_t kIn64 = 0xFFFFFFFFu;  // "see the ZIP64 field"
+constexpr std::uint16_t kIn64Count = 0xFFFFu;
+
+constexpr std::uint16_t kFlagEncrypted = 1u << 0;
+constexpr std::uint16_t kFlagDescriptor = 1u << 3;
+constexpr std::uint16_t kFlagUtf8 = 1u << 11;
+
+constexpr std::size_t kMaxEntries = 65535;
+constexpr std::size_t kMaxNameBytes = 255;
+constexpr std::size_t kCrcPiece = std::size_t{4} << 20;
+constexpr std::size_t kDeflatePiece = std::size_t{1} << 20;
+constexpr std::uint16_t kStored = 0;
+constexpr std::uint16_t kDeflated = 8;
+
+Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
+
+/// Little-endian fields appended to a record.
+class Record {
+public:
+    void u16(std::uint64_t value) { append(static_cast<std::uint16_t>(value)); }
+    void u32(std::uint64_t value) { append(static_cast<std::uint32_t>(value)); }
+    void u64(std::uint64_t value) { append(value); }
+    void text(std::string_view value) { bytes_.append(value); }
+    void zeros(std::size_t count) { bytes_.append(count, '\0'); }
+    [[nodiscard]] const std::string& bytes() const noexcept { return bytes_; }
+
+private:
+    template <class T>
+    void append(T value) {
+        char raw[sizeof(T)];
+        std::memcpy(raw, &value, sizeof(T));
+        bytes_.append(raw, sizeof(T));
+    }
+    std::string bytes_;
+};
+
+/// Unsigned little-endian number of type T at `offset`; the caller has checked that it is inside.
+template <class T>
+T load(std::span<const std::byte> bytes, std::size_t offset) noexcept {
+    T value;
+    std::memcpy(&value, bytes.data() + offset, sizeof(T));
+    return value;
+}
+
+// ---------------------------------------------------------------------------------------------- writing
+
+/// What both headers of an entry say.
+struct Placed {
+    std::uint64_t size = 0;
+    std::uint64_t packedSize = 0;
+    std::uint64_t offset = 0;
+    std::uint32_t crc = 0;
+    std::uint16_t method = kStored;
+};
+
+/// Most bytes that `packedSize` bytes may unpack to. Deflate could say 1032 times as many.
+constexpr std::uint64_t maxUnpacked(std::uint64_t packedSize) noexcept {
+    return (std::uint64_t{64} << 20) + 128 * packedSize;
+}
+
+/// One piece of a deflate stream that ends at a byte, so that the next piece can follow.
+std::vector<std::byte> deflatePiece(std::span<const std::byte> piece, bool isLast) {
+    z_stream stream{};
+    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
+    std::vector<std::byte> out(deflateBound(&stream, static_cast<uLong>(piece.size())) + 16);
+    stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(piece.data()));
+    stream.avail_in = static_cast<uInt>(piece.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    ::deflate(&stream, isLast ? Z_FINISH : Z_SYNC_FLUSH);
+    out.resize(out.size() - stream.avail_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+/// All parts as pieces of one deflate stream. The pieces do not depend on the number of threads.
+std::vector<std::vector<std::byte>> deflateParts(std::span<const std::span<const std::byte>> parts) {
+    std::vector<std::span<const std::byte>> pieces;
+    for (auto part : parts)
+        for (; !part.empty(); part = part.subspan(pieces.back().size()))
+            pieces.push_back(part.first(std::min(part.size(), kDeflatePiece)));
+    std::vector<std::vector<std::byte>> packed(pieces.size());
+    parallelFor(pieces.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) packed[p] = deflatePiece(pieces[p], p + 1 == pieces.size());
+    });
+    return packed;
+}
+
+std::string localHeader(const ZipSource& entry, const Placed& placed, std::uint64_t zip64From) {
+    const bool is64 = std::max(placed.size, placed.packedSize) >= zip64From;
+    std::size_t extra = is64 ? 20 : 0;
+    std::size_t padding = 0;
+    if (entry.isAligned) {
+        const std::uint64_t unpadded = placed.offset + kLocalSize + entry.name.size() + extra + 4;
+        padding = static_cast<std::size_t>((kZipAlignment - unpadded % kZipAlignment) % kZipAlignment);
+        extra += 4 + padding;
+    }
+    Record r;
+    r.u32(kLocalSignature);
+    r.u16(is64 ? kVersion45 : kVersion20);
+    r.u16(0);  // flags
+    r.u16(placed.method);
+    r.u16(0);  // time
+    r.u16(kDate1980);
+    r.u32(placed.crc);
+    r.u32(is64 ? kIn64 : placed.packedSize);
+    r.u32(is64 ? kIn64 : placed.size);
+    r.u16(entry.name.size());
+    r.u16(extra);
+    r.text(entry.name);
+    if (is64) {
+        r.u16(kZip64Extra);
+        r.u16(16);
+        r.u64(placed.size);
+        r.u64(placed.packedSize);
+    }
+    if (entry.isAligned) {
+        r.u16(kPaddingExtra);
+        r.u16(padding);
+        r.zeros(padding);
+    }
+    return r.bytes();
+}
+
+void appendCentralHeader(Record& r, const ZipSource& entry, const Placed& placed, std::uint64_t zip64From) {
+    const bool isSize64 = std::max(placed.size, placed.packedSize) >= zip64From;
+    const bool isOffset64 = placed.offset >= zip64From;
+    const std::size_t extraData = (isSize64 ? 16u : 0u) + (isOffset64 ? 8u : 0u);
+    const std::uint16_t version = extraData > 0 ? kVersion45 : kVersion20;
+    r.u32(kCentralSignature);
+    r.u16(kMadeByUnix | version);
+    r.u16(version);
+    r.u16(0);  // flags
+    r.u16(placed.method);
+    r.u16(0);  // time
+    r.u16(kDate1980);
+    r.u32(placed.crc);
+    r.u32(isSize64 ? kIn64 : placed.packedSize);
+    r.u32(isSize64 ? kIn64 : placed.size);
+    r.u16(entry.name.size());
+    r.u16(extraData > 0 ? 4 + extraData : 0);
+    r.u16(0);  // comment
+    r.u16(0);  // disk
+    r.u16(0);  // internal attributes
+    r.u32(kFileMode);
+    r.u32(isOffset64 ? kIn64 : placed.offset);
+    r.text(entry.name);
+    if (extraData > 0) {
+        r.u16(kZip64Extra);
+        r.u16(extraData);
+        if (isSize64) {
+            r.u64(placed.size);
+            r.u64(placed.packedSize);
+        }
+        if (isOffset64) r.u64(placed.offset);
+    }
+}
+
+void appendEnd(Record& r, std::uint64_t count, std::uint64_t offset, std::uint64_t zip64From) {
+    const std::uint64_t size = r.bytes().size();
+    const bool is64 = offset >= zip64From || size >= zip64From || count >= kIn64Count;
+    if (is64) {
+        r.u32(kEnd64Signature);
+        r.u64(kEnd64Size - 12);
+        r.u16(kMadeByUnix | kVersion45);
+        r.u16(kVersion45);
+        r.u32(0);  // this disk
+        r.u32(0);  // disk of the directory
+        r.u64(count);
+        r.u64(count);
+        r.u64(size);
+        r.u64(offset);
+        r.u32(kLocator64Signature);
+        r.u32(0);
+        r.u64(offset + size);
+        r.u32(1);  // disks
+    }
+    r.u32(kEndSignature);
+    r.u16(0);
+    r.u16(0);
+    r.u16(is64 ? kIn64Count : count);
+    r.u16(is64 ? kIn64Count : count);
+    r.u32(is64 ? kIn64 : size);
+    r.u32(is64 ? kIn64 : offset);
+    r.u16(0);  // comment
+}
+
+// ---------------------------------------------------------------------------------------------- reading
+
+/// The central directory's place, as the records at the end of the file say it.
+struct Directory {
+    std::uint64_t count = 0;
+    std::uint64_t offset = 0;
+    std::uint64_t size = 0;
+};
+
+Result<Directory> readEnd(std::span<const std::byte> bytes) {
+    if (bytes.size() < kEndSize || load<std::uint32_t>(bytes, bytes.size() - kEndSize) != kEndSignature)
+        return bad("the file does not end with the end record of a ZIP: it is cut short, or bytes were added");
+    const std::size_t end = bytes.size() - kEndSize;
+    if (load<std::uint16_t>(bytes, end + 20) != 0) return bad("the end record speaks of a comment that is not there");
+    if (load<std::uint32_t>(bytes, end + 4) != 0 ||
+        load<std::uint16_t>(bytes, end + 8) != load<std::uint16_t>(bytes, end + 10))
+        return bad("the archive is split into several files; join them first");
+    Directory directory{load<std::uint16_t>(bytes, end + 10), load<std::uint32_t>(bytes, end + 16),
+                        load<std::uint32_t>(bytes, end + 12)};
+    std::size_t directoryEnd = end;
+    const bool is64 = directory.count == kIn64Count || directory.offset == kIn64 || directory.size == kIn64;
+    if (is64) {
+        if (end < kLocator64Size + kEnd64Size ||
+            load<std::uint32_t>(bytes, end - kLocator64Size) != kLocator64Signature)
+            return bad("the ZIP64 locator is missing before the end record");
+        const std::size_t end64 = end - kLocator64Size - kEnd64Size;
+        if (load<std::uint64_t>(bytes, end - kLocator64Size + 8) != end64 ||
+            load<std::uint32_t>(bytes, end - kLocator64Size + 4) != 0 ||
+            load<std::uint32_t>(bytes, end - kLocator64Size + 16) != 1 ||
+            load<std::uint32_t>(bytes, end64) != kEnd64Signature ||
+            load<std::uint64_t>(bytes, end64 + 4) != kEnd64Size - 12 || load<std::uint64_t>(bytes, end64 + 16) != 0 ||
+            load<std::uint64_t>(bytes, end64 + 24) != load<std::uint64_t>(bytes, end64 + 32))
+            return bad("the ZIP64 end record is damaged");
+        const Directory large{load<std::uint64_t>(bytes, end64 + 32), load<std::uint64_t>(bytes, end64 + 48),
+                              load<std::uint64_t>(bytes, end64 + 40)};
+        const auto differs = [](std::uint64_t small, std::uint64_t sentinel, std::uint64_t value) {
+            return small != sentinel && small != value;
+        };
+        if (differs(directory.count, kIn64Count, large.count) || differs(directory.offset, kIn64, large.offset) ||
+            differs(directory.size, kIn64, large.size))
+            return bad("the ZIP64 end record and the end record contradict each other");
+        directory = large;
+        directoryEnd = end64;
+    }
+    if (directory.offset > directoryEnd || directory.size != directoryEnd - directory.offset)
+        return bad(
+            fmt::format("the central directory is said to have {} bytes at {}, which is not what lies before its "
+                        "end at {}: the file is cut short or damaged",
+                        directory.size, directory.offset, directoryEnd));
+    if (directory.count > kMaxEntries || directory.count > directory.size / kCentralSize)
+        return bad(fmt::format("{} entries are said to be in {} bytes of central directory, which cannot be",
+                               directory.count, directory.size));
+    return directory;
+}
+
+/// What is wrong with a name, or nothing. Unpacking a file with any tool must never write outside the chosen folder.
+std::string_view wrongName(std::string_view name) noexcept {
+    if (name.empty()) return "is empty";
+    if (name.size() > kMaxNameBytes) return "is longer than 255 bytes";
+    for (const char c : name) {
+        if (c < 0x20 || c > 0x7E) return "holds a character that is no printable ASCII";
+        if (c == '\\') return "holds a backslash";
+        if (c == ':') return "holds a colon";
+    }
+    if (name.front() == '/') return "is an absolute path";
+    for (std::size_t begin = 0; begin <= name.size();) {
+        const std::size_t end = std::min(name.find('/', begin), name.size());
+        const std::string_view part = name.substr(begin, end - begin);
+        if (part.empty() || part == "." || part == "..") return "has a folder that is empty, '.' or '..'";
+        begin = end + 1;
+    }
+    return {};
+}
+
+/// A name as it may stand in a message.
+std::string shown(std::string_view name) {
+    std::string text = "'";
+    for (const char c : name.substr(0, 80)) {
+        if (c >= 0x20 && c <= 0x7E)
+            text += c;
+        else
+            text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
+    return text + (name.size() > 80 ? "...'" : "'");
+}
+
+std::string_view textAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t size) noexcept {
+    return {reinterpret_cast<const char*>(bytes.data()) + offset, size};
+}
+
+/// The data of the ZIP64 extra field in `extra` (empty where there is none), or nothing where the fields do not fit.
+std::optional<std::span<const std::byte>> zip64Field(std::span<const std::byte> extra) {
+    std::span<const std::byte> found;
+    bool isFound = false;
+    while (!extra.empty()) {
+        if (extra.size() < 4) return std::nullopt;
+        const auto id = load<std::uint16_t>(extra, 0);
+        const auto size = load<std::uint16_t>(extra, 2);
+        if (size > extra.size() - 4) return std::nullopt;
+        if (id == kZip64Extra) {
+            if (isFound) return std::nullopt;
+            isFound = true;
+            found = extra.subspan(4, size);
+        }
+        extra = extra.subspan(4 + std::size_t{size});
+    }
+    return found;
+}
+
+/// Replaces the fields that say "see ZIP64" by those of the extra field, in the order of the specification.
+Result<void> resolve64(std::span<const std::byte> extra, std::initializer_list<std::uint64_t*> fields) {
+    const auto data = zip64Field(extra);
+    if (!data) return bad("has an extra field that is damaged");
+    std::size_t at = 0;
+    for (std::uint64_t* field : fields) {
+        if (*field != kIn64) continue;
+        if (data->size() < at + 8) return bad("lacks a size or offset in its ZIP64 field");
+        *field = load<std::uint64_t>(*data, at);
+        at += 8;
+    }
+    if (at != data->size()) return bad("has a ZIP64 field with more than is needed");
+    return {};
+}
+
+Result<void> checkKind(std::uint16_t flags, std::uint16_t method) {
+    if ((flags & kFlagEncrypted) != 0) return bad("is encrypted; a .svt holds plain entries only");
+    if ((flags & kFlagDescriptor) != 0)
+        return bad("has its size after the data; a .svt has it in front. Pack the file again with 'zip -0 -X'");
+    if ((flags & ~kFlagUtf8) != 0) return bad(fmt::format("has flags 0x{:04x} that are not understood", flags));
+    if (method != kStored && method != kDeflated)
+        return bad(
+            fmt::format("is compressed with method {}; a .svt holds entries that are stored or deflated", method));
+    return {};
+}
+
+/// An entry and the stretch of the file that its local header and data take.
+struct Located {
+    ZipEntry entry;
+    std::uint64_t begin = 0;
+    std::uint64_t end = 0;
+};
+
+/// Checks the local header at `offset` against what the central directory said. \return the entry's data
+Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std::uint64_t offset,
+                          std::uint64_t packedSize, std::uint64_t directoryOffset) {
+    if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
+        return bad("is said to stand outside the file");
+    const auto at = static_cast<std::size_t>(offset);
+    if (load<std::uint32_t>(bytes, at) != kLocalSignature) return bad("has no local header where it is said to stand");
+    const auto method = load<std::uint16_t>(bytes, at + 8);
+    if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 6), method); !kind) return kind.error();
+    const std::size_t nameSize = load<std::uint16_t>(bytes, at + 26);
+    const std::size_t extraSize = load<std::uint16_t>(bytes, at + 28);
+    const std::uint64_t dataOffset = offset + kLocalSize + nameSize + extraSize;
+    if (dataOffset > directoryOffset || packedSize > directoryOffset - dataOffset)
+        return bad(fmt::format("has {} bytes at {}, which reach outside the file", packedSize, dataOffset));
+    std::uint64_t localSize = load<std::uint32_t>(bytes, at + 22);
+    std::uint64_t localPacked = load<std::uint32_t>(bytes, at + 18);
+    const auto extra = bytes.subspan(at + kLocalSize + nameSize, extraSize);
+    if (auto resolved = resolve64(extra, {&localSize, &localPacked}); !resolved) return resolved.error();
+    if (textAt(bytes, at + kLocalSize, nameSize) != entry.name || localSize != entry.size ||
+        localPacked != packedSize || load<std::uint32_t>(bytes, at + 14) != entry.crc ||
+        (method == kDeflated) != entry.isDeflated)
+        return bad("differs between its local header and the central directory");
+    entry.data = bytes.subspan(static_cast<std::size_t>(dataOffset), static_cast<std::size_t>(packedSize));
+    return Located{entry, offset, dataOffset + packedSize};
+}
+
+/// Exactly `entry.size` bytes. \return false where the data say otherwise
+bool inflateInto(const ZipEntry& entry, std::vector<std::byte>& buffer) {
+    buffer.resize(static_cast<std::size_t>(entry.size));
+    z_stream stream{};
+    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return false;
+    constexpr std::size_t kMost = std::size_t{1} << 30;
+    auto in = entry.data;
+    std::span<std::byte> out = buffer;
+    std::byte beyond[1];
+    int state = Z_OK;
+    while (state == Z_OK) {
+        const std::span<std::byte> target = out.empty() ? std::span(beyond) : out.first(std::min(out.size(), kMost));
+        const auto source = in.first(std::min(in.size(), kMost));
+        stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(source.data()));
+        stream.avail_in = static_cast<uInt>(source.size());
+        stream.next_out = reinterpret_cast<Bytef*>(target.data());
+        stream.avail_out = static_cast<uInt>(target.size());
+        state = ::inflate(&stream, Z_NO_FLUSH);
+        in = in.subspan(source.size() - stream.avail_in);
+        const std::size_t written = target.size() - stream.avail_out;
+        if (written > out.size()) state = Z_DATA_ERROR;
+        out = out.subspan(std::min(written, out.size()));
+    }
+    inflateEnd(&stream);
+    return state == Z_STREAM_END && in.empty() && out.empty();
+}
+
+}  // namespace
+
+std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before) {
+    const auto crcOf = [](std::span<const std::byte> piece, uLong from) {
+        return crc32_z(from, reinterpret_cast<const Bytef*>(piece.data()), piece.size());
+    };
+    if (bytes.empty()) return before;
+    if (bytes.size() <= kCrcPiece) return static_cast<std::uint32_t>(crcOf(bytes, before));
+    const std::size_t pieces = (bytes.size() + kCrcPiece - 1) / kCrcPiece;
+    std::vector<uLong> crcs(pieces);
+    const auto sizeOf = [&](std::size_t p) { return std::min(kCrcPiece, bytes.size() - p * kCrcPiece); };
+    parallelFor(pieces, 1, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) crcs[p] = crcOf(bytes.subspan(p * kCrcPiece, sizeOf(p)), 0);
+    });
+    uLong crc = before;
+    for (std::size_t p = 0; p < pieces; ++p) crc = crc32_combine(crc, crcs[p], static_cast<z_off_t>(sizeOf(p)));
+    return static_cast<std::uint32_t>(crc);
+}
+
+Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
+                               std::uint64_t zip64From) {
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    Record directory;
+    for (const ZipSource& entry : entries) {
+        Placed placed;
+        placed.offset = file->size();
+        for (const auto part : entry.parts) {
+            placed.crc = crc32Of(part, placed.crc);
+            placed.size += part.size();
+        }
+        placed.packedSize = placed.size;
+        std::vector<std::span<const std::byte>> parts = entry.parts;
+        std::vector<std::vector<std::byte>> packed;
+        if (entry.isDeflated) {
+            packed = deflateParts(entry.parts);
+            std::uint64_t packedSize = 0;
+            for (const auto& piece : packed) packedSize += piece.size();
+            if (packedSize < placed.size && placed.size <= maxUnpacked(packedSize)) {
+                placed.method = kDeflated;
+                placed.packedSize = packedSize;
+                parts.assign(packed.begin(), packed.end());
+            }
+        }
+        if (auto written = file->write(localHeader(entry, placed, zip64From)); !written) return written.error();
+        for (const auto part : parts)
+            if (auto written = file->write(part); !written) return written.error();
+        appendCentralHeader(directory, entry, placed, zip64From);
+    }
+    appendEnd(directory, entries.size(), file->size(), zip64From);
+    if (auto written = file->write(directory.bytes()); !written) return written.error();
+    return file->commit();
+}
+
+Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
+    const auto directory = readEnd(bytes);
+    if (!directory) return directory.error();
+    std::vector<Located> found;
+    found.reserve(static_cast<std::size_t>(directory->count));
+    std::unordered_set<std::string_view> names;
+    auto at = static_cast<std::size_t>(directory->offset);
+    const std::size_t end = at + static_cast<std::size_t>(directory->size);
+    for (std::uint64_t e = 0; e < directory->count; ++e) {
+        if (end - at < kCentralSize || load<std::uint32_t>(bytes, at) != kCentralSignature)
+            return bad(fmt::format("entry {} of the central directory is damaged", e));
+        const std::size_t nameSize = load<std::uint16_t>(bytes, at + 28);
+        const std::size_t extraSize = load<std::uint16_t>(bytes, at + 30);
+        const std::size_t commentSize = load<std::uint16_t>(bytes, at + 32);
+        if (nameSize + extraSize + commentSize > end - at - kCentralSize)
+            return bad(fmt::format("entry {} of the central directory reaches beyond its end", e));
+        ZipEntry entry;
+        entry.name = textAt(bytes, at + kCentralSize, nameSize);
+        entry.crc = load<std::uint32_t>(bytes, at + 16);
+        const auto wrong = [&](std::string_view what) {
+            return bad(fmt::format("entry {} {}", shown(entry.name), what));
+        };
+        if (const auto reason = wrongName(entry.name); !reason.empty())
+            return wrong(fmt::format("has a name that {}", reason));
+        if (!names.insert(entry.name).second) return wrong("stands twice in the file");
+        if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 8), load<std::uint16_t>(bytes, at + 10)); !kind)
+            return wrong(kind.error().message());
+        if (load<std::uint16_t>(bytes, at + 34) != 0) return wrong("stands in another part of a split archive");
+        entry.size = load<std::uint32_t>(bytes, at + 24);
+        entry.isDeflated = load<std::uint16_t>(bytes, at + 10) == kDeflated;
+        std::uint64_t packedSize = load<std::uint32_t>(bytes, at + 20);
+        std::uint64_t offset = load<std::uint32_t>(bytes, at + 42);
+        const auto extra = bytes.subspan(at + kCentralSize + nameSize, extraSize);
+        if (auto resolved = resolve64(extra, {&entry.size, &packedSize, &offset}); !resolved)
+            return wrong(resolved.error().message());
+        if (entry.size != packedSize && !entry.isDeflated) return wrong("has two sizes, although it is stored");
+        auto located = readLocal(bytes, entry, offset, packedSize, directory->offset);
+        if (!located) return wrong(located.error().message());
+        found.push_back(*located);
+        at += kCentralSize + nameSize + extraSize + commentSize;
+    }
+    if (at != end) return bad("the central directory holds more than its entries");
+
+    std::vector<std::size_t> order(found.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return found[a].begin < found[b].begin; });
+    for (std::size_t o = 1; o < order.size(); ++o)
+        if (found[order[o]].begin < found[order[o - 1]].end)
+            return bad(fmt::format("entries {} and {} overlap", shown(found[order[o - 1]].entry.name),
+                                   shown(found[order[o]].entry.name)));
+    std::vector<ZipEntry> entries;
+    entries.reserve(found.size());
+    for (const Located& located : found) entries.push_back(located.entry);
+    return entries;
+}
+
+Result<std::span<const std::byte>> unpack(const ZipEntry& entry, std::uint64_t maxBytes,
+                                          std::vector<std::byte>& buffer) {
+    if (entry.size > maxBytes)
+        return Error(Code::InputTooBig,
+                     fmt::format("entry {} has {} bytes, {} are possible", shown(entry.name), entry.size, maxBytes));
+    std::span<const std::byte> data = entry.data;
+    if (entry.isDeflated) {
+        if (entry.size > maxUnpacked(data.size()))
+            return bad(fmt::format("entry {} is said to unpack from {} bytes to {}, {} are possible", shown(entry.name),
+                                   data.size(), entry.size, maxUnpacked(data.size())));
+        if (!inflateInto(entry, buffer))
+            return bad(
+                fmt::format("entry {} cannot be unpacked: the file is damaged. Copy it again or build the "
+                            "volume again.",
+                            shown(entry.name)));
+        data = buffer;
+    }
+    if (const std::uint32_t actual = crc32Of(data); actual != entry.crc)
+        return Error(
+            Code::BadChecksum,
+            fmt::format("the data of entry {} have CRC32 {:08x}, {:08x} is expected: the file is damaged. Copy "
+                        "it again or build the volume again.",
+                        shown(entry.name), actual, entry.crc));
+    return data;
+}
+
+}  // namespace svt::volume

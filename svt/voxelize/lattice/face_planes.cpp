@@ -1,0 +1,185 @@
+#include <svt/voxelize/face_planes.hpp>
+#include <svt/voxelize/lattice/index_mesh.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <unordered_map>
+
+namespace svt::voxelize {
+namespace {
+
+constexpr double kSmallestFace = 1, kSmallestArea = 32;  // square voxels, of a triangle and on a plane
+constexpr double kNearby = 0.02;                         // voxels between a plane and the corners of its faces
+
+// A triangle in voxel space.
+struct Facet {
+    std::array<Vec3d, 3> corners;
+    Vec3d normal{};
+    double area = 0;
+    std::uint32_t plane = mesh::kNoPlane;
+};
+
+struct Group {
+    volume::BrickPlane plane;
+    Box3d box;
+    double area = 0;
+};
+
+// Samples stand 1/kQuanta off whole index coordinates, see voxelize.hpp.
+Vec3d voxelSpace(Vec3d index) noexcept {
+    constexpr double kShift = 0.5 - 1.0 / double(kQuanta);
+    return index + Vec3d{kShift, kShift, kShift};
+}
+
+double heightOver(const volume::BrickPlane& plane, Vec3d point) noexcept {
+    return dot(plane.normal, point) + plane.offset;
+}
+
+volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
+    // One of the two directions, so that both sides of a wall may share a plane.
+    const bool isBack = std::tie(normal.z, normal.y, normal.x) < std::tuple(0.0, 0.0, 0.0);
+    volume::BrickPlane plane;
+    plane.normal = isBack ? normal * -1.0 : normal;
+    plane.offset = -dot(plane.normal, point);
+    return plane;
+}
+
+std::vector<Facet> findFacets(const mesh::MeshScene& scene, const IndexFromLocal& indexFromLocal) {
+    std::vector<Facet> facets;
+    for (const mesh::ObjectMesh& object : scene.objects)
+        for (const mesh::Triangle& triangle : object.triangles) {
+            Facet facet;
+            for (std::size_t c = 0; c < 3; ++c)
+                facet.corners[c] = voxelSpace(indexFromLocal.point(object.vertices[triangle.corners[c]]));
+            const Vec3d across = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+            const double twice = length(across);
+            if (!(twice >= 2 * kSmallestFace)) continue;
+            facet.normal = across / twice;
+            facet.area = twice / 2;
+            if (indexFromLocal.keepsVertical()) facet.plane = triangle.plane;
+            facets.push_back(facet);
+        }
+    // Large triangles know their plane best.
+    std::stable_sort(facets.begin(), facets.end(), [](const Facet& p, const Facet& q) { return p.area > q.area; });
+    return facets;
+}
+
+// Groups by where their planes are, found again by nearly the same plane.
+class GroupsByPlace {
+public:
+    explicit GroupsByPlace(Vec3d center) : center_(center) {}
+
+    // The group of a known plane that all corners are near; or a new one.
+    std::size_t find(const Facet& facet, std::vector<Group>& groups) {
+        const volume::BrickPlane own = planeThrough(facet.normal, facet.corners[0]);
+        const std::array<double, 4> place{own.normal.x * kCellsPerNormal, own.normal.y * kCellsPerNormal,
+                                          own.normal.z * kCellsPerNormal, heightOver(own, center_)};
+        // The cells that a plane nearly the same may be in: mostly one.
+        constexpr double kEdge = 0.05;
+        for (unsigned corner = 0; corner < 16; ++corner) {
+            Cell cell;
+            bool isOther = true;
+            for (std::size_t n = 0; n < 4; ++n) {
+                const bool isUp = ((corner >> n) & 1u) != 0;
+                const double low = std::floor(place[n] - kEdge), high = std::floor(place[n] + kEdge);
+                isOther = isOther && (!isUp || high != low);
+                cell[n] = static_cast<std::int64_t>(isUp ? high : low);
+            }
+            if (!isOther) continue;
+            const auto found = cells_.find(cell);
+            if (found == cells_.end()) continue;
+            for (const std::size_t group : found->second)
+                if (fits(facet, groups[group].plane)) return group;
+        }
+        Cell home;
+        for (std::size_t n = 0; n < 4; ++n) home[n] = static_cast<std::int64_t>(std::floor(place[n]));
+        cells_[home].push_back(groups.size());
+        groups.push_back({own, {}, 0});
+        return groups.size() - 1;
+    }
+
+private:
+    static constexpr double kCellsPerNormal = 64;
+    using Cell = std::array<std::int64_t, 4>;
+    struct CellHash {
+        std::size_t operator()(const Cell& cell) const noexcept {
+            std::uint64_t hash = 0;
+            for (const std::int64_t n : cell) hash = (hash ^ (hash >> 29) ^ std::uint64_t(n)) * 0x9E3779B97F4A7C15ull;
+            return hash;
+        }
+    };
+
+    static bool fits(const Facet& facet, const volume::BrickPlane& plane) noexcept {
+        return std::abs(dot(facet.normal, plane.normal)) > 0.99 &&
+               std::all_of(facet.corners.begin(), facet.corners.end(),
+                           [&](Vec3d corner) { return std::abs(heightOver(plane, corner)) < kNearby; });
+    }
+
+    Vec3d center_;
+    std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
+};
+
+// The plane that all faces on it take their heights from.
+volume::BrickPlane sharedPlane(const mesh::Plane& local, const IndexFromLocal& indexFromLocal) noexcept {
+    const mesh::Plane plane = indexFromLocal.plane(local);
+    const Vec3d normal{-plane.slopeX / double(kQuanta), -plane.slopeY / double(kQuanta), 1};
+    return planeThrough(normal / length(normal), voxelSpace({0, 0, plane.offset / double(kQuanta)}));
+}
+
+// To 2e-6 voxel over 4000 voxels: what lies below is noise, and would be most of the planes' bytes in a file.
+volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
+    constexpr double kNormal = double(std::int64_t{1} << 32), kOffset = double(1 << 20);
+    volume::BrickPlane result;
+    for (int axis = 0; axis < 3; ++axis) result.normal[axis] = std::round(plane.normal[axis] * kNormal) / kNormal + 0.0;
+    result.offset = std::round(plane.offset * kOffset) / kOffset + 0.0;
+    return result;
+}
+
+// Nothing where the faces are outside of the grid.
+std::optional<volume::FacePlane> clipped(const Group& group, Vec3i dimension) noexcept {
+    volume::FacePlane face{rounded(group.plane), {}, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = std::floor(group.box.min[axis]), high = std::ceil(group.box.max[axis]);
+        const double end = std::min(dimension[axis], 65535);
+        if (low >= end || high <= 0) return std::nullopt;
+        const auto a = static_cast<std::size_t>(axis);
+        face.min[a] = static_cast<std::uint16_t>(std::max(low, 0.0));
+        face.max[a] = static_cast<std::uint16_t>(std::clamp(high, double(face.min[a]) + 1, end));
+    }
+    return face;
+}
+
+}  // namespace
+
+std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshScene& scene, const volume::Grid& grid) {
+    const IndexFromLocal indexFromLocal(scene, grid);
+    const Vec3i n = grid.dimension();
+    std::vector<Group> groups;
+    GroupsByPlace byPlace({n.x / 2.0, n.y / 2.0, n.z / 2.0});
+    constexpr std::size_t kNone = ~std::size_t{0};
+    std::vector<std::size_t> groupOf(scene.planes.size(), kNone);
+    for (const Facet& facet : findFacets(scene, indexFromLocal)) {
+        std::size_t group = kNone;
+        if (facet.plane == mesh::kNoPlane) {
+            group = byPlace.find(facet, groups);
+        } else if (groupOf[facet.plane] != kNone) {
+            group = groupOf[facet.plane];
+        } else {
+            group = groupOf[facet.plane] = groups.size();
+            groups.push_back({sharedPlane(scene.planes[facet.plane], indexFromLocal), {}, 0});
+        }
+        groups[group].area += facet.area;
+        for (const Vec3d corner : facet.corners) groups[group].box.add(corner);
+    }
+    std::erase_if(groups, [](const Group& group) { return group.area < kSmallestArea; });
+    std::stable_sort(groups.begin(), groups.end(), [](const Group& p, const Group& q) { return p.area > q.area; });
+    std::vector<volume::FacePlane> planes;
+    for (const Group& group : groups)
+        if (const auto face = clipped(group, n)) planes.push_back(*face);
+    return planes;
+}
+
+}  // namespace svt::voxelize

@@ -1,0 +1,154 @@
+#include <svt/voxelize/lattice/faces.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace svt::voxelize {
+namespace {
+
+// False where the triangle crosses no sample line within `dimension`.
+bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Vec3i dimension, FaceTriangle& out,
+               bool& looksDown) noexcept {
+    const QuantaPoint* corners[3] = {&a, &b, &c};
+    for (int i = 0; i < 3; ++i) out.y[i] = (*corners[i])[1];
+    std::tie(out.firstRow, out.endRow) = std::minmax({out.row(0), out.row(1), out.row(2)});
+    if (out.firstRow >= out.endRow || out.endRow <= 0 || out.firstRow >= dimension.y) return false;
+    for (int i = 0; i < 3; ++i) out.x[i] = (*corners[i])[0];
+    std::tie(out.firstColumn, out.endColumn) = std::minmax({out.column(0), out.column(1), out.column(2)});
+    if (out.firstColumn >= out.endColumn || out.endColumn <= 0 || out.firstColumn >= dimension.x) return false;
+    const std::int64_t area = (std::int64_t(b[0]) - a[0]) * (std::int64_t(c[1]) - a[1]) -
+                              (std::int64_t(b[1]) - a[1]) * (std::int64_t(c[0]) - a[0]);
+    if (area == 0) return false;
+    looksDown = area < 0;
+    return true;
+}
+
+// An edge of a face, told apart by its ends.
+struct EdgeUse {
+    std::uint64_t ends;
+    std::uint32_t triangle;
+    std::uint8_t edge;
+    bool isForward;
+};
+
+// Buffers of one object's faces.
+struct FaceBuilder {
+    const std::vector<mesh::Triangle>& source;
+    FaceList& list;
+    std::vector<std::uint32_t> numbers;  // source triangles of the level that is open; they stand last in the list
+    std::vector<EdgeUse> uses;
+    std::vector<std::uint32_t> partOf;  // per triangle: one of its part with a lower or the same number
+    std::vector<FaceTriangle> unsorted;
+
+    // Neighbouring triangles of one level become faces, each in one piece.
+    void closeLevel();
+
+private:
+    void markInnerEdges(std::span<FaceTriangle> triangles);
+    std::uint32_t rootOf(std::uint32_t triangle) {
+        while (partOf[triangle] != triangle) triangle = partOf[triangle] = partOf[partOf[triangle]];
+        return triangle;
+    }
+};
+
+// Marks the edges that two triangles use in opposite directions, and joins these triangles.
+void FaceBuilder::markInnerEdges(std::span<FaceTriangle> triangles) {
+    uses.clear();
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const auto& corners = source[numbers[t]].corners;
+        for (std::uint8_t e = 0; e < 3; ++e) {
+            const std::uint32_t from = corners[e], to = corners[(e + 1) % 3];
+            uses.push_back({std::uint64_t(std::min(from, to)) << 32 | std::max(from, to), t, e, from < to});
+        }
+    }
+    std::sort(uses.begin(), uses.end(), [](const EdgeUse& p, const EdgeUse& q) {
+        return p.ends != q.ends ? p.ends < q.ends : p.triangle < q.triangle;
+    });
+    for (std::size_t u = 1; u < uses.size(); ++u) {
+        const EdgeUse &p = uses[u - 1], &q = uses[u];
+        if (p.ends != q.ends || p.isForward == q.isForward) continue;
+        triangles[p.triangle].innerEdges |= static_cast<std::uint8_t>(1u << p.edge);
+        triangles[q.triangle].innerEdges |= static_cast<std::uint8_t>(1u << q.edge);
+        const std::uint32_t pPart = rootOf(p.triangle), qPart = rootOf(q.triangle);
+        partOf[std::max(pPart, qPart)] = std::min(pPart, qPart);
+        ++u;
+    }
+}
+
+void FaceBuilder::closeLevel() {
+    const auto count = static_cast<std::uint32_t>(numbers.size());
+    if (count >= 2) {
+        const auto triangles = std::span(list.triangles).last(count);
+        partOf.resize(count);
+        std::iota(partOf.begin(), partOf.end(), 0u);
+        markInnerEdges(triangles);
+        bool isOnePart = true;
+        for (std::uint32_t t = 0; t < count; ++t) isOnePart = (partOf[t] = rootOf(t)) == 0 && isOnePart;
+        if (!isOnePart) {
+            std::iota(numbers.begin(), numbers.end(), 0u);
+            std::stable_sort(numbers.begin(), numbers.end(),
+                             [&](std::uint32_t p, std::uint32_t q) { return partOf[p] < partOf[q]; });
+            unsorted.assign(triangles.begin(), triangles.end());
+            for (std::uint32_t t = 0; t < count; ++t) {
+                if (t > 0 && partOf[numbers[t]] != partOf[numbers[t - 1]])
+                    list.faces.push_back(Boundary(list.faces.back()));
+                triangles[t] = unsorted[numbers[t]];
+                triangles[t].face = static_cast<std::uint32_t>(list.faces.size() - 1);
+            }
+        }
+    }
+    numbers.clear();
+}
+
+}  // namespace
+
+bool touchesSamples(const FaceTriangle& t, bool looksDown, std::int32_t firstColumn, std::int32_t firstRow,
+                    std::int32_t width, std::int32_t height) noexcept {
+    if (t.endColumn <= firstColumn || t.firstColumn >= firstColumn + width || t.endRow <= firstRow ||
+        t.firstRow >= firstRow + height)
+        return false;
+    const auto quanta = [](std::int32_t sample) { return std::int64_t(sample) * kQuanta + 1; };
+    const std::int64_t west = quanta(firstColumn), east = quanta(firstColumn + width - 1);
+    const std::int64_t south = quanta(firstRow), north = quanta(firstRow + height - 1);
+    const std::int64_t turn = looksDown ? -1 : 1;
+    // Separated where all of the rectangle lies outside of one edge.
+    for (int e = 0; e < 3; ++e) {
+        const int to = e == 2 ? 0 : e + 1;
+        const std::int64_t dx = turn * (std::int64_t(t.x[to]) - t.x[e]), dy = turn * (std::int64_t(t.y[to]) - t.y[e]);
+        const std::int64_t x = dy < 0 ? east : west, y = dx > 0 ? north : south;
+        if (dx * (y - t.y[e]) - dy * (x - t.x[e]) < 0) return false;
+    }
+    return true;
+}
+
+FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLevels, Vec3i dimension,
+                   std::uint32_t claim, LevelTable& ownLevels) {
+    const auto& triangles = mesh.mesh->triangles;
+    FaceList list;
+    list.triangles.reserve(triangles.size());
+    FaceBuilder builder{triangles, list, {}, {}, {}, {}};
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const mesh::Triangle& triangle = triangles[t];
+        const QuantaPoint& a = mesh.points[triangle.corners[0]];
+        const QuantaPoint& b = mesh.points[triangle.corners[1]];
+        const QuantaPoint& c = mesh.points[triangle.corners[2]];
+        FaceTriangle plan;
+        Boundary face{kNoLevel, claim, false};
+        if (!setUpPlan(a, b, c, dimension, plan, face.isEntry)) continue;
+        if (triangle.plane != mesh::kNoPlane && !planeLevels.empty()) face.level = planeLevels[triangle.plane];
+        if (face.level == kNoLevel)
+            face.level = ownLevels.add(Level(triangleHeight(a, b, c, kScanAxes[2]), ownLevels.depth));
+        if (builder.numbers.empty() || face.packed() != list.faces.back().packed()) {
+            builder.closeLevel();
+            list.faces.push_back(face);
+        }
+        plan.face = static_cast<std::uint32_t>(list.faces.size() - 1);
+        list.triangles.push_back(plan);
+        builder.numbers.push_back(t);
+    }
+    builder.closeLevel();
+    return list;
+}
+
+}  // namespace svt::voxelize

@@ -1,0 +1,106 @@
+#include <svt/voxelize/lattice/scan.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace svt::voxelize {
+namespace {
+
+// Steeper planes, in quanta per sample (64 voxels up for one along), take the height from the snapped corners: there
+// the snap matters more than who shares the face, and heights are clamped to the triangle.
+constexpr double kSteepest = 64.0 * double(kQuanta);
+
+// Slopes whose heights over the whole grid would not fit 63 bits.
+constexpr double kUnstable = double(std::int64_t{1} << 25);
+
+std::int64_t toFixed(double quanta) {
+    constexpr double kLargest = 2e18;
+    return static_cast<std::int64_t>(std::llrint(std::clamp(std::ldexp(quanta, Height::kBits), -kLargest, kLargest)));
+}
+
+// Samples (i, j) stand one quantum further along x and y than the integers.
+Height heightAtSamples(double slopeX, double slopeY, double offset) {
+    return {toFixed(offset + (slopeX + slopeY) / double(kQuanta)), toFixed(slopeX), toFixed(slopeY)};
+}
+
+}  // namespace
+
+bool isScanPlane(const mesh::Plane& plane) noexcept {
+    return std::abs(plane.slopeX) <= kSteepest && std::abs(plane.slopeY) <= kSteepest;
+}
+
+FaceHeight planeHeight(const mesh::Plane& plane) noexcept {
+    // The plane may pass the snapped corners by a hair; whoever shares it must not be told apart by a clamp.
+    constexpr std::int32_t kNoLow = std::numeric_limits<std::int32_t>::min();
+    constexpr std::int32_t kNoHigh = std::numeric_limits<std::int32_t>::max();
+    if (plane.slopeX == 0 && plane.slopeY == 0)
+        return {{(2 * std::llrint(plane.offset / 2)) << Height::kBits, 0, 0}, kNoLow, kNoHigh};
+    return {heightAtSamples(plane.slopeX, plane.slopeY, plane.offset), kNoLow, kNoHigh};
+}
+
+FaceHeight triangleHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
+                          const ScanAxes& axes) noexcept {
+    const std::int32_t low = std::min({a[axes.z], b[axes.z], c[axes.z]});
+    const std::int32_t high = std::max({a[axes.z], b[axes.z], c[axes.z]});
+    FaceHeight face;
+    face.lowest = static_cast<std::int32_t>(firstSampleAbove(low));
+    face.highest = static_cast<std::int32_t>(firstSampleAbove(high));
+    if (low == high) {
+        face.height = {std::int64_t(low) << Height::kBits, 0, 0};
+        return face;
+    }
+    const auto along = [&](const QuantaPoint& from, const QuantaPoint& to, std::size_t axis) {
+        return std::int64_t(to[axis]) - from[axis];
+    };
+    const std::int64_t ax = along(a, b, axes.x), ay = along(a, b, axes.y), az = along(a, b, axes.z);
+    const std::int64_t bx = along(a, c, axes.x), by = along(a, c, axes.y), bz = along(a, c, axes.z);
+    const std::int64_t area = ax * by - ay * bx;
+    const double slopeX = (double(az) * double(by) - double(ay) * double(bz)) / double(area) * double(kQuanta);
+    const double slopeY = (double(ax) * double(bz) - double(az) * double(bx)) / double(area) * double(kQuanta);
+    const double offset =
+        double(a[axes.z]) - (slopeX * double(a[axes.x]) + slopeY * double(a[axes.y])) / double(kQuanta);
+    // So steep that every sample it crosses lies within the snap of the face: any height between the corners is right.
+    if (std::abs(slopeX) > kUnstable || std::abs(slopeY) > kUnstable)
+        face.height = {((std::int64_t(face.lowest) + face.highest) / 2 * kQuanta) << Height::kBits, 0, 0};
+    else
+        face.height = heightAtSamples(slopeX, slopeY, offset);
+    return face;
+}
+
+bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes,
+               ScanTriangle& out) noexcept {
+    const QuantaPoint* corner[3] = {&a, &b, &c};
+    const auto x = [&](int i) { return (*corner[i])[axes.x]; };
+    const auto y = [&](int i) { return (*corner[i])[axes.y]; };
+
+    out.firstRow = static_cast<std::int32_t>(firstSampleAbove(std::min({y(0), y(1), y(2)})));
+    out.endRow = static_cast<std::int32_t>(firstSampleAbove(std::max({y(0), y(1), y(2)})));
+    if (out.firstRow >= out.endRow) return false;
+    out.firstColumn = static_cast<std::int32_t>(firstSampleAbove(std::min({x(0), x(1), x(2)})));
+    out.endColumn = static_cast<std::int32_t>(firstSampleAbove(std::max({x(0), x(1), x(2)})));
+    if (out.firstColumn >= out.endColumn) return false;
+    const std::int64_t ax = x(1) - std::int64_t(x(0)), ay = y(1) - std::int64_t(y(0));
+    const std::int64_t bx = x(2) - std::int64_t(x(0)), by = y(2) - std::int64_t(y(0));
+    const std::int64_t area = ax * by - ay * bx;
+    if (area == 0) return false;
+    out.sign = (area > 0) != axes.isMirrored ? -1 : 1;
+    const FaceHeight face = triangleHeight(a, b, c, axes);
+    out.height = face.height;
+    out.lowest = face.lowest;
+    out.highest = face.highest;
+
+    int order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](int p, int q) { return y(p) != y(q) ? y(p) < y(q) : x(p) < x(q); });
+    for (int i = 0; i < 3; ++i) {
+        out.x[i] = x(order[i]);
+        out.y[i] = y(order[i]);
+    }
+    const std::int64_t side = (std::int64_t(out.x[1]) - out.x[0]) * (std::int64_t(out.y[2]) - out.y[0]) -
+                              (std::int64_t(out.y[1]) - out.y[0]) * (std::int64_t(out.x[2]) - out.x[0]);
+    out.isMiddleRight = side > 0;
+    return true;
+}
+
+}  // namespace svt::voxelize

@@ -1,0 +1,254 @@
+#include <svt/voxelize/bodies.hpp>
+
+#include <svt/voxelize/rewrite/rewrite.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace svt::voxelize {
+namespace {
+
+using volume::ColumnVolume;
+using volume::Run;
+using volume::Scalar;
+
+struct Face {
+    Vec3d a, b, c;          // local space
+    std::uint32_t surface;  // into the group
+};
+
+struct Group {
+    const BodyGroup* source = nullptr;
+    std::vector<Face> faces;
+};
+
+// A stretch of a tile's column and the surface nearest to it.
+struct Piece {
+    std::int32_t end;
+    std::uint32_t surface;
+};
+
+struct Block {
+    std::array<std::int32_t, 3> low, size;  // samples
+};
+
+// Splits a tile of one group into pieces per column, bottom up.
+class TileSplitter {
+public:
+    TileSplitter(const Group& group, const volume::Grid& grid, Vec3d origin, std::int32_t firstColumn,
+                 std::int32_t firstRow, std::int32_t width, std::int32_t height)
+        : group_(group),
+          grid_(grid),
+          origin_(origin),
+          firstColumn_(firstColumn),
+          firstRow_(firstRow),
+          width_(width),
+          height_(height),
+          pieces_(std::size_t(width) * std::size_t(height)),
+          spacing_(grid.spacing()) {}
+
+    // `low` and `high`: lowest and one past the highest sample of the group per column; columns without have low >=
+    // high.
+    void split(const std::vector<std::int32_t>& low, const std::vector<std::int32_t>& high) {
+        low_ = &low;
+        high_ = &high;
+        std::int32_t bottom = INT32_MAX, top = 0;
+        for (std::size_t c = 0; c < low.size(); ++c) {
+            if (low[c] >= high[c]) continue;
+            bottom = std::min(bottom, low[c]);
+            top = std::max(top, high[c]);
+        }
+        if (bottom >= top) return;
+        std::vector<std::uint32_t> all(group_.faces.size());
+        for (std::uint32_t f = 0; f < all.size(); ++f) all[f] = f;
+        constexpr std::int32_t kSlab = 64;
+        for (std::int32_t z = bottom / kSlab * kSlab; z < top; z += kSlab)
+            visit({{0, 0, z}, {kSlab, kSlab, kSlab}}, all);
+    }
+
+    [[nodiscard]] const std::vector<Piece>& pieces(std::int32_t i, std::int32_t j) const {
+        return pieces_[std::size_t(i - firstColumn_) + std::size_t(width_) * std::size_t(j - firstRow_)];
+    }
+
+private:
+    [[nodiscard]] bool isNeeded(const Block& block) const {
+        for (std::int32_t y = block.low[1]; y < std::min(block.low[1] + block.size[1], height_); ++y)
+            for (std::int32_t x = block.low[0]; x < std::min(block.low[0] + block.size[0], width_); ++x) {
+                const std::size_t column = std::size_t(x) + std::size_t(width_) * std::size_t(y);
+                if ((*low_)[column] < block.low[2] + block.size[2] && (*high_)[column] > block.low[2]) return true;
+            }
+        return false;
+    }
+
+    void fill(const Block& block, std::uint32_t surface) {
+        for (std::int32_t y = block.low[1]; y < std::min(block.low[1] + block.size[1], height_); ++y)
+            for (std::int32_t x = block.low[0]; x < std::min(block.low[0] + block.size[0], width_); ++x) {
+                auto& column = pieces_[std::size_t(x) + std::size_t(width_) * std::size_t(y)];
+                const std::int32_t end = block.low[2] + block.size[2];
+                if (!column.empty() && column.back().surface == surface)
+                    column.back().end = end;
+                else
+                    column.push_back({end, surface});
+            }
+    }
+
+    void visit(const Block& block, const std::vector<std::uint32_t>& candidates) {
+        if (block.low[0] >= width_ || block.low[1] >= height_) return;
+        if (!isNeeded(block)) {
+            fill(block, 0);  // nobody asks for these samples; the columns must stay without gaps
+            return;
+        }
+        const Vec3d center{firstColumn_ + block.low[0] + (block.size[0] - 1) / 2.0,
+                           firstRow_ + block.low[1] + (block.size[1] - 1) / 2.0,
+                           block.low[2] + (block.size[2] - 1) / 2.0};
+        const Vec3d point = grid_.worldFromIndex(center) - origin_;
+        const double radius = length(
+            scaled(Vec3d{(block.size[0] - 1) / 2.0, (block.size[1] - 1) / 2.0, (block.size[2] - 1) / 2.0}, spacing_));
+        double nearest = 1e300, nearestOther = 1e300;
+        std::uint32_t best = 0;
+        std::vector<double> distances(candidates.size());
+        for (std::size_t c = 0; c < candidates.size(); ++c) {
+            const Face& face = group_.faces[candidates[c]];
+            const double distance = distances[c] = distanceToTriangle(point, face.a, face.b, face.c);
+            if (distance < nearest || (distance == nearest && face.surface < best)) {
+                if (face.surface != best) nearestOther = nearest;
+                nearest = distance;
+                best = face.surface;
+            } else if (face.surface != best) {
+                nearestOther = std::min(nearestOther, distance);
+            }
+        }
+        const bool isVoxel = block.size[0] == 1 && block.size[1] == 1 && block.size[2] == 1;
+        if (isVoxel || nearestOther - nearest > 2 * radius) {
+            fill(block, best);
+            return;
+        }
+        std::vector<std::uint32_t> kept;
+        for (std::size_t c = 0; c < candidates.size(); ++c)
+            if (distances[c] <= nearest + 2 * radius) kept.push_back(candidates[c]);
+        const std::int32_t half = block.size[0] / 2;
+        // Lower children before upper ones: every column is filled bottom up.
+        for (std::int32_t z = 0; z < 2; ++z)
+            for (std::int32_t y = 0; y < 2; ++y)
+                for (std::int32_t x = 0; x < 2; ++x)
+                    visit({{block.low[0] + x * half, block.low[1] + y * half, block.low[2] + z * half},
+                           {half, half, half}},
+                          kept);
+    }
+
+    const Group& group_;
+    const volume::Grid& grid_;
+    Vec3d origin_;
+    std::int32_t firstColumn_, firstRow_, width_, height_;
+    std::vector<std::vector<Piece>> pieces_;
+    Vec3d spacing_;
+    const std::vector<std::int32_t>* low_ = nullptr;
+    const std::vector<std::int32_t>* high_ = nullptr;
+};
+
+}  // namespace
+
+double distanceToTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) noexcept {
+    const Vec3d ab = b - a, ac = c - a, ap = p - a;
+    const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+    if (d1 <= 0 && d2 <= 0) return length(ap);
+    const Vec3d bp = p - b;
+    const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+    if (d3 >= 0 && d4 <= d3) return length(bp);
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0) return length(ap - ab * (d1 - d3 != 0 ? d1 / (d1 - d3) : 0.0));
+    const Vec3d cp = p - c;
+    const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+    if (d6 >= 0 && d5 <= d6) return length(cp);
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0) return length(ap - ac * (d2 - d6 != 0 ? d2 / (d2 - d6) : 0.0));
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+        const double sum = (d4 - d3) + (d5 - d6);
+        return length(bp - (c - b) * (sum != 0 ? (d4 - d3) / sum : 0.0));
+    }
+    const double sum = va + vb + vc;
+    return sum != 0 ? length(ap - ab * (vb / sum) - ac * (vc / sum)) : length(ap);
+}
+
+ColumnVolume giveThematicBodies(const ColumnVolume& columns, const volume::Grid& grid, const mesh::MeshScene& scene,
+                                const std::vector<BodyGroup>& groups, int threads) {
+    std::vector<Group> prepared;
+    for (const BodyGroup& source : groups) {
+        Group group;
+        group.source = &source;
+        for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
+            const mesh::ObjectMesh& mesh = scene.objects[source.surfaces[s]];
+            for (const mesh::Triangle& t : mesh.triangles)
+                group.faces.push_back(
+                    {mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]], s});
+        }
+        if (!group.faces.empty()) prepared.push_back(std::move(group));
+    }
+    const auto groupOf = [&](Scalar scalar) {
+        for (std::size_t g = 0; g < prepared.size(); ++g)
+            if (prepared[g].source->from == scalar) return static_cast<std::ptrdiff_t>(g);
+        return std::ptrdiff_t{-1};
+    };
+
+    return rewriteColumns(
+        columns,
+        [&](std::int32_t tileX, std::int32_t tileY, const volume::ColumnTile& tile) -> ColumnRewriter {
+            std::vector<std::ptrdiff_t> present;
+            for (const Run& run : tile.runs)
+                if (const auto g = groupOf(run.scalar);
+                    g >= 0 && std::find(present.begin(), present.end(), g) == present.end())
+                    present.push_back(g);
+            if (present.empty()) return {};
+            const std::int32_t firstColumn = tileX * ColumnVolume::kTileSize,
+                               firstRow = tileY * ColumnVolume::kTileSize;
+            const std::int32_t width = columns.tileWidth(tileX), height = columns.tileHeight(tileY);
+            auto splitters = std::make_shared<std::vector<std::pair<Scalar, std::unique_ptr<TileSplitter>>>>();
+            for (const std::ptrdiff_t g : present) {
+                const Group& group = prepared[std::size_t(g)];
+                std::vector<std::int32_t> low(std::size_t(width) * std::size_t(height), INT32_MAX), high(low.size(), 0);
+                for (std::int32_t y = 0; y < height; ++y)
+                    for (std::int32_t x = 0; x < width; ++x) {
+                        const std::size_t c = std::size_t(x) + std::size_t(width) * std::size_t(y);
+                        std::uint32_t begin = 0;
+                        for (const Run& run : columns.column(firstColumn + x, firstRow + y)) {
+                            if (run.scalar == group.source->from) {
+                                low[c] = std::min(low[c], static_cast<std::int32_t>(begin));
+                                high[c] = static_cast<std::int32_t>(run.end);
+                            }
+                            begin = run.end;
+                        }
+                    }
+                splitters->emplace_back(
+                    group.source->from,
+                    std::make_unique<TileSplitter>(group, grid, scene.origin, firstColumn, firstRow, width, height));
+                splitters->back().second->split(low, high);
+            }
+            return [splitters, &prepared, groupOf](std::int32_t i, std::int32_t j, std::span<const Run> runs,
+                                                   std::vector<Run>& out) {
+                std::uint32_t begin = 0;
+                for (const Run& run : runs) {
+                    const auto found = std::find_if(splitters->begin(), splitters->end(),
+                                                    [&](const auto& entry) { return entry.first == run.scalar; });
+                    if (found == splitters->end()) {
+                        out.push_back(run);
+                    } else {
+                        const BodyGroup& group = *prepared[std::size_t(groupOf(run.scalar))].source;
+                        for (const Piece& piece : found->second->pieces(i, j)) {
+                            const auto end = std::min(static_cast<std::uint32_t>(piece.end), run.end);
+                            if (end <= begin) continue;
+                            out.push_back({end, group.scalars[piece.surface]});
+                            begin = end;
+                            if (begin == run.end) break;
+                        }
+                    }
+                    begin = run.end;
+                }
+            };
+        },
+        threads);
+}
+
+}  // namespace svt::voxelize

@@ -1,0 +1,291 @@
+#include <svt/voxelize/patterns.hpp>
+
+#include <svt/voxelize/rewrite/rewrite.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+namespace svt::voxelize {
+namespace {
+
+constexpr std::array<std::pair<PatternKind, std::string_view>, kPatternKinds> kNames{{
+    {PatternKind::None, "none"},
+    {PatternKind::Brick, "brick"},
+    {PatternKind::Block, "block"},
+    {PatternKind::Hatch, "hatch"},
+    {PatternKind::Stripes, "stripes"},
+    {PatternKind::Checker, "checker"},
+    {PatternKind::Grid, "grid"},
+    {PatternKind::WoodGrain, "wood-grain"},
+    {PatternKind::Concrete, "concrete"},
+    {PatternKind::Insulation, "insulation"},
+    {PatternKind::Image, "image"},
+    {PatternKind::Raw, "raw"},
+}};
+
+// Distance into the period, 0 <= result < period.
+double within(double x, double period) noexcept { return x - std::floor(x / period) * period; }
+
+// Cosine of 2 pi x by a fixed polynomial: libm may differ in the last bit from machine to machine.
+double cosineOfTurn(double x) noexcept {
+    double t = std::abs(within(x, 1.0) - 0.5) - 0.25;  // -1/4 .. 1/4; cos(2 pi x) = sin(2 pi t)
+    t *= 6.283185307179586;
+    const double s = t * t;
+    return t * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72))));
+}
+
+std::uint32_t hashCell(std::int64_t x, std::int64_t y, std::int64_t z, std::uint32_t seed) noexcept {
+    std::uint64_t h = std::uint64_t(x) * 0x9E3779B97F4A7C15ull ^ std::uint64_t(y) * 0xC2B2AE3D27D4EB4Full ^
+                      std::uint64_t(z) * 0x165667B19E3779F9ull ^ (std::uint64_t(seed) << 32);
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBull;
+    return static_cast<std::uint32_t>(h >> 32);
+}
+
+double unit(std::uint32_t bits) noexcept { return bits * (1.0 / 4294967296.0); }
+
+// Bricks in running bond: every second course is shifted by half a length, and the stones across it by half a width.
+std::uint32_t bond(Vec3d p, Vec3d size, double joint) noexcept {
+    const double course = std::floor(p.z / size.z);
+    const bool isShifted = within(course, 2.0) >= 1;
+    const double u = within(p.x + (isShifted ? size.x / 2 : 0), size.x);
+    const double v = within(p.y + (isShifted ? size.y / 2 : 0), size.y);
+    const double w = within(p.z, size.z);
+    return u < joint || v < joint || w < joint ? 1 : 0;
+}
+
+std::uint32_t hatch(Vec3d p, double period, double line, double angleDegrees) noexcept {
+    // Whole turns of the angle by the same polynomial as above.
+    const double c = cosineOfTurn(angleDegrees / 360), s = cosineOfTurn(angleDegrees / 360 - 0.25);
+    // Lines run along (cos, sin) in (u, w) and lean the same way across, so that every cut shows them.
+    return within(p.z * c - p.x * s + p.y * s, period) < line ? 1 : 0;
+}
+
+std::uint32_t woodGrain(Vec3d p, double ring, double line, std::uint32_t seed) noexcept {
+    // Rings around a heart that lies outside the piece and wanders along it.
+    const double wander = 0.15 * ring * cosineOfTurn(p.x / (40 * ring));
+    const double y = p.y + ring * (6 + 4 * unit(hashCell(1, 2, 3, seed))) + wander;
+    const double z = p.z + ring * (9 + 4 * unit(hashCell(4, 5, 6, seed)));
+    const double radius = std::sqrt(y * y + z * z);
+    const double wobble = ring * 0.2 * (cosineOfTurn(y / (11 * ring)) + cosineOfTurn(z / (13 * ring)));
+    return within(radius + wobble, ring) < line ? 1 : 0;
+}
+
+std::uint32_t concrete(Vec3d p, double coarse, std::uint32_t seed) noexcept {
+    // One round grain per cell with its own middle and size, coarse grains before fine ones.
+    for (int pass = 0; pass < 2; ++pass) {
+        const double cell = pass == 0 ? coarse : coarse * 0.4;
+        const double largest = pass == 0 ? 0.42 : 0.30;
+        const auto ci = static_cast<std::int64_t>(std::floor(p.x / cell)),
+                   cj = static_cast<std::int64_t>(std::floor(p.y / cell)),
+                   ck = static_cast<std::int64_t>(std::floor(p.z / cell));
+        const std::uint32_t h = hashCell(ci, cj, ck, seed + std::uint32_t(pass));
+        const double radius = cell * largest * (0.35 + 0.65 * unit(h));
+        const auto middle = [&](std::int64_t c, std::uint32_t n) {
+            const double slack = cell - 2 * radius;
+            return double(c) * cell + radius + slack * unit(hashCell(ci + 7 * std::int64_t(n), cj, ck, seed + n));
+        };
+        const Vec3d d{p.x - middle(ci, 11), p.y - middle(cj, 13), p.z - middle(ck, 17)};
+        if (dot(d, d) < radius * radius) return pass == 0 ? 2 : 1;
+    }
+    return 0;
+}
+
+std::uint32_t insulation(Vec3d p, Vec3d size, double line) noexcept {
+    // Loops as drawn in sections: a wave along u (and along v), one above the other.
+    const double wave = size.z / 2 * (cosineOfTurn(p.x / size.x) + cosineOfTurn(p.y / size.y)) / 2;
+    return within(p.z + wave, size.z / 2) < line ? 1 : 0;
+}
+
+std::uint32_t cellPhase(const PatternCells& cells, Vec3d p, Vec3d size) noexcept {
+    const auto index = [](double x, double period, std::int32_t count) {
+        return std::min(count - 1, static_cast<std::int32_t>(within(x, period) / period * count));
+    };
+    const std::int32_t i = index(p.x, size.x, cells.dimension.x);
+    const bool isImage = cells.dimension.z == 1;
+    const std::int32_t j = isImage ? index(p.z, size.z, cells.dimension.y) : index(p.y, size.y, cells.dimension.y);
+    const std::int32_t k = isImage ? 0 : index(p.z, size.z, cells.dimension.z);
+    return cells.phases[std::size_t(i) + std::size_t(cells.dimension.x) *
+                                             (std::size_t(j) + std::size_t(cells.dimension.y) * std::size_t(k))];
+}
+
+struct Defaults {
+    Vec3d size;
+    double line;
+};
+
+Defaults defaultsOf(PatternKind kind) noexcept {
+    switch (kind) {
+        case PatternKind::Brick: return {{0.25, 0.125, 0.0833}, 0.012};  // 24 x 11.5 x 7.1 cm with 1.2 cm joints
+        case PatternKind::Block: return {{0.50, 0.25, 0.25}, 0.010};
+        case PatternKind::Hatch: return {{0.12, 0.12, 0.12}, 0.02};
+        case PatternKind::Stripes: return {{0.20, 0.20, 0.20}, 0.10};
+        case PatternKind::Checker: return {{0.20, 0.20, 0.20}, 0.10};
+        case PatternKind::Grid: return {{0.25, 0.25, 0.25}, 0.02};
+        case PatternKind::WoodGrain: return {{0.03, 0.03, 0.03}, 0.01};
+        case PatternKind::Concrete: return {{0.08, 0.08, 0.08}, 0.02};
+        case PatternKind::Insulation: return {{0.16, 0.16, 0.16}, 0.02};
+        case PatternKind::Image:
+        case PatternKind::Raw: return {{1, 1, 1}, 0.01};
+        case PatternKind::None: break;
+    }
+    return {{1, 1, 1}, 0.01};
+}
+
+}  // namespace
+
+std::string_view patternName(PatternKind kind) noexcept {
+    for (const auto& [value, name] : kNames)
+        if (value == kind) return name;
+    return "none";
+}
+
+bool patternFromName(std::string_view name, PatternKind& kind) noexcept {
+    for (const auto& [value, known] : kNames)
+        if (known == name) {
+            kind = value;
+            return true;
+        }
+    return false;
+}
+
+std::uint32_t Pattern::phaseCount() const noexcept {
+    switch (kind) {
+        case PatternKind::None: return 1;
+        case PatternKind::Concrete: return 3;
+        case PatternKind::Image:
+        case PatternKind::Raw: return cells == nullptr ? 1 : cells->phaseCount;
+        default: return 2;
+    }
+}
+
+std::uint32_t Pattern::phaseAt(Vec3d p) const noexcept {
+    switch (kind) {
+        case PatternKind::None: return 0;
+        case PatternKind::Brick:
+        case PatternKind::Block: return bond(p, size, line);
+        case PatternKind::Hatch: return hatch(p, size.z, line, angleDegrees);
+        case PatternKind::Stripes: return within(p.z, size.z) < line ? 1 : 0;
+        case PatternKind::Checker: {
+            const double sum = std::floor(p.x / size.x) + std::floor(p.y / size.y) + std::floor(p.z / size.z);
+            return within(sum, 2.0) >= 1 ? 1 : 0;
+        }
+        case PatternKind::Grid:
+            return within(p.x, size.x) < line || within(p.y, size.y) < line || within(p.z, size.z) < line ? 1 : 0;
+        case PatternKind::WoodGrain: return woodGrain(p, size.z, line, seed);
+        case PatternKind::Concrete: return concrete(p, size.z, seed);
+        case PatternKind::Insulation: return insulation(p, size, line);
+        case PatternKind::Image:
+        case PatternKind::Raw: return cells == nullptr || cells->phases.empty() ? 0 : cellPhase(*cells, p, size);
+    }
+    return 0;
+}
+
+Result<Pattern> makePattern(Pattern pattern) {
+    const Defaults defaults = defaultsOf(pattern.kind);
+    constexpr double kSmallest = 1e-4, kLargest = 1e3;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (pattern.size[axis] == 0) pattern.size[axis] = defaults.size[axis];
+        if (!(pattern.size[axis] >= kSmallest && pattern.size[axis] <= kLargest))
+            return Error(Code::BadPattern,
+                         fmt::format("pattern {}: size {} m along {} is out of range; {} to {} m are possible",
+                                     patternName(pattern.kind), pattern.size[axis], "uvw"[axis], kSmallest, kLargest));
+    }
+    if (pattern.line == 0) pattern.line = defaults.line;
+    if (!(pattern.line >= kSmallest && pattern.line <= kLargest))
+        return Error(Code::BadPattern, fmt::format("pattern {}: line {} m is out of range; {} to {} m are possible",
+                                                   patternName(pattern.kind), pattern.line, kSmallest, kLargest));
+    if (!(std::abs(pattern.angleDegrees) <= 360))
+        return Error(Code::BadPattern,
+                     fmt::format("pattern {}: angle {} is out of range; -360 to 360 degrees are possible",
+                                 patternName(pattern.kind), pattern.angleDegrees));
+    const bool needsCells = pattern.kind == PatternKind::Image || pattern.kind == PatternKind::Raw;
+    if (needsCells && pattern.cells == nullptr)
+        return Error(Code::BadPattern, fmt::format("pattern {}: needs a file", patternName(pattern.kind)));
+    return pattern;
+}
+
+ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
+    // Directions modulo 180 degrees, weighted by length.
+    constexpr int kBins = 180;
+    std::array<double, kBins> weight{};
+    std::array<Vec3d, kBins> sum{};
+    for (const mesh::Triangle& triangle : mesh.triangles) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            Vec3d edge = mesh.vertices[triangle.corners[(c + 1) % 3]] - mesh.vertices[triangle.corners[c]];
+            const double plan = std::sqrt(edge.x * edge.x + edge.y * edge.y);
+            if (!(plan > 1e-6) || std::abs(edge.z) > 1e-3 * plan) continue;
+            if (edge.y < -1e-9 * plan || (std::abs(edge.y) <= 1e-9 * plan && edge.x < 0)) edge = -edge;
+            const int bin =
+                std::clamp(static_cast<int>(std::lround(std::atan2(edge.y, edge.x) / 3.14159265358979 * kBins)), 0,
+                           kBins) %
+                kBins;
+            weight[std::size_t(bin)] += plan;
+            // Directions just under 180 degrees fall into bin 0 and count as just under 0.
+            sum[std::size_t(bin)] = sum[std::size_t(bin)] + (bin == 0 && edge.x < 0 ? -edge : edge);
+        }
+    }
+    ObjectFrame frame;
+    const auto best = std::max_element(weight.begin(), weight.end()) - weight.begin();
+    if (weight[std::size_t(best)] > 0) {
+        Vec3d u = sum[std::size_t(best)];
+        u.z = 0;
+        u = normalized(u);
+        if (std::abs(u.y) < 1e-7) u = {1, 0, 0};
+        if (std::abs(u.x) < 1e-7) u = {0, 1, 0};
+        frame.axes = {u, {-u.y, u.x, 0}, {0, 0, 1}};
+    }
+    Vec3d low{1e300, 1e300, 1e300};
+    for (const Vec3d& vertex : mesh.vertices)
+        for (int axis = 0; axis < 3; ++axis)
+            low[axis] = std::min(low[axis], dot(vertex, frame.axes[std::size_t(axis)]));
+    if (!mesh.vertices.empty()) frame.origin = frame.axes[0] * low.x + frame.axes[1] * low.y + frame.axes[2] * low.z;
+    return frame;
+}
+
+volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid, Vec3d sceneOrigin,
+                                 const std::vector<PatternedObject>& objects, int threads) {
+    std::unordered_map<volume::Scalar, const PatternedObject*> byScalar;
+    for (const PatternedObject& object : objects)
+        if (object.pattern.phaseCount() > 1) byScalar.emplace(object.first, &object);
+    if (byScalar.empty()) return columns;
+    return rewriteColumns(
+        columns,
+        [&](std::int32_t, std::int32_t, const volume::ColumnTile& tile) -> ColumnRewriter {
+            const bool hasPattern = std::any_of(tile.runs.begin(), tile.runs.end(), [&](const volume::Run& run) {
+                return byScalar.count(run.scalar) != 0;
+            });
+            if (!hasPattern) return {};
+            return
+                [&](std::int32_t i, std::int32_t j, std::span<const volume::Run> runs, std::vector<volume::Run>& out) {
+                    std::uint32_t begin = 0;
+                    for (const volume::Run& run : runs) {
+                        const auto found = byScalar.find(run.scalar);
+                        if (found == byScalar.end()) {
+                            out.push_back(run);
+                        } else {
+                            const PatternedObject& object = *found->second;
+                            for (std::uint32_t k = begin; k < run.end; ++k) {
+                                const Vec3d local = grid.worldFromIndex({double(i), double(j), double(k)}) -
+                                                    sceneOrigin - object.frame.origin;
+                                const Vec3d uvw{dot(local, object.frame.axes[0]), dot(local, object.frame.axes[1]),
+                                                dot(local, object.frame.axes[2])};
+                                const volume::Scalar scalar = object.first + object.pattern.phaseAt(uvw);
+                                if (!out.empty() && out.back().scalar == scalar && out.back().end == k)
+                                    out.back().end = k + 1;
+                                else
+                                    out.push_back({k + 1, scalar});
+                            }
+                        }
+                        begin = run.end;
+                    }
+                };
+        },
+        threads);
+}
+
+}  // namespace svt::voxelize

@@ -1,0 +1,353 @@
+#include <svt/voxelize/tiles/tile_columns.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+#include <utility>
+
+namespace svt::voxelize {
+namespace {
+
+constexpr int kKnownBits = 10;
+constexpr std::size_t kStride = 8;  // columns that are written at once
+
+// The lowest set bit above `bit`, or `end`.
+std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noexcept {
+    const std::uint64_t above = bit + 1 < 64 ? bits >> (bit + 1) << (bit + 1) : 0;
+    return above != 0 ? std::countr_zero(above) : end;
+}
+
+}  // namespace
+
+TileColumns::TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels)
+    : levels_(levels), profiles_(claims), builder_(1), known_(std::size_t{1} << kKnownBits) {
+    volume::Scalar most = 0;
+    for (const OrderedClaim& claim : claims) most = std::max(most, claim.scalar);
+    isPresent_.assign(std::size_t{most} + 1, 0);
+}
+
+std::uint32_t TileColumns::findStack(const PlanCell& cell) {
+    const auto members = plan_.boundariesOf(cell);
+    return stackIndex_.findOrAdd(
+        cell.hash,
+        [&](std::uint32_t number) {
+            const Stack& known = stacks_[number];
+            return known.hash == cell.hash && known.memberCount == members.size() &&
+                   std::equal(members.begin(), members.end(), members_.begin() + known.firstMember);
+        },
+        [&] { return addStack(cell, members); });
+}
+
+std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint64_t> members) {
+    Stack stack;
+    stack.hash = cell.hash;
+    stack.firstMember = static_cast<std::uint32_t>(members_.size());
+    stack.memberCount = static_cast<std::uint32_t>(members.size());
+    stack.firstLevel = static_cast<std::uint32_t>(stackLevels_.size());
+    stack.firstSloped = static_cast<std::uint32_t>(sloped_.size());
+    stack.firstHeight = static_cast<std::uint32_t>(heights_.size());
+    members_.insert(members_.end(), members.begin(), members.end());
+    const std::size_t firstCode = stackCodes_.size();
+    stackCodes_.resize(firstCode + members.size());
+    // Ascending, so that those of one level stand side by side, and flat levels come bottom up.
+    ascending_.assign(members.begin(), members.end());
+    std::sort(ascending_.begin(), ascending_.end());
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const Boundary boundary = Boundary::unpack(ascending_[m]);
+        const bool isLevel = m > 0 && boundary.level == stackLevels_.back().level;
+        if (!isLevel) {
+            if (levels_.isSloped(boundary.level)) {
+                const Level& level = levels_[boundary.level];
+                stack.slopesX = stack.slopesX || level.slopeX != 0;
+                stack.slopesY = stack.slopesY || level.slopeY != 0;
+                sloped_.push_back({boundary.level, stack.levelCount, 0});
+            }
+            order_.push_back(stack.levelCount++);
+            stackLevels_.push_back({boundary.level, static_cast<std::uint32_t>(firstCode + m), 0});
+        }
+        stackCodes_[firstCode + m] = ProfileCode{boundary.claim, boundary.isEntry, isLevel}.packed();
+        ++stackLevels_.back().codeCount;
+    }
+    stack.slopedCount = static_cast<std::uint32_t>(sloped_.size()) - stack.firstSloped;
+    heights_.resize(heights_.size() + stack.levelCount + 2, 0);
+    heights_.back() = levels_.depth;
+    stacks_.push_back(stack);
+    return static_cast<std::uint32_t>(stacks_.size() - 1);
+}
+
+// Sorts the stack's levels by their heights and finds the profile that goes with this order. Which of equal heights
+// comes first makes no difference: nothing lies between them.
+void TileColumns::orderStack(Stack& stack) {
+    std::uint32_t* const order = order_.data() + stack.firstLevel;
+    std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
+    const std::uint32_t count = stack.levelCount;
+    constexpr std::uint32_t kShort = 32;
+    if (count > kShort) {
+        sorted_.clear();
+        for (std::uint32_t c = 0; c < count; ++c) sorted_.emplace_back(heights[c], order[c]);
+        std::sort(sorted_.begin(), sorted_.end());
+        for (std::uint32_t c = 0; c < count; ++c) std::tie(heights[c], order[c]) = sorted_[c];
+    } else {
+        for (std::uint32_t c = 1; c < count; ++c) {
+            const std::uint32_t slot = order[c];
+            const std::int32_t height = heights[c];
+            std::uint32_t to = c;
+            for (; to > 0 && heights[to - 1] > height; --to) {
+                order[to] = order[to - 1];
+                heights[to] = heights[to - 1];
+            }
+            order[to] = slot;
+            heights[to] = height;
+        }
+    }
+    codes_.resize(stack.memberCount);
+    places_.resize(count);
+    std::uint32_t* code = codes_.data();
+    for (std::uint32_t c = 0; c < count; ++c) {
+        const StackLevel& level = stackLevels_[stack.firstLevel + order[c]];
+        code = std::copy_n(stackCodes_.data() + level.firstCode, level.codeCount, code);
+        places_[order[c]] = stack.firstHeight + 1 + c;
+    }
+    for (SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount))
+        sloped.height = places_[sloped.slot];
+    stack.profile = profiles_.find(codes_);
+}
+
+// All heights of a stack.
+void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
+    for (std::uint32_t c = 0; c < stack.levelCount; ++c) {
+        const std::uint32_t level = stackLevels_[stack.firstLevel + c].level;
+        heights_[stack.firstHeight + 1 + c] =
+            levels_.isSloped(level) ? levels_[level].sampleAbove(i, j) : static_cast<std::int32_t>(level);
+    }
+    orderStack(stack);
+    stack.isOrdered = true;
+}
+
+// Sets the heights of the sloped levels, which are those at a step of a line.
+void TileColumns::moveStack(Stack& stack, const std::int32_t* heights) {
+    const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
+    for (const SlopedLevel& level : sloped) {
+        heights_[level.height] = *heights;
+        heights += kTile;
+    }
+    bool ascends = true;
+    for (const SlopedLevel& level : sloped) {
+        const std::int32_t* height = heights_.data() + level.height;
+        ascends = ascends && height[-1] <= height[0] && height[0] <= height[1];
+    }
+    if (!ascends) orderStack(stack);
+}
+
+// Counts the voxels that solids share in columns at the stack's heights.
+void TileColumns::countShared(const Stack& stack, std::uint64_t columns) {
+    profiles_.forEachShared(
+        stack.profile, heights_.data() + stack.firstHeight + 1,
+        [&](std::uint32_t group, std::uint32_t length) { profiles_.addShared(group, columns * length); });
+}
+
+// The same for a column that is now known, of which there may be more; false where it is too much to note.
+bool TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
+    std::size_t count = 0;
+    profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
+                            [&](std::uint32_t group, std::uint32_t length) {
+                                if (count < KnownColumn::kMostShared) known.shared[count] = {group, length};
+                                ++count;
+                            });
+    known.sharedCount = static_cast<std::uint8_t>(std::min(count, KnownColumn::kMostShared));
+    return count <= KnownColumn::kMostShared;
+}
+
+// Number of the column with the stack's heights.
+std::uint16_t TileColumns::makeColumn(const Stack& stack) {
+    const std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
+    volume::Run* const first = builder_.beginColumn(std::size_t(stack.levelCount) + 1);
+    volume::Run* end = first;
+    std::uint32_t from = 0;
+    const auto emit = [&](std::uint32_t to, volume::Scalar scalar) {
+        if (to == from) return;
+        if (end != first && end[-1].scalar == scalar)
+            end[-1].end = to;
+        else
+            *end++ = {to, scalar};
+        from = to;
+    };
+    for (const ScalarChange& change : profiles_.changes(stack.profile))
+        emit(static_cast<std::uint32_t>(heights[change.level]), change.below);
+    emit(static_cast<std::uint32_t>(levels_.depth), profiles_.topScalar(stack.profile));
+    return builder_.endColumn(static_cast<std::size_t>(end - first));
+}
+
+// Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
+// step before, or n is 0.
+std::uint64_t TileColumns::measureLine(const Cell& cell, const Line& line, std::uint32_t place) {
+    const Stack& stack = stacks_[cell.stack];
+    const std::size_t needed = place + (std::size_t(stack.slopedCount) + 1) * kTile;
+    if (lines_.size() < needed) lines_.resize(needed);
+    lineLevels_.clear();
+    for (const SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
+        const Level& level = levels_[sloped.level];
+        lineLevels_.push_back({level.base + level.slopeX * line.i + level.slopeY * line.j,
+                               line.isAlongX ? level.slopeX : level.slopeY, level.lowest, level.highest});
+    }
+    return heightsAlong(lineLevels_, line.count, cell.stack, lines_.data() + place) | 1;
+}
+
+// The column at a step of a line, of which there are `columns`.
+inline std::uint16_t TileColumns::findStep(std::uint32_t number, std::uint32_t line, std::size_t step,
+                                           std::uint64_t columns) {
+    const std::int32_t* const hash = lines_.data() + line + step;
+    const std::int32_t* const heights = hash + kTile;
+    KnownColumn& known = known_[static_cast<std::uint32_t>(*hash) >> (32 - kKnownBits)];
+    bool isKnown = known.stack == number && known.tile == tile_;
+    const std::uint32_t slopedCount = stacks_[number].slopedCount;
+    for (std::size_t s = 0; s < slopedCount && isKnown; ++s) isKnown = known.heights[s] == heights[s * kTile];
+    if (!isKnown) return makeStep(number, heights, known, columns);
+    known.columns += static_cast<std::uint32_t>(columns);
+    return known.column;
+}
+
+// The same for a column that is not known, and goes where `known` is.
+std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* heights, KnownColumn& known,
+                                    std::uint64_t columns) {
+    Stack& stack = stacks_[number];
+    countKnown(known);
+    known.stack = kNoStack;
+    moveStack(stack, heights);
+    const std::uint16_t column = makeColumn(stack);
+    if (stack.slopedCount <= KnownColumn::kMostSloped && measureShared(stack, known)) {
+        known.stack = number;
+        known.tile = tile_;
+        known.column = column;
+        known.columns = static_cast<std::uint32_t>(columns);
+        for (std::size_t s = 0; s < stack.slopedCount; ++s) known.heights[s] = heights[s * kTile];
+    } else {
+        countShared(stack, columns);
+    }
+    return column;
+}
+
+// Columns of a cell in row y, as far as they differ from those of the row before. Rows [firstRow, endRow) have one
+// plan.
+void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow) {
+    Stack& stack = stacks_[cell.stack];
+    if (!stack.isOrdered) beginStack(stack, firstColumn_ + cell.begin, firstRow_ + y);
+    std::uint16_t* const columns = row_.data() + cell.begin;
+    const std::int32_t width = cell.end - cell.begin;
+    const std::int32_t step = y - firstRow, rows = endRow - firstRow;
+    if (!stack.slopesX && stack.slopesY) {
+        if ((cell.breaks >> step & 1) == 0) return;
+        const auto count = std::uint64_t(nextBit(cell.breaks, step, rows) - step) * std::uint64_t(width);
+        std::fill_n(columns, width, findStep(cell.stack, cell.line, static_cast<std::size_t>(step), count));
+        return;
+    }
+    if (y != firstRow && !stack.slopesY) return;
+    const auto count = static_cast<std::uint64_t>(stack.slopesY ? 1 : rows);
+    if (!stack.slopesX) {
+        countShared(stack, count * std::uint64_t(width));
+        if (stack.tile != tile_) {
+            stack.tile = tile_;
+            stack.column = makeColumn(stack);
+        }
+        std::fill_n(columns, width, stack.column);
+        return;
+    }
+    std::uint64_t breaks = measureLine(cell, {firstColumn_ + cell.begin, firstRow_ + y, width, true}, cell.line);
+    std::uint16_t beyond[kStride];
+    std::copy_n(columns + width, kStride, beyond);
+    while (breaks != 0) {
+        const int x = std::countr_zero(breaks);
+        breaks &= breaks - 1;
+        const int next = breaks != 0 ? std::countr_zero(breaks) : width;
+        const std::uint16_t column =
+            findStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
+        // Some too many, which the next step or the end below puts right: short stretches have no loop to foretell.
+        std::uint16_t* to = columns + x;
+        do {
+            std::fill_n(to, kStride, column);
+            to += kStride;
+        } while (to < columns + next);
+    }
+    std::copy_n(beyond, kStride, columns + width);
+}
+
+// Rows [firstRow, endRow), which have one plan.
+void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
+    const PlanRow plan = plan_.layOut(firstRow);
+    cells_.resize(plan.cells.size());
+    std::uint64_t changedRows = std::uint64_t{1} << firstRow;
+    std::uint32_t line = 0;
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+        Cell& cell = cells_[c];
+        cell = {plan.cells[c].begin, plan.cells[c].end, plan.keepsBoundaries ? cell.stack : findStack(plan.cells[c]),
+                line, 0};
+        const Stack& stack = stacks_[cell.stack];
+        if (stack.slopesY && stack.slopesX) {
+            changedRows = ~std::uint64_t{0};
+        } else if (stack.slopesY) {
+            cell.breaks =
+                measureLine(cell, {firstColumn_ + cell.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
+            changedRows |= cell.breaks << firstRow;
+            line += static_cast<std::uint32_t>((stack.slopedCount + 1) * kTile);
+        }
+    }
+    for (Cell& cell : cells_)
+        if (stacks_[cell.stack].slopesX) cell.line = line;  // one place for all lines along x
+    for (std::int32_t y = firstRow; y < endRow; ++y) {
+        if ((changedRows >> y & 1) == 0) {
+            builder_.repeatRow();
+            continue;
+        }
+        for (const Cell& cell : cells_) makeCell(cell, y, firstRow, endRow);
+        builder_.addRow(std::span(row_).first(row_.size() - kStride));
+    }
+}
+
+volume::ColumnTileData TileColumns::make(const TileInput& input) {
+    constexpr std::size_t kMostMembers = std::size_t{1} << 20;
+    if (members_.size() + profiles_.size() > kMostMembers) forget();
+    ++tile_;
+    firstColumn_ = input.firstColumn;
+    firstRow_ = input.firstRow;
+    plan_.build(input);
+    builder_.start(input.width);
+    row_.resize(static_cast<std::size_t>(input.width) + kStride);
+    for (std::int32_t y = 0; y < input.height;) {
+        const std::int32_t next = nextBit(plan_.newRows(), y, input.height);
+        makeRows(y, next);
+        y = next;
+    }
+    volume::ColumnTileData tile = builder_.finish();
+    // Every run of a tile's dictionary is in use, so a look at the runs tells who is there.
+    for (const volume::Run& run : tile.runs) isPresent_[run.scalar] = 1;
+    return tile;
+}
+
+// What solids share in the columns that were found again.
+void TileColumns::countKnown(KnownColumn& known) {
+    for (const auto& shared : std::span(known.shared, known.sharedCount))
+        profiles_.addShared(shared.group, std::uint64_t{known.columns} * shared.length);
+    known.columns = 0;
+}
+
+// Forgets all stacks and profiles; what they counted goes to counts_.
+void TileColumns::forget() {
+    for (KnownColumn& known : known_) countKnown(known);
+    std::ranges::fill(known_, KnownColumn{});
+    profiles_.takeCounts(counts_);
+    stacks_.clear();
+    stackIndex_.clear();
+    members_.clear();
+    stackLevels_.clear();
+    stackCodes_.clear();
+    order_.clear();
+    sloped_.clear();
+    heights_.clear();
+}
+
+SharedCounts TileColumns::takeCounts() {
+    forget();
+    return std::exchange(counts_, {});
+}
+
+}  // namespace svt::voxelize

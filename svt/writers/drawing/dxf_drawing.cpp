@@ -1,0 +1,366 @@
+#include <svt/core/file.hpp>
+#include <svt/model/classes.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/dxf_drawing.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace svt::writers {
+namespace {
+
+using illustrate::PlanePoint;
+
+// Colors of the AutoCAD color index, by the kind of class.
+int colorOf(const std::string& className) noexcept {
+    if (model::isSpace(className)) return 8;
+    switch (model::classRank(className)) {
+        case model::ClassRank::Furniture: return 32;
+        case model::ClassRank::Filling: return 4;
+        case model::ClassRank::Installation: return 6;
+        default: break;
+    }
+    if (className.starts_with("Roof")) return 1;
+    if (className.starts_with("Ground") || className.starts_with("Floor") || className.starts_with("Ceiling")) return 3;
+    if (className == "BuildingConstructiveElement") return 5;
+    return 7;
+}
+
+// Windows code page 1252 as far as it is Latin-1; the rest as \U+XXXX, beyond the 16 bits that it has a question mark.
+// Line ends would end the value.
+std::string dxfText(std::string_view text) {
+    std::string safe;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto byteAt = [&](std::size_t n) {
+            return at + n < text.size() ? static_cast<unsigned char>(text[at + n]) : 0u;
+        };
+        const auto next = [&](std::size_t n) { return (byteAt(n) & 0xC0u) == 0x80u; };
+        const unsigned c = byteAt(0);
+        if (c < 0x80) {
+            safe += c < 0x20 || c == 0x7F ? ' ' : static_cast<char>(c);
+            ++at;
+        } else if (c >= 0xC2 && c < 0xE0 && next(1)) {
+            const unsigned code = ((c & 0x1Fu) << 6) | (byteAt(1) & 0x3Fu);
+            if (code >= 0xA0 && code <= 0xFF)
+                safe += static_cast<char>(code);
+            else
+                safe += fmt::format("\\U+{:04X}", code);
+            at += 2;
+        } else if (c >= 0xE0 && c < 0xF0 && next(1) && next(2)) {
+            safe += fmt::format("\\U+{:04X}", ((c & 0xFu) << 12) | ((byteAt(1) & 0x3Fu) << 6) | (byteAt(2) & 0x3Fu));
+            at += 3;
+        } else {
+            safe += '?';
+            do ++at;
+            while (at < text.size() && next(0));
+        }
+    }
+    return safe;
+}
+
+class DxfWriter {
+public:
+    DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume)
+        : drawing_(drawing), volume_(volume) {
+        double low = std::numeric_limits<double>::infinity();
+        low_ = {low, low};
+        high_ = {-low, -low};
+        for (const auto& component : drawing.components)
+            for (const auto& polygon : component.polygons)
+                for (const PlanePoint p : polygon.outer) {
+                    low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+                    high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+                }
+        if (drawing.components.empty()) low_ = high_ = {};
+    }
+
+    std::string write() {
+        entities();
+        const std::string body = std::move(dxf_);
+        dxf_.clear();
+        const std::string tablesText = [&] {
+            tables();
+            return std::move(dxf_);
+        }();
+        dxf_.clear();
+        blocks();
+        const std::string blocksText = std::move(dxf_);
+        dxf_.clear();
+        header();
+        return dxf_ + tablesText + blocksText + body + objectsText() + "  0\nEOF\n";
+    }
+
+private:
+    void tag(int code, std::string_view value) { dxf_ += fmt::format("{:>3}\n{}\n", code, value); }
+    void tag(int code, int value) { dxf_ += fmt::format("{:>3}\n{}\n", code, value); }
+    void number(int code, double value) { tag(code, shortNumber(value, 6)); }
+    // Handles below 0x100 are those of the fixed parts.
+    std::string newHandle() { return fmt::format("{:X}", nextHandle_++); }
+
+    void header() {
+        const auto vector = [](Vec3d v, int decimals) {
+            return fmt::format("{} {} {}", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
+                               shortNumber(v.z, decimals));
+        };
+        const illustrate::PlaneFrame& frame = drawing_.frame;
+        tag(999, dxfText(volume_.modelName.empty() ? volume_.source : volume_.modelName) + ", " +
+                     planeText(drawing_, volume_.grid));
+        tag(999, "world = origin + u * x + v * y, metres" +
+                     (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)));
+        tag(999, "origin " + vector(frame.origin, 6));
+        tag(999, "u " + vector(frame.u, 15));
+        tag(999, "v " + vector(frame.v, 15));
+        section("HEADER");
+        const auto variable = [&](const char* name, int code, std::string_view value) {
+            tag(9, name);
+            tag(code, value);
+        };
+        variable("$ACADVER", 1, "AC1015");
+        variable("$DWGCODEPAGE", 3, "ANSI_1252");
+        variable("$HANDSEED", 5, fmt::format("{:X}", nextHandle_));
+        variable("$INSUNITS", 70, "6");     // metres
+        variable("$MEASUREMENT", 70, "1");  // metric
+        variable("$LUNITS", 70, "2");       // decimal
+        tag(9, "$EXTMIN");
+        point(10, low_);
+        tag(30, "0");
+        tag(9, "$EXTMAX");
+        point(10, high_);
+        tag(30, "0");
+        endSection();
+        section("CLASSES");
+        endSection();
+    }
+
+    void section(const char* name) {
+        tag(0, "SECTION");
+        tag(2, name);
+    }
+    void endSection() { tag(0, "ENDSEC"); }
+    void point(int code, PlanePoint p) {
+        number(code, p.u);
+        number(code + 10, p.v);
+    }
+
+    void table(const char* name, const char* handle, int count) {
+        tag(0, "TABLE");
+        tag(2, name);
+        tag(5, handle);
+        tag(330, "0");
+        tag(100, "AcDbSymbolTable");
+        tag(70, count);
+    }
+    void endTable() { tag(0, "ENDTAB"); }
+    void record(const char* type, std::string_view handle, const char* owner, const char* subclass,
+                std::string_view name) {
+        tag(0, type);
+        tag(std::string_view(type) == "DIMSTYLE" ? 105 : 5, handle);
+        tag(330, owner);
+        tag(100, "AcDbSymbolTableRecord");
+        tag(100, subclass);
+        tag(2, name);
+        tag(70, 0);
+    }
+
+    void tables() {
+        section("TABLES");
+        table("VPORT", "1", 1);
+        record("VPORT", "21", "1", "AcDbViewportTableRecord", "*Active");
+        const double width = std::max(high_.u - low_.u, 1.0), height = std::max(high_.v - low_.v, 1.0);
+        for (const auto& [code, p] :
+             {std::pair(10, PlanePoint{0, 0}), std::pair(11, PlanePoint{1, 1}),
+              std::pair(12, PlanePoint{0.5 * (low_.u + high_.u), 0.5 * (low_.v + high_.v)}),
+              std::pair(13, PlanePoint{0, 0}), std::pair(14, PlanePoint{1, 1}), std::pair(15, PlanePoint{1, 1}),
+              std::pair(16, PlanePoint{0, 0}), std::pair(17, PlanePoint{0, 0})}) {
+            point(code, p);
+            if (code == 16) tag(36, "1");
+            if (code == 17) tag(37, "0");
+        }
+        number(40, 1.1 * std::max(height, width / 1.5));
+        number(41, 1.5);
+        number(42, 50);
+        endTable();
+        table("LTYPE", "2", 3);
+        for (const auto& [handle, name] :
+             {std::pair("22", "ByBlock"), std::pair("23", "ByLayer"), std::pair("24", "Continuous")}) {
+            record("LTYPE", handle, "2", "AcDbLinetypeTableRecord", name);
+            tag(3, "");
+            tag(72, 65);
+            tag(73, 0);
+            tag(40, "0");
+        }
+        endTable();
+        table("LAYER", "3", static_cast<int>(layers_.size()) + 2);
+        const auto layer = [&](std::string_view handle, std::string_view name, int color) {
+            record("LAYER", handle, "3", "AcDbLayerTableRecord", name);
+            tag(62, color);
+            tag(6, "Continuous");
+            tag(370, -3);
+            tag(390, "F");
+        };
+        layer("25", "0", 7);
+        layer("26", "TEXT", 7);
+        for (const auto& [name, className] : layers_) layer(newHandle(), name, colorOf(className));
+        endTable();
+        table("STYLE", "4", 1);
+        record("STYLE", "27", "4", "AcDbTextStyleTableRecord", "Standard");
+        tag(40, "0");
+        tag(41, "1");
+        tag(50, "0");
+        tag(71, 0);
+        tag(42, "2.5");
+        tag(3, "arial.ttf");
+        tag(4, "");
+        endTable();
+        table("VIEW", "5", 0);
+        endTable();
+        table("UCS", "6", 0);
+        endTable();
+        table("APPID", "7", 1);
+        record("APPID", "28", "7", "AcDbRegAppTableRecord", "ACAD");
+        endTable();
+        table("DIMSTYLE", "8", 1);
+        tag(100, "AcDbDimStyleTable");
+        record("DIMSTYLE", "29", "8", "AcDbDimStyleTableRecord", "Standard");
+        endTable();
+        table("BLOCK_RECORD", "9", 2);
+        for (const auto& [handle, name] : {std::pair("1A", "*Model_Space"), std::pair("1B", "*Paper_Space")}) {
+            tag(0, "BLOCK_RECORD");
+            tag(5, handle);
+            tag(330, "9");
+            tag(100, "AcDbSymbolTableRecord");
+            tag(100, "AcDbBlockTableRecord");
+            tag(2, name);
+            tag(340, "0");
+        }
+        endTable();
+        endSection();
+    }
+
+    void blocks() {
+        section("BLOCKS");
+        for (const auto& [record, begin, end, name] :
+             {std::tuple("1A", "2A", "2B", "*Model_Space"), std::tuple("1B", "2C", "2D", "*Paper_Space")}) {
+            tag(0, "BLOCK");
+            tag(5, begin);
+            tag(330, record);
+            tag(100, "AcDbEntity");
+            tag(8, "0");
+            tag(100, "AcDbBlockBegin");
+            tag(2, name);
+            tag(70, 0);
+            point(10, {0, 0});
+            tag(30, "0");
+            tag(3, name);
+            tag(1, "");
+            tag(0, "ENDBLK");
+            tag(5, end);
+            tag(330, record);
+            tag(100, "AcDbEntity");
+            tag(8, "0");
+            tag(100, "AcDbBlockEnd");
+        }
+        endSection();
+    }
+
+    static std::string objectsText() {
+        return "  0\nSECTION\n  2\nOBJECTS\n"
+               "  0\nDICTIONARY\n  5\nC\n330\n0\n100\nAcDbDictionary\n281\n1\n  3\nACAD_GROUP\n350\nD\n"
+               "  3\nACAD_PLOTSTYLENAME\n350\nE\n"
+               "  0\nDICTIONARY\n  5\nD\n330\nC\n100\nAcDbDictionary\n281\n1\n"
+               "  0\nACDBDICTIONARYWDFLT\n  5\nE\n330\nC\n100\nAcDbDictionary\n281\n1\n  3\nNormal\n350\nF\n"
+               "100\nAcDbDictionaryWithDefault\n340\nF\n"
+               "  0\nACDBPLACEHOLDER\n  5\nF\n330\nE\n"
+               "  0\nENDSEC\n";
+    }
+
+    void entity(const char* type, std::string_view layer) {
+        tag(0, type);
+        tag(5, newHandle());
+        tag(330, "1A");
+        tag(100, "AcDbEntity");
+        tag(8, layer);
+    }
+
+    void ring(const illustrate::Ring& points, std::string_view layer) {
+        entity("LWPOLYLINE", layer);
+        tag(100, "AcDbPolyline");
+        tag(90, static_cast<int>(points.size()));
+        tag(70, 1);  // closed
+        number(43, 0);
+        for (const PlanePoint p : points) point(10, p);
+    }
+
+    void text(PlanePoint at, double height, std::string_view content) {
+        entity("TEXT", "TEXT");
+        tag(100, "AcDbText");
+        point(10, at);
+        tag(30, "0");
+        number(40, height);
+        tag(1, content);
+        tag(72, 1);  // centred at the second point
+        point(11, at);
+        tag(31, "0");
+        tag(100, "AcDbText");
+        tag(73, 2);
+    }
+
+    void entities() {
+        section("ENTITIES");
+        for (const illustrate::ClassArea& group : drawing_.classes) {
+            const std::string layer = plainName(group.className);
+            if (std::ranges::find(layers_, layer, &Layer::name) == layers_.end())
+                layers_.push_back({layer, group.className});
+        }
+        for (const illustrate::SectionComponent& component : drawing_.components) {
+            const volume::Label& label = volume_.labels.labels[component.label];
+            const std::string layer = plainName(label.className);
+            for (const illustrate::SectionPolygon& polygon : component.polygons) {
+                ring(polygon.outer, layer);
+                for (const illustrate::Ring& hole : polygon.holes) ring(hole, layer);
+            }
+            if (model::isSpace(label.className)) name(component, shownName(label));
+        }
+        endSection();
+    }
+
+    void name(const illustrate::SectionComponent& component, const std::string& shown) {
+        const auto& largest = *std::ranges::max_element(component.polygons, {}, &illustrate::SectionPolygon::area);
+        const illustrate::LabelPlace place = illustrate::labelPlaceOf(largest);
+        const double height =
+            std::min({0.25, place.height / 3, place.width / (0.8 * double(std::max<std::size_t>(shown.size(), 6)))});
+        if (!(height > 0)) return;
+        if (!isPlan(drawing_, volume_.grid)) {
+            text(place.center, height, dxfText(shown));
+            return;
+        }
+        text({place.center.u, place.center.v + 0.8 * height}, height, dxfText(shown));
+        text({place.center.u, place.center.v - 0.8 * height}, height,
+             dxfText(fmt::format("{:.2f} m\u00B2", component.area)));
+    }
+
+    struct Layer {
+        std::string name, className;
+    };
+    const illustrate::SectionDrawing& drawing_;
+    const volume::SemanticVolume& volume_;
+    PlanePoint low_, high_;
+    std::vector<Layer> layers_;
+    unsigned nextHandle_ = 0x100;
+    std::string dxf_;
+};
+
+}  // namespace
+
+std::string dxfOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    return DxfWriter(drawing, volume).write();
+}
+
+Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                               const std::filesystem::path& path) {
+    return writeFileAtomically(path, dxfOf(drawing, volume));
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,81 @@
+#include <svt/core/file.hpp>
+#include <svt/volume/volume_json.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/geojson_drawing.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::writers {
+namespace {
+
+void appendVector(std::string& json, Vec3d v, int decimals) {
+    json +=
+        fmt::format("[{},{},{}]", shortNumber(v.x, decimals), shortNumber(v.y, decimals), shortNumber(v.z, decimals));
+}
+
+void appendMember(std::string& json, std::string_view key, std::string_view text) {
+    json += fmt::format("\"{}\":", key);
+    volume::appendJsonString(json, text);
+}
+
+void appendRing(std::string& json, const illustrate::Ring& ring, const illustrate::PlaneFrame& frame) {
+    json += '[';
+    for (std::size_t n = 0; n <= ring.size(); ++n) {
+        if (n != 0) json += ',';
+        appendVector(json, frame.worldFromPlane(ring[n % ring.size()]), 6);
+    }
+    json += ']';
+}
+
+}  // namespace
+
+std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    const illustrate::PlaneFrame& frame = drawing.frame;
+    std::string json = "{\"type\":\"FeatureCollection\",\n";
+    appendMember(json, "name", planeText(drawing, volume.grid));
+    if (const std::uint32_t epsg = epsgCodeOf(volume.crsName); epsg != 0)
+        json += fmt::format(",\n\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"urn:ogc:def:crs:EPSG::{}\"}}}}",
+                            epsg);
+    json += ",\n\"plane\":{\"origin\":";
+    appendVector(json, frame.origin, 6);
+    for (const auto& [key, axis] :
+         {std::pair("u", frame.u), std::pair("v", frame.v), std::pair("normal", frame.normal)}) {
+        json += fmt::format(",\"{}\":", key);
+        appendVector(json, axis, 15);
+    }
+    json += "},\n\"features\":[";
+    bool isFirst = true;
+    for (const illustrate::SectionComponent& component : drawing.components) {
+        const volume::Label& label = volume.labels.labels[component.label];
+        json += isFirst ? "\n" : ",\n";
+        isFirst = false;
+        json += "{\"type\":\"Feature\",";
+        appendMember(json, "id", label.id);
+        json += ",\"properties\":{";
+        appendMember(json, "id", label.id);
+        json += ',';
+        appendMember(json, "class", label.className);
+        json += ',';
+        appendMember(json, "name", label.name);
+        json += fmt::format(",\"area\":{}}},\"geometry\":{{\"type\":\"MultiPolygon\",\"coordinates\":[",
+                            shortNumber(component.area, 6));
+        for (const illustrate::SectionPolygon& polygon : component.polygons) {
+            json += &polygon == &component.polygons.front() ? "[" : ",[";
+            appendRing(json, polygon.outer, frame);
+            for (const illustrate::Ring& hole : polygon.holes) {
+                json += ',';
+                appendRing(json, hole, frame);
+            }
+            json += ']';
+        }
+        json += "]}}";
+    }
+    return json + "\n]}\n";
+}
+
+Result<std::uint64_t> writeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                   const std::filesystem::path& path) {
+    return writeFileAtomically(path, geojsonOf(drawing, volume));
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,69 @@
+#include <svt/volume/volume_json.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/section_table.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::writers {
+namespace {
+
+std::string jsonText(std::string_view text) {
+    std::string json;
+    volume::appendJsonString(json, text);
+    return json;
+}
+
+std::string jsonVector(Vec3d v, int decimals) {
+    return fmt::format("[{}, {}, {}]", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
+                       shortNumber(v.z, decimals));
+}
+
+std::string csvText(std::string_view text) {
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"') quoted += '"';
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+}  // namespace
+
+std::string sectionJsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    const illustrate::PlaneFrame& frame = drawing.frame;
+    std::string json = fmt::format(
+        "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}}},\n  \"components\": [",
+        jsonVector(frame.origin, 6), jsonVector(frame.u, 15), jsonVector(frame.v, 15), jsonVector(frame.normal, 15));
+    for (const illustrate::SectionComponent& component : drawing.components) {
+        const volume::Label& label = volume.labels.labels[component.label];
+        json += fmt::format(
+            "{}\n    {{\"id\": {}, \"class\": {}, \"name\": {}, \"polygons\": {}, \"area\": {}, \"areaBound\": {}}}",
+            &component == &drawing.components.front() ? "" : ",", jsonText(label.id), jsonText(label.className),
+            jsonText(label.name), component.polygons.size(), shortNumber(component.area, 6),
+            shortNumber(component.areaBound, 6));
+    }
+    json += "\n  ],\n  \"classes\": [";
+    for (const illustrate::ClassArea& total : drawing.classes)
+        json += fmt::format("{}\n    {{\"class\": {}, \"components\": {}, \"area\": {}}}",
+                            &total == &drawing.classes.front() ? "" : ",", jsonText(total.className), total.components,
+                            shortNumber(total.area, 6));
+    return json + fmt::format("\n  ],\n  \"area\": {}\n}}\n", shortNumber(drawing.area, 6));
+}
+
+std::string sectionCsvOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    std::string csv = "kind,id,class,name,polygons,area_m2,area_bound_m2\r\n";
+    std::size_t polygons = 0;
+    for (const illustrate::SectionComponent& component : drawing.components) {
+        const volume::Label& label = volume.labels.labels[component.label];
+        polygons += component.polygons.size();
+        csv += fmt::format("component,{},{},{},{},{},{}\r\n", csvText(label.id), csvText(label.className),
+                           csvText(label.name), component.polygons.size(), shortNumber(component.area, 6),
+                           shortNumber(component.areaBound, 6));
+    }
+    for (const illustrate::ClassArea& total : drawing.classes)
+        csv += fmt::format("class,,{},,,{},\r\n", csvText(total.className), shortNumber(total.area, 6));
+    return csv + fmt::format("total,,,,{},{},\r\n", polygons, shortNumber(drawing.area, 6));
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,294 @@
+#include <svt/writers/glb_writer.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/writers/gltf/label_surface.hpp>
+#include <svt/writers/gltf/slope_vertices.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they stand in memory");
+
+using Json = nlohmann::ordered_json;
+using volume::kNoLabel;
+
+// Numbers that glTF takes over from OpenGL.
+constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126, kArrayBuffer = 34962,
+              kElementArrayBuffer = 34963;
+constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
+
+bool isShort(const LabelSurface& surface) { return surface.vertices.size() <= 65535; }
+
+// Bytes of the indices, padded to whole words.
+std::uint64_t indexBytes(const LabelSurface& surface) {
+    const std::uint64_t bytes = std::uint64_t(surface.triangles.size()) * 3 * (isShort(surface) ? 2 : 4);
+    return (bytes + 3) / 4 * 4;
+}
+
+using Positions = std::vector<Vec3f>;
+
+// Metres from the grid's lower corner along its axes.
+Positions positionsOf(const LabelSurface& surface, Vec3d spacing, const SlopeVertices* slopes) {
+    std::vector<Vec3d> places;
+    places.reserve(surface.vertices.size());
+    for (const Vec3i vertex : surface.vertices) places.push_back({0.5 * vertex.x, 0.5 * vertex.y, 0.5 * vertex.z});
+    if (slopes != nullptr) {
+        for (std::uint32_t c = 0; c < surface.cornerCount; ++c) {
+            const Vec3i vertex = surface.vertices[c];
+            places[c] = slopes->place({vertex.x / 2, vertex.y / 2, vertex.z / 2});
+        }
+        for (std::size_t m = 0; m < surface.middles.size(); ++m) {
+            Vec3d sum{};
+            for (const std::uint32_t corner : surface.middles[m]) sum = sum + places[corner];
+            places[surface.cornerCount + m] = sum * 0.25;
+        }
+    }
+    Positions positions;
+    positions.reserve(places.size());
+    for (const Vec3d place : places) {
+        const Vec3d metres = scaled(place, spacing);
+        positions.push_back({static_cast<float>(metres.x), static_cast<float>(metres.y), static_cast<float>(metres.z)});
+    }
+    return positions;
+}
+
+// sRGB to linear, to four digits, so that libraries which differ in the last bit give the same file.
+double linear(float value) {
+    const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
+    return std::round(v * 1e4) / 1e4;
+}
+
+Json materialOf(const volume::Label& label, const std::string& name) {
+    Json material;
+    material["name"] = name;
+    const double alpha = std::round(std::clamp(double(label.opacity), 0.0, 1.0) * 1e4) / 1e4;
+    material["pbrMetallicRoughness"] = {
+        {"baseColorFactor", {linear(label.color.x), linear(label.color.y), linear(label.color.z), alpha}},
+        {"metallicFactor", 0},
+        {"roughnessFactor", 1}};
+    if (alpha < 1) material["alphaMode"] = "BLEND";
+    return material;
+}
+
+// World directions with y up.
+void appendYUp(Json& matrix, Vec3d v) {
+    for (const double value : {v.x, v.z, -v.y}) matrix.push_back(value + 0.0);
+}
+
+Json rootNode(const volume::SemanticVolume& volume) {
+    Json root;
+    root["name"] = volume.modelName.empty() ? "model" : volume.modelName;
+    Json matrix = Json::array();
+    for (const Vec3d axis : volume.grid.axes()) {
+        appendYUp(matrix, axis);
+        matrix.push_back(0);
+    }
+    for (const int value : {0, 0, 0, 1}) matrix.push_back(value);
+    root["matrix"] = std::move(matrix);
+    root["children"] = Json::array();
+    return root;
+}
+
+// Node 0 is the root; the labels follow in tree order, those without a mesh in or below them left out.
+Json nodesOf(const volume::SemanticVolume& volume, std::span<const LabelSurface> surfaces) {
+    const auto& labels = volume.labels.labels;
+    std::vector<std::int64_t> meshOf(labels.size(), -1);
+    for (std::size_t m = 0; m < surfaces.size(); ++m) meshOf[surfaces[m].label] = static_cast<std::int64_t>(m);
+    std::vector<bool> isUsed(labels.size(), false);
+    for (std::size_t l = labels.size(); l-- > 0;) {
+        isUsed[l] = isUsed[l] || meshOf[l] >= 0;
+        if (isUsed[l] && labels[l].parent < l) isUsed[labels[l].parent] = true;
+    }
+    Json nodes = Json::array({rootNode(volume)});
+    std::vector<std::size_t> nodeOf(labels.size(), 0);
+    for (std::size_t l = 0; l < labels.size(); ++l) {
+        if (!isUsed[l]) continue;
+        nodeOf[l] = nodes.size();
+        Json node;
+        node["name"] = labels[l].name.empty() ? labels[l].id : labels[l].name;
+        if (meshOf[l] >= 0) node["mesh"] = meshOf[l];
+        node["extras"] = {{"id", labels[l].id}, {"class", labels[l].className}};
+        nodes.push_back(std::move(node));
+        nodes[labels[l].parent < l ? nodeOf[labels[l].parent] : 0]["children"].push_back(nodeOf[l]);
+    }
+    return nodes;
+}
+
+// Accessors 2 m (positions) and 2 m + 1 (indices) of mesh m.
+Json accessorsOf(std::span<const LabelSurface> surfaces, std::span<const Positions> positions) {
+    Json accessors = Json::array();
+    std::uint64_t positionOffset = 0, indexOffset = 0;
+    for (std::size_t m = 0; m < surfaces.size(); ++m) {
+        const LabelSurface& surface = surfaces[m];
+        Vec3f min = positions[m].front(), max = min;
+        for (const Vec3f position : positions[m])
+            for (int axis = 0; axis < 3; ++axis) {
+                min[axis] = std::min(min[axis], position[axis]);
+                max[axis] = std::max(max[axis], position[axis]);
+            }
+        accessors.push_back({{"bufferView", 0},
+                             {"byteOffset", positionOffset},
+                             {"componentType", kFloat},
+                             {"count", surface.vertices.size()},
+                             {"type", "VEC3"},
+                             {"min", {min.x, min.y, min.z}},
+                             {"max", {max.x, max.y, max.z}}});
+        accessors.push_back({{"bufferView", 1},
+                             {"byteOffset", indexOffset},
+                             {"componentType", isShort(surface) ? kUnsignedShort : kUnsignedInt},
+                             {"count", surface.triangles.size() * 3},
+                             {"type", "SCALAR"}});
+        positionOffset += surface.vertices.size() * sizeof(Vec3f);
+        indexOffset += indexBytes(surface);
+    }
+    return accessors;
+}
+
+Json assetOf(const volume::SemanticVolume& volume) {
+    const Vec3d origin = volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
+    Json extras;
+    extras["origin"] = {origin.x, origin.y, origin.z};
+    extras["crs"] = volume.crsName;
+    extras["source"] = volume.source;
+    return {{"version", "2.0"}, {"generator", "svt"}, {"extras", std::move(extras)}};
+}
+
+std::string sceneText(const volume::SemanticVolume& volume, std::span<const LabelSurface> surfaces,
+                      std::span<const Positions> positions, std::uint64_t positionBytes, std::uint64_t binBytes) {
+    Json json;
+    json["asset"] = assetOf(volume);
+    json["scene"] = 0;
+    json["scenes"] = Json::array({{{"nodes", {0}}}});
+    json["nodes"] = nodesOf(volume, surfaces);
+    Json meshes = Json::array(), materials = Json::array();
+    for (std::size_t m = 0; m < surfaces.size(); ++m) {
+        const volume::Label& label = volume.labels.labels[surfaces[m].label];
+        const std::string& name = label.name.empty() ? label.id : label.name;
+        Json primitive = {{"attributes", {{"POSITION", 2 * m}}}, {"indices", 2 * m + 1}, {"material", m}};
+        meshes.push_back({{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
+        materials.push_back(materialOf(label, name));
+    }
+    json["meshes"] = std::move(meshes);
+    json["materials"] = std::move(materials);
+    json["accessors"] = accessorsOf(surfaces, positions);
+    json["bufferViews"] = Json::array({{{"buffer", 0},
+                                        {"byteOffset", 0},
+                                        {"byteLength", positionBytes},
+                                        {"byteStride", sizeof(Vec3f)},
+                                        {"target", kArrayBuffer}},
+                                       {{"buffer", 0},
+                                        {"byteOffset", positionBytes},
+                                        {"byteLength", binBytes - positionBytes},
+                                        {"target", kElementArrayBuffer}}});
+    json["buffers"] = Json::array({{{"byteLength", binBytes}}});
+    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    return text;
+}
+
+Result<void> writeWords(AtomicFile& file, std::initializer_list<std::uint64_t> words) {
+    std::vector<std::uint32_t> values;
+    for (const std::uint64_t word : words) values.push_back(static_cast<std::uint32_t>(word));
+    return file.write(std::as_bytes(std::span(values)));
+}
+
+Result<void> writeIndices(AtomicFile& file, const LabelSurface& surface) {
+    if (!isShort(surface)) return file.write(std::as_bytes(std::span(surface.triangles)));
+    std::vector<std::uint16_t> indices;
+    indices.reserve(surface.triangles.size() * 3 + 1);
+    for (const auto& triangle : surface.triangles)
+        for (const std::uint32_t vertex : triangle) indices.push_back(static_cast<std::uint16_t>(vertex));
+    if (indices.size() % 2 != 0) indices.push_back(0);
+    return file.write(std::as_bytes(std::span(indices)));
+}
+
+// Positions of all surfaces.
+Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volume,
+                                             std::span<const LabelSurface> surfaces, const GlbOptions& options) {
+    const volume::SemanticVolume& source = options.planesOf != nullptr ? *options.planesOf : volume;
+    const std::vector<std::uint32_t> labelOfScalar = source.labels.labelOfScalar();
+    volume::BrickVolume bricks;
+    std::optional<SlopeVertices> slopes;
+    if (options.faces == GlbFaces::Planes) {
+        auto made =
+            volume::BrickVolume::fromColumns(source.columns, {.planes = source.planes, .threads = options.threads});
+        if (!made) return made.error();
+        bricks = std::move(*made);
+        slopes.emplace(bricks, labelOfScalar);
+    }
+    std::vector<Positions> positions(surfaces.size());
+    parallelFor(surfaces.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            positions[m] = positionsOf(surfaces[m], volume.grid.spacing(), slopes ? &*slopes : nullptr);
+    });
+    return positions;
+}
+
+Result<void> checkDimension(Vec3i expected, Vec3i found) {
+    if (expected == found) return {};
+    return Error(Code::BadArgument, fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}",
+                                                expected.x, expected.y, expected.z, found.x, found.y, found.z));
+}
+
+}  // namespace
+
+Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                           const GlbOptions& options) {
+    for (const volume::SemanticVolume* v : {&volume, options.planesOf})
+        if (v != nullptr)
+            if (auto checked = checkDimension(volume.grid.dimension(), v->columns.dimension()); !checked)
+                return checked.error();
+    const auto surfaces = labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
+                                        {options.maxTriangles, options.threads, options.progress});
+    if (!surfaces) return surfaces.error();
+    if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
+
+    const auto positions = placeVertices(volume, *surfaces, options);
+    if (!positions) return positions.error();
+
+    GlbReport report;
+    std::uint64_t positionBytes = 0, binBytes = 0;
+    for (const LabelSurface& surface : *surfaces) {
+        positionBytes += surface.vertices.size() * sizeof(Vec3f);
+        binBytes += indexBytes(surface);
+        report.triangles += surface.triangles.size();
+        report.vertices += surface.vertices.size();
+    }
+    binBytes += positionBytes;
+    report.meshes = surfaces->size();
+    const std::string text = sceneText(volume, *surfaces, *positions, positionBytes, binBytes);
+    const std::uint64_t length = 12 + 8 + text.size() + 8 + binBytes;
+    if (length > 0xFFFFFFFFu)
+        return Error(
+            Code::GridTooLarge,
+            fmt::format("the .glb would have {} bytes, but none can have more than {}; use a coarser volume or "
+                        "fewer features",
+                        length, 0xFFFFFFFFu));
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    auto done = writeWords(*file, {kMagic, 2, length, text.size(), kJsonChunk});
+    if (done) done = file->write(text);
+    if (done) done = writeWords(*file, {binBytes, kBinChunk});
+    for (std::size_t m = 0; done && m < surfaces->size(); ++m)
+        done = file->write(std::as_bytes(std::span((*positions)[m])));
+    for (std::size_t m = 0; done && m < surfaces->size(); ++m) done = writeIndices(*file, (*surfaces)[m]);
+    if (!done) return done.error();
+    const auto bytes = file->commit();
+    if (!bytes) return bytes.error();
+    report.bytes = *bytes;
+    return report;
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,140 @@
+#include <svt/writers/gltf/slope_vertices.hpp>
+
+#include <svt/volume/label_table.hpp>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+namespace svt::writers {
+namespace {
+
+using volume::BrickPlane;
+using volume::BrickVolume;
+using volume::kNoLabel;
+
+constexpr std::size_t kMostPlanes = 2;
+constexpr double kFarthest = 1;  // voxels
+
+bool isInside(Vec3i voxel, Vec3i dimension) {
+    return voxel.x >= 0 && voxel.y >= 0 && voxel.z >= 0 && voxel.x < dimension.x && voxel.y < dimension.y &&
+           voxel.z < dimension.z;
+}
+
+// On which sides of a code's cuts and planes a voxel lies; see BrickVolume::BoxCoding::cells.
+struct Sides {
+    std::uint32_t cell = 0;
+    std::uint32_t cutBits = 0;  // how many of the bits are cuts'
+};
+
+Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec3i voxel) {
+    Sides sides;
+    for (int axis = 0; axis < 3; ++axis)
+        if (code.hasCut(axis)) {
+            const bool isBeyond = voxel[axis] >= code.cut[static_cast<std::size_t>(axis)];
+            sides.cell |= (isBeyond ? 1u : 0u) << sides.cutBits++;
+        }
+    std::uint32_t bit = sides.cutBits;
+    for (const std::uint32_t number : code.plane) {
+        if (number == BrickVolume::kNoPlane) continue;
+        const BrickPlane& plane = bricks.oblique()[number];
+        const Vec3d center{voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5};
+        sides.cell |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
+    }
+    return sides;
+}
+
+// The smallest step, along free axes alone, from `point` onto all planes; nothing where they do not meet nearby.
+std::optional<Vec3d> stepOnto(std::span<const BrickPlane> planes, Vec3d point, std::uint32_t fixedAxes) {
+    std::array<Vec3d, kMostPlanes> normal;
+    std::array<double, kMostPlanes> distance{};
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+        normal[p] = planes[p].normal;
+        distance[p] = dot(planes[p].normal, point) + planes[p].offset;
+        for (int axis = 0; axis < 3; ++axis)
+            if (((fixedAxes >> axis) & 1u) != 0) normal[p][axis] = 0;
+    }
+    Vec3d step{};
+    const double aa = dot(normal[0], normal[0]);
+    if (planes.size() == 1) {
+        if (aa < 1e-6) return std::nullopt;
+        step = normal[0] * (-distance[0] / aa);
+    } else {
+        const double ab = dot(normal[0], normal[1]), bb = dot(normal[1], normal[1]), determinant = aa * bb - ab * ab;
+        if (determinant < 1e-3 * aa * bb || determinant < 1e-9) return std::nullopt;
+        step = normal[0] * ((ab * distance[1] - bb * distance[0]) / determinant) +
+               normal[1] * ((ab * distance[0] - aa * distance[1]) / determinant);
+    }
+    if (!(length(step) <= kFarthest)) return std::nullopt;
+    return step;
+}
+
+}  // namespace
+
+std::uint32_t SlopeVertices::separatingPlane(Vec3i a, Vec3i b) const {
+    const volume::Scalar scalarA = bricks_.scalarAt(a.x, a.y, a.z), scalarB = bricks_.scalarAt(b.x, b.y, b.z);
+    const Vec3i brick{a.x >> 3, a.y >> 3, a.z >> 3};
+    // The brick itself, then those around it.
+    for (std::int32_t n = -1; n < 27; ++n) {
+        const Vec3i at = n < 0 ? brick : brick + Vec3i{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+        if (!isInside(at, bricks_.brickCount())) continue;
+        const BrickVolume::Entry entry = bricks_.entry(at.x, at.y, at.z);
+        if (!entry.isCoded()) continue;
+        const BrickVolume::BoxCoding& code = bricks_.coding(entry);
+        const Sides sidesA = sidesOf(bricks_, code, a), sidesB = sidesOf(bricks_, code, b);
+        const std::uint32_t differing = sidesA.cell ^ sidesB.cell;
+        if (std::popcount(differing) != 1 || (differing >> sidesA.cutBits) == 0) continue;
+        if (bricks_.cellScalar(code, sidesA.cell) != scalarA || bricks_.cellScalar(code, sidesB.cell) != scalarB)
+            continue;
+        std::uint32_t bit = sidesA.cutBits;
+        for (const std::uint32_t number : code.plane)
+            if (number != BrickVolume::kNoPlane && differing == 1u << bit++) return number;
+    }
+    return BrickVolume::kNoPlane;
+}
+
+Vec3d SlopeVertices::place(Vec3i corner) const {
+    const Vec3d stays{double(corner.x), double(corner.y), double(corner.z)};
+    const auto voxelAt = [&](unsigned number) {
+        return corner - Vec3i{1, 1, 1} +
+               Vec3i{static_cast<std::int32_t>(number & 1), static_cast<std::int32_t>(number >> 1 & 1),
+                     static_cast<std::int32_t>(number >> 2)};
+    };
+    std::array<std::uint32_t, 8> label{};
+    for (unsigned v = 0; v < 8; ++v) {
+        const Vec3i voxel = voxelAt(v);
+        label[v] = kNoLabel;
+        if (!isInside(voxel, bricks_.dimension())) continue;
+        const volume::Scalar scalar = bricks_.scalarAt(voxel.x, voxel.y, voxel.z);
+        if (scalar < labelOfScalar_.size()) label[v] = labelOfScalar_[scalar];
+    }
+    if (bricks_.oblique().empty()) return stays;
+    std::array<BrickPlane, kMostPlanes> planes;
+    std::size_t count = 0;
+    std::uint32_t fixedAxes = 0;
+    for (unsigned axis = 0; axis < 3; ++axis)
+        for (unsigned v = 0; v < 8; ++v) {
+            if ((v >> axis & 1) != 0 || label[v] == label[v | 1u << axis]) continue;
+            const Vec3i a = voxelAt(v), b = voxelAt(v | 1u << axis);
+            const bool areInside = isInside(a, bricks_.dimension()) && isInside(b, bricks_.dimension());
+            const std::uint32_t number = areInside ? separatingPlane(a, b) : BrickVolume::kNoPlane;
+            if (number == BrickVolume::kNoPlane) {
+                fixedAxes |= 1u << axis;
+                continue;
+            }
+            // Bricks side by side often have the same plane, but each as a plane of its own.
+            const BrickPlane& plane = bricks_.oblique()[number];
+            bool isKnown = false;
+            for (std::size_t p = 0; p < count; ++p)
+                isKnown = isKnown || std::abs(dot(planes[p].normal, plane.normal)) > 0.99;
+            if (isKnown) continue;
+            if (count == kMostPlanes) return stays;
+            planes[count++] = plane;
+        }
+    if (count == 0) return stays;
+    const auto step = stepOnto(std::span(planes).first(count), stays, fixedAxes);
+    return step ? stays + *step : stays;
+}
+
+}  // namespace svt::writers

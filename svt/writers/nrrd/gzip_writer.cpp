@@ -1,0 +1,102 @@
+#include <svt/core/check.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/writers/nrrd/gzip_writer.hpp>
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+namespace svt::writers {
+namespace {
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+constexpr std::size_t kPiecesAtOnce = 16;
+constexpr int kLevel = 5;
+/// What Z_SYNC_FLUSH adds at most, beyond deflateBound().
+constexpr std::size_t kFlushBytes = 64;
+
+struct Piece {
+    std::vector<std::byte> compressed;
+    std::uint32_t crc = 0;
+};
+
+/// Raw deflate blocks that end at a byte boundary, so that pieces can be joined.
+Piece compressPiece(std::span<const std::byte> bytes) {
+    z_stream stream{};
+    if (deflateInit2(&stream, kLevel, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
+    Piece piece;
+    piece.compressed.resize(deflateBound(&stream, static_cast<uLong>(bytes.size())) + kFlushBytes);
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
+    stream.avail_in = static_cast<uInt>(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(piece.compressed.data());
+    stream.avail_out = static_cast<uInt>(piece.compressed.size());
+    const int done = deflate(&stream, Z_SYNC_FLUSH);
+    SVT_CHECK(done == Z_OK && stream.avail_in == 0 && stream.avail_out > 0);
+    piece.compressed.resize(piece.compressed.size() - stream.avail_out);
+    deflateEnd(&stream);
+    piece.crc = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    return piece;
+}
+
+std::array<std::byte, 4> littleEndian(std::uint32_t value) noexcept {
+    return {std::byte(value & 0xFF), std::byte(value >> 8 & 0xFF), std::byte(value >> 16 & 0xFF),
+            std::byte(value >> 24)};
+}
+
+}  // namespace
+
+Result<void> GzipWriter::compress(std::span<const std::byte> bytes) {
+    if (!isBegun_) {
+        // Deflate, no name, no time (equal input gives equal bytes), unknown system.
+        constexpr std::array<unsigned char, 10> kHeader{0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF};
+        if (auto written = file_.write(std::as_bytes(std::span(kHeader))); !written) return written;
+        isBegun_ = true;
+    }
+    const auto pieceAt = [&](std::size_t p) {
+        return bytes.subspan(p * kPieceBytes, std::min(kPieceBytes, bytes.size() - p * kPieceBytes));
+    };
+    const std::size_t count = (bytes.size() + kPieceBytes - 1) / kPieceBytes;
+    for (std::size_t first = 0; first < count; first += kPiecesAtOnce) {
+        std::vector<Piece> pieces(std::min(kPiecesAtOnce, count - first));
+        parallelFor(pieces.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t p = begin; p < end; ++p) pieces[p] = compressPiece(pieceAt(first + p));
+        });
+        for (std::size_t p = 0; p < pieces.size(); ++p) {
+            const std::size_t size = pieceAt(first + p).size();
+            crc_ = static_cast<std::uint32_t>(crc32_combine(crc_, pieces[p].crc, static_cast<z_off_t>(size)));
+            size_ += size;
+            if (auto written = file_.write(pieces[p].compressed); !written) return written;
+        }
+    }
+    return {};
+}
+
+Result<void> GzipWriter::write(std::span<const std::byte> bytes) {
+    if (!pending_.empty()) {
+        const std::size_t taken = std::min(bytes.size(), kPieceBytes - pending_.size());
+        pending_.insert(pending_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(taken));
+        bytes = bytes.subspan(taken);
+        if (pending_.size() < kPieceBytes) return {};
+        if (auto done = compress(pending_); !done) return done;
+        pending_.clear();
+    }
+    const std::size_t whole = bytes.size() / kPieceBytes * kPieceBytes;
+    if (whole > 0)
+        if (auto done = compress(bytes.first(whole)); !done) return done;
+    const auto rest = bytes.subspan(whole);
+    pending_.assign(rest.begin(), rest.end());
+    return {};
+}
+
+Result<void> GzipWriter::finish() {
+    if (auto done = compress(pending_); !done) return done;
+    // An empty last block in the fixed code: the bits 1, 01, 0000000.
+    constexpr std::array<unsigned char, 2> kLastBlock{0x03, 0x00};
+    if (auto written = file_.write(std::as_bytes(std::span(kLastBlock))); !written) return written;
+    if (auto written = file_.write(littleEndian(crc_)); !written) return written;
+    return file_.write(littleEndian(static_cast<std::uint32_t>(size_)));
+}
+
+}  // namespace svt::writers
