@@ -1,3 +1,4 @@
+#include <svt/core/simd_targets.hpp>
 #include <svt/render/light/line_kernel.hpp>
 
 // This file is compiled once for each set of instructions.

@@ -1,13 +1,6 @@
+#pragma once
 /// \file
 /// The light of the labels that rays go through, many rays at once: RunShader of the plain caster. Internal to render.
-
-// Highway includes this once for each set of instructions.
-#if defined(SVT_RENDER_PACKET_SHADER_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef SVT_RENDER_PACKET_SHADER_INL_HPP
-#undef SVT_RENDER_PACKET_SHADER_INL_HPP
-#else
-#define SVT_RENDER_PACKET_SHADER_INL_HPP
-#endif
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
@@ -41,7 +34,7 @@ class Shader {
 public:
     HWY_INLINE Shader(const PacketPass& pass, const PacketRays& rays, const RayVectors& vectors, std::size_t first,
                       void* context, PacketSamples& samples)
-        : frame_(pass),
+        : pass_(pass),
           rays_(rays),
           vectors_(vectors),
           styles_(pass),
@@ -135,7 +128,7 @@ private:
         const V opacity = hn::Sub(one, transmittance_);
         const V depth = hn::Load(d, samples_.depth.data() + first_);
         const M isHit =
-            hn::And(hn::And(lanes, hn::Eq(depth, hn::Set(d, kInfinity))), hn::Gt(opacity, hn::Set(d, frame_.labelAt)));
+            hn::And(hn::And(lanes, hn::Eq(depth, hn::Set(d, kInfinity))), hn::Gt(opacity, hn::Set(d, pass_.labelAt)));
         if (any(isHit)) {
             const auto keep = [&](V value, Lanes<double>& lanesOf) {
                 store(hn::IfThenElse(isHit, value, hn::Load(d, lanesOf.data() + first_)), lanesOf, first_);
@@ -165,8 +158,8 @@ private:
         const V density = number<offsetof(PacketStyle, density)>(looks);
         const V stopped = hn::Sub(one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
         add(lanes, hn::Mul(transmittance_, stopped), kWithFragments ? labelStart_ : runStart_, looks);
-        if (frame_.withColor) {
-            markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, frame_.opaqueAt))));
+        if (pass_.withColor) {
+            markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, pass_.opaqueAt))));
         } else {
             const V depth = hn::Load(d, samples_.depth.data() + first_);
             markDone(hn::And(lanes, hn::Lt(depth, hn::Set(d, kInfinity))));
@@ -194,7 +187,7 @@ private:
             store(lines_, samples_.lines, first_);
             hn::Store(hn::IfThenElseZero(toInts(open), hn::Set(di, 1)), di, wanted);
             for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
-                if (wanted[lane] != 0) frame_.fragment(context_, first_ + lane);
+                if (wanted[lane] != 0) pass_.fragment(context_, first_ + lane);
             color_ = loadV3(samples_.color, first_);
             transmittance_ = hn::Load(d, samples_.transmittance.data() + first_);
             lines_ = hn::Load(d, samples_.lines.data() + first_);
@@ -215,7 +208,7 @@ private:
         const M isNew = hn::And(visible, toDoubles(hn::Ne(object, object_)));
         object_ = hn::IfThenElse(toInts(lanes), hn::IfThenElse(toInts(visible), object, hn::Set(di, -1)), object_);
         const M opaque = hn::And(visible, toDoubles(isSet(kind, PacketKind::kOpaque)));
-        if (frame_.withColor && any(isNew))
+        if (pass_.withColor && any(isNew))
             findSurfaces(isNew, opaque, toDoubles(isSet(kind, PacketKind::kBody)), scalar, isVoxel);
         isRunTranslucent_ = hn::Or(andNot(lanes, isRunTranslucent_), andNot(opaque, visible));
         isOpaque_ = hn::Or(isOpaque_, opaque);
@@ -233,17 +226,17 @@ private:
     HWY_INLINE V openness() const {
         const D d;
         const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
-        if (frame_.ambientOcclusion == 0) return one;
+        if (pass_.ambientOcclusion == 0) return one;
         const V3 point{hn::Add(vectors_.x.origin, hn::Mul(vectors_.x.direction, runStart_)),
                        hn::Add(vectors_.y.origin, hn::Mul(vectors_.y.direction, runStart_)),
                        hn::Add(vectors_.z.origin, hn::Mul(vectors_.z.direction, runStart_))};
         V occlusion = zero;
-        for (const PacketOcclusion& level : frame_.occlusion)
+        for (const PacketOcclusion& level : pass_.occlusion)
             occlusion = hn::Add(
                 occlusion,
                 hn::Mul(hn::Set(d, level.weight), hn::Min(one, hn::Mul(sample(level, point), hn::Set(d, level.gain)))));
         occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, 0.35), crease_)));
-        const V open = hn::Sub(one, hn::Mul(hn::Set(d, frame_.ambientOcclusion), occlusion));
+        const V open = hn::Sub(one, hn::Mul(hn::Set(d, pass_.ambientOcclusion), occlusion));
         return hn::IfThenElse(isAroundEye_, one, open);
     }
 
@@ -281,12 +274,12 @@ private:
         const D d;
         const V zero = hn::Zero(d);
         const V3 view = loadV3(rays_.view, first_);
-        const V key = hn::Max(zero, dot(normal_, broadcast(frame_.towardsLight)));
+        const V key = hn::Max(zero, dot(normal_, broadcast(pass_.towardsLight)));
         const V facing = hn::Max(zero, dot(normal_, view));
         const V sky = hn::Add(hn::Set(d, 0.80), hn::Mul(hn::Set(d, 0.20), normal_.z));
-        const V ambient = hn::Mul(hn::Mul(hn::Set(d, frame_.ambient), open),
+        const V ambient = hn::Mul(hn::Mul(hn::Set(d, pass_.ambient), open),
                                   hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
-        return hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, frame_.key), key),
+        return hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, pass_.key), key),
                                         hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
     }
 
@@ -326,7 +319,7 @@ private:
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {
-            const auto* planes = reinterpret_cast<const double*>(frame_.volume.oblique.data());
+            const auto* planes = reinterpret_cast<const double*>(pass_.volume.oblique.data());
             V3 normal;  // voxel space
             std::int64_t first = 0;
             if (isSame(crossed_, onPlane, first)) {
@@ -347,13 +340,13 @@ private:
         V3 normal, away;
         std::int64_t first = 0;
         if (isSame(face, lanes, first)) {
-            const PacketFace& same = frame_.faces[first];
+            const PacketFace& same = pass_.faces[first];
             normal = broadcast({same.normal[0], same.normal[1], same.normal[2]});
             away = broadcast({same.away[0], same.away[1], same.away[2]});
         } else {
             static_assert(sizeof(PacketFace) == 64);
             const VI place = hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), face));
-            const auto* numbers = reinterpret_cast<const double*>(frame_.faces);
+            const auto* numbers = reinterpret_cast<const double*>(pass_.faces);
             const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(numbers + n, place)); };
             normal = {part(0), part(1), part(2)};
             away = {part(3), part(4), part(5)};
@@ -378,12 +371,12 @@ private:
     }
     HWY_INLINE VI entryAt(const V3& brick, M lanes) const {
         const D d;
-        const V place = hn::Add(brick.x, hn::Mul(hn::Set(d, frame_.bricksX),
-                                                 hn::Add(brick.y, hn::Mul(hn::Set(d, frame_.bricksY), brick.z))));
+        const V place = hn::Add(
+            brick.x, hn::Mul(hn::Set(d, pass_.bricksX), hn::Add(brick.y, hn::Mul(hn::Set(d, pass_.bricksY), brick.z))));
         const VI brick64 = toInt(hn::IfThenElseZero(lanes, place));
-        if (frame_.volume.narrow.empty())
-            return lowHalf(gatherBytes(frame_.volume.wide.data(), hn::ShiftLeft<2>(brick64)));
-        return bitsOf<0, 16>(gatherBytes(frame_.volume.narrow.data(), hn::ShiftLeft<1>(brick64)));
+        if (pass_.volume.narrow.empty())
+            return lowHalf(gatherBytes(pass_.volume.wide.data(), hn::ShiftLeft<2>(brick64)));
+        return bitsOf<0, 16>(gatherBytes(pass_.volume.narrow.data(), hn::ShiftLeft<1>(brick64)));
     }
 
     // The numbers of the planes of each lane's brick; kNoPlane where there is none.
@@ -394,16 +387,16 @@ private:
         const DI di;
         const VI none = hn::Set(di, std::int64_t{volume::BrickVolume::kNoPlane});
         const VI entry = entryAt(brick, lanes);
-        const M isBox = hn::And(lanes, isBelow(entry, frame_.volume.boxes.size()));
-        const M coded = andNot(isBelow(entry, frame_.volume.uniformBoxes), isBox);
+        const M isBox = hn::And(lanes, isBelow(entry, pass_.volume.boxes.size()));
+        const M coded = andNot(isBelow(entry, pass_.volume.uniformBoxes), isBox);
         if (!any(coded)) return {none, none, none};
         const VI box = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<4>(entry));
         const VI code = hn::IfThenElseZero(
             toInts(coded),
-            shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(frame_.volume.boxes.data()) + 8, box)));
+            shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(pass_.volume.boxes.data()) + 8, box)));
         const VI place = hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code));
         static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMostPlanes == 3);
-        const auto* codes = reinterpret_cast<const std::byte*>(frame_.volume.codes.data());
+        const auto* codes = reinterpret_cast<const std::byte*>(pass_.volume.codes.data());
         const VI both = gatherBytes(codes + 8, place), rest = gatherBytes(codes + 16, place);
         const auto known = [&](VI planes) { return hn::IfThenElse(toInts(coded), planes, none); };
         return {known(lowHalf(both)), known(shiftRight<32>(both)), known(lowHalf(rest))};
@@ -424,7 +417,7 @@ private:
             const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
             const auto number = [&](int n) {
                 return hn::BitCast(
-                    d, gatherBytes(reinterpret_cast<const double*>(frame_.volume.oblique.data()) + n, offset));
+                    d, gatherBytes(reinterpret_cast<const double*>(pass_.volume.oblique.data()) + n, offset));
             };
             const V3 normal{number(0), number(1), number(2)};
             const V distance = hn::Add(dot(normal, point), number(3));
@@ -482,8 +475,8 @@ private:
             if (wanted[lane] == 0) continue;
             const Vec3i at{static_cast<std::int32_t>(cell[0][lane]), static_cast<std::int32_t>(cell[1][lane]),
                            static_cast<std::int32_t>(cell[2][lane])};
-            const Surface found = frame_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
-                                                            static_cast<int>(axis[lane]), voxel[lane] != 0});
+            const Surface found = pass_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
+                                                           static_cast<int>(axis[lane]), voxel[lane] != 0});
             light[lane] = found.light;
             crease[lane] = found.crease;
             for (int a = 0; a < 3; ++a) {
@@ -504,7 +497,7 @@ private:
         isAroundEye_ = hn::Or(isAroundEye_, toDoubles(hn::Ne(hn::Load(di, eye), hn::Zero(di))));
     }
 
-    const PacketPass& frame_;
+    const PacketPass& pass_;
     const PacketRays& rays_;
     const RayVectors& vectors_;
     Styles styles_;
@@ -526,5 +519,3 @@ private:
 }  // namespace
 }  // namespace svt::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif

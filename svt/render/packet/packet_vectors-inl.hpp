@@ -1,14 +1,7 @@
+#pragma once
 /// \file
 /// Rays of a packet as vectors, what reads tables by lane, and the rows in which a walk hands its changes of label to
 /// the shader. Internal to render.
-
-// Highway includes this once for each set of instructions.
-#if defined(SVT_RENDER_PACKET_VECTORS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef SVT_RENDER_PACKET_VECTORS_INL_HPP
-#undef SVT_RENDER_PACKET_VECTORS_INL_HPP
-#else
-#define SVT_RENDER_PACKET_VECTORS_INL_HPP
-#endif
 
 #include <svt/render/packet/packet_kernel.hpp>
 
@@ -273,5 +266,3 @@ private:
 }  // namespace
 }  // namespace svt::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,13 +1,6 @@
+#pragma once
 /// \file
 /// The way of rays through a volume, many rays at once: walkRuns() of the plain caster. Internal to render.
-
-// Highway includes this once for each set of instructions.
-#if defined(SVT_RENDER_PACKET_WALK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef SVT_RENDER_PACKET_WALK_INL_HPP
-#undef SVT_RENDER_PACKET_WALK_INL_HPP
-#else
-#define SVT_RENDER_PACKET_WALK_INL_HPP
-#endif
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
@@ -27,7 +20,7 @@ class Walk {
 public:
     HWY_INLINE Walk(const PacketPass& pass, const PacketRays& rays, const RayVectors& vectors, std::size_t first,
                     ChangeRows& changes)
-        : frame_(pass), rays_(rays), vectors_(vectors), styles_(pass), first_(first), changes_(changes) {}
+        : pass_(pass), rays_(rays), vectors_(vectors), styles_(pass), first_(first), changes_(changes) {}
 
     // Starts on [from, to); not where a ray has ended before.
     HWY_INLINE void begin(const Lanes<double>& from, const Lanes<double>& to, const Lanes<std::int64_t>& isDone) {
@@ -58,7 +51,7 @@ public:
             const bool isBeside = (std::abs(aside) <= rays_.slack[ray]) & (along != 0);
             const std::int64_t decided = plane - std::int64_t{(time <= t) == (along < 0)};
             const std::int64_t at = isBeside ? decided : inner;
-            const auto last = static_cast<std::int64_t>(frame_.count[axis]) - 1;
+            const auto last = static_cast<std::int64_t>(pass_.count[axis]) - 1;
             cell[static_cast<int>(axis)] = static_cast<std::int32_t>(std::clamp<std::int64_t>(at, 0, last));
         }
         return cell;
@@ -112,10 +105,10 @@ public:
         for (const std::uint32_t number : code.plane) {
             if (number == volume::BrickVolume::kNoPlane) continue;
             Side& side = sides[count++];
-            findCrossing(frame_.volume.oblique[number], side.time, side.isBeyondAfter);
+            findCrossing(pass_.volume.oblique[number], side.time, side.isBeyondAfter);
             side.plane = number;
         }
-        const volume::Scalar* scalars = frame_.volume.palettes.data() + code.cells;
+        const volume::Scalar* scalars = pass_.volume.palettes.data() + code.cells;
         switch (count) {
             case 1: return crossSides<1>(inside, sides, scalars);
             case 2: return crossSides<2>(inside, sides, scalars);
@@ -132,8 +125,8 @@ public:
         const D d;
         const DI di;
         const V one = hn::Set(d, 1.0);
-        const std::uint64_t* words = frame_.volume.words.data() + brick.planes;
-        const volume::Scalar* scalars = frame_.volume.palettes.data() + brick.palette;
+        const std::uint64_t* words = pass_.volume.words.data() + brick.planes;
+        const volume::Scalar* scalars = pass_.volume.palettes.data() + brick.palette;
         M lanes = inside.lanes;
         const V3 cell = vectors_.cells(t_);
         const auto local = [&](V at, int axis) {
@@ -250,7 +243,7 @@ private:
         if (!any(changed)) return lanes;
         runScalar_ = hn::IfThenElse(toInts(changed), scalar, runScalar_);
         changes_.add(changed, t_, scalar, crossed_, isVoxel);
-        if (frame_.hasOpaque) {
+        if (pass_.hasOpaque) {
             const VI kind = styles_.integer<offsetof(PacketStyle, kind)>(styles_.looksOf(scalar, changed));
             const M ending = hn::And(changed, toDoubles(isSet(kind, PacketKind::kOpaque)));
             end(ending);
@@ -259,7 +252,7 @@ private:
         return lanes;
     }
 
-    const PacketPass& frame_;
+    const PacketPass& pass_;
     const PacketRays& rays_;
     const RayVectors& vectors_;
     Styles styles_;
@@ -272,5 +265,3 @@ private:
 }  // namespace
 }  // namespace svt::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#endif

@@ -1,3 +1,4 @@
+#include <svt/core/simd_targets.hpp>
 #include <svt/voxelize/lattice/edge_columns.hpp>
 
 // This file is compiled once for each set of instructions.

@@ -1,0 +1,52 @@
+#include <svt/core/option.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace svt {
+
+std::vector<std::string_view> splitChoices(std::string_view choices) {
+    std::vector<std::string_view> parts;
+    while (!choices.empty()) {
+        const std::size_t end = std::min(choices.find('|'), choices.size());
+        parts.push_back(choices.substr(0, end));
+        choices.remove_prefix(std::min(end + 1, choices.size()));
+    }
+    return parts;
+}
+
+std::string_view longName(const Option& option) noexcept {
+    const std::size_t comma = option.name.find(',');
+    return comma == std::string_view::npos ? option.name : option.name.substr(comma + 1);
+}
+
+std::string rangeText(const Option& option) {
+    const bool hasLeast = std::isfinite(option.least), hasMost = std::isfinite(option.most);
+    if (hasLeast && hasMost) return fmt::format("{} to {}", option.least, option.most);
+    if (hasLeast) return fmt::format("at least {}", option.least);
+    return hasMost ? fmt::format("at most {}", option.most) : std::string();
+}
+
+std::string faultOf(const Option& option, std::string_view text) {
+    if (!option.choices.empty()) {
+        const auto choices = splitChoices(option.choices);
+        if (std::ranges::find(choices, text) == choices.end())
+            return fmt::format("'{}' is not possible; possible are {}", text, fmt::join(choices, ", "));
+        return {};
+    }
+    if (option.kind != OptionKind::Whole && option.kind != OptionKind::Number) return {};
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+        return fmt::format("'{}' is no number", text);
+    if (option.kind == OptionKind::Whole && number != std::floor(number))
+        return fmt::format("'{}' is no whole number", text);
+    if (number < option.least || number > option.most)
+        return fmt::format("{} is out of range; possible is {}", text, rangeText(option));
+    return {};
+}
+
+}  // namespace svt

@@ -1,0 +1,201 @@
+#include <svt/illustrate/scene_members.hpp>
+
+#include <svt/core/check.hpp>
+
+#include <algorithm>
+
+namespace svt::illustrate {
+namespace {
+
+using enum OptionKind;
+
+constexpr std::string_view kColor = "#rrggbb, #rgb or a colour name";
+constexpr std::string_view kHatches =
+    "none|masonry|concrete|reinforced-concrete|timber|insulation|earth|steel|glass|general";
+
+constexpr Option kMembers[] = {
+    {.name = "/format", .choices = "svt-scene", .help = "says that this is a scene"},
+    {.name = "/version", .kind = Whole, .least = 1, .most = 1, .help = "of the format"},
+    {.name = "/size",
+     .kind = Whole,
+     .unit = "pixels",
+     .least = 1,
+     .most = 16384,
+     .byDefault = "1280,720",
+     .help = "width and height",
+     .count = 2,
+     .leastCount = 2},
+    {.name = "/samples", .kind = Whole, .choices = "1|4|9|16", .byDefault = "4", .help = "rays per pixel"},
+    {.name = "/look",
+     .choices = "plain|paper|blueprint|dark",
+     .byDefault = "plain",
+     .help =
+         "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)"},
+    {.name = "/camera", .kind = Object, .help = "where the picture is taken from"},
+    {.name = "/camera/preset",
+     .choices = "iso|iso-se|iso-sw|iso-ne|iso-nw|front|back|left|right|top|bottom",
+     .byDefault = "iso",
+     .help = "a named view"},
+    {.name = "/camera/around", .value = "QUERY", .help = "the view shows what the query selects, as large as it fits"},
+    {.name = "/camera/parallel", .kind = Flag, .byDefault = "false", .help = "parallel projection"},
+    {.name = "/camera/fieldOfView",
+     .kind = Number,
+     .unit = "degrees",
+     .least = 0.001,
+     .most = 179.999,
+     .byDefault = "30",
+     .help = "vertical field of view"},
+    {.name = "/camera/zoom",
+     .kind = Number,
+     .least = 0.01,
+     .most = 100,
+     .byDefault = "1",
+     .help = "nearer (above 1) or further than the preset"},
+    {.name = "/camera/eye",
+     .kind = Number,
+     .unit = "metres",
+     .least = -1e9,
+     .most = 1e9,
+     .help = "where the viewer stands, from the lower corner of the grid, in world axes",
+     .count = 3,
+     .leastCount = 3},
+    {.name = "/camera/target",
+     .kind = Number,
+     .unit = "metres",
+     .least = -1e9,
+     .most = 1e9,
+     .help = "what stands in the middle of the picture, from the lower corner of the grid, in world axes",
+     .count = 3,
+     .leastCount = 3},
+    {.name = "/background", .value = "COLOR", .otherwise = "by look", .help = kColor},
+    {.name = "/transparent", .kind = Flag, .byDefault = "false", .help = "leave the background transparent"},
+    {.name = "/lines", .kind = Object, .help = "between objects, and where the depth jumps"},
+    {.name = "/lines/strength",
+     .kind = Number,
+     .least = 0,
+     .most = 1,
+     .otherwise = "by look",
+     .help = "strength of lines between objects"},
+    {.name = "/lines/width",
+     .kind = Number,
+     .unit = "pixels",
+     .least = 0,
+     .most = 16,
+     .otherwise = "by look",
+     .help = "width of lines between objects"},
+    {.name = "/lines/cutWidth",
+     .kind = Number,
+     .unit = "pixels",
+     .least = 0,
+     .most = 16,
+     .otherwise = "by look",
+     .help = "width of lines around what is cut"},
+    {.name = "/lines/color", .value = "COLOR", .otherwise = "by look", .help = kColor},
+    {.name = "/hatches", .kind = Object, .help = "of what is cut"},
+    {.name = "/hatches/show",
+     .kind = Flag,
+     .otherwise = "paper and blueprint do so",
+     .help = "hatch what is cut, by material or class"},
+    {.name = "/hatches/spacing",
+     .kind = Number,
+     .unit = "metres",
+     .least = 0.0001,
+     .most = 10000,
+     .otherwise = "about 10 pixels",
+     .help = "distance of hatch lines"},
+    {.name = "/ambientOcclusion",
+     .kind = Number,
+     .least = 0,
+     .most = 1,
+     .byDefault = "0.6",
+     .help = "how much corners are darkened"},
+    {.name = "/names",
+     .value = "QUERY",
+     .help = "name the selected at the sides of the picture, with leader lines",
+     .mayRepeat = true},
+    {.name = "/passes", .kind = List, .least = 1, .most = 64, .help = "drawn one after the other"},
+    {.name = "/passes/*/show", .value = "QUERY", .help = "show only what the query selects", .mayRepeat = true},
+    {.name = "/passes/*/hide", .value = "QUERY", .help = "hide what the query selects", .mayRepeat = true},
+    {.name = "/passes/*/styles", .kind = List, .help = "what is given overrides the styles before it"},
+    {.name = "/passes/*/styles/*/select", .value = "QUERY", .help = "whose style", .isRequired = true},
+    {.name = "/passes/*/styles/*/ghost",
+     .kind = Flag,
+     .byDefault = "false",
+     .help = "coloured air where it was solid, gone where it was air"},
+    {.name = "/passes/*/styles/*/color", .value = "COLOR", .help = kColor},
+    {.name = "/passes/*/styles/*/opacity",
+     .kind = Number,
+     .least = 0,
+     .most = 1,
+     .help = "share of light stopped by 1 m; 1: solid, 0: hidden"},
+    {.name = "/passes/*/styles/*/hatch", .choices = kHatches, .help = "of what is cut"},
+    {.name = "/passes/*/cut", .value = "REGION", .help = "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'"},
+    {.name = "/passes/*/keep", .value = "REGION", .help = "draw nothing outside of a region, such as storey(EG)"},
+    {.name = "/passes/*/join",
+     .choices = "over|replace|depth",
+     .byDefault = "over",
+     .help = "over: in front of what is drawn already; replace: where anything is drawn, all before it is dropped; "
+             "depth: whichever is nearer in front"},
+    {.name = "/passes/*/shell",
+     .choices = "component|room|unit|storey|building",
+     .help = "draw only the hulls of components, rooms, units, storeys or the building"},
+    {.name = "/passes/*/level",
+     .kind = Whole,
+     .least = 0,
+     .most = 6,
+     .otherwise = "as fine as the pixels show",
+     .help = "level of detail, 0 is the finest"},
+    {.name = "/passes/*/lines",
+     .kind = List,
+     .help = "feature edges of the model's meshes, at their depth inside the volume"},
+    {.name = "/passes/*/lines/*/select",
+     .value = "QUERY",
+     .otherwise = "of all that is visible",
+     .help = "whose edges, visible or not"},
+    {.name = "/passes/*/lines/*/width",
+     .kind = Number,
+     .unit = "pixels",
+     .least = 0.1,
+     .most = 64,
+     .byDefault = "1",
+     .help = "width of the lines"},
+    {.name = "/passes/*/lines/*/color", .value = "COLOR", .otherwise = "by look", .help = kColor},
+    {.name = "/passes/*/lines/*/hidden",
+     .choices = "faint|dashed|none",
+     .byDefault = "faint",
+     .help = "lines behind something opaque"},
+    {.name = "/passes/*/meshes",
+     .value = "QUERY",
+     .help = "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along "
+             "each axis",
+     .mayRepeat = true},
+};
+
+// "/passes/0/level" matches "/passes/*/level".
+bool matches(std::string_view pattern, std::string_view pointer) noexcept {
+    while (!pattern.empty() && !pointer.empty()) {
+        if (pattern.front() == '*') {
+            if (pointer.front() == '*')
+                pointer.remove_prefix(1);
+            else
+                while (!pointer.empty() && pointer.front() >= '0' && pointer.front() <= '9') pointer.remove_prefix(1);
+        } else {
+            if (pattern.front() != pointer.front()) return false;
+            pointer.remove_prefix(1);
+        }
+        pattern.remove_prefix(1);
+    }
+    return pattern.empty() && pointer.empty();
+}
+
+}  // namespace
+
+std::span<const Option> sceneMembers() noexcept { return kMembers; }
+
+const Option& sceneMember(std::string_view pointer) {
+    const auto found = std::ranges::find_if(kMembers, [&](const Option& m) { return matches(m.name, pointer); });
+    SVT_CHECK(found != std::end(kMembers));
+    return *found;
+}
+
+}  // namespace svt::illustrate

@@ -1,0 +1,5 @@
+// The packet kernel for AVX2.
+#define SVT_KERNEL_TARGET HWY_AVX2
+#if defined(__x86_64__) || defined(_M_X64)
+#include <svt/render/packet/packet_kernel-inl.hpp>
+#endif

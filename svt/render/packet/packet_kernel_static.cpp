@@ -1,0 +1,3 @@
+// The packet kernel for what every machine of the architecture has.
+#define SVT_KERNEL_TARGET HWY_STATIC_TARGET
+#include <svt/render/packet/packet_kernel-inl.hpp>
