@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Numbers of things that are kept elsewhere, found by hash: the table under everything that shares equal parts.
+/// A hash table that finds the number (index) of an item by its hash. The items themselves stay with the caller, who
+/// compares them: used where equal parts are stored once (columns, rows, stacks of boundaries, profiles).
 
 #include <cstddef>
 #include <cstdint>
@@ -8,22 +9,22 @@
 
 namespace svt {
 
-/// Open addressing with linear probing; an entry holds the upper half of a hash and a number below 2^32 - 1. Keeps its
-/// memory when cleared.
+/// Open addressing with linear probing. An entry holds the upper 32 bits of the hash and a number below 2^32 - 1.
+/// clear() keeps the memory.
 class HashIndex {
 public:
-    /// \param size  entries at first, a power of two; the table doubles when it is half full
+    /// \param size  initial count of entries, a power of two; the table doubles when it is half full
     explicit HashIndex(std::size_t size = 256) : table_(size, 0) {}
 
-    /// Forgets all numbers. Cost: O(size of the table), nothing where there are none.
+    /// Removes all numbers. Cost: O(size of the table); O(1) when it is empty.
     void clear() {
         if (count_ == 0) return;
         table_.assign(table_.size(), 0);
         count_ = 0;
     }
 
-    /// The number under `hash` for which `isEqual(number)` holds, else that of `add()`, which is entered.
-    /// \param hash  its upper half should differ where things differ
+    /// The number stored under `hash` for which `isEqual(number)` holds; if there is none, stores and returns `add()`.
+    /// \param hash  only its upper 32 bits are used, so these should differ for different items
     template <class IsEqual, class Add>
     std::uint32_t findOrAdd(std::uint64_t hash, IsEqual&& isEqual, Add&& add) {
         const std::uint64_t upper = hash >> 32;

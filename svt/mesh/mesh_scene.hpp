@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Triangle meshes of all objects of a model, each with how it was closed. Made once from the
-/// semantic tree, independent of any grid.
+/// Triangle meshes of all objects of a model, each with the way it was closed. Built once from the semantic tree,
+/// independent of any grid.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
@@ -18,9 +18,8 @@ namespace svt::mesh {
 
 inline constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
 
-/// z = slopeX * x + slopeY * y + offset in local space. One plane stands for all triangles of the scene that
-/// lie on it, whichever object they belong to and however they were cut: two solids that share a face
-/// get the same heights from it, bit for bit.
+/// The plane z = slopeX * x + slopeY * y + offset in local space. It is shared by all coplanar triangles of the scene,
+/// in all objects and for any triangulation, so that two solids that share a face get the same heights, bit for bit.
 struct Plane {
     double slopeX = 0;
     double slopeY = 0;
@@ -28,32 +27,32 @@ struct Plane {
 };
 
 struct Triangle {
-    std::array<std::uint32_t, 3> corners{};  ///< into ObjectMesh::vertices; counter-clockwise from outside
-    std::uint32_t plane = kNoPlane;          ///< into MeshScene::planes; kNoPlane where (nearly) vertical
+    std::array<std::uint32_t, 3> corners{};  ///< indices in ObjectMesh::vertices; counter-clockwise from outside
+    std::uint32_t plane = kNoPlane;          ///< index in MeshScene::planes; kNoPlane if (nearly) vertical
     float thickness = 0;  ///< metres of the object's material behind the centre of this face; +inf: unknown or a sheet
 };
 
-/// How an object came to be a solid, or why it is none.
+/// How an object became a solid, or why it is none.
 enum class Closure : std::uint8_t {
     Closed,        ///< every edge is used equally often in both directions
-    TJunctions,    ///< the same once edges are cut at the points that lie on them
+    TJunctions,    ///< the same, after edges were split at points that lie on them
     Complemented,  ///< closed by faces of adjoining features
     Capped,        ///< closed by planar caps
-    Open,          ///< solid meaning, still open: to be filled by generalized winding number
+    Open,          ///< solid meaning, but still open: will be filled by generalized winding number
     Surface        ///< no solid meaning and not closed: a sheet
 };
 [[nodiscard]] std::string_view closureName(Closure closure) noexcept;
 
-/// A cap that closes a planar hole; the model's tree gets a ClosureSurface for it.
+/// A cap that closes a planar hole; a ClosureSurface is added to the tree of the model for it.
 struct Cap {
     double area = 0;          ///< m2
     Vec3d center{};           ///< local space
     std::vector<Vec3d> ring;  ///< local space
 };
 
-/// An edge without partner. Local space.
+/// An edge without a partner, in the direction of its triangle. Local space.
 struct OpenEdge {
-    std::uint32_t from = 0, to = 0;  ///< into ObjectMesh::vertices
+    std::uint32_t from = 0, to = 0;  ///< indices in ObjectMesh::vertices
 };
 
 /// Mesh of one feature. Local space: world minus MeshScene::origin, metres.
@@ -61,22 +60,22 @@ struct ObjectMesh {
     model::FeatureIndex feature = model::kNoFeature;
     double lod = -1;
     std::vector<Vec3d> vertices;
-    std::vector<Triangle> triangles;  ///< with caps and complements
+    std::vector<Triangle> triangles;  ///< including caps and complements
     Closure closure = Closure::Surface;
-    std::vector<OpenEdge> openEdges;  ///< what is open at the end (Closure::Open, Surface)
-    std::vector<Vec3d> leaks;  ///< points where the shell leaked as read (edge centres, at most 100), local space
-    std::uint32_t unmatchedEdges = 0;  ///< edges without partner as read, T-junctions counted
-    std::uint32_t leakCount = 0;       ///< edges without partner once edges are cut at T-junctions: real leaks
-    std::uint32_t tJunctionCount = 0;  ///< edges that had to be cut at points of others
-    std::uint32_t flippedFaces = 0;    ///< triangles turned to make the orientation consistent
+    std::vector<OpenEdge> openEdges;   ///< edges still open at the end (Closure::Open, Surface)
+    std::vector<Vec3d> leaks;          ///< edge centres where the shell leaked as read, at most 100, local space
+    std::uint32_t unmatchedEdges = 0;  ///< edges without a partner as read, including T-junctions
+    std::uint32_t leakCount = 0;       ///< edges without a partner after splitting at T-junctions: real leaks
+    std::uint32_t tJunctionCount = 0;  ///< edges that had to be split at points of others
+    std::uint32_t flippedFaces = 0;    ///< triangles reversed to make the orientation consistent
     std::uint32_t complementedFaces = 0;
     std::vector<Cap> caps;
-    double volume = 0;         ///< m3 by the closed mesh; 0 where open
+    double volume = 0;         ///< m3, of the closed mesh; 0 if open
     double area = 0;           ///< m2
-    bool isAssembled = false;  ///< made from the feature's boundary surfaces, for want of a solid of its own
+    bool isAssembled = false;  ///< built from the boundary surfaces of the feature, since it has no own solid
     Box3d bounds;              ///< local space
 
-    /// True where inside and outside are told by the mesh alone.
+    /// True if the mesh is closed, so that it defines inside and outside.
     [[nodiscard]] bool isSolid() const noexcept { return closure <= Closure::Capped; }
 };
 
@@ -91,28 +90,29 @@ struct MeshScene {
 
 struct MeshOptions {
     model::LodChoice lod;             ///< which level of detail of a feature to mesh
-    double weldDistance = 5e-6;       ///< points closer than this along each axis are one, metres
-    double tJunctionDistance = 1e-4;  ///< a point this near to an edge lies on it, metres
-    double capDeviation = 0.05;       ///< a hole is capped where its boundary is this near to a plane, metres
+    double weldDistance = 5e-6;       ///< points closer than this along each axis are merged, metres
+    double tJunctionDistance = 1e-4;  ///< a point within this distance of an edge lies on it, metres
+    double capDeviation = 0.05;       ///< a hole is capped if its boundary is within this distance of a plane, metres
     int threads = 0;
     const Progress* progress = nullptr;
 };
 
-/// Makes the meshes of all features that have geometry in the chosen level of detail, and of
-/// spaces without a solid whose boundary surfaces (with their openings) stand for one.
+/// Makes the meshes of all features with geometry in the chosen level of detail, and of spaces without a solid whose
+/// boundary surfaces (with their openings) form one.
 ///
-/// Polygons are triangulated, points welded, doubled faces removed, faces turned until
-/// neighbours agree and shells face outwards; then every object takes the closing test (paper, section 4.1).
-/// An open one with solid meaning is completed by faces of adjoining features, then by planar caps, else left
-/// Open. Nothing is dropped without a diagnostic.
+/// Polygons are triangulated, points welded, duplicate faces removed, edges split at T-junctions, and faces oriented
+/// consistently and outwards. Every object is tested for being closed (paper, section 4.1). An open object with solid
+/// meaning is completed by faces of adjoining features, then by planar caps; otherwise it stays Open. Nothing is
+/// dropped without a diagnostic.
 ///
-/// \param log  gets findings with the feature's id and world coordinates, in tree order; may be null
-/// \return the scene, or EmptyModel where no feature has geometry, or Cancelled
+/// \param log  receives findings with feature id and world coordinates, in tree order; may be null
+/// \return the scene, or EmptyModel if no feature has geometry, or Cancelled
 /// Cost: O(n log n) in the count of points. The result does not depend on `threads`.
 [[nodiscard]] Result<MeshScene> buildMeshes(const model::BuildingModel& model, const MeshOptions& options = {},
                                             Diagnostics* log = nullptr);
 
-/// Six times the signed volume is the sum over triangles; positive where they face outwards. m3.
+/// Signed volume of a closed mesh, m3: a sixth of the sum of the triple products of its triangles. Positive if they
+/// face outwards.
 [[nodiscard]] double signedVolume(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles) noexcept;
 
 }  // namespace svt::mesh

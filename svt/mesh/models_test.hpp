@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small building models by hand, for tests of the meshes and of what follows them.
+/// Small handmade building models, for tests of the meshes and of the steps after them.
 
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/model/building_model.hpp>
@@ -42,7 +42,7 @@ inline Ring boxRing(Vec3d low, Vec3d high, int side) {
     return ring;
 }
 
-/// Uses of new polygons for all sides of the box but those in `without`.
+/// Adds polygons for all sides of the box except those in `without`, and returns their uses.
 inline std::vector<model::SurfaceUse> addBox(model::BuildingModel& model, Vec3d low, Vec3d high,
                                              const std::vector<int>& without = {}) {
     std::vector<model::SurfaceUse> uses;
@@ -99,7 +99,7 @@ inline std::vector<mesh::Triangle> trianglesOf(const std::vector<std::array<std:
     return triangles;
 }
 
-/// A mesh of rings of vertex numbers, each cut as a fan.
+/// A mesh of rings of vertex indices, each triangulated as a fan.
 inline mesh::ObjectMesh meshOfRings(std::vector<Vec3d> vertices, const std::vector<std::vector<std::uint32_t>>& rings) {
     mesh::ObjectMesh mesh;
     mesh.vertices = std::move(vertices);
@@ -121,7 +121,7 @@ inline mesh::ObjectMesh boxMesh(Vec3d low, Vec3d high) {
                        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}});
 }
 
-/// Appends `other`, with its corners counted on.
+/// Appends `other`, with its corner indices shifted.
 inline void append(mesh::ObjectMesh& mesh, const mesh::ObjectMesh& other) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());

@@ -7,7 +7,7 @@
 namespace svt::mesh {
 namespace {
 
-// Steeper faces (over 89.7 degrees) take their heights from their own corners.
+// Slope limit (89.7 degrees). Steeper faces have no plane and take their heights from their own corners.
 constexpr double kSteepest = 200;
 
 struct Candidate {
@@ -54,7 +54,7 @@ void assignPlanes(MeshScene& scene, double distance) {
         return std::tie(p.object, p.triangle) < std::tie(q.object, q.triangle);
     });
 
-    // Small triangles know their slope badly, so cells are wide and the corners decide.
+    // The slope of small triangles is imprecise, so hash cells are wide and the corners decide.
     constexpr double kSlopeCell = 1e-2, kOffsetCell = 1e-1;
     std::unordered_map<CellKey, std::vector<std::uint32_t>, CellHash> cells;
     const auto heightAtCenter = [&](const Plane& plane) {
@@ -75,7 +75,7 @@ void assignPlanes(MeshScene& scene, double distance) {
                 if (std::abs(plane.slopeX * p.x + plane.slopeY * p.y + plane.offset - p.z) > distance * steepness)
                     return false;
             }
-            // Slivers fit many planes; the direction must agree too.
+            // The corners of a sliver fit many planes, so the slopes must agree, too.
             return std::abs(plane.slopeX - candidate.plane.slopeX) + std::abs(plane.slopeY - candidate.plane.slopeY) <
                    2e-2 * steepness;
         };

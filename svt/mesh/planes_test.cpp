@@ -78,7 +78,7 @@ TEST(AssignPlanes, FloorAtOneHeightIsOnePlaneHoweverFarApart) {
 }
 
 TEST(AssignPlanes, EveryCornerLiesOnItsPlane) {
-    // A fan of many slopes: what shares a plane is within the distance of it.
+    // A fan of many slopes: triangles that share a plane are within the distance of it.
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> uniform(-5, 5);
     ObjectMesh mesh;

@@ -12,8 +12,8 @@ constexpr std::uint32_t kLeafSize = 4;
 
 struct Node {
     Box3d box;
-    std::uint32_t begin = 0, end = 0;  // triangles of a leaf
-    std::uint32_t right = 0;           // inner node: the left child follows, this is the right one; 0 for a leaf
+    std::uint32_t begin = 0, end = 0;  // faces below the node; tested in leaves
+    std::uint32_t right = 0;           // right child of an inner node, whose left child is the next node; 0 for a leaf
 };
 
 struct Face {
@@ -47,19 +47,20 @@ std::uint32_t build(std::vector<Node>& nodes, std::vector<Face>& faces, std::uin
     return index;
 }
 
+// Slab test of a ray and a box (Kay & Kajiya 1986).
 bool hitsBox(const Box3d& box, Vec3d origin, Vec3d inverse, double nearest) {
     double low = 0, high = nearest;
     for (int axis = 0; axis < 3; ++axis) {
         const double t0 = (box.min[axis] - origin[axis]) * inverse[axis];
         const double t1 = (box.max[axis] - origin[axis]) * inverse[axis];
-        // NaN (0 * inf, a ray in the slab's face) leaves the bounds as they are.
+        // NaN (0 * inf, for a ray in a face of the slab) leaves the bounds unchanged.
         low = std::max(low, std::min(t0, t1) == std::min(t0, t1) ? std::min(t0, t1) : low);
         high = std::min(high, std::max(t0, t1) == std::max(t0, t1) ? std::max(t0, t1) : high);
     }
     return low <= high * (1 + 1e-12) + 1e-12;
 }
 
-// Moeller & Trumbore 1997.
+// Distance along the ray to a triangle, or infinity (Moeller & Trumbore 1997).
 double hitFace(const Face& face, Vec3d origin, Vec3d direction) {
     const Vec3d p = cross(direction, face.ac);
     const double determinant = dot(face.ab, p);

@@ -1,24 +1,36 @@
 #pragma once
 /// \file
-/// The form a label volume has while rays go through it: a flat index of 8 x 8 x 8 bricks. Built from
-/// the columns in milliseconds, never through a dense array.
+/// A label volume for ray casting: a flat index of bricks of 8 x 8 x 8 voxels. Built from the columns in milliseconds,
+/// without a dense array.
 ///
-///     index[bx + nbx * (by + nby * bz)]   one entry a brick, of 16 bits where they are enough, else 32:
-///       uniform  -> number of a same-label box: bounds in voxels and the scalar. All bricks of a box hold this one
-///                   scalar, so a ray leaves the whole box in one step. Boxes may overlap. They are skipped by EQUAL
-///                   LABEL, not by emptiness: a change of styles never rebuilds anything.
-///       coded    -> number of a box with a code, see below
-///       voxels   -> number of a palette brick: its distinct scalars in order of first use, and the index of each voxel
-///                   as bit planes. Plane p, word k, bit i + 8 j is bit p of the palette index of voxel (i, j, k), so a
-///                   brick of two labels is 64 bytes and "which voxels hold palette entry e" is a few words' logic.
+///     z  +-----+-----+--#--+--#--+-----+-----+      vertical section; # are the two faces of a wall
+///     ^  | U0  | U0  |C0#  |C1#  | U1  | U1  |
+///     |  +-----+-----+--#--+--#--+-----+-----+      U  uniform: all voxels have one label
+///     |  | U0  | U0  |C0#  |C1#  | V0  | U1  |      C  coded: cuts and planes give the label of every sample
+///     |  +-----+-----+--#--+--#--+-----+-----+      V  voxels: a palette and the palette index of each voxel
+///     |        air      # wall#      room
+///     +--------> x
 ///
-/// Most mixed bricks are coded: by at most one cut across each axis, between two voxels, and at most three planes. The
-/// sides on which a point lies say its scalar, and they say it of all 512 samples of a brick as its voxels do. Bricks
-/// that one code describes, with the uniform ones beside them, share a box, so a ray crosses a wall in as many steps as
-/// it meets labels, faces stay flat however near the eye, and normals are those of planes. What cuts and planes cannot
-/// say stays a matter of voxels. Coded bricks have palette bricks as well, for what asks for voxels.
+///     index[bx + nbx * (by + nby * bz)]   one entry per brick, of 16 bits if they suffice, else 32; with u same-label
+///                                         boxes and c boxes of coded bricks:
+///       entry          kind     refers to
+///       [0, u)         uniform  a same-label box: bounds in voxels and the scalar
+///       [u, u + c)     coded    a box of coded bricks that share one code (BoxCoding)
+///       [u + c, ...)   voxels   a palette brick: its distinct scalars in order of first use, and bit planes. Bit
+///                               i + 8 j of word k of plane p is bit p of the palette index of voxel (i, j, k).
 ///
-/// Palette bricks are stored once each, and so are their bit planes (walls repeat along their length).
+/// The ideas (ours unless a source is named):
+/// - All bricks of a same-label box hold one scalar, so a ray crosses the whole box in one step. Boxes may overlap.
+///   This is empty-space skipping by EQUAL LABEL instead of emptiness: a change of styles never rebuilds anything.
+/// - Most mixed bricks are coded, by at most one cut across each axis (between two voxels) and at most three planes:
+///   the sides on which a point lies select its scalar (brick_coder.hpp). All 512 samples of a brick keep their label.
+/// - Bricks that one code describes, with uniform bricks beside them, share a box. So a ray crosses a wall in as many
+///   steps as it meets labels, faces are flat even in close-up, and normals are those of planes.
+/// - Other bricks have a palette per brick, as in neuroglancer's compressed_segmentation, but with the indices as bit
+///   planes: a brick of two labels takes 64 bytes, and the mask of the voxels with one label is a few word operations.
+///   Coded bricks have a palette brick as well, for access to single voxels; it is found by the rank of the brick in a
+///   bit vector.
+/// - Equal palette bricks are stored once, and so are equal bit planes (walls repeat along their length).
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -34,30 +46,30 @@
 
 namespace svt::volume {
 
-/// Voxels [min, max) of whole bricks (cut at the volume's border) that all hold `scalar`.
+/// Voxels [min, max) of whole bricks (clipped at the border of the volume) that all hold `scalar`.
 struct SameLabelBox {
     std::array<std::uint16_t, 3> min{}, max{};
     Scalar scalar = 0;
     friend bool operator==(const SameLabelBox&, const SameLabelBox&) = default;
 };
 
-/// What stands in for the voxels of mixed bricks while rays go through them.
+/// How rays see the labels of mixed bricks.
 enum class BrickFaces : std::uint8_t {
-    Planes,  ///< cuts and planes, where they say the same as the voxels
-    Voxels   ///< voxels alone
+    Planes,  ///< by cuts and planes, where these reproduce all samples; else by voxels
+    Voxels   ///< by voxels only
 };
 
 /// A label volume as bricks, immutable. Thread-safe to read.
 class BrickVolume {
 public:
     static constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
-    static constexpr std::size_t kMostPlanes = 3;               ///< of a code
-    static constexpr std::size_t kMostSides = 3 + kMostPlanes;  ///< of a code: cuts and planes
+    static constexpr std::size_t kMostPlanes = 3;               ///< maximum of planes in a code
+    static constexpr std::size_t kMostSides = 3 + kMostPlanes;  ///< maximum of sides in a code: cuts and planes
 
     static constexpr std::int32_t kBrickSize = 8;
     static constexpr std::uint64_t kMaxBricks = std::uint64_t{1} << 29;
 
-    /// What the index says of one brick.
+    /// The index entry of one brick.
     class Entry {
     public:
         [[nodiscard]] bool isMixed() const noexcept { return (value_ & (kCoded | kVoxels)) != 0; }
@@ -74,15 +86,16 @@ public:
 
     struct Options {
         BrickFaces faces = BrickFaces::Planes;
-        /// That the faces of the model lie on, in the voxel space of `columns`: tried first, in this order.
+        /// Planes of the model's faces, in the voxel space of `columns`. They are tried first, in this order.
         std::span<const FacePlane> planes{};
         int threads = 0;  ///< 0: all cores; the result does not depend on it
     };
 
-    /// Bricks of `columns`. Planes that are said to be there are believed where all samples of a brick agree; those
-    /// around a tile's 64 x 64 columns count, 256 of them at most.
-    /// \return the bricks, or GridTooLarge where there are more than kMaxBricks of them or a dimension is over 65535
-    /// Cost: O(distinct columns' runs + bricks), and for planes O(bricks on oblique surfaces), 1 to 5 us each.
+    /// Bricks of `columns`. A given plane is used in a brick only if all samples of the brick agree with it. Each tile
+    /// of 64 x 64 columns tries the planes with faces in or next to it, 256 at most.
+    /// \return the bricks, or GridTooLarge if there are more than kMaxBricks, a dimension is over 65535, or the mixed
+    ///         bricks hold more than 2^32 - 1 words
+    /// Cost: O(runs of distinct columns + bricks), plus 1 to 5 us per brick on oblique surfaces for planes.
     [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns, const Options& options);
     [[nodiscard]] static Result<BrickVolume> fromColumns(const ColumnVolume& columns) {
         return fromColumns(columns, {});
@@ -108,9 +121,9 @@ public:
     }
     /// Same-label box of a brick that is not mixed.
     [[nodiscard]] const SameLabelBox& box(Entry uniform) const noexcept { return boxes_[uniform.value_]; }
-    /// Its number, an index of boxes().
+    /// Index of that box in boxes().
     [[nodiscard]] std::size_t boxNumber(Entry uniform) const noexcept { return uniform.value_; }
-    /// A mixed brick, looked up once for many of its voxels.
+    /// A view of a mixed brick, for fast access to many of its voxels.
     class MixedBrick {
     public:
         /// Scalar of voxel (i, j, k), each 0..7.
@@ -138,13 +151,13 @@ public:
         return view;
     }
 
-    /// How cuts and planes stand for the voxels of a box. 24 bytes.
+    /// The code of a box of bricks: cuts, planes and the label of each cell between them. 24 bytes.
     struct BoxCoding {
-        std::array<std::uint16_t, 3> cut{};  ///< voxels of the volume below the cut across each axis that has one
-        std::uint16_t cutAxes = 0;           ///< bit a: there is a cut across axis a
-        std::array<std::uint32_t, kMostPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< indices of oblique()
-        /// First of the scalars by side, in palettes: one bit for each cut (x, y, z) and plane that there is, in this
-        /// order from the lowest; 1 is beyond a cut, or a plane's positive side.
+        std::array<std::uint16_t, 3> cut{};  ///< voxels of the volume below the cut, per axis
+        std::uint16_t cutAxes = 0;           ///< bit a: the code has a cut across axis a
+        std::array<std::uint32_t, kMostPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< in oblique()
+        /// Offset in palettes of the scalars by cell. A cell number has one bit per existing cut (x, y, z) and plane,
+        /// in this order from the lowest; 1 means beyond the cut, or on the positive side of the plane.
         std::uint32_t cells = 0;
         [[nodiscard]] bool hasCut(int axis) const noexcept { return ((cutAxes >> axis) & 1u) != 0; }
         friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
@@ -154,14 +167,14 @@ public:
         return boxes_[coded.value_ & ~Entry::kCoded];
     }
     [[nodiscard]] const BoxCoding& coding(Entry coded) const noexcept { return codes_[codedBox(coded).scalar]; }
-    /// Scalar on the sides that `cell` says, see BoxCoding::cells.
+    /// Scalar of a cell, see BoxCoding::cells.
     [[nodiscard]] Scalar cellScalar(const BoxCoding& coding, std::size_t cell) const noexcept {
         return palettes_[coding.cells + cell];
     }
-    /// The planes of all bricks.
+    /// The planes used by all codes.
     [[nodiscard]] std::span<const BrickPlane> oblique() const noexcept { return oblique_; }
 
-    /// Which voxels of a brick hold one of some scalars: bit i + 8 j of word(k).
+    /// A set of voxels of a brick: bit i + 8 j of word(k) stands for voxel (i, j, k).
     class VoxelMask {
     public:
         [[nodiscard]] std::uint64_t word(std::size_t k) const noexcept { return words_[k] ^ flip_; }
@@ -173,8 +186,9 @@ public:
     };
     using MaskWords = std::array<std::uint64_t, 8>;
 
-    /// The voxels of a brick whose scalar `accepts(scalar)`. Voxels beyond the volume's border repeat the border's.
-    /// \param scratch  holds the words where they must be put together; must live as long as the mask
+    /// The voxels of a brick for whose scalar `accepts(scalar)` is true. Voxels beyond the border of the volume repeat
+    /// those at the border.
+    /// \param scratch  may be used to hold the words of the mask; must live as long as the mask
     template <class Accepts>
     [[nodiscard]] VoxelMask voxelMask(Entry brick, const Accepts& accepts, MaskWords& scratch) const {
         VoxelMask mask;
@@ -183,7 +197,7 @@ public:
             return mask;
         }
         const PaletteBrick& mixed = bricks_[brick.pattern_];
-        if (mixed.paletteSize == 2) {  // most are
+        if (mixed.paletteSize == 2) {  // the most frequent case
             const bool first = accepts(palettes_[mixed.palette]), second = accepts(palettes_[mixed.palette + 1]);
             if (first != second) mask.words_ = planes_.data() + mixed.planes;
             mask.flip_ = first ? ~std::uint64_t{0} : 0;
@@ -194,27 +208,27 @@ public:
         return mask;
     }
 
-    /// Distinct palette bricks, in the order of their numbers.
+    /// Count of distinct palette bricks.
     [[nodiscard]] std::size_t paletteBrickCount() const noexcept { return bricks_.size(); }
     /// Number of a mixed brick's palette brick.
     [[nodiscard]] std::size_t paletteBrickNumber(Entry mixed) const noexcept { return mixed.pattern_; }
-    /// The entry of any brick that shows palette brick `number`.
+    /// An entry that refers to palette brick `number`.
     [[nodiscard]] static Entry paletteBrickEntry(std::size_t number) noexcept {
         return {static_cast<std::uint32_t>(number) | Entry::kVoxels, static_cast<std::uint32_t>(number)};
     }
-    /// Goes along the bricks of row (by, bz) in order of x: `uniform(begin, end, box)` for bricks that lie in one of
-    /// boxes(), `mixed(bx, number)` for one that shows palette brick `number`. Cost: by runs of uniform bricks.
+    /// Visits the bricks of row (by, bz) in order of x: calls `uniform(begin, end, box)` for each run of bricks in one
+    /// of boxes(), and `mixed(bx, number)` for each brick with palette brick `number`. Cost: O(runs + mixed bricks).
     template <class Uniform, class Mixed>
     void forRow(std::int32_t by, std::int32_t bz, const Uniform& uniform, const Mixed& mixed) const {
         const std::size_t row = placeOf(0, by, bz);
-        const std::uint32_t* coded = nullptr;  // pattern of the next coded brick
+        const std::uint32_t* coded = nullptr;  // palette brick of the next coded brick
         for (std::int32_t x = 0; x < brickCount_.x;) {
             const std::size_t brick = row + static_cast<std::size_t>(x);
             const std::uint32_t value = narrow_.empty() ? wide_[brick] : narrow_[brick];
             if (value < uniformBoxes_) {
                 const std::int32_t end = std::min((boxes_[value].max[0] + 7) / 8, brickCount_.x);
                 uniform(x, end, std::size_t{value});
-                // Bricks of a box may be entries of others, but none of them is coded.
+                // The entries of these bricks may name other boxes, but all are uniform.
                 x = end;
             } else {
                 if (value >= boxes_.size()) {
@@ -227,23 +241,22 @@ public:
             }
         }
     }
-    /// All same-label boxes; together with the mixed bricks they cover the volume. They may overlap.
+    /// All same-label boxes. Together with the mixed bricks they cover the volume; they may overlap.
     [[nodiscard]] std::span<const SameLabelBox> boxes() const noexcept {
         return std::span(boxes_).first(uniformBoxes_);
     }
     /// A palette brick as it is stored.
     struct PaletteBrick {
-        std::uint32_t palette = 0;     ///< first of its scalars in palettes
-        std::uint32_t planes = 0;      ///< first of its words in words, 8 a bit plane
+        std::uint32_t palette = 0;     ///< offset of its scalars in palettes
+        std::uint32_t planes = 0;      ///< offset of its bit planes in words, 8 words each
         std::uint32_t planeCount = 0;  ///< 1..9
         std::uint32_t paletteSize = 0;
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
-    /// All arrays as they are stored, for casters that read many rays' bricks at once, and for textures. An entry of
-    /// the index is, in this order, a same-label box, a box of coded bricks, which has the number of a code for the
-    /// scalar, or a palette brick. Where 16 bits are enough for all of them the index is `narrow`, else `wide`; the
-    /// other is empty. Behind the index stand 8 bytes more and behind `palettes` 7 elements, so that 64 bits and 8
-    /// elements may be read at once anywhere.
+    /// All arrays as stored, for SIMD ray casters and for textures. Entries of the index are numbered as in the file
+    /// comment; the boxes of coded bricks follow the same-label boxes in `boxes`, with the index of their code in the
+    /// field `scalar`. The index is `narrow` if 16 bits suffice for all entries, else `wide`; the other one is empty.
+    /// The index is padded by 8 bytes and `palettes` by 7 elements, so that 64 bits or 8 elements can be read anywhere.
     struct Arrays {
         std::span<const std::uint16_t> narrow;
         std::span<const std::uint32_t> wide;
@@ -295,7 +308,7 @@ private:
                    (static_cast<std::size_t>(by) +
                     static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz));
     }
-    // Palette brick of a coded brick: found by its rank among them.
+    // Rank of a coded brick among all coded bricks: a bit vector with rank (Jacobson 1989), one count per word.
     [[nodiscard]] std::uint32_t rankOf(std::size_t brick) const noexcept {
         const std::uint64_t before = codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
         return codedBefore_[brick / 64] + static_cast<std::uint32_t>(std::popcount(before));
@@ -314,9 +327,9 @@ private:
     std::vector<PaletteBrick> bricks_;
     std::vector<Scalar> palettes_;
     std::vector<std::uint64_t> planes_;
-    std::vector<std::uint64_t> codedBricks_;    // a bit a brick
-    std::vector<std::uint32_t> codedBefore_;    // coded bricks before each word of codedBricks_
-    std::vector<std::uint32_t> codedPatterns_;  // palette bricks of the coded bricks, in order
+    std::vector<std::uint64_t> codedBricks_;    // bit vector over the bricks: 1 = coded
+    std::vector<std::uint32_t> codedBefore_;    // per word of codedBricks_: coded bricks before it
+    std::vector<std::uint32_t> codedPatterns_;  // per coded brick, by rank: its palette brick
 };
 
 }  // namespace svt::volume

@@ -8,8 +8,8 @@
 namespace svt::volume {
 namespace {
 
-// Multilinear: words times odd factors, all at once, since no product waits for the one before. Good in its upper half,
-// and good enough for tables that compare in full afterwards.
+// Multilinear hash (Lemire & Kaser 2014): a sum of words times odd factors, fast because no product depends on the one
+// before. Only its upper half is well mixed; sufficient for tables that compare the items afterwards.
 struct WordHash {
     std::uint64_t sum, factor = 0x9E3779B97F4A7C15ull;
     void add(std::uint64_t word) noexcept {
@@ -37,7 +37,7 @@ std::uint64_t hashRow(std::span<const std::uint16_t> columns) noexcept {
     return hash.value();
 }
 
-// Without a branch for each run: the runs that a table leads to are nearly always equal.
+// Branch-free per run: candidates from a hash table are nearly always equal.
 bool isEqualColumn(std::span<const Run> a, std::span<const Run> b) noexcept {
     if (a.size() != b.size()) return false;
     std::uint32_t differences = 0;

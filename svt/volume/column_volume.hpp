@@ -1,19 +1,18 @@
 #pragma once
 /// \file
-/// The canonical form of a label volume: columns of runs, shared per tile. Lossless, and its
-/// size grows with the surface of what is inside, not with the volume.
+/// The canonical form of a label volume: run-length encoded columns, shared per tile. Lossless; its size grows with the
+/// surface of the objects, not with the volume.
 ///
-/// The (x, y) plane is cut into tiles of 64 x 64 columns at full height. A tile holds a dictionary of
-/// its distinct columns and of its distinct rows of columns:
+/// The (x, y) plane is divided into tiles of 64 x 64 columns of full height. A tile holds a dictionary of its distinct
+/// columns and one of its distinct rows of columns:
 ///
 ///     rowOf       [ 0 0 0 1 1 2 ... ]            64 rows of the tile -> row of the dictionary
 ///     rowColumns  [ 0 0 0 1 1 1 2 ... | ... ]    each dictionary row: `width` column numbers
-///     columnStart [ 0 1 4 9 ... ]                each column: its stretch of `runs`, last entry = runs.size()
+///     columnStart [ 0 1 4 9 ... ]                each column: offset of its runs, last entry = runs.size()
 ///     runs        [ {end 163, scalar 0} | {end 10, 7} {end 80, 0} {end 163, 0} | ... ]
 ///
-/// A run reaches from the end of the one before (0 for the first) up to, not including, `end`; the last ends at
-/// nz; neighbours differ in scalar. Columns and rows are numbered by first use (rows bottom up, x ascending), so equal
-/// volumes have equal bytes.
+/// A run covers [end of the previous run (0 for the first), end). The last run ends at nz; adjacent runs differ in
+/// scalar. Columns and rows are numbered by first use (y, then x ascending), so equal volumes have equal bytes.
 
 #include <svt/core/hash_index.hpp>
 #include <svt/core/vec.hpp>
@@ -26,10 +25,10 @@
 
 namespace svt::volume {
 
-/// Value of a voxel; 0 is background. Stored with 32 bits, see LabelTable::scalarBits() for what a dense copy needs.
+/// Value of a voxel; 0 is background. Stored with 32 bits; LabelTable::scalarBits() has the bits for a dense copy.
 using Scalar = std::uint32_t;
 
-/// A stretch of a column with one scalar. k from the previous run's end to `end` - 1.
+/// An interval of a column with one scalar: k from the end of the previous run to `end` - 1.
 struct Run {
     std::uint32_t end = 0;
     Scalar scalar = 0;
@@ -48,7 +47,7 @@ struct ColumnTile {
     }
 };
 
-/// One tile's arrays as a builder owns them.
+/// The arrays of one tile, as made by a ColumnTileBuilder.
 struct ColumnTileData {
     std::vector<std::uint8_t> rowOf;
     std::vector<std::uint16_t> rowColumns;
@@ -64,7 +63,7 @@ public:
 
     ColumnVolume() = default;
 
-    /// From tiles in row order (x fastest), as a voxelizer makes them. Takes the tiles as they are.
+    /// From tiles in row order (x fastest), as made by a ColumnTileBuilder. They are not checked.
     [[nodiscard]] static ColumnVolume fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles);
 
     /// From a dense array, x fastest, then y, then z (index i + nx * (j + ny * k)).
@@ -82,13 +81,13 @@ public:
     /// Scalar of sample (i, j, k). Cost O(log runs).
     [[nodiscard]] Scalar scalarAt(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept;
 
-    /// Voxels per scalar; entry s of `scalarCount` entries, larger scalars are not counted. Cost O(distinct columns'
-    /// runs + rows).
+    /// Count of voxels per scalar: `scalarCount` entries; larger scalars are not counted. Cost: O(runs of distinct
+    /// columns + distinct rows * width).
     [[nodiscard]] std::vector<std::uint64_t> countVoxels(Scalar scalarCount) const;
     /// Bytes of all arrays.
     [[nodiscard]] std::size_t sizeBytes() const noexcept;
 
-    /// Same dimension and same scalar at every sample (the canonical form makes that a comparison of arrays).
+    /// Same dimension and same scalar at every sample; compares the arrays, since the form is canonical.
     friend bool operator==(const ColumnVolume& a, const ColumnVolume& b) noexcept;
 
 private:
@@ -97,32 +96,32 @@ private:
     std::shared_ptr<const void> storage_;
 };
 
-/// Makes tiles one after the other, each row by row, sharing equal columns and equal rows. Keeps its buffers between
-/// tiles.
+/// Builds tiles, one after the other and each row by row, storing equal columns and equal rows once. Keeps its buffers
+/// between tiles.
 class ColumnTileBuilder {
 public:
     explicit ColumnTileBuilder(std::int32_t width) { start(width); }
 
-    /// Begins a tile of `width` columns; an unfinished one is forgotten.
+    /// Begins a tile of `width` columns; an unfinished tile is discarded.
     void start(std::int32_t width);
 
-    /// Number of the column with these runs, new or known. Runs: ends ascending, last = nz, neighbours differ in
+    /// Number of the column with these runs, added if new. Runs: ends ascending, last = nz, adjacent ones differ in
     /// scalar.
     [[nodiscard]] std::uint16_t addColumn(std::span<const Run> runs);
-    /// The same without a copy: room for at most `count` runs, ...
+    /// The same without a copy: returns space for at most `count` runs, to be filled by the caller, ...
     [[nodiscard]] Run* beginColumn(std::size_t count) {
         if (runs_.size() < runCount_ + count) runs_.resize(2 * (runCount_ + count));
         return runs_.data() + runCount_;
     }
-    /// ... of which the column has so many.
+    /// ... who then gives the actual `count` of runs, at most that of beginColumn(), and gets the number of the column.
     [[nodiscard]] std::uint16_t endColumn(std::size_t count);
-    /// The next row: `width` column numbers.
+    /// Adds the next row: `width` column numbers.
     void addRow(std::span<const std::uint16_t> columns);
-    /// The next row is equal to the one before.
+    /// Adds a row equal to the one before.
     void repeatRow();
     /// Number of rows added so far.
     [[nodiscard]] std::int32_t rowCount() const noexcept { return static_cast<std::int32_t>(rowOf_.size()); }
-    /// The finished tile; numbered by first use where columns were added in order of first use.
+    /// The finished tile. It is canonical if columns were added in order of first use and all are used.
     [[nodiscard]] ColumnTileData finish() const;
 
 private:

@@ -11,11 +11,11 @@
 namespace svt::volume {
 namespace {
 
-/// A tile is unrolled so many slices at a time: the rows it writes then stay within reach of the TLB, which
-/// halves the time (measured at 800 x 700 x 400).
+/// Slices that a tile unpacks at a time: the pages it writes then stay in the TLB, which halves the time (measured at
+/// 800 x 700 x 400).
 constexpr std::int32_t kSlabSlices = 16;
 
-/// The scalars of a tile's distinct columns at one height k, moved upwards step by step.
+/// The scalars of the distinct columns of a tile at one height k, which only increases.
 template <class T>
 class Plane {
 public:
@@ -47,9 +47,9 @@ public:
 
 private:
     const ColumnTile& tile_;
-    std::vector<std::uint32_t> cursor_;  // run of each column that holds k
+    std::vector<std::uint32_t> cursor_;  // per column: index of the run that contains k
     std::vector<T> scalars_;
-    std::uint32_t nextEnd_ = std::numeric_limits<std::uint32_t>::max();  // the next k at which any column changes
+    std::uint32_t nextEnd_ = std::numeric_limits<std::uint32_t>::max();  // the next k at which some column changes
 };
 
 template <class T>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Back from columns to dense arrays: whole, or box by box where the whole would not fit into memory.
+/// Converts columns to dense arrays: the whole volume, or box by box if it would not fit into memory.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -19,20 +19,20 @@ struct DenseBox {
     std::int32_t kEnd = 0;
 };
 
-/// Largest scalar that occurs. Cost: O(runs).
+/// The largest scalar in the volume. Cost: O(runs).
 [[nodiscard]] Scalar largestScalar(const ColumnVolume& columns) noexcept;
 
 /// Copies the scalars of `box` to `out`, x fastest: out[i + nx * ((j - jBegin) + (jEnd - jBegin) * (k - kBegin))].
 /// `T` is std::uint8_t, std::uint16_t or std::uint32_t and must hold every scalar; the box must lie inside the volume
 /// and `out` must have exactly its size.
-/// Cost: about 1 ns per sample and core; a box should have several k, since each call searches every column once.
+/// Cost: about 1 ns per sample and core. Prefer boxes of several k: each call searches every column once.
 /// \param threads  at most this many; 0: all cores. The result does not depend on it.
 template <class T>
 void copyBox(const ColumnVolume& columns, const DenseBox& box, std::span<T> out, int threads = 0);
 
 /// The whole volume as a dense array, x fastest, then y, then z (index i + nx * (j + ny * k)).
-/// \param maxBytes  refuses to allocate more than this
-/// \return the array, or BadArgument where a scalar does not fit into `T`, GridTooLarge where it is over `maxBytes`
+/// \param maxBytes  limit for the size of the array
+/// \return the array, or BadArgument if a scalar does not fit into `T`, or GridTooLarge if it would exceed `maxBytes`
 template <class T>
 [[nodiscard]] Result<std::vector<T>> toDense(const ColumnVolume& columns,
                                              std::uint64_t maxBytes = std::uint64_t{8} << 30, int threads = 0);

@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Where the samples of a volume lie. The paper's node grid (section 3.2):
+/// The sample positions of a volume: the node grid of the paper (section 3.2),
 /// spacing[i] = envelope[i] / (dimension[i] - 1); the first and last samples lie on the envelope.
 ///
-///      envelope                        index space: sample (i, j, k) stands at (i, j, k) and is
-///      x---x---x---x   dimension 4     the centre of its voxel [i-1/2, i+1/2] x ...
+///      envelope                        index space: sample (i, j, k) is at (i, j, k), the centre
+///      x---x---x---x   dimension 4     of its voxel [i-1/2, i+1/2] x ...
 ///      |   spacing                     x runs fastest, then y, then z:
 ///      x---x---x---x                   linear index = i + nx * (j + ny * k)
 
@@ -16,23 +16,24 @@
 
 namespace svt::volume {
 
-/// World space = origin + axes * (index * spacing). `axes` is a rotation: identity for the
-/// world-axis box, a turn about z for a building's own frame.
+/// World space = origin + axes * (index * spacing). `axes` is a rotation: identity for a grid along the world axes, a
+/// rotation about z for a building's own frame.
 class Grid {
 public:
     static constexpr std::int32_t kMaxDimension = 65535;
 
     /// A grid of `dimension` samples over `envelope` (world space, metres; local to `axes` where given).
-    /// \return the grid, or BadDimension where a dimension is outside 2..65535, GridTooLarge where the count of
-    ///         columns nx * ny is over 2^31, BadDimension where the envelope is empty. An axis without
-    ///         extent is widened to one thousandth of the largest (at least 1 mm).
+    /// An axis without extent is widened to one thousandth of the largest extent, at least 1 mm.
+    /// \return the grid, or BadDimension if a dimension is outside 2..65535 or the envelope is empty, or GridTooLarge
+    ///         if there are more than 2^31 columns (nx * ny)
     [[nodiscard]] static Result<Grid> fromDimension(const Box3d& envelope, Vec3i dimension);
 
-    /// A grid with `spacing` metres between samples (> 0) along each axis; the envelope is widened evenly on both
-    /// sides to whole steps. Errors as fromDimension.
+    /// A grid with `spacing` metres (> 0) between samples along each axis. The envelope is widened equally on both
+    /// sides to a whole number of steps. Errors as fromDimension.
     [[nodiscard]] static Result<Grid> fromSpacing(const Box3d& envelope, Vec3d spacing);
 
-    /// As stored: checked, then taken as it is.
+    /// From stored values, which are checked and not changed. Errors as fromDimension, and BadDimension if `spacing`,
+    /// `origin` or `axes` are invalid.
     [[nodiscard]] static Result<Grid> fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin,
                                                 const std::array<Vec3d, 3>& axes);
 
@@ -48,12 +49,12 @@ public:
 
     [[nodiscard]] Vec3d worldFromIndex(Vec3d index) const noexcept;
     [[nodiscard]] Vec3d indexFromWorld(Vec3d world) const noexcept;
-    /// Direction without the offset; not normalized.
+    /// Transforms a direction (without the offset); the result is not normalized.
     [[nodiscard]] Vec3d worldFromIndexDirection(Vec3d index) const noexcept;
     [[nodiscard]] Vec3d indexFromWorldDirection(Vec3d world) const noexcept;
 
-    /// The same grid turned: `axes` replaces the identity; the box given to fromDimension was measured along these axes
-    /// from `pivot` (world space).
+    /// This grid, rotated: `axes` replaces the identity. For an envelope that was measured along `axes`, relative to
+    /// `pivot` (world space).
     [[nodiscard]] Grid turned(const std::array<Vec3d, 3>& axes, Vec3d pivot) const;
 
     friend bool operator==(const Grid&, const Grid&) = default;

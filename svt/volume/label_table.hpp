@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which component a scalar stands for. Every object owns a contiguous range of scalars, numbered
-/// in tree order, so a subtree (a storey with all its rooms) is one range.
+/// The component that each scalar stands for. Every object owns a contiguous range of scalars, numbered in tree order,
+/// so that a subtree (a storey with all its rooms) is one range.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/vec.hpp>
@@ -15,20 +15,19 @@
 namespace svt::volume {
 
 inline constexpr std::uint32_t kNoLabel = 0xFFFFFFFFu;
-/// Most scalars that a volume may number, background included. Tables indexed by scalar then stay within memory
-/// whatever a file claims.
+/// Maximum number of scalars, background included. It bounds tables indexed by scalar, whatever a file claims.
 inline constexpr Scalar kMaxScalarCount = 1u << 26;
 
 /// How an object got its voxels.
 enum class Filling : std::uint8_t {
-    None,          ///< no geometry, so no voxels (a storey that only groups)
+    None,          ///< no geometry, so no voxels (e.g. a storey that only groups)
     Solid,         ///< closed mesh, filled exactly
     TJunctions,    ///< closed up to T-junctions, filled exactly
     Complemented,  ///< open shell, closed with faces shared by XLink
     Capped,        ///< open shell, closed by planar caps (ClosureSurface)
     Winding,       ///< open shell, filled by generalized winding number
-    Surface,       ///< no solid meaning: a sheet one voxel thick
-    Body           ///< boundary surface that got the material behind it (thematic body)
+    Surface,       ///< no solid meaning: a sheet, one voxel thick
+    Body           ///< boundary surface with the material behind it (thematic body)
 };
 [[nodiscard]] std::string_view fillingName(Filling filling) noexcept;  ///< "solid", "t-junctions", ...
 [[nodiscard]] bool fillingFromName(std::string_view name, Filling& filling) noexcept;
@@ -40,26 +39,26 @@ struct Label {
     std::string name;
     std::vector<Attribute> attributes;
     std::uint32_t parent = kNoLabel;    ///< index of the parent label
-    std::uint32_t subtreeEnd = 0;       ///< labels [own index, subtreeEnd) are this feature and all below it
+    std::uint32_t subtreeEnd = 0;       ///< labels [own index, subtreeEnd) are this feature and its descendants
     std::vector<std::uint32_t> groups;  ///< labels of groups, storeys and units that have it as a member
     Scalar first = 0;                   ///< scalars [first, first + count)
-    Scalar count = 0;                   ///< 0: no object; 1: no pattern; else one scalar per pattern phase
+    Scalar count = 0;                   ///< 0: not an object; 1: no pattern; else one scalar per pattern phase
     std::uint64_t voxels = 0;
-    double volume = 0;  ///< m3 by the closed mesh; by voxels for bodies; 0 for surfaces
+    double volume = 0;  ///< m3: of the closed mesh; of the voxels for bodies; 0 for surfaces
     Filling filling = Filling::None;
-    std::uint64_t thinVoxels = 0;       ///< voxels that only the pass for thin parts gave
-    std::uint64_t uncertainVoxels = 0;  ///< voxels that the winding number decided between 0.25 and 0.75
+    std::uint64_t thinVoxels = 0;       ///< voxels from the pass for thin parts only
+    std::uint64_t uncertainVoxels = 0;  ///< voxels with a winding number between 0.25 and 0.75
     Vec3f color{0.8f, 0.8f, 0.8f};      ///< default style: sRGB, 0..1
     float opacity = 1;                  ///< default style: fraction of light stopped by 1 m; 1 = opaque surface
 
     friend bool operator==(const Label&, const Label&) = default;
 };
 
-/// Voxels that two objects both claim; `a` won them.
+/// Voxels claimed by two objects and assigned to `a`.
 struct Overlap {
     std::uint32_t a = 0, b = 0;  ///< labels
     std::uint64_t voxels = 0;
-    bool isNested = false;  ///< one contains the other by the model's hierarchy or grouping (room in building)
+    bool isNested = false;  ///< one contains the other in the hierarchy or grouping of the model (room in building)
     friend bool operator==(const Overlap&, const Overlap&) = default;
 };
 
@@ -67,8 +66,8 @@ struct Overlap {
 struct LabelTable {
     std::vector<Label> labels;
     std::vector<Overlap> overlaps;  ///< ordered by (a, b)
-    /// Per scalar of an object with a pattern: the colour of that phase; empty where no object has a pattern.
-    /// Entry s belongs to scalar s; has scalarCount() entries or none.
+    /// Colour of each pattern phase: entry s belongs to scalar s. Has scalarCount() entries, or none if no object has a
+    /// pattern.
     std::vector<Vec3f> phaseColors;
 
     /// 1 + the largest scalar.

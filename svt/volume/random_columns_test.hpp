@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Columns that hold what is hard to code: slopes, oblique walls, noise, repeated rows.
+/// Columns with content that is hard to code: slopes, oblique walls, noise, repeated rows.
 
 #include <svt/volume/column_volume.hpp>
 
@@ -55,7 +55,7 @@ inline ColumnVolume randomColumns(Vec3i dimension, std::uint32_t seed) {
     return ColumnVolume::fromDense(dimension, dense);
 }
 
-/// Whether column() and scalarAt() can be used on `tile`, and nothing in it is needless.
+/// Whether `tile` is valid for column() and scalarAt(), and holds nothing unused.
 inline bool isCanonical(const ColumnTileData& tile, std::size_t width, std::size_t height, std::uint32_t nz,
                         Scalar scalarCount) {
     if (tile.rowOf.size() != height || tile.rowColumns.size() % width != 0 || tile.columnStart.empty() ||

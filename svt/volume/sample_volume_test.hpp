@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A small semantic volume with everything a file must carry.
+/// A small semantic volume with all features that a file must store.
 
 #include <svt/volume/semantic_volume.hpp>
 
@@ -10,7 +10,7 @@
 namespace svt::volume::test {
 
 /// A building with two rooms, a wall with a pattern of three phases and a storey as group; `dimension` of at least
-/// 8 x 8 x 8 samples. Its strings hold what is hard to write.
+/// 8 x 8 x 8 samples. Its strings have characters that are hard to write.
 inline SemanticVolume sampleVolume(Vec3i dimension = {70, 66, 9}) {
     SemanticVolume volume;
     const double turn = 0.6;

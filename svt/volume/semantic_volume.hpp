@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A semantic volume texture: grid, labels and columns together. What `svt build` makes and a `.svt` file holds.
+/// A semantic volume texture: grid, labels and columns. The output of `svt build` and the content of a `.svt` file.
 
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/face_planes.hpp>
@@ -20,8 +20,8 @@ struct SemanticVolume {
     std::string crsName;              ///< srsName or referenceSystem of the model, or empty
     std::string modelName;            ///< name of the model, or empty
     std::string source;               ///< file name (without folder) of the model
-    VectorParts vectors{};            ///< empty where they were not asked for
-    std::vector<FacePlane> planes{};  ///< that the model's faces lie on, the most used first; none where unknown
+    VectorParts vectors{};            ///< empty unless requested
+    std::vector<FacePlane> planes{};  ///< planes of the model's faces, largest area first; empty if unknown
 };
 
 }  // namespace svt::volume

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The text parts of a `.svt` file: `svt.json` (grid, names, version) and `labels.json` (the label table), written so
-/// that equal volumes give equal bytes, and read with every number checked. docs/formats/svt.md lists all keys.
+/// The JSON parts of a `.svt` file: `svt.json` (grid, names, version) and `labels.json` (the label table). Equal
+/// volumes give equal bytes; every number is checked on reading. docs/formats/svt.md lists all keys.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -25,14 +25,14 @@ struct SvtHeader {
     std::string source;
 };
 
-/// Which characters a JSON text may hold as they are.
+/// Which characters are written to JSON without escapes.
 enum class JsonCharacters { Utf8, AsciiOnly };
 
-/// Appends `text` as a JSON string with quotes. Bytes that are no valid UTF-8 become U+FFFD.
+/// Appends `text` as a JSON string with quotes. Bytes that are not valid UTF-8 become U+FFFD.
 void appendJsonString(std::string& json, std::string_view text, JsonCharacters characters = JsonCharacters::Utf8);
 
 /// One label as a JSON object on one line, keys in a fixed order, numbers in shortest round-trip form.
-/// An attribute that is a real number always has a '.' or an exponent, an integer never.
+/// An attribute that is a real number always has a '.' or an exponent, an integer never has.
 void appendJsonLabel(std::string& json, const Label& label, JsonCharacters characters = JsonCharacters::Utf8);
 
 /// `svt.json` of a volume.
@@ -40,16 +40,16 @@ void appendJsonLabel(std::string& json, const Label& label, JsonCharacters chara
 /// `labels.json`: one label per line.
 [[nodiscard]] std::string writeLabelsJson(const LabelTable& labels);
 
-/// \return the header, or VolumeVersion where a newer program wrote it, BadVolume that names the key, InputTooBig
+/// \return the header, or VolumeVersion if a newer program wrote it, BadVolume that names the key, or InputTooBig
 [[nodiscard]] Result<SvtHeader> readHeaderJson(std::string_view json);
-/// The table, checked as by checkLabels(). Memory: a few times the text at most.
-/// \return the table, or BadVolume that names label and key, InputTooBig
+/// The table, checked as by checkLabels(). Memory: at most a few times the text.
+/// \return the table, or BadVolume that names label and key, or InputTooBig
 [[nodiscard]] Result<LabelTable> readLabelsJson(std::string_view json);
 
-/// Whether a table keeps its contract: parents before children, subtrees nested, references inside the table, scalar
+/// Checks the invariants of a table: parents before children, subtrees nested, references inside the table, scalar
 /// ranges disjoint, ascending in tree order and below kMaxScalarCount, one phase colour per scalar or none, finite
 /// numbers.
-/// \return BadVolume that names the label
+/// \return success, or BadVolume that names the label
 [[nodiscard]] Result<void> checkLabels(const LabelTable& labels);
 
 }  // namespace svt::volume

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Thematic bodies. A CityGML 2 LoD4 building holds its walls, slabs and roof only as surfaces: the
-/// material between the outer hull and the rooms belongs to nobody but the building. Here every voxel of it goes to the
-/// nearest boundary surface, so that a wall has a body of its own in a section.
+/// Thematic bodies. A CityGML 2 LoD4 building has its walls, slabs and roof only as surfaces: the material between the
+/// outer hull and the rooms belongs to the building as a whole. Here every voxel of that material is assigned to the
+/// nearest boundary surface, so that each wall has a body of its own in a section.
 
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -13,22 +13,22 @@
 
 namespace svt::voxelize {
 
-/// One building: whose voxels are given away, and to whom.
+/// One building: the scalar whose voxels are reassigned, and the surfaces that receive them.
 struct BodyGroup {
     volume::Scalar from = 0;              ///< scalar of the building's solid
     std::vector<std::uint32_t> surfaces;  ///< objects of the scene: its boundary surfaces, in tree order
     std::vector<volume::Scalar> scalars;  ///< their scalars, same order
 };
 
-/// Gives every voxel of `from` to the surface nearest to its centre (world distance; at equal distance the earlier
-/// one). Exact: blocks are split until one surface is nearest in all of the block, or down to the voxel; surfaces too
-/// far for a block are not looked at again within it.
+/// Assigns every voxel of `from` to the surface nearest to its centre (distance in world space, ties go to the earlier
+/// surface). Exact: octree blocks are split until one surface is nearest to the whole block, or down to single voxels.
+/// Surfaces too far from a block are discarded for all of its children.
 /// Cost: O(area between the bodies), not their volume. The result does not depend on `threads`.
 [[nodiscard]] volume::ColumnVolume giveThematicBodies(const volume::ColumnVolume& columns, const volume::Grid& grid,
                                                       const mesh::MeshScene& scene,
                                                       const std::vector<BodyGroup>& groups, int threads);
 
-/// Distance from `point` to the triangle a, b, c (Ericson 2005, 5.1.5).
+/// Distance from `point` to the triangle a, b, c (Ericson 2005, Real-Time Collision Detection, 5.1.5).
 [[nodiscard]] double distanceToTriangle(Vec3d point, Vec3d a, Vec3d b, Vec3d c) noexcept;
 
 }  // namespace svt::voxelize

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The planes that the faces of a scene lie on, in the voxel space in which samples are decided.
+/// The planes of the faces of a scene, in voxel space, with the offset of the samples that the voxelizer uses.
 
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/volume/face_planes.hpp>
@@ -10,9 +10,9 @@
 
 namespace svt::voxelize {
 
-/// Planes of all faces that are large enough for bricks to be told by them: 32 square voxels on one plane, in triangles
-/// of one at least. Faces of all objects that lie on one plane (to 1/50 voxel) share it, whichever way they look.
-/// \return the planes, those with the largest area first; none of faces outside of the grid
+/// Planes of all faces that are large enough to code bricks: at least 32 square voxels on one plane, counting triangles
+/// of at least one square voxel. Coplanar faces (to 1/50 voxel) of all objects share a plane, whichever way they face.
+/// \return the planes, largest area first; planes whose faces lie outside the grid are left out
 /// Cost: O(triangles log triangles).
 [[nodiscard]] std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshScene& scene, const volume::Grid& grid);
 

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Spatial patterns: solid textures in metres, laid in an object's own frame, repeated to fill its
-/// envelope and stencilled by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three
-/// directions, so every cut shows them right.
+/// Spatial patterns: solid textures in metres, placed in an object's own frame, repeated to fill its envelope and
+/// masked by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three directions, so that every
+/// section shows them correctly.
 
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_scene.hpp>
@@ -29,7 +29,7 @@ enum class PatternKind : std::uint8_t {
     WoodGrain,   ///< growth rings around the long axis: 0 early wood, 1 late wood
     Concrete,    ///< grains in cement: 0 cement, 1 fine grain, 2 coarse grain
     Insulation,  ///< soft waves: 0 ground, 1 line
-    Image,       ///< a picture over length and height, the same through the depth: one phase per colour
+    Image,       ///< an image over length and height, constant through the depth: one phase per colour
     Raw          ///< a 3D file of bytes: one phase per value
 };
 inline constexpr int kPatternKinds = 12;
@@ -37,7 +37,7 @@ inline constexpr int kPatternKinds = 12;
 [[nodiscard]] std::string_view patternName(PatternKind kind) noexcept;  ///< "brick", "wood-grain", ...
 [[nodiscard]] bool patternFromName(std::string_view name, PatternKind& kind) noexcept;
 
-/// Cells of a pattern read from a file; x fastest, then y (rows bottom up), then z.
+/// Cells of a pattern read from a file: x fastest, then y (rows bottom up), then z.
 struct PatternCells {
     Vec3i dimension{};
     std::uint32_t phaseCount = 1;
@@ -45,33 +45,33 @@ struct PatternCells {
     std::vector<Vec3f> colors;  ///< per phase, sRGB; empty for raw files
 };
 
-/// A pattern and its measures, metres. u runs along the object's dominant horizontal edge, v across it, w up.
+/// A pattern and its dimensions in metres. u runs along the object's dominant horizontal edge, v across it, w up.
 struct Pattern {
     PatternKind kind = PatternKind::None;
     Vec3d size{
         0, 0,
-        0};  ///< of one unit along u, v, w (brick, block, checker, grid cell, image, raw file); 0: the kind's default
+        0};  ///< of one unit along u, v, w; hatch, stripes, wood grain and concrete use w alone; 0: the kind's default
     double line = 0;                            ///< width of joints and lines; 0: the kind's default
     double angleDegrees = 45;                   ///< hatch: from u towards w
     std::uint32_t seed = 1;                     ///< grains, rings
     std::shared_ptr<const PatternCells> cells;  ///< image, raw
 
-    /// Scalars that an object with this pattern owns: 1 for None.
+    /// Number of scalars that an object with this pattern owns; 1 for None.
     [[nodiscard]] std::uint32_t phaseCount() const noexcept;
-    /// Phase at a point of the object's frame (metres from the lower corner of its envelope in that frame), 0 ..
-    /// phaseCount() - 1. The same bits on every machine: no library functions but sqrt and floor.
+    /// Phase at a point of the object's frame (metres from the lower corner of its envelope in that frame), 0 to
+    /// phaseCount() - 1. Same result on every machine: of the math library only sqrt and floor are used.
     [[nodiscard]] std::uint32_t phaseAt(Vec3d uvw) const noexcept;
 };
 
-/// Fills in the defaults of the kind and checks the measures.
-/// \return the pattern, or BadPattern that names the measure and its range (1e-4 to 1e3 m)
+/// Fills in the defaults of the kind and checks the dimensions.
+/// \return the pattern, or BadPattern that names the dimension and its valid range (1e-4 to 1e3 m)
 [[nodiscard]] Result<Pattern> makePattern(Pattern pattern);
 
 /// Reads a PNG as cells; colours are reduced to at most `maxColors` (2..64) by median cut. Limits: 4096 x 4096.
 [[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file,
                                                                            int maxColors = 8);
-/// Reads `dimension` bytes (x fastest); values are numbered in ascending order to at most 64 phases. Limits: 1024 along
-/// an axis.
+/// Reads a raw file of one byte per cell (x fastest). Its distinct values, at most 64, become phases in ascending
+/// order. Limit: 1024 cells along an axis.
 [[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file,
                                                                          Vec3i dimension);
 
@@ -81,7 +81,8 @@ struct ObjectFrame {
     Vec3d origin{};  ///< local space of the scene
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 };
-/// The direction that most of the length of horizontal edges has (in steps of one degree, then their mean).
+/// Finds the dominant horizontal edge direction: the fullest bin of a length-weighted histogram of one-degree bins,
+/// refined to the mean direction of that bin.
 [[nodiscard]] ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept;
 
 struct PatternedObject {
@@ -90,7 +91,7 @@ struct PatternedObject {
     ObjectFrame frame;
 };
 
-/// Lays the patterns: a voxel with scalar `first` of a patterned object becomes first + phase at its centre.
+/// Applies the patterns: a voxel with scalar `first` of a patterned object becomes first + phase at its centre.
 /// Cost: O(voxels of patterned objects).
 [[nodiscard]] volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid,
                                                Vec3d sceneOrigin, const std::vector<PatternedObject>& objects,

@@ -58,7 +58,7 @@ inline ObjectMesh turnedBox(Vec3d low, Vec3d high, double degrees) {
     return mesh;
 }
 
-/// A ball of triangles, corners on the sphere.
+/// A triangulated ball with its vertices on the sphere.
 inline ObjectMesh ball(Vec3d center, double radius, int slices = 24) {
     ObjectMesh mesh;
     const int stacks = slices / 2;
@@ -114,8 +114,8 @@ inline mesh::MeshScene sceneOf(std::vector<ObjectMesh> objects, Vec3d origin = {
     return scene;
 }
 
-/// Exact point-in-solid: vertices and point are taken to a lattice of 1 nm, the ray is cast in 128-bit integers, and
-/// another direction is taken where it meets an edge. Independent of the voxelizer.
+/// Exact point-in-solid test: vertices and point are rounded to a lattice of 1 nm, and a ray is cast in 128-bit
+/// integers; if it meets an edge, another direction is tried. Shares no code with the voxelizer.
 class SolidOracle {
 public:
     explicit SolidOracle(const ObjectMesh& mesh) : mesh_(mesh) {
@@ -175,7 +175,7 @@ private:
         return det > 0 ? 1 : det < 0 ? -1 : 0;
     }
     static double pointTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
-        // Nearest of the plane's foot point, where it lies inside, and the three edges.
+        // Minimum over the three edges and, where the projection falls inside the triangle, the plane.
         const auto segment = [&](Vec3d s, Vec3d e) {
             const Vec3d d = e - s;
             const double l = dot(d, d);

@@ -25,14 +25,14 @@ using model::SurfaceUse;
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 constexpr std::size_t kMostLeaks = 100;
 
-// What becomes one mesh: a feature and the faces of its geometry.
+// The source of one mesh: a feature and the faces of its geometry.
 struct Source {
     FeatureIndex feature = model::kNoFeature;
     double lod = -1;
     bool isAssembled = false;
-    bool hasSolidMeaning = false;  // an open shell is to be closed
+    bool hasSolidMeaning = false;  // if so, an open shell will be closed
     std::vector<SurfaceUse> uses;
-    std::vector<std::pair<std::size_t, std::size_t>> voids;  // stretches of `uses` that are shells of voids
+    std::vector<std::pair<std::size_t, std::size_t>> voids;  // ranges of `uses` that are shells of voids
 };
 
 void appendUses(const model::Geometry& geometry, Source& source) {
@@ -47,7 +47,7 @@ void appendUses(const model::Geometry& geometry, Source& source) {
     }
 }
 
-// Faces of the boundary surfaces of a space, with their openings.
+// Appends the faces of the boundary surfaces of a space, with their openings.
 void appendBoundary(const BuildingModel& model, FeatureIndex space, const model::LodChoice& lod,
                     const std::vector<std::uint8_t>& isCoarser, Source& source) {
     for (const FeatureIndex child : model.features[space].children) {
@@ -70,8 +70,8 @@ double chosenLod(const Feature& feature, const model::LodChoice& lod) {
     return chosen < 0 ? -1 : feature.geometries[std::size_t(chosen)].lod;
 }
 
-// Boundary surfaces (and openings) of a coarser level than others of their class in the same space: files with several
-// levels of detail give each its own surfaces.
+// Marks boundary surfaces and openings of a coarser level of detail than others of their class in the same space: files
+// with several levels of detail have separate surfaces for each.
 std::vector<std::uint8_t> findCoarserSurfaces(const BuildingModel& model, const std::vector<FeatureIndex>& order,
                                               const model::LodChoice& lod) {
     const auto isSurface = [&](FeatureIndex f) {
@@ -111,8 +111,8 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
         if (const int chosen = lod.choose(feature); chosen >= 0) {
             const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
             own.lod = geometry.lod;
-            // Doors and windows are bodies in CityGML 3.0 and sheets in the openings of CityGML 2.0: the geometry
-            // tells.
+            // Doors and windows can be bodies (CityGML 3.0) or sheets (openings of CityGML 2.0): the kind of geometry
+            // decides.
             own.hasSolidMeaning = model::isFilling(feature.className) ? geometry.kind == model::GeometryKind::Solid
                                                                       : model::hasSolidMeaning(feature.className);
             appendUses(geometry, own);
@@ -127,16 +127,16 @@ std::vector<Source> collectSources(const BuildingModel& model, const model::LodC
     return sources;
 }
 
-// Gathers the triangles of the uses. Faces used twice in the same direction are doubled faces, and dropped;
-// two uses in opposite directions stay (they cancel).
+// The result of gather(). A face that is used twice in the same direction is a duplicate and dropped; two uses in
+// opposite directions are kept (they cancel).
 struct Gathered {
-    std::vector<std::uint32_t> pointIds;        // per vertex
+    std::vector<std::uint32_t> pointIds;        // welded point per vertex
     std::vector<model::PolygonIndex> polygons;  // ascending
     std::uint32_t duplicateFaces = 0;
 };
 
-// Turns the closed shells of voids that face outwards: the file says that they are voids.
-// Returns the count of turned triangles.
+// Reverses closed void shells that face outwards: the file declares them as voids, so they must face inwards.
+// Returns the count of reversed triangles.
 std::uint32_t turnVoidsInwards(const Source& source, const LocalPolygons& polygons, std::vector<SurfaceUse>& uses) {
     std::uint32_t turned = 0;
     std::vector<Triangle> shell;
@@ -183,7 +183,7 @@ Gathered gather(const Source& source, const LocalPolygons& polygons, ObjectMesh&
     }
     std::sort(gathered.polygons.begin(), gathered.polygons.end());
 
-    // Corners still name points of the polygons; number the welded ones that occur.
+    // Corners are still indices of polygon points: renumber them to the welded points in use.
     std::vector<std::uint32_t> used;
     used.reserve(mesh.triangles.size() * 3);
     for (const Triangle& triangle : mesh.triangles)
@@ -206,7 +206,7 @@ Gathered gather(const Source& source, const LocalPolygons& polygons, ObjectMesh&
     return gathered;
 }
 
-// The same triangle twice in the same direction, from two polygons that are the same face.
+// Removes duplicate triangles with the same direction, from two polygons that are the same face.
 std::uint32_t removeDoubledTriangles(std::vector<Triangle>& triangles) {
     std::set<std::array<std::uint32_t, 3>> seen;
     return static_cast<std::uint32_t>(std::erase_if(triangles, [&](const Triangle& triangle) {
@@ -221,7 +221,7 @@ struct Work {
     bool isClosedAsRead = false;
 };
 
-// The closing test and what follows from it, up to where other features are needed.
+// The closing test, and the repairs that need no other features.
 void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
     mesh.openEdges = findOpenEdges(mesh.triangles);
     mesh.unmatchedEdges = static_cast<std::uint32_t>(mesh.openEdges.size());
@@ -240,7 +240,7 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
         }
     }
     if (!mesh.openEdges.empty()) {
-        // Two edges that run the same way are no leak but faces that disagree.
+        // Two uses of an edge in the same direction are not a leak, but inconsistently oriented faces.
         const std::uint32_t turned = orientConsistently(mesh.triangles);
         mesh.flippedFaces += turned;
         if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
@@ -260,7 +260,7 @@ void finish(ObjectMesh& mesh) {
         measureThickness(mesh);
     } else {
         for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
-        // An open shell has no volume, but its faces still say which side is out.
+        // An open shell has no exact volume, but the sign still tells which side is outside.
         if (mesh.closure == Closure::Open && signedVolume(mesh.vertices, mesh.triangles) < 0) {
             for (Triangle& triangle : mesh.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
             for (OpenEdge& edge : mesh.openEdges) std::swap(edge.from, edge.to);
@@ -274,7 +274,7 @@ void finish(ObjectMesh& mesh) {
     }
 }
 
-// True where a closed mesh encloses nothing but rounding.
+// True if the volume of a closed mesh is zero up to rounding errors.
 bool isFlat(const ObjectMesh& mesh) {
     if (!mesh.isSolid()) return false;
     double area = 0;
@@ -399,7 +399,7 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
         capPlanarHoles(mesh, options.capDeviation);
         mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
         if (isFlat(mesh)) {
-            // A footprint or a single face: there is nothing to fill.
+            // A footprint or a single face: there is no volume to fill.
             mesh.triangles = uncapped;
             mesh.caps.clear();
             mesh.openEdges = findOpenEdges(mesh.triangles);

@@ -350,7 +350,7 @@ TEST(BuildMeshes, EdgesThatMatchOnlyInPartsAreTJunctions) {
 }
 
 TEST(BuildMeshes, RoundedCornersAreStillClosed) {
-    // Every face has its corners rounded another way, by a micrometre.
+    // Each face has its corners rounded differently, by up to a micrometre.
     BuildingModel model;
     std::vector<SurfaceUse> uses;
     for (int side = 0; side < 6; ++side) {

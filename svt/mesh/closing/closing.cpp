@@ -30,7 +30,7 @@ std::vector<DirectedEdge> ringEdges(const LocalPolygons& polygons, const model::
     return edges;
 }
 
-// How many more edges are closed than opened when a face with `edges` joins; `need` counts the missing directed edges.
+// Edges closed minus edges opened by adding a face with `edges`; `need` counts the missing directed edges.
 int gainOf(const std::vector<DirectedEdge>& edges, const std::map<DirectedEdge, int>& need, bool isReversed) {
     int gain = 0;
     for (const auto& [a, b] : edges) {
@@ -59,7 +59,7 @@ FaceFinder::~FaceFinder() = default;
 
 std::uint32_t FaceFinder::complement(ObjectMesh& mesh, std::vector<std::uint32_t>& pointIds,
                                      const std::vector<model::PolygonIndex>& own) const {
-    std::map<DirectedEdge, int> need;  // directed edges that a missing face must have
+    std::map<DirectedEdge, int> need;  // directed edges that the missing faces must have, with multiplicity
     std::vector<model::PolygonIndex> candidates;
     for (const OpenEdge& edge : mesh.openEdges) {
         const std::uint32_t from = pointIds[edge.from], to = pointIds[edge.to];
@@ -78,8 +78,8 @@ std::uint32_t FaceFinder::complement(ObjectMesh& mesh, std::vector<std::uint32_t
         model::PolygonIndex polygon;
         bool isReversed;
     };
-    // Of all that gain, the first is taken each time. One that did not gain is looked at again once one of its edges
-    // changed.
+    // Greedy: takes the first candidate with a positive gain. A rejected candidate is tried again when the need of one
+    // of its edges has changed.
     std::vector<std::vector<DirectedEdge>> edgesOf(candidates.size());
     std::map<DirectedEdge, std::vector<std::size_t>> users;  // undirected edge (low, high) -> candidates
     std::set<std::size_t> waiting;
@@ -140,7 +140,7 @@ void capPlanarHoles(ObjectMesh& mesh, double deviation) {
         for (const std::uint32_t corner : loop) ring.push_back(mesh.vertices[corner]);
         const std::uint32_t end = static_cast<std::uint32_t>(ring.size());
         const Triangulation cap = triangulatePolygon(ring, {&end, 1});
-        // A crossing would need a point that the rest of the shell does not have.
+        // If the ring crosses itself, the cap would need points that the shell does not have.
         if (cap.triangles.empty() || !cap.extraPoints.empty() || cap.planeDeviation > deviation) continue;
         for (const auto& corners : cap.triangles) {
             Triangle triangle;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Ways to close an open shell, in the order in which they are tried (paper, section 4.1).
+/// Ways to close an open shell, in the order in which they are tried (paper, section 4.1): faces of adjoining features,
+/// then planar caps.
 
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
@@ -9,19 +10,21 @@
 
 namespace svt::mesh {
 
-/// Finds polygons by their edges. Built once for all open objects.
+/// An index of polygons by their edges. Built once for all open objects.
 class FaceFinder {
 public:
-    /// Looks at polygons with triangles only. Cost: O(points log points).
+    /// Indexes all polygons that have triangles. Cost: O(points log points).
     explicit FaceFinder(const LocalPolygons& polygons, const model::BuildingModel& model);
     ~FaceFinder();
     FaceFinder(const FaceFinder&) = delete;
     FaceFinder& operator=(const FaceFinder&) = delete;
 
-    /// Adds faces of other features whose edges are the missing partners of `mesh.openEdges`: the face of a wall that
-    /// two solids share and only one lists. A face is taken when it closes more edges than it opens. \param pointIds
-    /// per vertex of the mesh: its welded point in the polygons, or 0xFFFFFFFF \param own       polygons that the mesh
-    /// has already, ascending \return count of faces added; the mesh's openEdges are renewed
+    /// Adds faces of other features whose edges are the missing partners of `mesh.openEdges`, for example the face of a
+    /// wall that is shared by two solids but listed by only one of them. A face is added if it closes more edges than
+    /// it opens. Updates `mesh.openEdges`.
+    /// \param pointIds  per vertex of the mesh: its welded point in the polygons, or 0xFFFFFFFF; new vertices are added
+    /// \param own       polygons that the mesh has already, ascending
+    /// \return count of faces added
     std::uint32_t complement(ObjectMesh& mesh, std::vector<std::uint32_t>& pointIds,
                              const std::vector<model::PolygonIndex>& own) const;
 
@@ -33,7 +36,7 @@ private:
 };
 
 /// Caps boundary loops that lie within `deviation` metres of a plane, and records them in mesh.caps.
-/// \post mesh.openEdges holds what is still open
+/// \post mesh.openEdges holds the edges that are still open
 void capPlanarHoles(ObjectMesh& mesh, double deviation);
 
 }  // namespace svt::mesh

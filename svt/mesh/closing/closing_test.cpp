@@ -55,7 +55,7 @@ TEST(CapPlanarHoles, HoleWithAnIslandIsClosedAroundIt) {
 
 class Neighbours : public ::testing::Test {
 protected:
-    // Polygons of a model as one prepares them; the mesh is made of some of them.
+    // Prepared polygons of a model; the mesh consists of some of them.
     void prepare(const std::vector<model::PolygonIndex>& own) {
         own_ = own;
         polygons_ = prepareLocalPolygons(model_, std::vector<std::uint8_t>(model_.polygons.size(), 1), {}, nullptr);
@@ -112,7 +112,7 @@ TEST_F(Neighbours, FaceThatOpensMoreThanItClosesIsNotTaken) {
 
 TEST_F(Neighbours, HoleOfSeveralFacesIsClosedFaceByFace) {
     test::addBox(model_, {0, 0, 0}, {4, 3, 2}, {test::kEast});
-    // The missing face as two halves whose points on the shell's edges the shell has too: from above and below.
+    // The missing face as two halves. The shell has the points where they meet its edges, above and below.
     model_.polygons[0] = {{{0, 0, 0}, {0, 3, 0}, {4, 3, 0}, {4, 1, 0}, {4, 0, 0}}, {5}, "", -1};
     model_.polygons[1] = {{{0, 0, 2}, {4, 0, 2}, {4, 1, 2}, {4, 3, 2}, {0, 3, 2}}, {5}, "", -1};
     test::addRings(model_, {{{4, 0, 0}, {4, 1, 0}, {4, 1, 2}, {4, 0, 2}}});

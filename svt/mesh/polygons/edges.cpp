@@ -7,7 +7,7 @@
 namespace svt::mesh {
 namespace {
 
-// An edge use: undirected key, who uses it, and whether from the lower to the higher corner.
+// A use of an edge by a triangle: the undirected edge, the triangle, and whether it runs from `low` to `high`.
 struct EdgeUse {
     std::uint32_t low, high;
     std::uint32_t triangle;
@@ -44,6 +44,7 @@ void forEachEdge(const std::vector<EdgeUse>& uses, F&& body) {
     }
 }
 
+// Disjoint sets with path halving.
 struct UnionFind {
     std::vector<std::uint32_t> parent;
     explicit UnionFind(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
@@ -58,7 +59,7 @@ struct UnionFind {
     }
 };
 
-// Where `point` lies along a-b as a fraction, if it is within `distance` of the inside of the edge; else < 0.
+// Fraction of `point` along a-b if it lies within `distance` of the interior of the edge; else < 0.
 double fractionOnEdge(Vec3d point, Vec3d a, Vec3d b, double distance) {
     const Vec3d along = b - a;
     const double squared = dot(along, along);
@@ -74,8 +75,8 @@ struct EdgeCut {
     double fraction;
 };
 
-// Points of open edges that lie on other open edges. Points are sorted along x, so each edge looks only at those in its
-// reach.
+// Finds ends of open edges that lie on other open edges. Points are sorted along x, so that each edge tests only those
+// in its x range.
 std::vector<EdgeCut> findCuts(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& open, double distance) {
     std::vector<std::uint32_t> points;
     for (const OpenEdge& edge : open) {
@@ -115,13 +116,13 @@ std::vector<EdgeCut> findCuts(const std::vector<Vec3d>& vertices, const std::vec
     return cuts;
 }
 
-// A point on the border of a triangle, and which of its edges it lies on (bit 0: from corner 0 to 1, ...).
+// A point on the border of a triangle, and a mask of the edges that it lies on (bit 0: from corner 0 to 1, ...).
 struct BorderPoint {
     std::uint32_t vertex;
     unsigned edges;
 };
 
-// The corner ring of a triangle with the cut points of its edges put in.
+// The corners of a triangle and the cut points of its edges, as a ring.
 std::vector<BorderPoint> ringWithCuts(const Triangle& triangle, const std::vector<EdgeCut>& cuts) {
     std::vector<BorderPoint> ring;
     for (unsigned c = 0; c < 3; ++c) {
@@ -139,14 +140,14 @@ std::vector<BorderPoint> ringWithCuts(const Triangle& triangle, const std::vecto
     return ring;
 }
 
-// Cuts a triangle whose border carries more points into triangles, ear by ear, the fattest first. No ear lies on one
-// edge alone and none leaves points of one edge alone, so no triangle ends without area.
+// Triangulates a triangle with additional points on its border by ear clipping, largest ear first. An ear must not lie
+// on one edge, and the remaining points must not either, so that no triangle is degenerate.
 void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint> ring, const Triangle& source,
                      std::vector<Triangle>& out) {
     const auto twiceArea = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         return length(cross(vertices[b] - vertices[a], vertices[c] - vertices[a]));
     };
-    std::size_t notOn[3] = {0, 0, 0};  // points of the ring that are not on the edge
+    std::size_t notOn[3] = {0, 0, 0};  // per edge: count of points of the ring that are not on it
     const auto count = [&](const BorderPoint& point, bool isAdded) {
         for (unsigned e = 0; e < 3; ++e)
             if ((point.edges >> e & 1u) == 0) isAdded ? ++notOn[e] : --notOn[e];
@@ -181,7 +182,7 @@ void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint
     out.push_back(last);
 }
 
-// True where a triangle of `others` lies under the middle of `triangle`, in its plane and facing its way.
+// True if the centroid of `triangle` lies in one of `others` that is coplanar and faces the same way.
 bool isCovered(const std::vector<Vec3d>& vertices, const Triangle& triangle, const std::vector<Triangle>& others) {
     constexpr double kSamePlane = 1e-4;
     const auto corner = [&](const Triangle& t, std::size_t c) { return vertices[t.corners[c]]; };
@@ -203,8 +204,8 @@ bool isCovered(const std::vector<Vec3d>& vertices, const Triangle& triangle, con
 
 void flip(Triangle& triangle) { std::swap(triangle.corners[1], triangle.corners[2]); }
 
-// Signed crossings of the ray from `point` towards +z with a component; odd-axis ties do not matter for a containment
-// vote.
+// Signed crossings of the ray from `point` towards +z with a component. A ray through an edge is not resolved; that is
+// good enough for a containment test.
 int windingAlongZ(Vec3d point, const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles,
                   const std::vector<std::uint32_t>& members) {
     int winding = 0;
@@ -255,7 +256,7 @@ std::vector<OpenEdge> findOpenEdges(const std::vector<Triangle>& triangles) {
 
 std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance) {
     std::uint32_t count = 0;
-    // A cut can lay open a point on an edge that was hidden before; a few rounds settle all.
+    // A split can expose another point on an edge; a few rounds settle all.
     for (int round = 0; round < 8; ++round) {
         const std::vector<OpenEdge> open = findOpenEdges(triangles);
         if (open.empty()) break;
@@ -277,7 +278,7 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
 }
 
 std::uint32_t removeDoubledFaces(const std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;  // per directed edge
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;  // uses per directed edge
     for (const Triangle& triangle : triangles)
         for (std::size_t c = 0; c < 3; ++c) ++uses[{triangle.corners[c], triangle.corners[(c + 1) % 3]}];
     std::vector<std::uint8_t> isGone(triangles.size(), 0);
@@ -332,7 +333,7 @@ std::vector<std::uint32_t> findComponents(const std::vector<Triangle>& triangles
 
 std::uint32_t orientConsistently(std::vector<Triangle>& triangles) {
     const std::vector<EdgeUse> uses = collectEdgeUses(triangles);
-    // Neighbours over edges with exactly two uses; `isAgreeing` where they run it in opposite directions.
+    // Neighbours across edges with exactly two uses; `isAgreeing` if these run in opposite directions.
     struct Link {
         std::uint32_t triangle, neighbour;
         bool isAgreeing;
@@ -407,7 +408,7 @@ std::uint32_t orientOutwards(const std::vector<Vec3d>& vertices, std::vector<Tri
     std::uint32_t flipped = 0;
     for (std::uint32_t c = 0; c < count; ++c) {
         if (!(volume[c] < 0)) continue;
-        // A void keeps facing inwards: it lies inside a larger component.
+        // A void, inside a larger component, must face inwards.
         const auto& corners = triangles[members[c][0]].corners;
         const Vec3d probe = (vertices[corners[0]] + vertices[corners[1]] + vertices[corners[2]]) / 3.0;
         bool isVoid = false;
@@ -422,7 +423,7 @@ std::uint32_t orientOutwards(const std::vector<Vec3d>& vertices, std::vector<Tri
 }
 
 std::vector<std::vector<std::uint32_t>> findBoundaryLoops(const std::vector<OpenEdge>& edges) {
-    // The missing face runs against the open edges.
+    // The missing face uses the open edges in reverse direction.
     std::multimap<std::uint32_t, std::uint32_t> next;
     for (const OpenEdge& edge : edges) next.emplace(edge.to, edge.from);
     std::vector<std::vector<std::uint32_t>> loops;
@@ -438,7 +439,7 @@ std::vector<std::vector<std::uint32_t>> findBoundaryLoops(const std::vector<Open
                 path.push_back(corner);
                 continue;
             }
-            // A loop closes; what led to it goes on from the corner it was left at.
+            // The path has closed a loop: emit it, and continue from the corner where it began.
             loops.emplace_back(seen, path.end());
             path.erase(seen + 1, path.end());
         }

@@ -44,7 +44,7 @@ TEST(FindOpenEdges, MissingTriangleLeavesTheEdgesOfItsNeighbours) {
 }
 
 TEST(FindOpenEdges, AnEdgeIsListedAsOftenAsItIsMissing) {
-    // Three triangles that run the edge 0 -> 1 upwards, one that runs it back.
+    // Three triangles use the edge in the direction 0 -> 1, one in the direction 1 -> 0.
     EXPECT_EQ(pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}}))).front(),
               (std::pair{0u, 1u}));
     const auto open = pairsOf(findOpenEdges(trianglesOf({{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}})));
@@ -58,8 +58,8 @@ TEST(FindOpenEdges, FacesInsideThatCancelAreClosed) {
     EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
 }
 
-// A box of 4 x 3 x 2 m whose south face is cut in the middle at x = `at`, so that its bottom and top edges carry a
-// point that the faces above and below do not know.
+// A box of 4 x 3 x 2 m whose south face is divided at x = `at`, so that its bottom and top edges have T-junctions with
+// the faces above and below.
 ObjectMesh boxWithCutFace(double noise = 0) {
     auto mesh = boxMesh(kLow, kHigh);
     std::erase_if(mesh.triangles, [](const Triangle& t) {  // south: corners 0, 1, 5, 4
@@ -98,8 +98,8 @@ TEST(CutAtTJunctions, PointFurtherThanTheDistanceStaysALeak) {
     EXPECT_EQ(findOpenEdges(mesh.triangles).size(), 6u);
 }
 
-// Two faces of a fold along the edge from `a` to `b`, the sides cut at the given fractions, and what closes the back.
-// The fold is a wedge: left and right face, two end triangles, all else whole.
+// A wedge: two faces that meet along the edge from `a` to `b`, each with that edge divided at the given fractions, and
+// two end triangles and a back without divisions.
 ObjectMesh wedgeWithCuts(Vec3d a, Vec3d b, const std::vector<double>& left, const std::vector<double>& right,
                          double noise) {
     std::mt19937_64 random(41);
@@ -190,7 +190,7 @@ TEST(OrientConsistently, TurnedFacesAreTurnedBack) {
 
 TEST(OrientConsistently, ComponentThatAgreesStays) {
     auto mesh = boxMesh(kLow, kHigh);
-    test::turnOver(mesh.triangles);  // inwards, but of one mind
+    test::turnOver(mesh.triangles);  // facing inwards, but consistent
     append(mesh, boxMesh({10, 0, 0}, {11, 1, 1}));
     std::swap(mesh.triangles[12].corners[1], mesh.triangles[12].corners[2]);
     EXPECT_EQ(orientConsistently(mesh.triangles), 1u);
@@ -198,7 +198,7 @@ TEST(OrientConsistently, ComponentThatAgreesStays) {
 }
 
 TEST(OrientConsistently, MoebiusStripStays) {
-    // A strip of five quads whose end is joined turned.
+    // A Moebius strip: five quads, the last joined to the first with a twist.
     std::vector<std::array<std::uint32_t, 3>> corners;
     for (std::uint32_t i = 0; i < 4; ++i) {
         corners.push_back({2 * i, 2 * i + 2, 2 * i + 1});
@@ -274,7 +274,7 @@ TEST(FindBoundaryLoops, LoopBoundsTheMissingFace) {
 }
 
 TEST(FindBoundaryLoops, LoopsThatTouchInACornerAreTold) {
-    // Two triangles of missing face that meet in corner 0: edges of the neighbours run against them.
+    // Two missing triangles that meet in corner 0; the edges of their neighbours run in reverse direction.
     const auto loops = findBoundaryLoops({{0, 2}, {0, 4}, {1, 0}, {2, 1}, {3, 0}, {4, 3}});
     ASSERT_EQ(loops.size(), 2u);
     for (const auto& loop : loops) EXPECT_EQ(loop.size(), 3u);

@@ -9,14 +9,14 @@
 namespace svt::mesh {
 namespace {
 
-// An edge, and the direction in which one of its triangles lies: unit length, across the edge.
+// An edge, and the unit direction from it into one of its triangles, perpendicular to the edge.
 struct Wing {
     std::uint32_t low, high;
     Vec3d direction;
     [[nodiscard]] bool isSameEdge(const Wing& other) const { return low == other.low && high == other.high; }
 };
 
-// Height of the triangle over its longest side, metres.
+// Height of the triangle above its longest side, metres.
 double leastHeight(const std::vector<Vec3d>& vertices, const Triangle& triangle) {
     const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]], c = vertices[triangle.corners[2]];
     const double longest = std::max({length(b - a), length(c - b), length(a - c)});
@@ -38,7 +38,7 @@ std::vector<Wing> collectWings(const std::vector<Vec3d>& vertices, const std::ve
     return wings;
 }
 
-// All wings in one plane, on both sides of the edge.
+// True if all wings are coplanar, with some on both sides of the edge.
 bool isFlat(const Wing* begin, const Wing* end, double leastCosine) {
     bool hasOpposite = false;
     for (const Wing* wing = begin + 1; wing != end; ++wing) {
@@ -49,7 +49,7 @@ bool isFlat(const Wing* begin, const Wing* end, double leastCosine) {
     return hasOpposite;
 }
 
-// Joins edges that follow each other on one line.
+// Joins collinear edges that follow each other.
 class Joiner {
 public:
     Joiner(const std::vector<Vec3d>& vertices, std::vector<FeatureEdge> edges, double tolerance)
@@ -87,7 +87,7 @@ private:
         });
     }
 
-    // The vertex at which the line from `from` over `to` ends.
+    // Extends the line from `from` through `to`; returns its last vertex.
     std::uint32_t follow(std::uint32_t from, std::uint32_t to) {
         const Vec3d start = vertices_[from], along = normalized(vertices_[to] - start);
         while (true) {
@@ -123,7 +123,7 @@ private:
 std::vector<FeatureEdge> findFeatureEdges(const ObjectMesh& mesh, const FeatureEdgeOptions& options) {
     std::vector<Triangle> triangles;
     triangles.reserve(mesh.triangles.size());
-    // A sliver says nothing of the angle between its neighbours; without it their edges are cut to match.
+    // Leave out slivers: they hide the angle between their neighbours. The neighbours are then split to match.
     for (const Triangle& triangle : mesh.triangles)
         if (leastHeight(mesh.vertices, triangle) > options.tolerance) triangles.push_back(triangle);
     std::vector<Vec3d> vertices = mesh.vertices;

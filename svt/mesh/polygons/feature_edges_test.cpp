@@ -91,7 +91,7 @@ TEST(FeatureEdges, WhereAWallStandsOnAFloorIsAnEdge) {
 }
 
 TEST(FeatureEdges, ADegenerateTriangleLeavesNoMark) {
-    // A square whose lower side carries a point that a triangle without area fills.
+    // A square with an extra point on its lower side, filled by a degenerate triangle.
     ObjectMesh sheet = test::meshOfRings(
         {{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {0, 2, 0}, {2, 0, 0}, {4, -2, 0}, {0, -2, 0}}, {{0, 1, 2, 3}, {0, 4, 1}});
     sheet.triangles.push_back(sheet.triangles[0]);

@@ -20,7 +20,7 @@ bool isSane(Vec3d point) {
            std::abs(point.z) < kLargestCoordinate;
 }
 
-// Numbers points so that equal coordinates have equal numbers, by first use.
+// Numbers points by first use, so that equal coordinates have equal numbers. Returns the count of distinct points.
 std::uint32_t weld(std::span<const Vec3d> points, std::vector<std::uint32_t>& ids) {
     std::vector<std::uint32_t> table(std::bit_ceil(points.size() * 2 + 16), 0);
     std::vector<std::uint32_t> representative;
@@ -70,15 +70,15 @@ void judge(const Triangulation& result, const model::Polygon& polygon, std::vect
                          result.planeDeviation, at)});
 }
 
-// To a tenth of a micrometre: the same decimal number gives the same bits, written out in XML or as integer times scale
-// in JSON.
+// Rounds to a tenth of a micrometre, so that a decimal number gives the same bits whether it was written out (XML) or
+// as an integer times a scale (JSON).
 Vec3d rounded(Vec3d point) {
     constexpr double kSteps = 1e7;
     return {std::nearbyint(point.x * kSteps) / kSteps, std::nearbyint(point.y * kSteps) / kSteps,
             std::nearbyint(point.z * kSteps) / kSteps};
 }
 
-// Lays the points of all used polygons out flat, relative to a whole-metre origin.
+// Copies the points of all used polygons to flat arrays, relative to an origin in whole metres.
 void layOutPoints(const model::BuildingModel& model, const std::vector<std::uint8_t>& isUsed, LocalPolygons& out,
                   Diagnostics* log) {
     const std::size_t count = model.polygons.size();
@@ -127,7 +127,7 @@ void clusterValues(std::span<double> values, double distance) {
     std::vector<double> sorted(values.begin(), values.end());
     std::sort(sorted.begin(), sorted.end());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    // Most models hold few distinct values, so the rest is a search in a short table.
+    // Most models have few distinct values, so this table is short and the search below is fast.
     std::vector<double> representative(sorted.size());
     double start = 0;
     for (std::size_t i = 0; i < sorted.size(); ++i) {

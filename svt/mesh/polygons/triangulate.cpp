@@ -19,7 +19,7 @@ struct Tessellation {
 
 void onBegin(GLenum, void*) {}
 void onEnd(void*) {}
-// Present only so that GLU sends single triangles instead of strips and fans.
+// An edge flag callback makes GLU emit single triangles instead of strips and fans.
 void onEdgeFlag(GLboolean, void*) {}
 
 std::uint32_t indexFromData(const void* data) {
@@ -34,7 +34,7 @@ void onError(GLenum, void* user) { static_cast<Tessellation*>(user)->result->has
 void onCombine(const GLdouble coordinates[3], void* data[4], GLfloat weights[4], void** out, void* user) {
     auto* tessellation = static_cast<Tessellation*>(user);
     tessellation->result->isSelfTouching = true;
-    // Two points that coincide: one of them stands for both, so that neighbours still match.
+    // Two coinciding points: use one of them for both, so that neighbours still match.
     if (data[2] == nullptr) {
         *out = weights[0] >= weights[1] ? data[0] : data[1];
         return;
@@ -50,7 +50,7 @@ Callback asCallback(F* function) {
     return reinterpret_cast<Callback>(function);
 }
 
-// Quads whose two triangles along 0-2 both follow the polygon's normal.
+// True for convex quads: all four corner triangles have the orientation of the polygon's normal.
 bool isConvexQuad(std::span<const Vec3d> q, Vec3d normal) {
     const auto area = [&](int a, int b, int c) { return dot(cross(q[b] - q[a], q[c] - q[a]), normal); };
     const double smallest = 1e-9 * dot(normal, normal);
@@ -86,7 +86,7 @@ void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ri
         if (end - begin >= 3) {
             gluTessBeginContour(tess.get());
             for (std::uint32_t i = begin; i < end; ++i) {
-                // The location is read only: GLU copies it.
+                // GLU copies the location.
                 GLdouble location[3] = {points[i].x, points[i].y, points[i].z};
                 gluTessVertex(tess.get(), location, dataFromIndex(i));
             }
@@ -107,7 +107,7 @@ void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ri
 Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
     Vec3d normal{};
     if (ring.empty()) return normal;
-    // Relative to the first point: world coordinates are large, their differences are not.
+    // Relative to the first point, to avoid cancellation with large world coordinates.
     const Vec3d base = ring[0];
     for (std::size_t i = 0; i < ring.size(); ++i)
         normal = normal + cross(ring[i] - base, ring[(i + 1) % ring.size()] - base);
@@ -127,7 +127,7 @@ Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const 
         perimeter += length(exterior[(i + 1) % exterior.size()] - exterior[i]);
     result.isZeroArea = !(length(normal) > 1e-12 * perimeter * perimeter);
     if (points.size() == 3) {
-        // Kept even without area: tessellated models are full of such slivers, and their edges belong to the shell.
+        // Kept even without area: tessellated models have many such slivers, and their edges belong to the shell.
         result.triangles.push_back({0, 1, 2});
         return result;
     }

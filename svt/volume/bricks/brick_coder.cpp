@@ -10,9 +10,9 @@ namespace svt::volume {
 namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
-// Voxels that have a neighbor in the brick along x and along y.
+// Mask of the voxels whose next voxel along x (along y) is in the same brick.
 constexpr std::uint64_t kNotLastX = 0x7F7F7F7F7F7F7F7Full, kNotLastY = 0x00FFFFFFFFFFFFFFull;
-// A sample nearer to a plane than this, in voxels, lies on no side of it.
+// A sample closer to a plane than this, in voxels, counts as on neither side.
 constexpr double kMargin = 1e-6;
 
 void addChanges(const std::uint64_t* words, Changes& changes) noexcept {
@@ -23,7 +23,7 @@ void addChanges(const std::uint64_t* words, Changes& changes) noexcept {
     }
 }
 
-// Folded to places along the axis: bit p is set where voxels p and p + 1 differ anywhere.
+// Projects `changes` to the axis: bit p is set if any voxels at p and p + 1 along it differ.
 std::uint32_t placesOf(const SideMask& changes, int axis) noexcept {
     std::uint32_t found = 0;
     if (axis == 2) {
@@ -49,7 +49,7 @@ SideMask cutMask(int axis, std::uint32_t cut) noexcept {
     return mask;
 }
 
-// Palette index of all voxels in `cell`; nothing where they differ.
+// Palette index of all voxels in `cell`; nullopt if they differ.
 std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask& cell) noexcept {
     std::uint32_t index = 0;
     for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) {
@@ -64,9 +64,9 @@ std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask
     return index;
 }
 
-// Labels of the cells that the sides make, each checked. Cells without a sample are slivers between the others: they
-// take the label from beyond as few sides as possible, cuts rather than planes, and of the planes the later ones, which
-// are less sure to be faces of the model.
+// Finds the label of each cell; returns false if a cell has voxels of two labels. Cells without a sample are slivers
+// between the others. They take the label of the nearest cell with samples, where crossing a cut costs less than
+// crossing a plane, and a later plane, which is less likely to be a face of the model, less than an earlier one.
 bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
                std::vector<Scalar>& cells) {
     const std::size_t count = std::size_t{1} << sides.size();
@@ -117,7 +117,7 @@ std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes&
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        SideMask rest = changes[a];  // what no side explains
+        SideMask rest = changes[a];  // changes that no plane explains
         std::uint64_t any = 0;
         for (std::size_t k = 0; k < 8; ++k) {
             for (const BrickSide* plane : planes) rest[k] &= ~plane->changes[a][k];
@@ -137,10 +137,10 @@ std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes&
 
 namespace {
 
-// A pattern of two labels as heights over one of the axes: how many voxels from below belong to the lower label.
+// A pattern of two labels as a height field over one axis: the count of voxels of the lower label in each line.
 struct Heights {
-    bool isSurface = false;  // each line along the axis has one change at most, and all the same label below
-    std::array<std::int8_t, 64> height{};  // by p + 8 q; (p, q) are the other axes, in order
+    bool isSurface = false;  // each line along the axis changes at most once, always with the same label below
+    std::array<std::int8_t, 64> height{};  // at p + 8 q, where p and q run along the other two axes
     Scalar low = 0, high = 0;
 };
 
@@ -161,7 +161,7 @@ Heights heightsAlong(const BrickPattern& pattern, int axis) {
             if (line == 0 || line == 0xFF) continue;
             const int first = line & 1;
             if (low < 0) low = first;
-            // What is above must be one stretch up to the top.
+            // The upper label must fill the line from its first voxel to the top.
             const int above = first != 0 ? ~line & 0xFF : line;
             if (low != first || above + (above & -above) != 0x100) return heights;
         }
@@ -189,13 +189,13 @@ int steepestAxis(const BrickPattern& pattern) noexcept {
     return best;
 }
 
-// Height over (p, q): a p + b q + c, voxels, from the brick's corner.
+// A plane as height over (p, q): a p + b q + c, in voxels from the corner of the brick.
 struct Slope {
     double a = 0, b = 0, c = 0;
     [[nodiscard]] double at(double p, double q) const noexcept { return a * p + b * q + c; }
 };
 
-// Least squares of heights over places.
+// Least-squares fit of a Slope to samples (p, q, h).
 class SlopeFit {
 public:
     void add(double p, double q, double h) noexcept {
@@ -208,7 +208,7 @@ public:
         const double pp = pp_ - p_ * p_ / n_, pq = pq_ - p_ * q_ / n_, qq = qq_ - q_ * q_ / n_;
         const double ph = ph_ - p_ * h_ / n_, qh = qh_ - q_ * h_ / n_;
         const double determinant = pp * qq - pq * pq;
-        if (!(determinant > 0.02 * n_ * n_)) return std::nullopt;  // all in a line, or nearly
+        if (!(determinant > 0.02 * n_ * n_)) return std::nullopt;  // the samples are (nearly) collinear
         Slope slope;
         slope.a = (ph * qq - qh * pq) / determinant;
         slope.b = (qh * pp - ph * pq) / determinant;
@@ -220,7 +220,7 @@ private:
     double n_ = 0, p_ = 0, q_ = 0, h_ = 0, pp_ = 0, pq_ = 0, qq_ = 0, ph_ = 0, qh_ = 0;
 };
 
-// Moves the surface up or down as little as the brick's own voxels ask for; false where that is not enough.
+// Shifts the plane up or down by the least amount that separates the voxels of the brick; false if none does.
 bool moveInto(const Heights& heights, Slope& slope) noexcept {
     double low = -1e9, high = 1e9;
     for (int q = 0; q < 8; ++q)
@@ -237,7 +237,7 @@ bool moveInto(const Heights& heights, Slope& slope) noexcept {
     return true;
 }
 
-// So that a cut between voxels, or none, says the same all along the volume.
+// True for planes across an axis: they are handled as cuts between voxels.
 bool isAcrossAxis(Vec3d normal) noexcept {
     return std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)}) > 1 - 1e-12;
 }
@@ -297,7 +297,7 @@ public:
 
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    // Candidates for a brick: planes of the model, planes where surfaces meet, cuts; and how many are tried by threes.
+    // Maximum candidates per brick: planes of the model, planes where surfaces meet, cuts; and those tried in triples.
     static constexpr std::size_t kMostFaces = 12, kMostAround = 8, kMostCuts = 4, kMostOfThree = 7;
 
     template <class Body>
@@ -306,7 +306,7 @@ private:
             for (std::int32_t y = 0; y < places_.count.y; ++y)
                 for (std::int32_t x = 0; x < places_.count.x; ++x) body(Vec3i{x, y, z});
     }
-    // Places beside `at`: faces first, then edges, then corners.
+    // The 26 neighbours of `at`: those across faces first, then edges, then corners.
     template <class Body>
     void forEachNeighbor(Vec3i at, const Body& body) const {
         for (const Vec3i away : kNeighbors)
@@ -341,11 +341,11 @@ private:
         return *heights;
     }
 
-    // The side of each sample; nothing where one lies too near.
+    // The side of each sample; nullopt if a sample is within kMargin of the plane.
     std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
         const Vec3d n = plane.normal;
         const double base = valueAt(plane, corner(at) + Vec3d{0.5, 0.5, 0.5});
-        // In a row along x the sides change once; only there can a sample be near.
+        // Along a row in x the side changes at most once; only the samples next to that place can be near the plane.
         const double inverse = n.x != 0 ? -1 / n.x : 0;
         SideMask mask{};
         for (int k = 0; k < 8; ++k)
@@ -355,7 +355,7 @@ private:
                 const int before = std::max(change - 1, 0), after = std::min(change, 7);
                 const double low = row + n.x * before, high = row + n.x * after;
                 if (std::min(std::abs(low), std::abs(high)) < kMargin) return std::nullopt;
-                // The side of the samples before the change, and of those from it on.
+                // Sides of the samples before the change, and from it on.
                 const std::uint64_t first = low > 0 ? 0xFF : 0, rest = high > 0 ? 0xFF : 0;
                 const std::uint64_t from = (0xFFull << change) & 0xFF;
                 mask[std::size_t(k)] |= ((first & ~from) | (rest & from)) << (8 * j);
@@ -379,13 +379,14 @@ private:
         return true;
     }
 
-    // Two cuts may be the corner of a surface that rises by a voxel.
+    // True if cuts code the brick, but may be a step of a sloped surface.
     [[nodiscard]] bool isStep(Vec3i at) const noexcept {
         return isMixed(at) && codeOf_[place(at)] == kNone &&
                isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Step);
     }
 
-    // \param mayStandAlone  whether a plane will do that the bricks around do not share
+    // Codes a height field of two labels by a neighbour's plane, else by a fitted one. `mayStandAlone`: also accept a
+    // plane that is fitted to this brick alone.
     void codeSurface(Vec3i at, bool mayStandAlone) {
         std::array<std::uint32_t, 4> tried{kNone, kNone, kNone, kNone};
         std::size_t count = 0;
@@ -420,7 +421,7 @@ private:
         return sums.solve();
     }
 
-    // The same with the surfaces of the bricks around, as far as they go on from this one.
+    // Refines the fit with the height fields of the neighbours, as far as they continue this one.
     Slope fitAround(Vec3i at, int axis, const Heights& own, Slope slope) {
         for (const double tolerance : {1.25, 0.8}) {
             SlopeFit sums;
@@ -466,13 +467,13 @@ private:
         return false;
     }
 
-    // What the faces of the model around say.
+    // Tries the planes of the model's faces near the brick.
     void codeByFaces(Vec3i at) {
         startCandidates(at);
         addFacePlanes(at, kMostFaces);
         if (sides_.empty()) return;
         if (isStep(at)) {
-            // Cuts say it as well. Planes say it better, but where it is cuts that the model has.
+            // Cuts code it already. Prefer planes, unless the model has faces where the cuts are.
             if (const auto own = codeBySides(patternAt(at), changes_); own && !hasCutsOfModel(*own, at))
                 tryCandidates(at, 0);
             return;
@@ -481,14 +482,14 @@ private:
         tryCandidates(at, 0);
     }
 
-    // Whether faces of the model are where the code's cuts are; yes where no faces are known.
+    // Whether the model has a face at each cut of the code; true if no faces are known.
     [[nodiscard]] bool hasCutsOfModel(const BrickCode& code, Vec3i at) const noexcept {
         if (!knowsFaces_) return true;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             if (code.cut[a] == 0) continue;
             const double place = (places_.origin + at * 8)[axis] + code.cut[a];
-            // Samples on both sides of the cut have the face between them.
+            // The face must lie between the samples on both sides of the cut.
             if (std::none_of(cutPlanes_.begin(), cutPlanes_.end(), [&](const FacePlane& face) {
                     return std::abs(face.plane.normal[axis]) > 0.5 &&
                            std::abs(face.plane.offset * face.plane.normal[axis] + place) <= 0.5 && isBeside(face, at);
@@ -498,7 +499,7 @@ private:
         return true;
     }
 
-    // Whether faces on the plane are in the brick or beside it.
+    // Whether the plane has faces in the brick or adjacent to it.
     [[nodiscard]] bool isBeside(const FacePlane& face, Vec3i at) const noexcept {
         const Vec3i low = places_.origin + at * 8;
         for (int axis = 0; axis < 3; ++axis) {
@@ -521,7 +522,8 @@ private:
         }
     }
 
-    // Where surfaces meet: planes of the model and of the bricks around, and second cuts across an axis.
+    // Codes a brick where surfaces meet: by planes of the model and of the neighbours, and further cuts across an axis;
+    // then by fitted planes.
     void codeMeeting(Vec3i at) {
         startCandidates(at);
         if (!isStep(at)) addFacePlanes(at, kMostAround - 2);
@@ -544,8 +546,9 @@ private:
         if (sides_.size() > known) tryCandidates(at, known);
     }
 
-    // One candidate, or two or three of which one at least is number `from` or later. Cuts beside them must be of the
-    // model: else they are the steps of an oblique face that is not among the candidates, and voxels look better.
+    // Tries one, two and three candidates, at least one of them with index `from` or higher. Cuts needed besides must
+    // be at faces of the model: otherwise they are steps of an oblique face that is not among the candidates, and
+    // voxels look better.
     bool tryCandidates(Vec3i at, std::size_t from) {
         const auto isDone = [&](std::initializer_list<std::size_t> planes,
                                 std::initializer_list<const BrickSide*> sides) {
@@ -569,7 +572,7 @@ private:
         return false;
     }
 
-    // False where the plane tells no voxels apart, or those that another does.
+    // Adds a candidate; false if it separates no voxels, or the same voxels as another candidate.
     bool addCandidate(const BrickPlane& plane, const std::optional<SideMask>& mask) {
         if (!mask || isTrivial(*mask)) return false;
         if (std::any_of(sides_.begin(), sides_.end(), [&](const BrickSide& side) { return side.mask == *mask; }))
@@ -579,7 +582,7 @@ private:
         return true;
     }
 
-    // Planes of least squares through the faces between two labels, one above the other along an axis.
+    // Adds planes fitted by least squares to the voxel faces between two labels, for each axis and pair of labels.
     void addFitted(Vec3i at) {
         constexpr std::size_t kMost = 4, kFewest = 8;
         struct Pair {
@@ -596,7 +599,7 @@ private:
         for (const Pair& pair : pairs) {
             if (added == kMost) break;
             const auto slope = fitFaces(at, pair.axis, pair.low, pair.high);
-            // A plane that is steeper over this axis is found over another.
+            // Steeper planes are found over another axis.
             if (!slope || std::max(std::abs(slope->a), std::abs(slope->b)) > 1.3) continue;
             const BrickPlane plane = planeOf(at, pair.axis, *slope);
             if (addCandidate(plane, sideMask(plane, at))) ++added;
@@ -617,7 +620,7 @@ private:
             };
             add(at);
             if (slope)
-                for (std::size_t n = 0; n < 6; ++n) {  // over the faces
+                for (std::size_t n = 0; n < 6; ++n) {  // the neighbours across faces
                     const Vec3i other = at + kNeighbors[n];
                     if (isInside(other) && isMixed(other)) add(other);
                 }
@@ -628,14 +631,14 @@ private:
         return slope;
     }
 
-    // A face between two voxels: over (p, q), `height` voxels up.
+    // A face between two voxels: at (p, q), `height` voxels above the bottom of the brick.
     struct Face {
         std::uint8_t p, q, height;
     };
-    // Those with `low` below and `high` above.
+    // The faces with label `low` below and `high` above.
     struct FaceGroup {
         Scalar low, high;
-        std::uint32_t begin, end;  // of AxisFaces::faces
+        std::uint32_t begin, end;  // range of AxisFaces::faces
         [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
     };
     struct AxisFaces {
@@ -697,7 +700,7 @@ private:
         return *faces;
     }
 
-    // Planes between voxels across axes that need more than one cut.
+    // Adds cuts as candidate planes, for axes that need more than one cut.
     void addCuts(Vec3i at, std::size_t most) {
         for (int axis = 0; axis < 3; ++axis) {
             std::uint32_t places = placesOf(changes_[std::size_t(axis)], axis);
@@ -729,7 +732,7 @@ private:
         return isAll(0) || isAll(kAll);
     }
 
-    // Does the plane cut the box of the brick itself?
+    // Does the plane intersect the box of the brick?
     [[nodiscard]] bool cutsBox(const BrickPlane& plane, Vec3i at) const noexcept {
         const double middle = valueAt(plane, corner(at) + Vec3d{4, 4, 4});
         const double reach = 4 * (std::abs(plane.normal.x) + std::abs(plane.normal.y) + std::abs(plane.normal.z));
@@ -758,15 +761,15 @@ private:
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& isCoded_;
-    std::vector<FacePlane> facePlanes_, cutPlanes_;  // of the model; across an axis the latter
+    std::vector<FacePlane> facePlanes_, cutPlanes_;  // of the model; cutPlanes_ are across an axis
     bool knowsFaces_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern
-    std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // of one axis, with the number of their group
+    std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // scratch: faces of one axis with the index of their group
     std::vector<std::uint32_t> codeOf_;
     std::vector<BrickPlane> candidates_;
-    std::vector<BrickSide> sides_;  // of the candidates
-    Changes changes_{};             // of the brick
+    std::vector<BrickSide> sides_;  // of the candidates, same order
+    Changes changes_{};             // of the brick being coded
     TileCodes result_;
 };
 

@@ -1,6 +1,30 @@
 #pragma once
 /// \file
-/// Finds planes that say the same as the voxels of a brick. Internal to volume.
+/// Codes bricks of 8 x 8 x 8 voxels by cuts and planes, exactly: every sample keeps its label.
+///
+///     j 7   c c c c c c c c         One layer of a brick with three labels, coded by two sides:
+///       6   c c c c c c c c
+///       5   c c c c c c c c           bit 0 of the cell   cut across y at 5: 1 where j >= 5
+///           ---------------           bit 1               a plane: 1 on its positive side (right)
+///       4   a a a a a/b b b
+///       3   a a a a/b b b b         The sides divide the brick into 2^2 cells; `cells` has one label for each:
+///       2   a a a/b b b b b
+///       1   a a/b b b b b b           cell   0   1   2   3
+///       0   a/b b b b b b b           label  a   c   b   c
+///           0 1 2 3 4 5 6 7  i
+///
+/// The ideas (all ours):
+/// - A side is a mask of 512 bits: the samples on the positive side of a plane, or beyond a cut. A code is valid if the
+///   samples of each cell have one label, which is tested on the bit planes of the palette by a few AND operations.
+/// - Where labels change from voxel to voxel is a mask, too. Changes along an axis that no plane explains must all lie
+///   at one place: this is the cut across that axis. So cuts are derived, not searched for.
+/// - Candidate planes, first match wins: planes of the model's faces, alone, in pairs and in triples; the plane of a
+///   neighbouring brick, so that a roof keeps one plane; a plane of least squares through the boundary between two
+///   labels, read as a height field over one axis in the brick and its neighbours.
+/// - A fitted plane is shifted along that axis by the least amount that puts all samples of the brick on the right side
+///   (an interval of offsets; no solution if it is empty).
+/// - Bricks of one label beside a sloped surface get its plane where it cuts the half voxel outside of their samples,
+///   so that the surface continues there.
 
 #include <svt/volume/brick_volume.hpp>
 
@@ -13,67 +37,70 @@
 
 namespace svt::volume {
 
-/// The distinct scalars of a brick, and the bit planes of its palette indices: bit i + 8 j of word 8 p + k.
+/// A brick as voxels: its distinct scalars, and the palette index of each voxel as bit planes. Bit p of the index of
+/// voxel (i, j, k) is bit i + 8 j of word 8 p + k.
 struct BrickPattern {
     std::vector<Scalar> palette;
     std::vector<std::uint64_t> planes;
 };
 
-/// How sides of cuts and planes stand for a brick's voxels; see BrickVolume::Coding.
+/// A brick as cuts, planes and the label of each cell between them; BrickVolume::BoxCoding is the same for a box of
+/// bricks.
 struct BrickCode {
-    std::array<std::uint8_t, 3> cut{};
+    std::array<std::uint8_t, 3> cut{};  ///< voxels of the brick below the cut across each axis, 1..7; 0: no cut
     std::array<std::uint32_t, BrickVolume::kMostPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
                                                               BrickVolume::kNoPlane};
-    std::vector<Scalar> cells;
+    std::vector<Scalar> cells;  ///< by cell number: a bit per cut (x, y, z), then per plane, from the lowest
     friend bool operator==(const BrickCode&, const BrickCode&) = default;
 };
 
-/// Which voxels of a brick lie on the positive side of something: bit i + 8 j of word k.
+/// The voxels of a brick on the positive side of a plane, or beyond a cut: bit i + 8 j of word k.
 using SideMask = std::array<std::uint64_t, 8>;
 
-/// By axis: voxels that differ from the next one along it.
+/// Per axis: the voxels that differ from the next voxel along this axis.
 using Changes = std::array<SideMask, 3>;
 
-/// A side, and where it changes.
+/// A side, and the places where it changes.
 struct BrickSide {
     explicit BrickSide(const SideMask& sideMask) noexcept;
     SideMask mask;
     Changes changes{};
 };
 
-/// Where the labels of `pattern` change.
+/// The places where the labels of `pattern` change.
 [[nodiscard]] Changes changesOf(const BrickPattern& pattern) noexcept;
 
-/// Codes `pattern` by the sides of planes and at most one cut across each axis, if that is possible.
+/// Codes `pattern` by the given sides of planes and at most one cut across each axis.
 /// \param changes  changesOf(pattern)
 /// \param planes   at most BrickVolume::kMostPlanes
+/// \return the code, with BrickCode::plane left to the caller, or nullopt if there is none
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
                                                    std::initializer_list<const BrickSide*> planes = {});
 
-/// One tile's bricks by place, each a number of `patterns` or kUniform.
+/// The bricks of a tile by place: for each the index of its pattern, or kUniform if it has one label.
 struct TilePlaces {
-    Vec3i origin;  ///< of the tile, voxels
+    Vec3i origin;  ///< of the tile in the volume, voxels
     Vec3i count;   ///< bricks
     static constexpr std::uint32_t kUniform = 0xFFFFFFFFu;
     std::vector<std::uint32_t> patternOf;  ///< x fastest, then y, then z
-    std::vector<Scalar> scalarOf;          ///< of the uniform ones
+    std::vector<Scalar> scalarOf;          ///< label of uniform bricks, same order
 
     [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
         return static_cast<std::size_t>(x + count.x * (y + count.y * z));
     }
 };
 
-/// A brick that got general planes. They are numbers of TileCodes::planes.
+/// A brick that is coded by planes. BrickCode::plane are indices of TileCodes::planes.
 struct PlacedCode {
     std::uint32_t place = 0;
     BrickCode code;
 };
 
-/// What cuts alone can say of a pattern.
+/// Whether cuts alone code a pattern.
 enum class PatternKind : std::uint8_t {
     Uncoded,
     Coded,
-    Step  ///< coded, but as well a surface that rises by a voxel: planes are tried first
+    Step  ///< coded, but possibly a step of a sloped surface: planes are tried first
 };
 
 struct TileCodes {
@@ -81,16 +108,20 @@ struct TileCodes {
     std::vector<PlacedCode> codes;  ///< by place, ascending
 };
 
-/// Codes what is not coded yet by planes: first those that the model's faces are known to lie on, alone, in pairs and
-/// by threes, then planes fitted to the voxels around.
+/// Codes bricks by planes: those that cuts do not code, and steps. Passes over the tile, in this order:
 ///
-/// Where a brick of two labels is a surface over one of the axes, its plane is that of least squares through the
-/// surface in the brick and its neighbors, moved as little as its own voxels ask for; a neighbor's plane is taken
-/// first, so that a roof has one plane. Where surfaces meet, the planes of the bricks around are tried in the same way
-/// as the model's. Uniform bricks beside a sloped surface get its plane where that cuts their rim, the half voxel
-/// outside of their samples. Every code is checked sample by sample; what has none stays a pattern.
-/// \param isCoded  by pattern: a PatternKind
-/// \param faces    what faces of the model lie on in the tile; none where they are not known
+/// 1. All of them by planes of the model's faces, alone, in pairs and in triples.
+/// 2. Bricks of two labels whose boundary is a height field over an axis: by the plane of a neighbour, else by least
+///    squares through the boundary in the brick and its neighbours.
+/// 3. Steps of two labels as in 2, but not by a plane fitted to the brick alone; other steps by planes of neighbours.
+/// 4. Bricks where surfaces meet: by planes of the model and of the neighbours, in the same way as 1, then by planes
+///    fitted to the boundary between two labels.
+/// 5. Uniform bricks beside a sloped surface: by its plane, where that cuts the half voxel outside of their samples.
+///
+/// Every code is checked sample by sample. Bricks without a code stay patterns.
+/// \param isCoded  per pattern: its PatternKind
+/// \param faces    planes of the model's faces in this tile, in order of preference; empty if unknown
+/// Cost: O(bricks on oblique surfaces), 1 to 5 us each.
 [[nodiscard]] TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
                                  const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces);
 

@@ -51,7 +51,7 @@ struct Coded {
     std::size_t mixed = 0, coded = 0, withPlanes = 0;
 };
 
-// Every sample of every coded brick must get its own scalar from the sides it lies on.
+// Every sample of every coded brick must get its scalar from the sides on which it lies.
 Coded expectCodesHold(const BrickVolume& bricks) {
     Coded found;
     const Vec3i count = bricks.brickCount(), n = bricks.dimension();
@@ -207,7 +207,7 @@ TEST(FacesOfTheModel, AreTheOnlyPlanesOfARoof) {
 }
 
 TEST(FacesOfTheModel, MeetByThrees) {
-    // A pyramid: four faces, of which three meet in no brick but at the top, and an oblique floor.
+    // A pyramid with four faces, three of which meet only at the top, and an oblique floor.
     const Vec3i n{96, 96, 64};
     const Vec3d top{48.3, 47.6, 60.2};
     const std::vector<FacePlane> faces{faceThrough({1, 0.2, 0.9}, top, n), faceThrough({-0.3, 1, 0.9}, top, n),
@@ -228,7 +228,7 @@ TEST(FacesOfTheModel, MeetByThrees) {
     const auto withThree = std::count_if(codes.begin(), codes.end(), [](const BrickVolume::BoxCoding& code) {
         return code.plane[2] != BrickVolume::kNoPlane;
     });
-    EXPECT_GE(withThree, 2);  // two would not do there
+    EXPECT_GE(withThree, 2);  // two planes are not enough there
     for (std::int32_t bz = 0; bz < 8; ++bz)
         for (std::int32_t by = 0; by < 12; ++by)
             for (std::int32_t bx = 0; bx < 12; ++bx)
@@ -238,8 +238,8 @@ TEST(FacesOfTheModel, MeetByThrees) {
 }
 
 TEST(FacesOfTheModel, DecideWhatARowOfVoxelsIs) {
-    // At the brim of a brick: the edge of a step, or where a slope leaves the brick. Of two labels, one along each
-    // half.
+    // At the border of a brick: the edge of a step, or the place where a slope leaves the brick. Two labels, one along
+    // each half.
     const Vec3i n{8, 8, 8};
     const LabelAt row = [](auto i, auto j, auto k) { return j == 7 && k == 0 ? (i < 4 ? 1u : 2u) : 0u; };
     const FacePlane slope = faceThrough({0, -0.6, 0.8}, {0, 7.5, 0.875}, n),
@@ -290,7 +290,7 @@ TEST(FacesOfTheModel, AreNotBelievedAgainstSamples) {
 }
 
 TEST(FacesOfTheModel, CountNoLongerThanTheyAreNear) {
-    // The plane goes on where its faces have ended: what lies there is fitted.
+    // The surface continues beyond the extent of its faces: there the planes are fitted.
     const Vec3i n{128, 64, 64};
     FacePlane face = faceThrough({0.1, -0.5, 0.8}, {64.234, 32.151, 32.077}, n);
     face.max[0] = 40;

@@ -13,7 +13,7 @@ namespace svt::volume {
 namespace {
 
 constexpr std::uint32_t kMixedBit = 0x80000000u;
-// Kinds of entries while bricks are made: the rest is a box of coded bricks, or a palette brick.
+// Tag bits of index entries during construction. The other bits are a box of coded bricks, or a palette brick.
 constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
 constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
@@ -23,11 +23,11 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t value) noexcept {
     return hash ^ (hash >> 29);
 }
 
-// Numbers distinct things by first use. The things themselves stay with the caller, who compares them.
+// Numbers distinct items by first use, by hash chaining. The items stay with the caller, who compares them.
 class Numbering {
 public:
-    // isEqual(number): is the thing that is looked up equal to the one of that number?
-    // Returns the known number, or kNew after noting `next` for it.
+    // find(): `isEqual(number)` compares the wanted item with that of a number. Returns the number of a known item, or
+    // kNew after registering the item as `next`, which must be the count of items so far.
     static constexpr std::uint32_t kNew = 0xFFFFFFFFu;
 
     template <class IsEqual>
@@ -54,17 +54,17 @@ private:
     std::vector<std::uint32_t> chain_;
 };
 
-// One tile's bricks: `entries` holds the distinct brick columns, bricksZ entries each. An entry is a number of
-// `scalars`, or of `patterns` with the mixed bit.
+// The bricks of a tile. `entries` holds the distinct columns of bricks, bricksZ entries each. An entry is an index in
+// `scalars`, or with kMixedBit an index in `patterns`.
 struct TileBricks {
     std::array<std::uint8_t, kBricksPerTile * kBricksPerTile> columnOf{};
     std::vector<std::uint32_t> entries;
     std::vector<Scalar> scalars;
     std::vector<BrickPattern> patterns;
-    // What codeBricks() makes of them.
+    // Results of TileCoding:
     std::vector<BrickPlane> planes;
     TileBoxes boxes;
-    std::vector<std::uint32_t> codedPatterns;  // of the coded bricks, in order of places
+    std::vector<std::uint32_t> codedPatterns;  // per coded brick, in order of places: its pattern
 
     [[nodiscard]] std::uint32_t entryAt(std::int32_t x, std::int32_t y, std::int32_t z,
                                         std::int32_t bricksZ) const noexcept {
@@ -73,12 +73,13 @@ struct TileBricks {
     }
 };
 
-// One of the distinct columns over a brick's 8 x 8 footprint.
+// One of the distinct columns in the 8 x 8 footprint of a brick.
 struct FootprintColumn {
-    std::uint64_t mask = 0;  // bit i + 8 j: this column stands there
+    std::uint64_t mask = 0;  // bit i + 8 j: column (i, j) of the footprint is this one
     const Run* run = nullptr;
 };
 
+// Makes the bricks of a tile from its columns. Equal footprints share a column of bricks.
 class TileBricker {
 public:
     TileBricker(const ColumnTile& tile, std::int32_t width, std::int32_t height, std::int32_t bricksZ)
@@ -107,7 +108,7 @@ public:
     }
 
 private:
-    // Column numbers of the 8 x 8 footprint; beyond the border they repeat it.
+    // Column numbers of the 8 x 8 footprint. Beyond the border of the volume, the columns at the border are repeated.
     std::array<std::uint16_t, 64> footprintAt(std::int32_t bx, std::int32_t by) const {
         std::array<std::uint16_t, 64> footprint;
         for (std::int32_t j = 0; j < 8; ++j) {
@@ -137,7 +138,7 @@ private:
         }
         std::uint32_t bottom = 0;
         while (bottom < top_) {
-            // No run ends inside [bottom, same), so all whole bricks in there are equal.
+            // No run ends inside [bottom, same), so all whole bricks in this range are equal.
             std::uint32_t same = top_;
             bool isUniform = true;
             for (FootprintColumn& column : columns_) {
@@ -153,7 +154,7 @@ private:
         }
     }
 
-    // The last run is taken to fill the last brick.
+    // The last run is extended to fill the last brick.
     std::uint32_t endOf(const Run& run) const { return run.end == nz_ ? top_ : run.end; }
 
     std::uint32_t scalarNumber(Scalar scalar) {
@@ -166,8 +167,8 @@ private:
     std::uint32_t brickNumber(std::uint32_t bottom) {
         palette_.clear();
         words_.fill(0);
-        // Voxel order, so that the palette is in order of first use and a pattern is the same for any labels.
-        std::uint32_t same = 0;  // up to here the layers are equal
+        // In voxel order, so that the palette is in order of first use and bit planes do not depend on the labels.
+        std::uint32_t same = 0;  // layers below this one equal the current layer
         for (std::uint32_t k = 0; k < 8; ++k) {
             if (k < same) {
                 for (std::size_t word = k; word < words_.size(); word += 8) words_[word] = words_[word - 1];
@@ -204,16 +205,16 @@ private:
 
     ColumnTile tile_;
     std::int32_t width_, height_;
-    std::uint32_t nz_, top_;  // top of the last voxel, and of the last brick
+    std::uint32_t nz_, top_;  // heights of the volume and of its bricks, voxels
     std::vector<FootprintColumn> columns_;
-    std::vector<std::uint16_t> numbers_;  // of the columns
+    std::vector<std::uint16_t> numbers_;  // of columns_, same order
     std::vector<Scalar> palette_;
     std::array<std::uint64_t, 8 * 9> words_{};
     Numbering numbering_;
     TileBricks result_;
 };
 
-// Codes the bricks of a tile: patterns by cuts alone, once each, then by planes, where they stand.
+// Codes the bricks of a tile: first each pattern by cuts alone, then single bricks by planes.
 class TileCoding {
 public:
     TileCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {
@@ -227,8 +228,8 @@ public:
                 }
     }
 
-    // Fills boxes, planes and codedPatterns of the tile. Returns by place: the scalar's number, kCoded and the box, or
-    // kVoxels and the pattern.
+    // Fills boxes, planes and codedPatterns of the tile. Returns the entries by place: index of the scalar, or
+    // kCodedBit and the box, or kVoxelsBit and the pattern.
     std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes) {
         codeOf_.assign(places_.patternOf.size(), TileBoxes::kNone);
         if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks(planes);
@@ -256,7 +257,7 @@ private:
     void codeBricks(std::span<const FacePlane> planes) {
         std::vector<std::uint8_t> kinds;
         std::vector<BrickCode> codes;
-        std::vector<std::uint32_t> byCuts;  // by pattern
+        std::vector<std::uint32_t> byCuts;  // by pattern: its code, or kNone
         bool isAllCoded = true;
         for (const BrickPattern& pattern : tile_.patterns) {
             auto code = codeBySides(pattern, changesOf(pattern));
@@ -289,7 +290,7 @@ private:
 
     TileBricks& tile_;
     TilePlaces places_;
-    std::vector<std::uint32_t> codeOf_;  // by place: a number of the codes, or kNone
+    std::vector<std::uint32_t> codeOf_;  // by place: index of its code, or kNone
     std::unordered_map<Scalar, std::uint32_t> uniform_;
 };
 
@@ -299,9 +300,9 @@ struct BrickBox {
     std::uint32_t entry = 0;  // the index entry that all its bricks have
 };
 
-// Covers the uniform bricks with boxes. Each box is grown from the first brick that has none yet, along x, then y, then
-// z, over all bricks of its scalar, whether other boxes hold them or not: boxes may overlap and a ray goes far in each.
-// What that costs is bounded by a budget; when it is spent, boxes keep to bricks that have none.
+// Covers the uniform bricks with boxes, greedily: each box is grown from the first brick without a box, along x, then
+// y, then z, over all bricks of its scalar, including those of other boxes. So boxes may overlap, and a ray goes far in
+// each. A budget of tests bounds the cost; when it is spent, boxes grow only over bricks without a box.
 class BoxFinder {
 public:
     BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count) : index_(index), count_(count) {
@@ -328,7 +329,7 @@ private:
                    (static_cast<std::size_t>(y) + static_cast<std::size_t>(count_.y) * static_cast<std::size_t>(z));
     }
 
-    // First x beyond each brick's stretch of equal entries along its row.
+    // For each brick: the end along x of its run of equal entries.
     void findRuns() {
         runEnd_.resize(index_.size());
         for (std::size_t row = 0; row < index_.size(); row += static_cast<std::size_t>(count_.x))
@@ -339,7 +340,7 @@ private:
             }
     }
 
-    // May the bricks [minX, maxX) of a row join a box?
+    // Can the bricks [box.min.x, box.max.x) of row (y, z) join the box?
     [[nodiscard]] bool mayJoin(const BrickBox& box, std::int32_t y, std::int32_t z) {
         const std::size_t first = at(box.min.x, y, z);
         --budget_;
@@ -369,7 +370,7 @@ private:
         while (box.max.z < count_.z && mayJoinLayer(box, box.max.z)) ++box.max.z;
         while (box.min.z > 0 && mayJoinLayer(box, box.min.z - 1)) --box.min.z;
         const auto number = static_cast<std::uint32_t>(boxes_.size());
-        // No brick before the seed is without a box.
+        // All bricks before the seed have a box already.
         for (std::int32_t z = seed.z; z < box.max.z; ++z)
             for (std::int32_t y = z == seed.z ? seed.y : box.min.y; y < box.max.y; ++y) {
                 std::uint32_t* row = boxOf_.data() + at(0, y, z);
@@ -390,7 +391,7 @@ private:
 
 }  // namespace
 
-// Joins the tiles' bricks, in tile order, into one volume.
+// Merges the bricks of all tiles, in tile order, into one volume.
 class BrickMerger {
 public:
     BrickMerger(BrickVolume& volume, std::int32_t tilesX) : volume_(volume), tilesX_(tilesX) {}
@@ -401,13 +402,13 @@ public:
         volume_.wide_.resize(volume_.placeOf(0, 0, count.z));
         numbers_.resize(tiles);
     }
-    // The tile's own numbers, one a place. Tiles may be placed side by side.
+    // Writes the entries of a tile, still with the numbers of the tile. Thread-safe for different tiles.
     void placeTile(std::size_t tile, const std::vector<std::uint32_t>& index) {
         std::size_t place = 0;
         forEachPlace(tile, [&](std::size_t brick) { volume_.wide_[brick] = index[place++]; });
     }
 
-    // Takes what the tile has found, and notes its numbers.
+    // Adds scalars, patterns, planes, codes and boxes of a tile to the volume, and records their numbers there.
     void addTile(std::size_t number, TileBricks& tile) {
         Numbers& numbers = numbers_[number];
         for (const Scalar scalar : tile.scalars) numbers.scalars.push_back(scalarNumber(scalar));
@@ -424,7 +425,7 @@ public:
         tile = {};
     }
 
-    // The volume's numbers for the tile's.
+    // Replaces the numbers of the tile by those of the volume. Thread-safe for different tiles.
     void numberTile(std::size_t tile) {
         const Numbers& numbers = numbers_[tile];
         forEachPlace(tile, [&](std::size_t brick) {
@@ -449,7 +450,7 @@ public:
         }
     }
 
-    // The index as it is read.
+    // Converts the index from tagged entries to its final form, with 16 bits if they suffice.
     void finishIndex() {
         const auto uniform = static_cast<std::uint32_t>(volume_.uniformBoxes_);
         const auto boxes = static_cast<std::uint32_t>(volume_.boxes_.size());
@@ -471,7 +472,7 @@ public:
         volume_.palettes_.insert(volume_.palettes_.end(), 7, 0);
     }
 
-    // Palette bricks of the coded bricks, by rank.
+    // Makes the bit vector of coded bricks and the table of their palette bricks, by rank.
     void rankCoded() {
         const std::size_t words = volume_.wide_.size() / 64 + 1;
         volume_.codedBricks_.resize(words);
@@ -498,7 +499,7 @@ public:
     }
 
 private:
-    // The volume's numbers by the tile's.
+    // Per number of the tile, the number of the volume.
     struct Numbers {
         std::vector<std::uint32_t> scalars, patterns, codedPatterns;
         std::uint32_t firstBox = 0;
@@ -552,7 +553,7 @@ private:
         return place->second;
     }
 
-    // A plane of the model is one in all tiles.
+    // Equal planes, such as those of the model, are shared by all tiles.
     std::uint32_t planeNumber(const BrickPlane& plane) {
         std::uint64_t hash = 0;
         for (const double part : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
@@ -591,7 +592,7 @@ private:
         return next;
     }
 
-    // Sets of values that are stored once each, one behind the other.
+    // Sets of values in one array, each stored once.
     struct SharedSets {
         Numbering numbering;
         std::vector<std::pair<std::uint32_t, std::size_t>> sets;  // first, size
@@ -624,11 +625,11 @@ private:
 
 namespace {
 
-// Planes with faces around each tile, in their order.
+// The planes with faces in or next to each tile, in their given order.
 class PlanesByTile {
 public:
     PlanesByTile(std::span<const FacePlane> planes, const ColumnVolume& columns) : tilesX_(columns.tilesX()) {
-        // What planes may ask for in all, so that a bad file does not take forever: real ones stay far below.
+        // Limit on the total work, so that a malicious file does not take forever. Real files stay far below.
         constexpr std::int64_t kMostTests = std::int64_t{1} << 27;
         constexpr std::size_t kMostPlanes = 256;
         std::int64_t tests = 0;

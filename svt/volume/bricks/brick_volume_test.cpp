@@ -35,7 +35,7 @@ std::size_t differences(const BrickVolume& bricks, const std::vector<Scalar>& sc
     return count;
 }
 
-// Each box must hold its scalar alone, and be the box of the bricks that name it.
+// Each box must hold only its scalar, and contain the bricks that refer to it.
 void expectBoxesHold(const BrickVolume& bricks) {
     const Vec3i count = bricks.brickCount();
     for (const SameLabelBox& box : bricks.boxes())

@@ -29,11 +29,11 @@ public:
 private:
     [[nodiscard]] Vec3i corner(Vec3i at) const noexcept { return places_.origin + at * 8; }
 
-    // Which of the box's sides cut a brick, and on which side of the others it lies.
+    // Which sides of the box's code cut a brick, and on which side of the others the brick lies.
     struct Sides {
         std::array<bool, BrickVolume::kMostSides> cuts{};
-        std::size_t cell = 0;                                     // bits of the sides that do not cut
-        std::array<std::size_t, BrickVolume::kMostSides> bits{};  // of the sides that do, in order
+        std::size_t cell = 0;                                     // cell bits of the sides that do not cut it
+        std::array<std::size_t, BrickVolume::kMostSides> bits{};  // cell bits of the sides that do, in order
         std::size_t count = 0;
     };
     [[nodiscard]] Sides sidesOf(Vec3i at) const noexcept {
@@ -66,7 +66,7 @@ private:
         return sides;
     }
 
-    // Does the box's code say of the brick what its own says?
+    // Does the code of the box give this brick the same labels as its own code?
     [[nodiscard]] bool mayJoin(Vec3i at) {
         --budget_;
         const std::size_t place = places_.at(at.x, at.y, at.z);
@@ -134,7 +134,7 @@ private:
         result_.boxes.push_back(box);
     }
 
-    // Neighboring boxes often share their code.
+    // Index of code_, reused from the most recent codes: neighbouring boxes often share one.
     std::uint32_t numberOfCode() {
         constexpr std::ptrdiff_t kRecent = 16;
         const auto end = result_.codes.rbegin() + std::min<std::ptrdiff_t>(kRecent, std::ssize(result_.codes));
@@ -148,7 +148,7 @@ private:
     const std::vector<std::uint32_t>& codeOf_;
     const std::vector<BrickCode>& codes_;
     const std::vector<BrickPlane>& planes_;
-    BoxCode code_;  // of the box that grows
+    BoxCode code_;  // of the box being grown
     std::int64_t budget_ = 0;
     TileBoxes result_;
 };

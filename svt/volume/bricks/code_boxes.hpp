@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Joins coded bricks to boxes that one code describes. Internal to volume.
+/// Merges coded bricks into boxes that share one code.
 
 #include <svt/volume/bricks/brick_coder.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace svt::volume {
 
-/// A code for more than one brick: cuts are planes between voxels of the tile's axes, counted from the volume's corner.
+/// A code for a box of bricks. Unlike in BrickCode, cuts are counted in voxels from the corner of the volume.
 struct BoxCode {
     std::array<std::int32_t, 3> cut{kNoCut, kNoCut, kNoCut};
     std::array<std::uint32_t, BrickVolume::kMostPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
@@ -20,7 +20,7 @@ struct BoxCode {
     friend bool operator==(const BoxCode&, const BoxCode&) = default;
 };
 
-/// Bricks [min, max) of a tile, and the number of their code.
+/// Bricks [min, max) of a tile, and the index of their code.
 struct CodeBox {
     Vec3i min, max;
     std::uint32_t code = 0;
@@ -33,10 +33,10 @@ struct TileBoxes {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 };
 
-/// Covers the coded bricks of a tile with boxes. Each is grown from the first brick that has none yet, along x, then y,
-/// then z, over all bricks of which its code says the same as their own: coded ones that its sides cut, and uniform
-/// ones beside them. Boxes may overlap; what that costs is bounded by a budget.
-/// \param codeOf  by place: a number of `codes`, or TileBoxes::kNone
+/// Covers the coded bricks of a tile with boxes, greedily: each box is grown from the first brick without a box, along
+/// x, then y, then z, over all bricks for which its code gives the same labels as their own: coded bricks that its
+/// sides cut, and uniform bricks beside them. Boxes may overlap; a budget of tests bounds the cost.
+/// \param codeOf  by place: index in `codes`, or TileBoxes::kNone
 [[nodiscard]] TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeOf,
                                       const std::vector<BrickCode>& codes, const std::vector<BrickPlane>& planes);
 

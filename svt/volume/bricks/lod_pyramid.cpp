@@ -49,15 +49,15 @@ private:
     std::vector<Mixture> mixtures_;
 };
 
-// A distinct fine column under a coarse one.
+// A distinct fine column in the block of a coarse column.
 struct BlockColumn {
-    std::uint32_t number = 0;  // in its tile
-    std::uint32_t count = 0;   // how often it stands in the block
+    std::uint32_t number = 0;  // number of the column in its tile
+    std::uint32_t count = 0;   // how often it occurs in the block
     const Run* run = nullptr;
 };
 
-// Makes coarse columns of mixture numbers, each from the fine columns of its block by run arithmetic. A block lies in
-// one fine tile.
+// Makes coarse columns of mixture numbers from the runs of the fine columns of each block. A block lies in one fine
+// tile. Blocks with the same columns are mixed once.
 class ColumnMixer {
 public:
     ColumnMixer(const ColumnVolume& fine, int level, MixtureTable& table)
@@ -78,7 +78,7 @@ public:
     }
 
 private:
-    // Counts the columns of the block whose first column in the tile is (x, y); rows and columns repeat a lot.
+    // Counts the distinct columns of the block that begins at (x, y) in the tile; equal consecutive rows at once.
     void gather(std::int32_t tileX, std::int32_t tileY, std::int32_t x, std::int32_t y) {
         const ColumnTile& tile = fine_.tiles()[static_cast<std::size_t>(tileX + fine_.tilesX() * tileY)];
         const std::int32_t width = fine_.tileWidth(tileX);
@@ -113,7 +113,7 @@ private:
         std::vector<Run> runs;
         std::uint32_t cell = 0;
         while (cell < cells) {
-            // Up to `same`, no run ends, so all whole cells in there are equal.
+            // No run ends inside [bottom, same), so all whole cells in this range are equal.
             const std::uint32_t bottom = cell * size;
             std::uint32_t same = nz;
             for (BlockColumn& column : columns_) {
@@ -156,10 +156,10 @@ private:
     }
 
     const ColumnVolume& fine_;
-    std::int32_t size_;  // samples under a cell, along an axis
+    std::int32_t size_;  // samples per cell along an axis
     MixtureTable& table_;
     std::vector<BlockColumn> columns_;
-    std::vector<std::uint32_t> placeOf_;  // by column number: 1 + place in columns_, 0 = not there
+    std::vector<std::uint32_t> placeOf_;  // by column number: 1 + index in columns_, 0 = absent
     std::vector<std::uint32_t> key_;
     std::unordered_map<std::vector<std::uint32_t>, std::vector<Run>, KeyHash> known_;
     std::vector<std::pair<Scalar, std::uint64_t>> counts_;
@@ -204,7 +204,7 @@ Result<LodLevel> makeLevel(const ColumnVolume& fine, const Grid& grid, int level
                      static_cast<std::int32_t>(n / static_cast<std::size_t>(tilesX)), tiles[n]);
     });
 
-    // From the tiles' mixture numbers to the level's, in tile order.
+    // Renumber the mixtures of the tiles to those of the level, in tile order.
     MixtureTable table;
     (void)table.number(Mixture{});
     std::vector<ColumnTileData> data;
@@ -249,9 +249,9 @@ Mixture mixtureOf(std::span<const std::pair<Scalar, std::uint64_t>> counts, std:
     std::uint64_t kept = 0;
     for (const auto& label : labels) kept += label.second;
 
-    // The parts sum to `sum` exactly, each at least 1: whole shares first, the rest by largest remainder.
+    // The coverages add up to `sum` exactly, each at least 1: whole shares first, the rest by largest remainder.
     std::uint64_t sum = std::max<std::uint64_t>((filled * 510 + total) / (2 * total), labels.size());
-    if (filled < total) sum = std::min<std::uint64_t>(sum, 254);  // background that is there is seen, too
+    if (filled < total) sum = std::min<std::uint64_t>(sum, 254);  // background that is present keeps a share, too
     sum -= labels.size();
     std::uint64_t given = 0;
     std::array<std::pair<std::uint64_t, std::size_t>, Mixture::kMaxParts> remainders{};

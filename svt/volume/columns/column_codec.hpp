@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Internal: a block of tiles as eight streams of small numbers, and back. Nothing is compressed here; the streams are
-/// made so that a general compressor finds little left in them. docs/formats/svt.md specifies them to the bit.
+/// Encodes a block of tiles as eight streams of small numbers, and decodes it. The streams are predictive, so that a
+/// general-purpose compressor (zstd) can do the rest. docs/formats/svt.md specifies them to the bit.
 ///
-/// A block is coded as one picture whose pixels are columns. A row is a list of segments of equal columns, each told by
-/// what differs from the row before: the column above it, found again a little to the left or right, or a new column.
-/// A new column is told by its neighbours, the columns to the left and above: copy their runs, move an end, or
-/// insert a run. So planes, straight walls and repeated rows cost next to nothing, whatever their direction.
+/// A block is coded as an image whose pixels are columns; "above" is the previous row of this image. A row is a list of
+/// segments of equal columns, each coded relative to the row above: the same column with its end moved, or a new
+/// column. A new column is predicted from its left and upper neighbours: copy their runs, move the end of a run, or
+/// insert a run. So planes, straight walls and repeated rows take few bytes, whatever their direction.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -43,16 +43,16 @@ struct BlockShape {
     }
 };
 
-/// The streams, in the order in which a file has them. Numbers are LEB128 but for the bytes of Operations and Commands.
+/// The streams, in file order. Numbers are LEB128, except in Operations and Commands, which are bytes.
 enum class BlockStream : std::uint8_t {
-    Repeats,     ///< before each coded row: how many rows before it repeat the one before them
-    Operations,  ///< a byte per segment: which column, and how far its end moved
-    Shifts,      ///< zigzag: movements that do not fit into an operation
+    Repeats,     ///< before each coded row: how many times the row before it is repeated
+    Operations,  ///< a byte per segment: which column, and how far its end has moved
+    Shifts,      ///< zigzag: movements too large for an operation
     Widths,      ///< inserted segments: width - 1
-    Commands,    ///< bytes that make a new column from its neighbours
-    Moves,       ///< zigzag: movements that do not fit into a command
-    Scalars,     ///< of inserted runs
-    Heights      ///< of inserted runs, in samples - 1
+    Commands,    ///< bytes that build a new column from its neighbours
+    Moves,       ///< zigzag: movements too large for a command
+    Scalars,     ///< scalars of inserted runs
+    Heights      ///< heights of inserted runs, in samples, less 1
 };
 inline constexpr std::size_t kBlockStreams = 8;
 
@@ -60,30 +60,32 @@ template <class T>
 using PerStream = std::array<T, kBlockStreams>;
 using BlockStreams = PerStream<std::vector<std::uint8_t>>;
 
-/// What an operation says: byte = kind + kOperationKinds * movement. Movement 0: it stands in Shifts (or there is
-/// none); 1 ... 7: -3 ... 3.
+/// An operation is the byte kind + kOperationKinds * movement. Movement 1 to 7 means -3 to 3; 0 means that it is in
+/// Shifts, or for kInsert that there is none. Kinds 0 to 3 skip 0 to 3 segments above and reuse the next one's column.
 inline constexpr std::uint32_t kOperationKinds = 6;
-inline constexpr std::uint32_t kReplace = 4;  ///< 0 ... 3: the column above, after leaving out so many segments above
-inline constexpr std::uint32_t kInsert = 5;
+inline constexpr std::uint32_t kReplace = 4;  ///< a new column in place of the segment above
+inline constexpr std::uint32_t kInsert = 5;   ///< a new column before the segment above
 inline constexpr std::int32_t kMaxShift = 3;
 
-/// Commands below kCopy; kCopy + 2 * n + source copies n runs (0: all up to the top), source 0: left, 1: above.
+/// Commands. kCopy + 2 * n + source copies n runs (0: all up to the top) from the left (source 0) or upper (1) column.
+/// All others are below kCopy:
 inline constexpr std::uint32_t kNewRun = 0;
-inline constexpr std::uint32_t kMoveLeft = 1;      ///< the next run of the column to the left, with another end
-inline constexpr std::uint32_t kMoveAbove = 2;     ///< the same of the column above
-inline constexpr std::uint32_t kNearLeft = 3;      ///< 3 ... 6: end moved by -2, -1, 1, 2
-inline constexpr std::uint32_t kNearAbove = 7;     ///< 7 ... 10
-inline constexpr std::uint32_t kFirstUnused = 11;  ///< 11 ... 15
+inline constexpr std::uint32_t kMoveLeft = 1;      ///< the next run of the left column, with another end (in Moves)
+inline constexpr std::uint32_t kMoveAbove = 2;     ///< the same from the upper column
+inline constexpr std::uint32_t kNearLeft = 3;      ///< 3 to 6: as kMoveLeft, with the end moved by -2, -1, 1, 2
+inline constexpr std::uint32_t kNearAbove = 7;     ///< 7 to 10: the same from the upper column
+inline constexpr std::uint32_t kFirstUnused = 11;  ///< 11 to 15 are invalid
 inline constexpr std::uint32_t kCopy = 16;
 inline constexpr std::uint32_t kMaxCopy = 119;
 
-/// One of the two columns that a new one is told by.
+/// One of the two columns from which a new column is predicted.
 struct ReferenceColumn {
     std::span<const Run> runs;
     std::size_t at = 0;
 
-    /// Number of the run that is compared with the next one of a column that reaches up to `height` with a run of
-    /// `last`: the first that ends above, or the one behind it where that has the same scalar. May be runs.size().
+    /// Index of the run that predicts the next run of a column. The column reaches up to `height`, and its last run has
+    /// the scalar `last`. This is the first run that ends above `height`, or the one after it if the first has scalar
+    /// `last`. May be runs.size(). `height` must not decrease between calls.
     [[nodiscard]] std::size_t next(std::uint32_t height, Scalar last) noexcept {
         while (at < runs.size() && runs[at].end <= height) ++at;
         return at < runs.size() && runs[at].scalar == last ? at + 1 : at;
@@ -91,15 +93,16 @@ struct ReferenceColumn {
 };
 inline constexpr Scalar kNoScalar = 0xFFFFFFFFu;  ///< `last` at the bottom of a column
 
-/// The streams of a block. Tiles need not be canonical: equal neighbouring runs are joined, and decoding gives the
-/// canonical form of the same samples. Cost: O(bytes of the tiles), about 1 s per GB and core.
+/// Encodes a block. The tiles need not be canonical: adjacent runs with equal scalars are merged, and decoding gives
+/// the canonical form of the same samples. Cost: O(bytes of the tiles), about 1 s per GB and core.
 /// \param tiles  shape.tilesX() * shape.tilesY() tiles, x fastest
 [[nodiscard]] BlockStreams encodeBlock(std::span<const ColumnTile> tiles, const BlockShape& shape);
 
-/// The tiles of a block in canonical form. Any bytes are safe: everything is checked before it is used or allocated.
-/// \param arrayBytes  most bytes that the arrays of all tiles may take (see arrayBytesOf); memory stays below a few
-///                    times that and the size of the streams
-/// \return the tiles, x fastest, or BadVolume that says what is wrong
+/// Decodes the tiles of a block, in canonical form. Safe for any bytes: everything is checked before it is used or
+/// allocated.
+/// \param arrayBytes  limit for the bytes of the arrays of all tiles (see arrayBytesOf); memory stays below a few times
+///                    this limit plus the size of the streams
+/// \return the tiles, x fastest, or BadVolume with the reason
 [[nodiscard]] Result<std::vector<ColumnTileData>> decodeBlock(const PerStream<std::span<const std::uint8_t>>& streams,
                                                               const BlockShape& shape, Scalar scalarCount,
                                                               std::uint64_t arrayBytes);

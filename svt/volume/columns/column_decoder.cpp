@@ -14,8 +14,8 @@ std::int64_t fromZigzag(std::uint32_t value) noexcept {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
 }
 
-/// A stream that is read to its end. After a read beyond the end, or of a number over 32 bits, isGood() is false and
-/// all further numbers are 0.
+/// Reads a stream. After a read beyond the end, or of a number over 32 bits, isGood() is false and all further reads
+/// return 0.
 class StreamReader {
 public:
     StreamReader() = default;
@@ -51,12 +51,12 @@ private:
     bool isGood_ = true;
 };
 
-/// A tile that is filled row by row.
+/// Assembles a tile row by row.
 class TileAssembly {
 public:
     explicit TileAssembly(std::int32_t width) : builder_(width), row_(static_cast<std::size_t>(width)) {}
 
-    /// Columns [begin, end) of the current row are `column` of the block.
+    /// Sets columns [begin, end) of the current row to `column` of the block.
     void set(std::size_t begin, std::size_t end, std::uint32_t column) {
         if (column >= localOf_.size()) localOf_.resize(std::max<std::size_t>(column + 1, 2 * localOf_.size()), 0);
         std::uint16_t& local = localOf_[column];
@@ -71,13 +71,13 @@ public:
     void repeatRow() { builder_.repeatRow(); }
 
     [[nodiscard]] ColumnTileBuilder& rows() noexcept { return builder_; }
-    /// Its columns in the order of their first use, as numbers of the block.
+    /// The columns of the tile in the order of first use, by their numbers in the block.
     [[nodiscard]] std::span<const std::uint32_t> columns() const noexcept { return columns_; }
 
 private:
     ColumnTileBuilder builder_;
     std::vector<std::uint16_t> row_;
-    std::vector<std::uint16_t> localOf_;  // column of the block -> 1 + number in the tile, 0: not in it yet
+    std::vector<std::uint16_t> localOf_;  // column of the block -> 1 + number in the tile, 0: not used yet
     std::vector<std::uint32_t> columns_;
 };
 
@@ -102,11 +102,11 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kToTheEnd = 0xFFFFFFFFu;  // value of repeats_ behind the last coded row
+    static constexpr std::uint32_t kToTheEnd = 0xFFFFFFFFu;  // value of repeats_ after the last coded row
 
     StreamReader& reader(BlockStream which) noexcept { return readers_[static_cast<std::size_t>(which)]; }
 
-    /// Notes the first reason. \return false
+    /// Records the first error. Always returns false.
     bool refuse(const char* reason) noexcept {
         if (!reason_) reason_ = reason;
         return false;
@@ -128,7 +128,7 @@ private:
             if (!finish(assembly)) return;
     }
 
-    /// Reads the segments of a coded row into above_, and how often it is repeated.
+    /// Decodes a row into above_, and how many times it is repeated into repeats_.
     bool decodeRow() {
         row_.clear();
         std::size_t upper = 0;
@@ -161,7 +161,7 @@ private:
         return true;
     }
 
-    /// Makes a column from the last segment of the row and segment `upper` of the row above.
+    /// Decodes a new column, predicted from the last segment of the current row and segment `upper` of the row above.
     bool decodeColumn(std::size_t upper, std::uint32_t& number) {
         fresh_.clear();
         ReferenceColumn left, above;
@@ -188,7 +188,7 @@ private:
             last = fresh_.back().scalar;
         }
         number = dictionary_.add(fresh_);
-        // Each column of the block is in one of its tiles at least.
+        // Each column of the block is used by at least one tile, so its runs count against the limit.
         if (std::uint64_t{dictionary_.runCount()} * sizeof(Run) > arrayBytes_)
             return refuse("its arrays take more bytes than the index says");
         return true;
@@ -225,7 +225,7 @@ private:
         return true;
     }
 
-    /// Fills the row of each tile from the last coded row.
+    /// Adds the last decoded row to each tile.
     void spread(std::vector<TileAssembly>& assemblies) {
         std::uint32_t begin = 0;
         for (const Segment& segment : above_) {
@@ -239,7 +239,7 @@ private:
         for (TileAssembly& assembly : assemblies) assembly.endRow();
     }
 
-    /// Appends the tile with the runs of its columns.
+    /// Appends the finished tile, with the runs of its columns.
     bool finish(TileAssembly& assembly) {
         ColumnTileData tile = assembly.rows().finish();
         tile.rowColumns.shrink_to_fit();
@@ -264,12 +264,12 @@ private:
     BlockShape shape_;
     Scalar scalarCount_;
     std::uint64_t arrayBytes_;
-    std::uint64_t bytesLeft_;  // of arrayBytes_, for the tiles to come
+    std::uint64_t bytesLeft_;  // rest of arrayBytes_ for the remaining tiles
     PerStream<StreamReader> readers_;
     ColumnDictionary dictionary_;
-    std::vector<Segment> row_, above_;  // the row in work, the last coded one
-    std::vector<Run> fresh_;            // the column in work
-    std::uint32_t repeats_ = 0;         // how many rows repeat above_ before the next coded one
+    std::vector<Segment> row_, above_;  // the row being decoded, and the last decoded one
+    std::vector<Run> fresh_;            // the column being decoded
+    std::uint32_t repeats_ = 0;         // remaining repetitions of above_ before the next coded row
     std::vector<ColumnTileData> tiles_;
     const char* reason_ = nullptr;
 };

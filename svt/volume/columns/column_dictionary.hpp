@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: the distinct columns of a block, numbered as they come.
+/// The distinct columns of a block, numbered by first use.
 
 #include <svt/volume/column_volume.hpp>
 
@@ -12,11 +12,12 @@
 
 namespace svt::volume {
 
+/// Stores each distinct column once; hash table with open addressing and linear probing.
 class ColumnDictionary {
 public:
     ColumnDictionary() : table_(1024, 0) {}
 
-    /// Number of the column with these runs, new or known. Neighbouring runs of one scalar are joined. Cost: O(runs).
+    /// Number of the column with these runs, added if new. Adjacent runs with equal scalars are merged. Cost: O(runs).
     std::uint32_t add(std::span<const Run> runs) {
         const std::size_t begin = runs_.size();
         std::uint64_t hash = 0;
@@ -46,7 +47,7 @@ public:
     [[nodiscard]] std::span<const Run> column(std::uint32_t number) const noexcept {
         return {runs_.data() + starts_[number], starts_[number + 1] - starts_[number]};
     }
-    /// Runs of all columns.
+    /// Total count of runs of all columns.
     [[nodiscard]] std::size_t runCount() const noexcept { return runs_.size(); }
 
 private:
@@ -66,7 +67,7 @@ private:
     std::vector<std::uint32_t> table_;  // open addressing: column number + 1, 0 = free
 };
 
-/// Columns [end of the segment before, end) of a row are equal.
+/// A segment of a row: columns [end of the previous segment, end) are equal.
 struct Segment {
     std::uint32_t end = 0;
     std::uint32_t column = 0;  ///< number in the dictionary

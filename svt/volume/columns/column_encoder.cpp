@@ -8,7 +8,7 @@ namespace svt::volume {
 namespace {
 
 constexpr std::int32_t kTile = ColumnVolume::kTileSize;
-/// How far ahead a column is looked for in the row above, and an upper one in the own row.
+/// How many segments ahead to search for a column in the row above, and for an upper column in the current row.
 constexpr std::size_t kLookAhead = 3;
 static_assert(kLookAhead + 1 == kReplace, "kinds 0 to 3 leave out 0 to 3 segments");
 
@@ -20,7 +20,7 @@ void appendNumber(std::vector<std::uint8_t>& stream, std::uint32_t value) {
     stream.push_back(static_cast<std::uint8_t>(value));
 }
 
-/// 0, -1, 1, -2, 2 ... as 0, 1, 2, 3, 4 ...
+/// Zigzag code: maps 0, -1, 1, -2, 2 ... to 0, 1, 2, 3, 4 ...
 std::uint32_t zigzag(std::int32_t value) noexcept {
     return (static_cast<std::uint32_t>(value) << 1) ^ static_cast<std::uint32_t>(value >> 31);
 }
@@ -55,7 +55,7 @@ public:
 private:
     std::vector<std::uint8_t>& stream(BlockStream which) noexcept { return streams_[static_cast<std::size_t>(which)]; }
 
-    /// Whether the tiles say themselves that row y is the one before.
+    /// Whether row y equals the row before according to the row numbers of all tiles.
     [[nodiscard]] bool isRepeatOfRow(std::int32_t y) const noexcept {
         const auto inTile = static_cast<std::size_t>(y % kTile);
         if (inTile == 0) return false;
@@ -122,7 +122,7 @@ private:
         }
     }
 
-    /// Whether one of the next segments has `column`: then the one before it is an insertion.
+    /// Whether one of the next segments of the current row has `column`; then the current segment is an insertion.
     [[nodiscard]] bool isSoonBack(std::size_t segment, std::uint32_t column) const noexcept {
         for (std::size_t s = segment + 1; s < row_.size() && s <= segment + kLookAhead; ++s)
             if (row_[s].column == column) return true;
@@ -158,7 +158,7 @@ private:
         }
     }
 
-    /// How many runs can be copied from `from` on, kMaxCopy at most unless they reach the top.
+    /// Count of runs that can be copied starting at `from`; at most kMaxCopy unless they reach the top.
     static std::size_t commonRuns(std::span<const Run> runs, std::span<const Run> reference,
                                   std::size_t from) noexcept {
         std::size_t count = 0;
@@ -169,7 +169,7 @@ private:
 
     void encodeMove(std::uint32_t end, std::uint32_t reference, std::uint32_t near, std::uint32_t far) {
         const std::int32_t moved = static_cast<std::int32_t>(end) - static_cast<std::int32_t>(reference);
-        if (std::abs(moved) <= 2) {  // never 0: the run would have been copied
+        if (std::abs(moved) <= 2) {  // never 0, since the run would have been copied
             const std::int32_t index = moved < 0 ? moved + 2 : moved + 1;
             stream(BlockStream::Commands)
                 .push_back(static_cast<std::uint8_t>(near + static_cast<std::uint32_t>(index)));

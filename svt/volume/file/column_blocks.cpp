@@ -17,25 +17,26 @@
 namespace svt::volume {
 namespace {
 
-/// Measured on FZK-Haus: 19 takes ten times as long and gains 5 to 8 %, 3 is three times as fast and loses 15 %.
+/// zstd level. Measured on FZK-Haus: 19 takes ten times as long and saves 5 to 8 %; 3 is three times as fast and 15 %
+/// larger.
 constexpr int kLevel = 9;
-/// Streams from this size on get entropy tables of their own.
+/// Streams of at least this many bytes get their own entropy tables.
 constexpr std::size_t kOwnTables = 512;
 constexpr std::uint32_t kMaxBlockBytes = 0xFFFFFFFFu;
 static_assert(sizeof(ColumnBlock) == 16);
 
 Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
-/// Most bytes of streams in a frame of `size` bytes; zstd could say more, streams of real columns never do.
+/// Maximum bytes of the streams in a frame of `size` bytes. zstd could reach higher ratios, real columns never do.
 constexpr std::uint64_t maxStreamBytes(std::uint64_t size) noexcept { return (1u << 20) + 1024 * size; }
 
-/// Which tiles a block holds.
+/// The tiles of a block.
 struct BlockPlace {
     std::int32_t tileX = 0, tileY = 0;  // its first tile
     BlockShape shape;
 };
 
-/// Places of the blocks of a volume.
+/// The division of a volume into blocks.
 class BlockLayout {
 public:
     explicit BlockLayout(Vec3i dimension) noexcept : dimension_(dimension) {}
@@ -58,7 +59,7 @@ private:
     Vec3i dimension_;
 };
 
-/// The lengths of the streams as they stand in front of them.
+/// The lengths of the streams in LEB128, as stored before the streams.
 std::vector<std::uint8_t> lengthsOf(const BlockStreams& streams) {
     std::vector<std::uint8_t> bytes;
     for (const auto& stream : streams) {
@@ -72,7 +73,8 @@ std::vector<std::uint8_t> lengthsOf(const BlockStreams& streams) {
 using Compressor = std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)>;
 using Decompressor = std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)>;
 
-/// Appends bytes to a frame. \return false where zstd fails, which it only does without memory
+/// Appends bytes to a frame.
+/// \return false if zstd fails, which happens only when it is out of memory
 bool append(ZSTD_CCtx* context, ZSTD_outBuffer& out, std::span<const std::uint8_t> bytes, ZSTD_EndDirective directive) {
     ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
     while (true) {
@@ -82,8 +84,8 @@ bool append(ZSTD_CCtx* context, ZSTD_outBuffer& out, std::span<const std::uint8_
     }
 }
 
-/// Lengths and streams as one frame. A stream of some length ends its zstd block, so that it has entropy tables of its
-/// own.
+/// Compresses lengths and streams into one frame. Long streams end their zstd block, so that they have their own
+/// entropy tables.
 bool compress(ZSTD_CCtx* context, const BlockStreams& streams, ColumnBlock& block, std::vector<std::byte>& frame) {
     const std::vector<std::uint8_t> lengths = lengthsOf(streams);
     std::size_t total = lengths.size();
@@ -106,7 +108,8 @@ bool compress(ZSTD_CCtx* context, const BlockStreams& streams, ColumnBlock& bloc
     return true;
 }
 
-/// Takes the streams apart. \return nothing where the lengths do not fit
+/// Splits decompressed bytes into the streams.
+/// \return nullopt if the lengths do not match
 std::optional<PerStream<std::span<const std::uint8_t>>> splitStreams(std::span<const std::uint8_t> bytes) {
     PerStream<std::uint64_t> lengths{};
     std::size_t at = 0;

@@ -24,7 +24,7 @@ struct Changed {
     Vec3i dimension{300, 70, 20};
     CompressedColumns columns = *compressColumns(randomColumns(dimension, 5));
 
-    /// The volume, or what opening or decoding says.
+    /// The volume, or the error from opening or decoding.
     [[nodiscard]] Result<ColumnVolume> read() const {
         const std::vector<std::byte> frames = joined(columns);
         const auto blocks =
@@ -32,7 +32,7 @@ struct Changed {
         if (!blocks) return blocks.error();
         return blocks->decodeAll(frames);
     }
-    /// Puts `bytes` in place of frame 1, with the CRC and size that they have.
+    /// Replaces frame 1 by `bytes`, with matching CRC and size.
     void replaceFrame(std::vector<std::byte> bytes) {
         columns.frames[1] = std::move(bytes);
         columns.index[1].size = std::uint32_t(columns.frames[1].size());

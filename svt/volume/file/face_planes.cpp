@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kWhat = "the face planes";
 constexpr std::size_t kMaxPlanes = std::size_t{1} << 24;
-/// Fewest bytes that a plane takes: number of its normal, offset, six of the box.
+/// Minimum bytes of a plane: 1 for the number of its normal, 8 for the offset, 6 for the box. And bytes of a normal.
 constexpr std::uint64_t kPlaneBytes = 1 + 8 + 6, kNormalBytes = 24;
 constexpr double kLengthTolerance = 1e-9;
 constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
@@ -30,10 +30,10 @@ NormalBits bitsOf(Vec3d normal) noexcept {
 
 NormalBits negated(const NormalBits& bits) noexcept { return {bits[0] ^ kSign, bits[1] ^ kSign, bits[2] ^ kSign}; }
 
-/// Normals by first use, each told apart bit by bit.
+/// Distinct normals, numbered by first use and compared bit by bit.
 class NormalTable {
 public:
-    /// What stands for `normal` in the file; a new one goes into the table.
+    /// The code of `normal` in the file; a new normal is added to the table.
     std::uint32_t add(Vec3d normal) {
         const NormalBits bits = bitsOf(normal);
         if (const auto known = numbers_.find(bits); known != numbers_.end()) return 2 * back(known->second);
@@ -56,13 +56,14 @@ private:
 
 std::uint8_t byteOf(std::uint64_t bits, int number) noexcept { return static_cast<std::uint8_t>(bits >> (8 * number)); }
 
-/// A normal of the table, maybe turned round.
+/// A reference to a normal of the table, possibly negated.
 struct NormalUse {
     std::uint32_t number = 0;
     bool isNegated = false;
 };
 
-/// The planes' normals. \return empty where a number names a normal that has not been used yet
+/// Reads the normals of the planes.
+/// \return empty if a number refers to a normal that has not been defined yet
 std::vector<NormalUse> readUses(NumberReader& reader, std::size_t planeCount, std::uint32_t& normalCount) {
     std::vector<NormalUse> uses(planeCount);
     for (NormalUse& use : uses) {
@@ -99,7 +100,7 @@ void readOffsets(NumberReader& reader, std::span<FacePlane> planes) {
     for (std::size_t p = 0; p < planes.size(); ++p) planes[p].plane.offset = std::bit_cast<double>(offsets[p]);
 }
 
-/// \return whether all of them are numbers of 16 bits
+/// \return whether all bounds fit into 16 bits
 bool readBoxes(NumberReader& reader, std::span<FacePlane> planes) {
     bool isInRange = true;
     const auto narrowed = [&](std::uint32_t value) {
@@ -142,7 +143,8 @@ Result<std::vector<std::byte>> compressFacePlanes(std::span<const FacePlane> pla
     if (planes.size() > kMaxPlanes)
         return Error(Code::BadArgument,
                      fmt::format("{} face planes are over the limit of {}", planes.size(), kMaxPlanes));
-    // Column by column. Normals repeat as a whole and stay as they are; of offsets only the upper bytes are alike.
+    // Stored field by field for better compression. Normals repeat as a whole; offsets share only their upper bytes, so
+    // they are split into bytes.
     NumberWriter writer;
     writer.number(static_cast<std::uint32_t>(planes.size()));
     NormalTable table;

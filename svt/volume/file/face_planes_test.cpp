@@ -16,7 +16,7 @@ namespace {
 constexpr Vec3i kDimension{800, 700, 65535};
 using Bytes = std::vector<std::uint8_t>;
 
-/// All that a plane is, with the sign of its zeros.
+/// All fields of a plane, with the sign of zeros.
 std::array<std::uint64_t, 10> bitsOf(const FacePlane& face) {
     const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
     const auto& plane = face.plane;
@@ -29,7 +29,7 @@ void expectSame(const std::vector<FacePlane>& read, const std::vector<FacePlane>
     for (std::size_t p = 0; p < planes.size(); ++p) ASSERT_EQ(bitsOf(read[p]), bitsOf(planes[p])) << "plane " << p;
 }
 
-/// With normals that repeat, also turned round.
+/// Planes with repeated normals, some of them negated.
 std::vector<FacePlane> somePlanes(std::size_t count) {
     std::mt19937_64 random(11);
     const auto real = [&] { return double(random() >> 11) / double(std::uint64_t{1} << 53) - 0.5; };

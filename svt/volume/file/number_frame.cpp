@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLevel = 9;
 
-/// Most bytes that a frame of `size` bytes may hold; zstd could say more, real numbers never do.
+/// Maximum unpacked size of a frame of `size` bytes. zstd could reach higher ratios, real numbers never do.
 std::uint64_t maxBytes(std::uint64_t size) noexcept {
     return std::min((std::uint64_t{1} << 20) + 1024 * size, kMaxNumberBytes);
 }

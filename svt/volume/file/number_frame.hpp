@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: numbers as one zstd frame that states its size, as the small entries of a `.svt` hold them.
+/// Numbers in one zstd frame with known content size: the format of the small entries of a `.svt`.
 
 #include <svt/core/result.hpp>
 
@@ -12,17 +12,17 @@
 
 namespace svt::volume {
 
-/// Most bytes that a frame may unpack to, whatever its size.
+/// Maximum unpacked size of any frame, bytes.
 inline constexpr std::uint64_t kMaxNumberBytes = 0xFFFFFFFFu;
 
-/// Numbers of 32 bits in LEB128, and bytes between them.
+/// Writes 32-bit numbers in LEB128, and single bytes.
 class NumberWriter {
 public:
     void number(std::uint32_t value) {
         for (; value >= 0x80; value >>= 7) bytes_.push_back(static_cast<std::uint8_t>(value | 0x80));
         bytes_.push_back(static_cast<std::uint8_t>(value));
     }
-    /// How far `value` is from `before`, around 2^32, so that any two values have a difference of 32 bits.
+    /// Zigzag code of value - before modulo 2^32, so that every difference fits into 32 bits.
     void difference(std::uint32_t value, std::uint32_t before) {
         const std::uint32_t step = value - before;
         number((step << 1) ^ (0u - (step >> 31)));
@@ -34,8 +34,8 @@ private:
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads what NumberWriter wrote. After a number that is cut short or over 32 bits isGood() is false, and that number
-/// is 0; bytes beyond the end are 0 in the same way.
+/// Reads what NumberWriter wrote. A number that is truncated or over 32 bits, or a byte beyond the end, reads as 0 and
+/// sets isGood() to false.
 class NumberReader {
 public:
     explicit NumberReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -69,13 +69,14 @@ private:
     bool isGood_ = true;
 };
 
-/// \param what  what the numbers are, as messages begin: "the vector parts"
-/// \return the frame; equal bytes give equal frames. BadArgument where it is shorter than a reader accepts: they may
-///         take 1 MiB + 1024 times the frame
+/// Compresses bytes. Equal bytes give equal frames.
+/// \param what  name of the content for messages: "the vector parts"
+/// \return the frame, or BadArgument if the bytes take more than 1 MiB + 1024 times the frame: readers refuse that
 [[nodiscard]] Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> bytes,
                                                              std::string_view what);
 
-/// The bytes of a frame, with its size checked before they are allocated. \return them, or BadVolume
+/// Decompresses a frame. The unpacked size is checked before memory is allocated.
+/// \return the bytes, or BadVolume
 [[nodiscard]] Result<std::vector<std::uint8_t>> unpackNumbers(std::span<const std::byte> frame, std::string_view what);
 
 }  // namespace svt::volume

@@ -21,7 +21,7 @@ constexpr std::string_view kHeader = "svt.json";
 constexpr std::string_view kLabels = "labels.json";
 constexpr std::string_view kIndex = "columns/index";
 constexpr std::string_view kBlocks = "columns/blocks";
-// Only where there are any:
+// Optional entries:
 constexpr std::string_view kVectors = "meshes/parts";
 constexpr std::string_view kPlanes = "meshes/planes";
 constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes};
@@ -63,7 +63,7 @@ public:
             if (entry.name == name) return entry;
         return bad(fmt::format("the entry '{}' is missing; the file is no complete .svt, build it again", name));
     }
-    /// Checked data of an entry of any kind, unpacked into `buffer` where they are deflated.
+    /// Data of a stored or deflated entry, with checked CRC; unpacked into `buffer` if deflated.
     [[nodiscard]] Result<std::string_view> text(std::string_view name, std::uint64_t maxBytes,
                                                 std::vector<std::byte>& buffer) const {
         const auto entry = find(name);
@@ -72,7 +72,7 @@ public:
         if (!data) return data.error();
         return std::string_view(reinterpret_cast<const char*>(data->data()), data->size());
     }
-    /// An entry that must be stored, as it stands in the file; its CRC is not checked.
+    /// An entry that must be stored (not deflated), as a view of the file. Its CRC is not checked.
     [[nodiscard]] Result<ZipEntry> stored(std::string_view name) const {
         auto entry = find(name);
         if (entry && entry->isDeflated)
@@ -80,7 +80,7 @@ public:
                 "the entry '{}' is deflated, it must be stored; pack the file again with 'zip -0 -X'", name));
         return entry;
     }
-    /// Stored entries of other names: not used, but damage in them is told.
+    /// Checks the CRC of stored entries with unknown names: they are not used, but damage is reported.
     [[nodiscard]] Result<void> checkOthers() const {
         std::vector<std::byte> buffer;
         for (const ZipEntry& entry : entries_) {
@@ -140,7 +140,7 @@ Result<SvtBlocks> readTables(const Entries& entries) {
                      std::move(header->source)};
 }
 
-/// What `read` makes of the frame of an entry that may be missing.
+/// Reads an optional entry by `read(frame)`.
 template <class Content, class Read>
 Result<Content> readOptional(const Entries& entries, std::string_view name, Read read) {
     if (!entries.has(name)) return Content();

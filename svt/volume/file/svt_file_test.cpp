@@ -37,7 +37,7 @@ Result<SemanticVolume> readBytes(std::string_view text) { return readSvt(std::as
 
 using EntryTexts = std::map<std::string, std::string>;
 
-/// The file with `change` done to its entries, with right CRCs: a well-formed container of wrong content.
+/// The file with `change` applied to its entries and correct CRCs: a well-formed container with wrong content.
 std::string changed(const std::string& file, const std::function<void(EntryTexts&)>& change) {
     const auto found = readZip(std::as_bytes(std::span(file)));
     EXPECT_TRUE(found);

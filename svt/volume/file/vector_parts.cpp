@@ -9,7 +9,7 @@ namespace svt::volume {
 namespace {
 
 constexpr std::string_view kWhat = "the vector parts";
-/// Fewest bytes that a point, a segment and a triangle take.
+/// Minimum bytes of a point, a segment and a triangle.
 constexpr std::uint64_t kPointBytes = 3, kSegmentBytes = 3, kTriangleBytes = 4;
 
 Error bad(const std::string& message) { return Error(Code::BadVolume, fmt::format("{}: {}", kWhat, message)); }
@@ -44,7 +44,7 @@ Result<void> checkVectorParts(const VectorParts& parts, std::size_t labelCount) 
 
 Result<std::vector<std::byte>> compressVectorParts(const VectorParts& parts) {
     NumberWriter writer;
-    const std::uint64_t most = kMaxNumberBytes / 20;  // a triangle takes 20 bytes at most
+    const std::uint64_t most = kMaxNumberBytes / 20;  // a triangle takes at most 20 bytes
     if (parts.points.size() + parts.segments.size() + parts.triangles.size() > most)
         return Error(Code::BadArgument,
                      fmt::format("{} points, segments and triangles are over the limit of {}",
@@ -95,7 +95,7 @@ Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_
     const auto readList = [&](auto& list, auto corners) {
         std::uint32_t label = 0, last = 0;
         for (auto& part : list) {
-            // A sum that wraps around is found out of order.
+            // If the sum wraps around, the order check will fail.
             part.label = label += reader.number();
             for (std::uint32_t& corner : part.*corners) corner = last = reader.difference(last);
         }

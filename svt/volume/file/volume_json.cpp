@@ -16,9 +16,9 @@ namespace {
 
 using nlohmann::json;
 
-/// Deepest nesting: object > labels > label > attributes > attribute > value.
+/// Limit of the nesting depth. A table needs: object > labels > label > attributes > attribute > value.
 constexpr int kMaxDepth = 16;
-/// Most values in one label or one other element of a list.
+/// Limit of the count of values in one label or one other list element.
 constexpr std::size_t kMaxElementValues = 1'000'000;
 
 Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
@@ -27,7 +27,7 @@ Error bad(std::string message) { return Error(Code::BadVolume, std::move(message
 
 void appendFormat(std::string& out, const auto& value) { fmt::format_to(std::back_inserter(out), "{}", value); }
 
-/// Shortest text that reads back as the same value, marked as real by '.' or exponent.
+/// Appends the shortest text that reads back as the same value, with a '.' or exponent to mark it as real.
 template <std::floating_point T>
 void appendReal(std::string& out, T value) {
     const std::string text = fmt::format("{}", value);
@@ -35,7 +35,7 @@ void appendReal(std::string& out, T value) {
     if (text.find_first_of(".e") == std::string::npos) out += ".0";
 }
 
-/// Length of the valid UTF-8 sequence at the begin of `text`, and its code point; 0 where there is none.
+/// Length of the valid UTF-8 sequence at the beginning of `text`, and its code point; 0 if there is none.
 std::size_t decodeUtf8(std::string_view text, char32_t& point) noexcept {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byte(0);
@@ -94,7 +94,7 @@ void appendValue(std::string& out, const AttributeValue& value, JsonCharacters c
 
 // ---------------------------------------------------------------------------------------------- reading
 
-/// Reads the members of one JSON object. Keeps the first thing that is wrong; what is read after it is worthless.
+/// Reads the members of one JSON object. Keeps the first error; values read after an error are meaningless.
 class Members {
 public:
     Members(const json& object, std::string where) : object_(object), where_(std::move(where)) {
@@ -109,7 +109,7 @@ public:
 
     [[nodiscard]] bool has(const char* key) const { return isGood() && object_.contains(key); }
 
-    /// The member, or null with an error where it is missing.
+    /// The member, or null and an error if it is missing.
     const json* find(const char* key) {
         if (error_) return nullptr;
         const auto found = object_.find(key);
@@ -251,12 +251,12 @@ Result<Overlap> readOverlap(const json& list, std::size_t number) {
     return overlap;
 }
 
-/// Thrown inside the JSON parser's callback and caught in readLabelsJson; it has no other way to stop.
+/// Thrown in the callback of the JSON parser and caught in readLabelsJson: the only way to stop this parser.
 struct StopParsing {
     Error error;
 };
 
-/// Takes labels, overlaps and colours out of the parser one by one, so that never more than one exists as JSON.
+/// Takes labels, overlaps and colours from the parser one by one, so that at most one of them exists as JSON.
 class LabelsCollector {
 public:
     bool operator()(int depth, json::parse_event_t event, json& value) {

@@ -15,7 +15,7 @@
 namespace svt::volume {
 namespace {
 
-// Little-endian records are copied to and from memory as they are.
+// Little-endian records are copied directly to and from memory.
 static_assert(std::endian::native == std::endian::little, "the .svt codec needs a little-endian machine");
 
 constexpr std::uint32_t kLocalSignature = 0x04034B50;
@@ -52,7 +52,7 @@ constexpr std::uint16_t kDeflated = 8;
 
 Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
-/// Little-endian fields appended to a record.
+/// Builds a record of little-endian fields.
 class Record {
 public:
     void u16(std::uint64_t value) { append(static_cast<std::uint16_t>(value)); }
@@ -72,7 +72,7 @@ private:
     std::string bytes_;
 };
 
-/// Unsigned little-endian number of type T at `offset`; the caller has checked that it is inside.
+/// Unsigned little-endian number of type T at `offset`, which the caller has checked to be in range.
 template <class T>
 T load(std::span<const std::byte> bytes, std::size_t offset) noexcept {
     T value;
@@ -82,7 +82,7 @@ T load(std::span<const std::byte> bytes, std::size_t offset) noexcept {
 
 // ---------------------------------------------------------------------------------------------- writing
 
-/// What both headers of an entry say.
+/// The fields common to both headers of an entry.
 struct Placed {
     std::uint64_t size = 0;
     std::uint64_t packedSize = 0;
@@ -91,12 +91,12 @@ struct Placed {
     std::uint16_t method = kStored;
 };
 
-/// Most bytes that `packedSize` bytes may unpack to. Deflate could say 1032 times as many.
+/// Maximum unpacked size for `packedSize` bytes. Deflate could reach a ratio of 1032.
 constexpr std::uint64_t maxUnpacked(std::uint64_t packedSize) noexcept {
     return (std::uint64_t{64} << 20) + 128 * packedSize;
 }
 
-/// One piece of a deflate stream that ends at a byte, so that the next piece can follow.
+/// One piece of a deflate stream. It ends at a byte boundary, so that pieces can be concatenated.
 std::vector<std::byte> deflatePiece(std::span<const std::byte> piece, bool isLast) {
     z_stream stream{};
     if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
@@ -111,7 +111,7 @@ std::vector<std::byte> deflatePiece(std::span<const std::byte> piece, bool isLas
     return out;
 }
 
-/// All parts as pieces of one deflate stream. The pieces do not depend on the number of threads.
+/// Deflates all parts in parallel, as pieces of one stream. The pieces do not depend on the number of threads.
 std::vector<std::vector<std::byte>> deflateParts(std::span<const std::span<const std::byte>> parts) {
     std::vector<std::span<const std::byte>> pieces;
     for (auto part : parts)
@@ -225,7 +225,7 @@ void appendEnd(Record& r, std::uint64_t count, std::uint64_t offset, std::uint64
 
 // ---------------------------------------------------------------------------------------------- reading
 
-/// The central directory's place, as the records at the end of the file say it.
+/// The location of the central directory, from the records at the end of the file.
 struct Directory {
     std::uint64_t count = 0;
     std::uint64_t offset = 0;
@@ -278,7 +278,7 @@ Result<Directory> readEnd(std::span<const std::byte> bytes) {
     return directory;
 }
 
-/// What is wrong with a name, or nothing. Unpacking a file with any tool must never write outside the chosen folder.
+/// The reason why a name is invalid, or empty. Unpacking with any tool must never write outside the target folder.
 std::string_view wrongName(std::string_view name) noexcept {
     if (name.empty()) return "is empty";
     if (name.size() > kMaxNameBytes) return "is longer than 255 bytes";
@@ -297,7 +297,7 @@ std::string_view wrongName(std::string_view name) noexcept {
     return {};
 }
 
-/// A name as it may stand in a message.
+/// A name, escaped for messages.
 std::string shown(std::string_view name) {
     std::string text = "'";
     for (const char c : name.substr(0, 80)) {
@@ -313,7 +313,7 @@ std::string_view textAt(std::span<const std::byte> bytes, std::size_t offset, st
     return {reinterpret_cast<const char*>(bytes.data()) + offset, size};
 }
 
-/// The data of the ZIP64 extra field in `extra` (empty where there is none), or nothing where the fields do not fit.
+/// The data of the ZIP64 extra field in `extra` (empty if there is none), or nullopt if the fields are malformed.
 std::optional<std::span<const std::byte>> zip64Field(std::span<const std::byte> extra) {
     std::span<const std::byte> found;
     bool isFound = false;
@@ -332,7 +332,7 @@ std::optional<std::span<const std::byte>> zip64Field(std::span<const std::byte> 
     return found;
 }
 
-/// Replaces the fields that say "see ZIP64" by those of the extra field, in the order of the specification.
+/// Replaces fields with the value "see ZIP64" by those of the extra field, in the order of the specification.
 Result<void> resolve64(std::span<const std::byte> extra, std::initializer_list<std::uint64_t*> fields) {
     const auto data = zip64Field(extra);
     if (!data) return bad("has an extra field that is damaged");
@@ -358,14 +358,15 @@ Result<void> checkKind(std::uint16_t flags, std::uint16_t method) {
     return {};
 }
 
-/// An entry and the stretch of the file that its local header and data take.
+/// An entry and the range of its local header and data in the file.
 struct Located {
     ZipEntry entry;
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
 };
 
-/// Checks the local header at `offset` against what the central directory said. \return the entry's data
+/// Checks the local header at `offset` against the central directory.
+/// \return the entry with its data, or BadVolume
 Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std::uint64_t offset,
                           std::uint64_t packedSize, std::uint64_t directoryOffset) {
     if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
@@ -391,7 +392,8 @@ Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std:
     return Located{entry, offset, dataOffset + packedSize};
 }
 
-/// Exactly `entry.size` bytes. \return false where the data say otherwise
+/// Inflates the data of an entry into `buffer`.
+/// \return false if they are invalid or do not give exactly `entry.size` bytes
 bool inflateInto(const ZipEntry& entry, std::vector<std::byte>& buffer) {
     buffer.resize(static_cast<std::size_t>(entry.size));
     z_stream stream{};

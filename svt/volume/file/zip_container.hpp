@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Internal: the ZIP dialect of the `.svt` file. Entries stored or deflated, sizes and CRC32 in the local headers,
-/// fixed timestamps, data aligned to 64 bytes, so that any zip tool opens the file and parts of it can be read in
+/// The ZIP subset of the `.svt` file: entries are stored or deflated, sizes and CRC32 are in the local headers,
+/// timestamps are fixed, data are aligned to 64 bytes. Any ZIP tool can open the file, and parts of it can be read in
 /// place. docs/formats/svt.md specifies it to the bit.
 
 #include <svt/core/result.hpp>
@@ -18,42 +18,42 @@ namespace svt::volume {
 
 inline constexpr std::size_t kZipAlignment = 64;
 
-/// An entry to write: its data are `parts` one after the other.
+/// An entry to write; its data are the concatenated `parts`.
 struct ZipSource {
     std::string name;  ///< printable ASCII, folders separated by '/'
     std::vector<std::span<const std::byte>> parts;
-    bool isAligned = true;  ///< false: no extra field, so that the data of the first entry stand at a fixed offset
+    bool isAligned = true;  ///< false: no extra field; gives the data of the first entry a fixed offset
     bool isDeflated = false;
 };
 
-/// An entry found; views of the container's bytes.
+/// An entry of a file; views of the bytes of the container.
 struct ZipEntry {
     std::string_view name;
-    std::span<const std::byte> data;  ///< as they stand in the file
-    std::uint32_t crc = 0;            ///< of the data when unpacked
-    std::uint64_t size = 0;           ///< of the data when unpacked
+    std::span<const std::byte> data;  ///< as in the file
+    std::uint32_t crc = 0;            ///< CRC-32 of the unpacked data
+    std::uint64_t size = 0;           ///< bytes of the unpacked data
     bool isDeflated = false;
 };
 
-/// CRC-32 (ISO-HDLC, as in ZIP) of `bytes` after bytes whose CRC is `before`, computed on all cores where they are
-/// many. Cost: under 1 s per GB and core.
+/// CRC-32 (ISO-HDLC, as in ZIP) of `bytes`, continuing from a CRC `before`. Large inputs are processed in parallel.
+/// Cost: under 1 s per GB and core.
 [[nodiscard]] std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
-/// Writes the entries in their order as one file, all or nothing. The same entries give the same bytes. Data are
-/// deflated on all cores; stored where that gains nothing, or where unpack() would refuse the ratio.
-/// \param zip64From  sizes and offsets from this on are written in ZIP64 form; only tests choose another
+/// Writes the entries in the given order to a file, atomically. Equal entries give equal bytes. Data are deflated in
+/// parallel; they are stored instead if deflating gains nothing, or if unpack() would refuse the ratio.
+/// \param zip64From  sizes and offsets of at least this value are written in ZIP64 form; only tests use another value
 /// \return bytes written, or CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
                                              std::uint64_t zip64From = 0xFFFFFFFFu);
 
-/// The entries in the order of the central directory. Everything that the bytes claim is checked against the bytes
-/// themselves: places, sizes, names, both headers of each entry. The CRC is not checked here.
-/// \return the entries, or BadVolume that says what is wrong with which entry
+/// The entries in the order of the central directory. Offsets, sizes, names and both headers of each entry are checked
+/// against the file; the CRC is not.
+/// \return the entries, or BadVolume that names the entry and the reason
 [[nodiscard]] Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes);
 
-/// Data of an entry, unpacked into `buffer` where they are deflated, and checked against the CRC.
-/// \return the data; BadChecksum; BadVolume where they cannot be unpacked or claim to unpack to more than 64 MiB + 128
-///         times their bytes in the file; InputTooBig over `maxBytes`
+/// Data of an entry, unpacked into `buffer` if deflated, and checked against the CRC.
+/// \return the data, or BadChecksum; BadVolume if they cannot be unpacked or claim to unpack to more than 64 MiB + 128
+///         times their bytes in the file; InputTooBig if they are larger than `maxBytes`
 [[nodiscard]] Result<std::span<const std::byte>> unpack(const ZipEntry& entry, std::uint64_t maxBytes,
                                                         std::vector<std::byte>& buffer);
 

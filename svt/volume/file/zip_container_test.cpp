@@ -31,7 +31,7 @@ std::uint32_t plainCrc(std::string_view text) {
         crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size())));
 }
 
-/// What one header of an entry says; a test changes what it wants to be wrong.
+/// The fields of a header of an entry; tests change some of them to wrong values.
 struct RawHeader {
     std::string name;
     std::uint32_t flags = 0, method = 0, disk = 0;
@@ -51,7 +51,7 @@ struct RawEntry {
     }
 };
 
-/// A ZIP by hand, so that it can be wrong in every way.
+/// A handmade ZIP, which can be wrong in every way.
 struct RawZip {
     std::vector<RawEntry> entries;
     std::optional<std::uint64_t> count, directorySize, directoryOffset;
@@ -83,7 +83,7 @@ struct RawZip {
     }
 };
 
-/// The data of an entry where they are right.
+/// The data of an entry if they are correct.
 std::optional<std::string> unpackedText(const ZipEntry& entry) {
     std::vector<std::byte> buffer;
     const auto data = unpack(entry, entry.size, buffer);

@@ -1,7 +1,7 @@
 #include <svt/core/simd_targets.hpp>
 #include <svt/voxelize/lattice/edge_columns.hpp>
 
-// This file is compiled once for each set of instructions.
+// Highway compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "svt/voxelize/lattice/edge_columns.cpp"
 #include <hwy/foreach_target.h>
@@ -13,7 +13,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A lane for each of some rows, from which all lanes go on by as many: EdgeWalk side by side.
+// EdgeWalk vectorized: each SIMD lane holds one row, and all lanes advance together by the number of lanes.
 EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_t width, std::int32_t count,
                      std::uint8_t* columns) {
     const hn::CappedTag<std::int64_t, 8> d;
@@ -24,7 +24,7 @@ EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_
     const auto one = hn::Set(d, 1), whole = hn::Set(d, denominator);
     const auto step = hn::Set(d, walk.step()), restStep = hn::Set(d, walk.restStep());
 
-    // A row on, the rest may be up to twice the denominator: as many times as rows, taken away half by half.
+    // Advancing n rows adds up to n denominators to the remainder: carry them into the column by binary subtraction.
     const auto carry = [&](auto& column, auto& rest) HWY_ATTR {
         for (std::int64_t times = lanes / 2; times > 0; times /= 2) {
             const auto part = hn::Set(d, times * denominator);
@@ -33,7 +33,7 @@ EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_
             column = hn::Add(column, hn::IfThenElseZero(isOver, hn::Set(d, times)));
         }
     };
-    auto column = hn::Add(hn::Set(d, walk.sample() - firstColumn), hn::Mul(hn::Iota(d, 0), step));  // lane n: n rows on
+    auto column = hn::Add(hn::Set(d, walk.sample() - firstColumn), hn::Mul(hn::Iota(d, 0), step));  // lane n: row n
     auto rest = hn::Add(hn::Set(d, walk.rest()), hn::Mul(hn::Iota(d, 0), restStep));
     carry(column, rest);
     auto columnStride = hn::Set(d, lanes * walk.step()), restStride = hn::Set(d, lanes * walk.restStep());
@@ -48,7 +48,7 @@ EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_
     };
     for (std::int32_t n = 0; n < count; n += lanes) {
         const auto isWest = hn::Lt(column, one);
-        // A row's rest is below the step of rests exactly where the step to it was one column longer.
+        // The remainder is below restStep exactly where it has just wrapped: that step was one column longer.
         const auto moved = hn::Add(step, hn::IfThenElseZero(hn::Lt(rest, restStep), one));
         rows.west |= bitsOf(isWest) << n;
         rows.within |= bitsOf(hn::AndNot(isWest, hn::Lt(column, end))) << n;

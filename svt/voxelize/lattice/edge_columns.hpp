@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Where an edge crosses the rows of a tile. Compiled for several instruction sets, of which the best that the machine
-/// has is taken when the program runs; all give the same numbers. Internal to voxelize.
+/// The column at which an edge crosses each row of a tile. SIMD by Google Highway: compiled for several instruction
+/// sets, the best one available is chosen at run time; all give the same results.
 
 #include <svt/voxelize/lattice/scan.hpp>
 
@@ -10,19 +10,20 @@
 
 namespace svt::voxelize {
 
-/// edgeColumns() may write so many numbers, whatever the count of rows.
+/// Size of the output buffer of edgeColumns(): it may write this many numbers, whatever the count of rows.
 inline constexpr std::size_t kEdgeSpace = 64 + 8;
 
-/// Rows of an edge, a bit each.
+/// Sets of rows of an edge, one bit per row.
 struct EdgeRows {
-    std::uint64_t west = 0;    ///< it passes the tile to the west: column <= 0
+    std::uint64_t west = 0;    ///< the edge passes west of the tile: column <= 0
     std::uint64_t within = 0;  ///< 0 < column < width
-    std::uint64_t moves = 0;   ///< another column than in the row before
+    std::uint64_t moves = 0;   ///< the column differs from that of the row before
 };
 
-/// Columns of an edge, first sample at or right of it less `firstColumn`, in `count` rows from the walk's own on.
+/// Columns of an edge in `count` rows, starting at the row of `walk`. A column is the first sample at or right of the
+/// edge, relative to `firstColumn`.
 /// \param count    1 to 64
-/// \param columns  kEdgeSpace numbers, of which those of rows within are set and the rest left with any value
+/// \param columns  buffer of kEdgeSpace numbers; entries of rows `within` are valid, all others are unspecified
 [[nodiscard]] EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_t width,
                                    std::int32_t count, std::uint8_t* columns);
 

@@ -11,8 +11,8 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr double kSmallestFace = 1, kSmallestArea = 32;  // square voxels, of a triangle and on a plane
-constexpr double kNearby = 0.02;                         // voxels between a plane and the corners of its faces
+constexpr double kSmallestFace = 1, kSmallestArea = 32;  // square voxels: of one triangle, and in total on a plane
+constexpr double kNearby = 0.02;                         // maximum distance of face corners from their plane, voxels
 
 // A triangle in voxel space.
 struct Facet {
@@ -28,7 +28,7 @@ struct Group {
     double area = 0;
 };
 
-// Samples stand 1/kQuanta off whole index coordinates, see voxelize.hpp.
+// Samples are offset from whole index coordinates by 1/kQuanta, see voxelize.hpp.
 Vec3d voxelSpace(Vec3d index) noexcept {
     constexpr double kShift = 0.5 - 1.0 / double(kQuanta);
     return index + Vec3d{kShift, kShift, kShift};
@@ -39,7 +39,7 @@ double heightOver(const volume::BrickPlane& plane, Vec3d point) noexcept {
 }
 
 volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
-    // One of the two directions, so that both sides of a wall may share a plane.
+    // Choose one of the two directions, so that both sides of a wall can share a plane.
     const bool isBack = std::tie(normal.z, normal.y, normal.x) < std::tuple(0.0, 0.0, 0.0);
     volume::BrickPlane plane;
     plane.normal = isBack ? normal * -1.0 : normal;
@@ -62,22 +62,22 @@ std::vector<Facet> findFacets(const mesh::MeshScene& scene, const IndexFromLocal
             if (indexFromLocal.keepsVertical()) facet.plane = triangle.plane;
             facets.push_back(facet);
         }
-    // Large triangles know their plane best.
+    // Large triangles define their plane most precisely.
     std::stable_sort(facets.begin(), facets.end(), [](const Facet& p, const Facet& q) { return p.area > q.area; });
     return facets;
 }
 
-// Groups by where their planes are, found again by nearly the same plane.
+// Finds the group of a nearly equal plane by a spatial hash over normal and height.
 class GroupsByPlace {
 public:
     explicit GroupsByPlace(Vec3d center) : center_(center) {}
 
-    // The group of a known plane that all corners are near; or a new one.
+    // The group of an existing plane within kNearby of all corners, or a new group.
     std::size_t find(const Facet& facet, std::vector<Group>& groups) {
         const volume::BrickPlane own = planeThrough(facet.normal, facet.corners[0]);
         const std::array<double, 4> place{own.normal.x * kCellsPerNormal, own.normal.y * kCellsPerNormal,
                                           own.normal.z * kCellsPerNormal, heightOver(own, center_)};
-        // The cells that a plane nearly the same may be in: mostly one.
+        // Look in all cells that a nearly equal plane may fall into; mostly that is one.
         constexpr double kEdge = 0.05;
         for (unsigned corner = 0; corner < 16; ++corner) {
             Cell cell;
@@ -122,14 +122,14 @@ private:
     std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
 };
 
-// The plane that all faces on it take their heights from.
+// The shared scene plane, from which all faces on it take their heights, in voxel space.
 volume::BrickPlane sharedPlane(const mesh::Plane& local, const IndexFromLocal& indexFromLocal) noexcept {
     const mesh::Plane plane = indexFromLocal.plane(local);
     const Vec3d normal{-plane.slopeX / double(kQuanta), -plane.slopeY / double(kQuanta), 1};
     return planeThrough(normal / length(normal), voxelSpace({0, 0, plane.offset / double(kQuanta)}));
 }
 
-// To 2e-6 voxel over 4000 voxels: what lies below is noise, and would be most of the planes' bytes in a file.
+// Precise to 2e-6 voxel over 4000 voxels. The bits below are noise and would take most of the bytes in a file.
 volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
     constexpr double kNormal = double(std::int64_t{1} << 32), kOffset = double(1 << 20);
     volume::BrickPlane result;
@@ -138,7 +138,7 @@ volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
     return result;
 }
 
-// Nothing where the faces are outside of the grid.
+// nullopt where the faces lie outside the grid.
 std::optional<volume::FacePlane> clipped(const Group& group, Vec3i dimension) noexcept {
     volume::FacePlane face{rounded(group.plane), {}, {}};
     for (int axis = 0; axis < 3; ++axis) {

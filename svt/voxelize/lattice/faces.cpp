@@ -24,7 +24,7 @@ bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
     return true;
 }
 
-// An edge of a face, told apart by its ends.
+// One use of an edge by a triangle; `ends` is the undirected edge.
 struct EdgeUse {
     std::uint64_t ends;
     std::uint32_t triangle;
@@ -32,16 +32,16 @@ struct EdgeUse {
     bool isForward;
 };
 
-// Buffers of one object's faces.
+// Builds the faces of one object; holds its buffers.
 struct FaceBuilder {
     const std::vector<mesh::Triangle>& source;
     FaceList& list;
-    std::vector<std::uint32_t> numbers;  // source triangles of the level that is open; they stand last in the list
+    std::vector<std::uint32_t> numbers;  // source triangles of the current level, the last ones of `list`
     std::vector<EdgeUse> uses;
-    std::vector<std::uint32_t> partOf;  // per triangle: one of its part with a lower or the same number
+    std::vector<std::uint32_t> partOf;  // per triangle: parent in a union-find, never a higher number
     std::vector<FaceTriangle> unsorted;
 
-    // Neighbouring triangles of one level become faces, each in one piece.
+    // Ends the current level: each edge-connected component of its triangles becomes a face.
     void closeLevel();
 
 private:
@@ -52,7 +52,7 @@ private:
     }
 };
 
-// Marks the edges that two triangles use in opposite directions, and joins these triangles.
+// Marks the edges that two triangles use in opposite directions, and unites these triangles.
 void FaceBuilder::markInnerEdges(std::span<FaceTriangle> triangles) {
     uses.clear();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -112,7 +112,7 @@ bool touchesSamples(const FaceTriangle& t, bool looksDown, std::int32_t firstCol
     const std::int64_t west = quanta(firstColumn), east = quanta(firstColumn + width - 1);
     const std::int64_t south = quanta(firstRow), north = quanta(firstRow + height - 1);
     const std::int64_t turn = looksDown ? -1 : 1;
-    // Separated where all of the rectangle lies outside of one edge.
+    // Disjoint where the whole rectangle lies outside one edge. (The bounding boxes are tested above.)
     for (int e = 0; e < 3; ++e) {
         const int to = e == 2 ? 0 : e + 1;
         const std::int64_t dx = turn * (std::int64_t(t.x[to]) - t.x[e]), dy = turn * (std::int64_t(t.y[to]) - t.y[e]);

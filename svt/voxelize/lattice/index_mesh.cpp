@@ -26,7 +26,7 @@ QuantaPoint IndexFromLocal::quanta(Vec3d local) const noexcept {
 }
 
 mesh::Plane IndexFromLocal::plane(const mesh::Plane& local) const noexcept {
-    // Three points of the plane around the grid's origin carry it over, whatever the turn about z.
+    // Map three points of the plane; this works for any rotation about z.
     const auto on = [&](double x, double y) {
         return point({x, y, local.slopeX * x + local.slopeY * y + local.offset});
     };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Objects in index space, snapped to the integer lattice on which everything is decided.
+/// Objects in index space, snapped to the integer lattice on which all tests are evaluated.
 
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/volume/grid.hpp>
@@ -11,11 +11,11 @@
 
 namespace svt::voxelize {
 
-/// 512 quanta a voxel. Vertices lie on even quanta, sample i at 512 * i + 1.
+/// 512 quanta per voxel. Vertices lie on even quanta, sample i at 512 * i + 1, so they never coincide.
 inline constexpr int kQuantaBits = 9;
 inline constexpr std::int64_t kQuanta = std::int64_t{1} << kQuantaBits;
 
-/// First sample at or above `quanta` (an even coordinate never meets one).
+/// First sample at or above `quanta`. An even coordinate is never exactly at a sample.
 [[nodiscard]] constexpr std::int64_t firstSampleAbove(std::int64_t quanta) noexcept {
     return (quanta + kQuanta - 2) >> kQuantaBits;
 }
@@ -38,11 +38,11 @@ public:
     }
     /// Snapped; coordinates far outside the grid are clamped to +-2^28 quanta.
     [[nodiscard]] QuantaPoint quanta(Vec3d local) const noexcept;
-    /// True where z of index space depends on z of local space alone, so that planes over (x, y) carry over.
+    /// True if z of index space depends only on z of local space, so that planes z(x, y) can be carried over.
     [[nodiscard]] bool keepsVertical() const noexcept { return keepsVertical_; }
-    /// Of the three axes, metres.
+    /// Largest spacing of the three axes, metres.
     [[nodiscard]] double largestSpacing() const noexcept { return largestSpacing_; }
-    /// A plane z = a x + b y + c of local space in index space (quanta of z per voxel of x and y).
+    /// Maps a plane z = a x + b y + c from local to index space (slopes in quanta of z per voxel of x and y).
     [[nodiscard]] mesh::Plane plane(const mesh::Plane& local) const noexcept;
 
 private:

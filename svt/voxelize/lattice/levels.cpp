@@ -5,7 +5,7 @@
 namespace svt::voxelize {
 
 Level::Level(const FaceHeight& face, std::int32_t depth) noexcept
-    // Sample k stands at quanta 512 k + 1, and the one strictly above is wanted.
+    // Sample k is at quanta 512 k + 1, and the first sample strictly above the face is wanted.
     : base(face.height.base + (std::int64_t{1} << kBits) - (std::int64_t{1} << Height::kBits)),
       slopeX(face.height.slopeX),
       slopeY(face.height.slopeY),

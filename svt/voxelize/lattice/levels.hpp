@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Levels: the heights at which lines along z meet a plane. Faces of one level are met at the same sample everywhere,
-/// whichever object they belong to.
+/// A level is the height function of a plane: for each column (i, j) the first sample above it, in fixed point. Faces
+/// of one level are crossed at the same sample everywhere, whichever object they belong to.
 
 #include <svt/voxelize/lattice/scan.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace svt::voxelize {
 
-/// First sample above (i, j): (base + slopeX i + slopeY j) >> kBits, kept within [lowest, highest].
+/// First sample above the plane at (i, j): (base + slopeX i + slopeY j) >> kBits, clamped to [lowest, highest].
 struct Level {
     static constexpr int kBits = Height::kBits + kQuantaBits;
     std::int64_t base = 0, slopeX = 0, slopeY = 0;
@@ -25,13 +25,14 @@ struct Level {
         return static_cast<std::int32_t>(k < lowest ? lowest : k > highest ? highest : k);
     }
     [[nodiscard]] bool isFlat() const noexcept { return slopeX == 0 && slopeY == 0; }
-    /// First sample above, 0 to depth.
+    /// First sample above the plane, 0 to depth.
     [[nodiscard]] std::int32_t sampleAbove(std::int32_t i, std::int32_t j) const noexcept {
         return clamped(base + slopeX * i + slopeY * j);
     }
 };
 
-/// Levels of a grid by number: 0 to depth are the flat ones below these samples, sloped ones follow from `first` on.
+/// Levels of a grid by number. Numbers 0 to depth are flat levels, each directly below the sample of that number;
+/// `first` and up are sloped levels.
 struct LevelTable {
     std::int32_t depth = 0;
     std::uint32_t first = 0;
@@ -40,19 +41,20 @@ struct LevelTable {
     [[nodiscard]] bool isSloped(std::uint32_t number) const noexcept {
         return number > static_cast<std::uint32_t>(depth);
     }
-    /// Of a sloped level.
+    /// The sloped level with this number.
     [[nodiscard]] const Level& operator[](std::uint32_t number) const noexcept { return sloped[number - first]; }
-    /// Number of a level; a new one where it slopes.
+    /// Number of a level. A sloped level is appended.
     std::uint32_t add(const Level& level);
-    /// The same with a place in `sloped` that is kept for it; left unused where it does not slope.
+    /// Like add(), but stores a sloped level in the reserved entry `sloped[place]`; a flat level leaves it unused.
     std::uint32_t put(std::size_t place, const Level& level) noexcept;
     [[nodiscard]] std::uint32_t next() const noexcept { return first + static_cast<std::uint32_t>(sloped.size()); }
 };
 
-/// Stands for a level of planes that are too steep for one.
+/// Marks a plane that is too steep to have a level.
 inline constexpr std::uint32_t kNoLevel = 0xFFFFFFFFu;
 
-/// What bounds a claim at a level: its winding changes by one where a line passes it upwards.
+/// A face of an object at a level. Where an upward line passes it, the winding number of the claim changes by one: +1
+/// for an entry, -1 for an exit.
 struct Boundary {
     std::uint32_t level = 0;
     std::uint32_t claim = 0;  ///< below 2^30

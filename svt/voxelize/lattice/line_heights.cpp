@@ -1,7 +1,7 @@
 #include <svt/core/simd_targets.hpp>
 #include <svt/voxelize/lattice/line_heights.hpp>
 
-// This file is compiled once for each set of instructions.
+// Highway compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "svt/voxelize/lattice/line_heights.cpp"
 #include <hwy/foreach_target.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Heights of levels along a line of samples. Compiled for several instruction sets, of which the best that the
-/// machine has is taken when the program runs; all give the same numbers. Internal to voxelize.
+/// Heights of levels along a line of samples. SIMD by Google Highway: compiled for several instruction sets, the best
+/// one available is chosen at run time; all give the same results.
 
 #include <svt/voxelize/lattice/levels.hpp>
 
@@ -11,20 +11,20 @@
 
 namespace svt::voxelize {
 
-/// A line has at most so many samples.
+/// Maximum number of samples of a line.
 inline constexpr std::size_t kLineSamples = 64;
 
-/// A level along a line: at sample n the first sample above is (first + step n) >> Level::kBits, kept within
+/// A level along a line: at sample n the first sample above it is (first + step n) >> Level::kBits, clamped to
 /// [lowest, highest].
 struct LineLevel {
     std::int64_t first = 0, step = 0;
     std::int32_t lowest = 0, highest = 0;
 };
 
-/// Heights of `levels` at samples n < count, and what they hash to.
-/// \param line  (levels + 1) * kLineSamples numbers: a hash for each sample, of `seed` and of its heights, whose upper
-///              bits are the good ones; then level by level the heights. Those from `count` on have any value.
-/// \return bit n: some height differs from that of the sample before; bit 0 is not set
+/// Computes the heights of `levels` at samples n < count, and a hash of them for each sample.
+/// \param line  output, (levels + 1) * kLineSamples numbers: first the hash of each sample, over `seed` and its heights
+///              (use its upper bits), then the heights, level by level. Entries from `count` on are unspecified.
+/// \return bit n is set where some height differs from that of sample n - 1; bit 0 is never set
 [[nodiscard]] std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count, std::uint32_t seed,
                                          std::int32_t* line);
 

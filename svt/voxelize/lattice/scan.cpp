@@ -8,11 +8,11 @@
 namespace svt::voxelize {
 namespace {
 
-// Steeper planes, in quanta per sample (64 voxels up for one along), take the height from the snapped corners: there
-// the snap matters more than who shares the face, and heights are clamped to the triangle.
+// Slope limit in quanta per sample (64 voxels up per voxel along). Steeper faces take their heights from the snapped
+// corners, clamped to the triangle: there the snapping error outweighs the benefit of a shared plane.
 constexpr double kSteepest = 64.0 * double(kQuanta);
 
-// Slopes whose heights over the whole grid would not fit 63 bits.
+// Above this slope the heights over a whole grid would overflow 63 bits.
 constexpr double kUnstable = double(std::int64_t{1} << 25);
 
 std::int64_t toFixed(double quanta) {
@@ -20,7 +20,7 @@ std::int64_t toFixed(double quanta) {
     return static_cast<std::int64_t>(std::llrint(std::clamp(std::ldexp(quanta, Height::kBits), -kLargest, kLargest)));
 }
 
-// Samples (i, j) stand one quantum further along x and y than the integers.
+// Samples (i, j) are offset by one quantum along x and y from the integer coordinates.
 Height heightAtSamples(double slopeX, double slopeY, double offset) {
     return {toFixed(offset + (slopeX + slopeY) / double(kQuanta)), toFixed(slopeX), toFixed(slopeY)};
 }
@@ -32,7 +32,7 @@ bool isScanPlane(const mesh::Plane& plane) noexcept {
 }
 
 FaceHeight planeHeight(const mesh::Plane& plane) noexcept {
-    // The plane may pass the snapped corners by a hair; whoever shares it must not be told apart by a clamp.
+    // No clamp: the plane may miss the snapped corners slightly, and all faces that share it must get equal heights.
     constexpr std::int32_t kNoLow = std::numeric_limits<std::int32_t>::min();
     constexpr std::int32_t kNoHigh = std::numeric_limits<std::int32_t>::max();
     if (plane.slopeX == 0 && plane.slopeY == 0)
@@ -61,7 +61,7 @@ FaceHeight triangleHeight(const QuantaPoint& a, const QuantaPoint& b, const Quan
     const double slopeY = (double(ax) * double(bz) - double(az) * double(bx)) / double(area) * double(kQuanta);
     const double offset =
         double(a[axes.z]) - (slopeX * double(a[axes.x]) + slopeY * double(a[axes.y])) / double(kQuanta);
-    // So steep that every sample it crosses lies within the snap of the face: any height between the corners is right.
+    // So steep that every crossed sample is within the snapping distance: any height between the corners is correct.
     if (std::abs(slopeX) > kUnstable || std::abs(slopeY) > kUnstable)
         face.height = {((std::int64_t(face.lowest) + face.highest) / 2 * kQuanta) << Height::kBits, 0, 0};
     else

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Scan conversion of triangles: which sample lines along one axis cross a triangle, and at which height.
-/// Written for lines along z; other axes come by permuting the coordinates.
+/// Written for lines along z; the other axes are handled by permuting the coordinates.
 
 #include <svt/voxelize/lattice/index_mesh.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace svt::voxelize {
 
-/// Height over (x, y) in fixed point: z(i, j) = base + slopeX * i + slopeY * j, in units of 2^-kHeightBits quanta,
-/// (i, j) in samples.
+/// Height over (x, y) in fixed point: z(i, j) = base + slopeX * i + slopeY * j, in units of 2^-kBits quanta, (i, j) in
+/// samples.
 struct Height {
     static constexpr int kBits = 20;
     std::int64_t base = 0;
@@ -19,63 +19,65 @@ struct Height {
     [[nodiscard]] bool isFlat() const noexcept { return slopeX == 0 && slopeY == 0; }
 };
 
-/// A triangle ready for scan conversion. Corner y ascends.
+/// A triangle ready for scan conversion. Its corners are sorted by y.
 struct ScanTriangle {
     std::int32_t x[3], y[3];        ///< quanta
     std::int32_t firstRow, endRow;  ///< rows (samples along y) with firstRow <= j < endRow
     std::int32_t firstColumn, endColumn;
-    std::int32_t lowest, highest;  ///< first sample above its lowest and highest corner: heights are clamped to it
+    std::int32_t lowest, highest;  ///< first sample above its lowest and highest corner; heights are clamped to it
     Height height;
-    std::int8_t sign = 0;        ///< winding change when passing upwards: +1 enters (face looks down), -1 leaves
+    std::int8_t sign = 0;        ///< winding change of an upward line: +1 enters (face looks down), -1 leaves
     bool isMiddleRight = false;  ///< corner 1 lies right of the edge from corner 0 to corner 2
 };
 
 /// First sample strictly above the height at (i, j).
 [[nodiscard]] inline std::int32_t sampleAbove(const ScanTriangle& t, std::int64_t heightAt) noexcept {
-    // Sample k stands at quanta 512 k + 1.
+    // Sample k is at quanta 512 k + 1.
     const std::int64_t one = std::int64_t{1} << Height::kBits;
     const std::int64_t k = ((heightAt - one) >> (Height::kBits + kQuantaBits)) + 1;
     return static_cast<std::int32_t>(k < t.lowest ? t.lowest : k > t.highest ? t.highest : k);
 }
 
-/// Which axes of index space play x (along a row), y (from row to row) and z (along the sample lines).
+/// Maps axes of index space to the roles x (along a row), y (from row to row) and z (along the sample lines).
 struct ScanAxes {
     std::size_t x = 0, y = 1, z = 2;
     bool isMirrored = false;  ///< an odd permutation
 };
 
-/// Sample lines along x, y and z; where lines run along x or y, rows run along z, so that upright sheets give long
-/// runs.
+/// Axes for sample lines along x, y and z. For lines along x or y the rows run along z, so that vertical sheets give
+/// long runs.
 inline constexpr ScanAxes kScanAxes[3] = {{2, 1, 0, true}, {2, 0, 1, false}, {0, 1, 2, false}};
 
-/// Heights of a face, and between which samples they are kept.
+/// Height function of a face, and the sample range to which it is clamped.
 struct FaceHeight {
     Height height;
-    std::int32_t lowest = 0, highest = 0;  ///< first sample above its lowest and highest corner; no limits on a plane
+    std::int32_t lowest = 0, highest = 0;  ///< first sample above its lowest and highest corner; unlimited for a plane
 };
 
-/// Heights over the triangle a, b, c, which is not upright.
+/// Heights over the triangle a, b, c, which must not be vertical (parallel to `axes.z`).
 [[nodiscard]] FaceHeight triangleHeight(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
                                         const ScanAxes& axes) noexcept;
 
-/// Heights over a plane in index space (quanta of z per voxel), for lines along z; without limits.
+/// Heights over a plane in index space (quanta of z per voxel), for lines along z; not clamped.
 [[nodiscard]] FaceHeight planeHeight(const mesh::Plane& plane) noexcept;
 
-/// True where heights are taken from `plane`: it is not so steep that the snap matters more than who shares the face.
+/// True if faces on `plane` take their heights from it; false if it is too steep (over 64 voxels up per voxel along).
 [[nodiscard]] bool isScanPlane(const mesh::Plane& plane) noexcept;
 
 /// Sets up the triangle with corners a, b, c for scanning.
-/// \return false where the triangle crosses no sample line
+/// \return false if the triangle crosses no sample line
 [[nodiscard]] bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, const ScanAxes& axes,
                              ScanTriangle& out) noexcept;
 
-/// Calls `body(j, begin, end)` for each row of `t` within [firstRow, endRow) and the samples [begin, end) of it within
-/// [firstColumn, endColumn). Exact: neighbours over an edge share no sample and leave none.
+/// Calls `body(j, begin, end)` for each row of `t` within [firstRow, endRow), with the samples [begin, end) that it
+/// covers within [firstColumn, endColumn). Exact and half-open: two triangles with a common edge neither overlap nor
+/// leave a gap.
 template <class Body>
 void scanRows(const ScanTriangle& t, std::int32_t firstRow, std::int32_t endRow, std::int32_t firstColumn,
               std::int32_t endColumn, Body&& body);
 
-/// Crossing of an edge with rising rows, as sample number: the first sample at or right of the edge, stepped exactly.
+/// Walks along an edge from row to row and gives the first sample at or right of it. Exact: an integer DDA that carries
+/// the remainder, like Bresenham's line algorithm.
 class EdgeWalk {
 public:
     EdgeWalk(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1, std::int32_t row) noexcept {
@@ -89,7 +91,7 @@ public:
         restStep_ = dx * kQuanta - step_ * denominator_;
     }
     [[nodiscard]] std::int64_t sample() const noexcept { return sample_; }
-    /// What is left over, in parts of a sample: 0 to denominator() - 1; and what a row adds to both.
+    /// Remainder, 0 to denominator() - 1, in units of 1/denominator() sample. One row adds step() and restStep().
     [[nodiscard]] std::int64_t rest() const noexcept { return rest_; }
     [[nodiscard]] std::int64_t denominator() const noexcept { return denominator_; }
     [[nodiscard]] std::int64_t step() const noexcept { return step_; }
@@ -117,7 +119,7 @@ void scanRows(const ScanTriangle& t, std::int32_t firstRow, std::int32_t endRow,
     firstRow = firstRow > t.firstRow ? firstRow : t.firstRow;
     endRow = endRow < t.endRow ? endRow : t.endRow;
     if (firstRow >= endRow) return;
-    // Rows below the middle corner use the edge 0-1, the others 1-2; 0-2 is the long edge on the other side.
+    // Rows below the middle corner use edge 0-1, rows above it edge 1-2; the long edge 0-2 is on the other side.
     const auto middle = static_cast<std::int32_t>(firstSampleAbove(t.y[1]));
     EdgeWalk longEdge(t.x[0], t.y[0], t.x[2], t.y[2], firstRow);
     const auto part = [&](std::int32_t begin, std::int32_t end, int from) {

@@ -16,7 +16,7 @@ using volume::Scalar;
 
 struct Face {
     Vec3d a, b, c;          // local space
-    std::uint32_t surface;  // into the group
+    std::uint32_t surface;  // index into BodyGroup::surfaces
 };
 
 struct Group {
@@ -24,7 +24,7 @@ struct Group {
     std::vector<Face> faces;
 };
 
-// A stretch of a tile's column and the surface nearest to it.
+// An interval of a tile's column, up to `end`, and the surface nearest to it.
 struct Piece {
     std::int32_t end;
     std::uint32_t surface;
@@ -49,8 +49,8 @@ public:
           pieces_(std::size_t(width) * std::size_t(height)),
           spacing_(grid.spacing()) {}
 
-    // `low` and `high`: lowest and one past the highest sample of the group per column; columns without have low >=
-    // high.
+    // `low` and `high` per column: the lowest and one past the highest sample of the group; low >= high where the
+    // column has none.
     void split(const std::vector<std::int32_t>& low, const std::vector<std::int32_t>& high) {
         low_ = &low;
         high_ = &high;
@@ -97,7 +97,7 @@ private:
     void visit(const Block& block, const std::vector<std::uint32_t>& candidates) {
         if (block.low[0] >= width_ || block.low[1] >= height_) return;
         if (!isNeeded(block)) {
-            fill(block, 0);  // nobody asks for these samples; the columns must stay without gaps
+            fill(block, 0);  // unused samples, filled with any surface so that columns have no gaps
             return;
         }
         const Vec3d center{firstColumn_ + block.low[0] + (block.size[0] - 1) / 2.0,
@@ -129,7 +129,7 @@ private:
         for (std::size_t c = 0; c < candidates.size(); ++c)
             if (distances[c] <= nearest + 2 * radius) kept.push_back(candidates[c]);
         const std::int32_t half = block.size[0] / 2;
-        // Lower children before upper ones: every column is filled bottom up.
+        // Visit lower children first, since columns are filled bottom up.
         for (std::int32_t z = 0; z < 2; ++z)
             for (std::int32_t y = 0; y < 2; ++y)
                 for (std::int32_t x = 0; x < 2; ++x)

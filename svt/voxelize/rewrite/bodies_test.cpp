@@ -92,7 +92,7 @@ protected:
             group_.surfaces.push_back(s);
             group_.scalars.push_back(s + 1);
         }
-        // Only building and room; how surfaces fare as sheets is told elsewhere.
+        // Only building and room; surfaces as sheets are tested elsewhere.
         auto solids = scene_;
         solids.objects.resize(2);
         const std::vector<ObjectClaim> claims{{1, 7, "building"}, {2, 4, "room"}};
@@ -119,7 +119,7 @@ protected:
     const Vec3d origin_{4588, 54383, 11};
     const Vec3d low_{0, 0, 0}, high_{6, 5, 3}, roomLow_{0.4, 0.3, 0.25}, roomHigh_{5.5, 4.7, 2.6};
     mesh::MeshScene scene_;
-    // Steps that divide nothing, over two tiles along x.
+    // A spacing that divides no dimension, over two tiles along x.
     Grid grid_ = *Grid::fromSpacing({low_ + origin_, high_ + origin_}, {0.083, 0.097, 0.071});
     BodyGroup group_;
     volume::ColumnVolume columns_;
@@ -182,7 +182,7 @@ TEST_F(House, GroupWithoutSurfacesOrVoxelsChangesNothing) {
 }
 
 TEST_F(House, TwoBuildingsKeepTheirOwn) {
-    // The room plays a second building with a surface of its own.
+    // The room serves as a second building with its own surface.
     const BodyGroup second{2, {2}, {15}};
     const auto counts = giveThematicBodies(columns_, grid_, scene_, {group_, second}, 2).countVoxels(16);
     EXPECT_EQ(counts[15], columns_.countVoxels(16)[2]);

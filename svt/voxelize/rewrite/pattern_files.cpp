@@ -22,7 +22,7 @@ Error badImage(const std::filesystem::path& file, std::string what) {
     return Error(Code::BadImage, std::move(what), {file.string(), 0, 0, {}});
 }
 
-// One box of median cut: pixels [begin, end) of an index list.
+// A box of the median cut algorithm: pixels [begin, end) of an index list.
 struct ColorBox {
     std::size_t begin, end;
 };
@@ -42,7 +42,7 @@ std::pair<std::size_t, int> widestChannel(const std::vector<Pixel>& colors, cons
     return widest;
 }
 
-// Heckbert 1982: split the widest box at its median until there are enough.
+// Median cut (Heckbert 1982): splits the widest box at its median until there are enough boxes.
 void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCells& cells) {
     std::vector<std::uint32_t> order(colors.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -61,7 +61,7 @@ void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCell
         std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(box.begin),
                          order.begin() + static_cast<std::ptrdiff_t>(box.end),
                          [&](std::uint32_t a, std::uint32_t b) { return colors[a][channel] < colors[b][channel]; });
-        // Equal values stay together: the cut moves to the next step of the channel.
+        // Equal values stay together: move the cut to the next change of the channel value.
         std::size_t cut = (box.begin + box.end) / 2;
         while (cut < box.end && colors[order[cut]][channel] == colors[order[cut - 1]][channel]) ++cut;
         if (cut == box.end) {
@@ -109,7 +109,7 @@ Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesyst
         return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
     auto cells = std::make_shared<PatternCells>();
     cells->dimension = {static_cast<std::int32_t>(image.width), static_cast<std::int32_t>(image.height), 1};
-    // PNG rows run from the top, cells from the bottom.
+    // PNG rows run top down, cells bottom up.
     std::vector<Pixel> colors(std::size_t(image.width) * image.height);
     for (std::size_t y = 0; y < image.height; ++y)
         for (std::size_t x = 0; x < image.width; ++x) {

@@ -27,10 +27,10 @@ constexpr std::array<std::pair<PatternKind, std::string_view>, kPatternKinds> kN
     {PatternKind::Raw, "raw"},
 }};
 
-// Distance into the period, 0 <= result < period.
+// x modulo period, 0 <= result < period.
 double within(double x, double period) noexcept { return x - std::floor(x / period) * period; }
 
-// Cosine of 2 pi x by a fixed polynomial: libm may differ in the last bit from machine to machine.
+// cos(2 pi x) by a Taylor polynomial of degree 9: the last bit of libm's cosine may differ between machines.
 double cosineOfTurn(double x) noexcept {
     double t = std::abs(within(x, 1.0) - 0.5) - 0.25;  // -1/4 .. 1/4; cos(2 pi x) = sin(2 pi t)
     t *= 6.283185307179586;
@@ -38,6 +38,7 @@ double cosineOfTurn(double x) noexcept {
     return t * (1 - s / 6 * (1 - s / 20 * (1 - s / 42 * (1 - s / 72))));
 }
 
+// Hash of a cell, with the finalizer of SplitMix64 (Steele, Lea & Flood 2014).
 std::uint32_t hashCell(std::int64_t x, std::int64_t y, std::int64_t z, std::uint32_t seed) noexcept {
     std::uint64_t h = std::uint64_t(x) * 0x9E3779B97F4A7C15ull ^ std::uint64_t(y) * 0xC2B2AE3D27D4EB4Full ^
                       std::uint64_t(z) * 0x165667B19E3779F9ull ^ (std::uint64_t(seed) << 32);
@@ -48,7 +49,7 @@ std::uint32_t hashCell(std::int64_t x, std::int64_t y, std::int64_t z, std::uint
 
 double unit(std::uint32_t bits) noexcept { return bits * (1.0 / 4294967296.0); }
 
-// Bricks in running bond: every second course is shifted by half a length, and the stones across it by half a width.
+// Running bond: every second course is shifted by half a brick. Returns 1 in a joint, 0 in a brick.
 std::uint32_t bond(Vec3d p, Vec3d size, double joint) noexcept {
     const double course = std::floor(p.z / size.z);
     const bool isShifted = within(course, 2.0) >= 1;
@@ -59,14 +60,14 @@ std::uint32_t bond(Vec3d p, Vec3d size, double joint) noexcept {
 }
 
 std::uint32_t hatch(Vec3d p, double period, double line, double angleDegrees) noexcept {
-    // Whole turns of the angle by the same polynomial as above.
+    // Cosine and sine of the angle, in turns, by the polynomial above.
     const double c = cosineOfTurn(angleDegrees / 360), s = cosineOfTurn(angleDegrees / 360 - 0.25);
-    // Lines run along (cos, sin) in (u, w) and lean the same way across, so that every cut shows them.
+    // Lines run along (cos, sin) in (u, w) and also slope along v, so that every section shows them.
     return within(p.z * c - p.x * s + p.y * s, period) < line ? 1 : 0;
 }
 
 std::uint32_t woodGrain(Vec3d p, double ring, double line, std::uint32_t seed) noexcept {
-    // Rings around a heart that lies outside the piece and wanders along it.
+    // Rings around a pith that lies outside the piece and shifts along its length.
     const double wander = 0.15 * ring * cosineOfTurn(p.x / (40 * ring));
     const double y = p.y + ring * (6 + 4 * unit(hashCell(1, 2, 3, seed))) + wander;
     const double z = p.z + ring * (9 + 4 * unit(hashCell(4, 5, 6, seed)));
@@ -76,7 +77,7 @@ std::uint32_t woodGrain(Vec3d p, double ring, double line, std::uint32_t seed) n
 }
 
 std::uint32_t concrete(Vec3d p, double coarse, std::uint32_t seed) noexcept {
-    // One round grain per cell with its own middle and size, coarse grains before fine ones.
+    // One spherical grain per cell, with random centre and radius; coarse grains take precedence over fine ones.
     for (int pass = 0; pass < 2; ++pass) {
         const double cell = pass == 0 ? coarse : coarse * 0.4;
         const double largest = pass == 0 ? 0.42 : 0.30;
@@ -96,7 +97,7 @@ std::uint32_t concrete(Vec3d p, double coarse, std::uint32_t seed) noexcept {
 }
 
 std::uint32_t insulation(Vec3d p, Vec3d size, double line) noexcept {
-    // Loops as drawn in sections: a wave along u (and along v), one above the other.
+    // The loops that section drawings use for insulation: waves along u and v, stacked along w.
     const double wave = size.z / 2 * (cosineOfTurn(p.x / size.x) + cosineOfTurn(p.y / size.y)) / 2;
     return within(p.z + wave, size.z / 2) < line ? 1 : 0;
 }
@@ -225,7 +226,7 @@ ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
                            kBins) %
                 kBins;
             weight[std::size_t(bin)] += plan;
-            // Directions just under 180 degrees fall into bin 0 and count as just under 0.
+            // Directions just below 180 degrees fall into bin 0 and are reversed to just below 0.
             sum[std::size_t(bin)] = sum[std::size_t(bin)] + (bin == 0 && edge.x < 0 ? -edge : edge);
         }
     }

@@ -87,8 +87,8 @@ TEST(Pattern, PhasesStayInRangeAndAllOccur) {
 }
 
 TEST(Pattern, RepeatsAfterItsPeriod) {
-    // Measures and points that binary numbers hold, so that a period later means exactly the same point of the unit;
-    // hatch lines at angles whose sine and cosine are whole.
+    // Dimensions and points that are exact in binary, so that a shift by one period gives exactly the same point of the
+    // unit; hatch angles whose sine and cosine are integers.
     struct Case {
         Pattern pattern;
         std::vector<Vec3d> periods;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// New columns from old ones, tile by tile: how patterns, thematic bodies and single voxels are put into
-/// a finished volume without making it dense.
+/// Rewrites columns tile by tile: patterns, thematic bodies and single voxels are applied to a finished volume without
+/// converting it to a dense array.
 
 #include <svt/volume/column_volume.hpp>
 
@@ -11,18 +11,17 @@
 
 namespace svt::voxelize {
 
-/// Appends the new runs of column (i, j) to `out` (ends ascending, the last at nz; neighbours may have equal scalars,
-/// they are joined).
+/// Appends the new runs of column (i, j) to `out`: ends ascending, the last at nz. Neighbouring runs with equal scalars
+/// are allowed and will be merged.
 using ColumnRewriter = std::function<void(std::int32_t i, std::int32_t j, std::span<const volume::Run> runs,
                                           std::vector<volume::Run>& out)>;
 
-/// A rewriter for one tile, made anew for each so that it can keep what it knows of the tile; empty: the tile stays as
-/// it is.
+/// Makes the rewriter of one tile, which can hold data about this tile. An empty function leaves the tile unchanged.
 using TileRewriterFactory =
     std::function<ColumnRewriter(std::int32_t tileX, std::int32_t tileY, const volume::ColumnTile& tile)>;
 
-/// Rewrites all columns of the tiles for which `makeRewriter` gives a rewriter; called from several threads.
-/// The result is in canonical form.
+/// Rewrites all columns of the tiles for which `makeRewriter` returns a rewriter. `makeRewriter` and the rewriters are
+/// called from several threads. The result is in canonical form.
 [[nodiscard]] volume::ColumnVolume rewriteColumns(const volume::ColumnVolume& columns,
                                                   const TileRewriterFactory& makeRewriter, int threads);
 
@@ -31,7 +30,7 @@ struct VoxelEdit {
     volume::Scalar scalar = 0;
 };
 
-/// Sets single voxels; of several edits of one voxel the first counts, edits outside the volume do nothing.
+/// Sets single voxels. Of several edits of one voxel the first wins; edits outside the volume are ignored.
 [[nodiscard]] volume::ColumnVolume editVoxels(const volume::ColumnVolume& columns, std::vector<VoxelEdit> edits,
                                               int threads);
 

@@ -32,7 +32,7 @@ TEST(EditVoxels, SetsExactlyTheVoxelsAsked) {
     std::vector<VoxelEdit> edits;
     for (int n = 0; n < 3000; ++n) {
         const Vec3i v{std::int32_t(random() % 131), std::int32_t(random() % 70), std::int32_t(random() % 9)};
-        // Each voxel once: what the last of several would do is not promised.
+        // Edit each voxel at most once.
         if (dense[at(v)] >= 10) continue;
         const auto scalar = Scalar(10 + random() % 5);
         edits.push_back({v, scalar});

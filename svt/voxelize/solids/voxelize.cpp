@@ -21,7 +21,7 @@ namespace {
 
 using volume::ColumnVolume;
 
-// Every object claims twice: as a solid, and with its thin parts or as a sheet.
+// Every object has two claims: one as a solid, and one for its thin parts or as a sheet.
 struct Claims {
     std::vector<OrderedClaim> ordered;
     std::vector<std::uint32_t> solidOrder, thinOrder;  // per object
@@ -37,8 +37,7 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
         entries.push_back({o, false});
         entries.push_back({o, true});
     }
-    // The finer component first; at equal rank what is truly inside before what is only near, then the smaller, then
-    // the id.
+    // Lower rank first; at equal rank solids before thin parts and sheets, then the smaller volume, then the id.
     std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
         const auto key = [&](const Entry& e) {
             return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t>(
@@ -58,7 +57,7 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
     return result;
 }
 
-// What touches each tile, tile after tile; within one by objects, then ascending.
+// The parts that touch each tile, stored tile after tile; within a tile by object, then by number.
 struct TileBins {
     std::vector<std::uint32_t> first;
     std::vector<PartNumber> parts;
@@ -67,8 +66,9 @@ struct TileBins {
     }
 };
 
-// Of `items(object)`, a vector for each object. `rangeOf(item, tx0, tx1, ty0, ty1)` gives the half-open range of tiles
-// of an item, `touches(object, item, tx, ty)` has the last word.
+// Bins the items of all objects by tile (counting sort). `items(object)` returns the vector of an object's items,
+// `rangeOf(item, tx0, tx1, ty0, ty1)` the half-open range of tiles of an item's bounding box, and
+// `touches(object, item, tx, ty)` decides for ranges of several rows and columns.
 template <class Items, class RangeOf, class Touches>
 TileBins fillBins(std::span<const ObjectParts> objects, std::int32_t tilesX, std::int32_t tilesY, int threads,
                   Items&& items, RangeOf&& rangeOf, Touches&& touches) {
@@ -128,19 +128,19 @@ void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std
     tileEnd = first < end ? (end - 1) / ColumnVolume::kTileSize + 1 : tileFirst;
 }
 
-// Everything of all objects.
+// The prepared geometry of all objects.
 struct Geometry {
     LevelTable levels;
     std::vector<ObjectParts> objects;
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
 };
 
-// Parts of object number `object`, with levels of its own numbered as in `ownLevels`; its thin voxels.
+// Prepares the parts of object number `object`; levels without a shared plane go to `ownLevels`.
 void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
                    std::span<const std::uint32_t> planeLevels, const Claims& claims, const VoxelizeOptions& options,
                    std::uint32_t object, LevelTable& ownLevels, Geometry& all) {
     const mesh::ObjectMesh& mesh = scene.objects[object];
-    if (mesh.closure == mesh::Closure::Open) return;  // filled by winding number, all cores on one object
+    if (mesh.closure == mesh::Closure::Open) return;  // filled by winding number later, one at a time on all cores
     const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
     if (mesh.closure == mesh::Closure::Surface) {
@@ -154,7 +154,7 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const
         all.thinVoxels[object] = addThinParts(index, indexFromLocal, dimension, claims.thinOrder[object], parts.boxes);
 }
 
-// Voxels of all sheets, estimated by their area: what the pass for them keeps in memory grows with it.
+// Number of voxels of all sheets, estimated by area. The memory of the sheet pass is proportional to it.
 double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& indexFromLocal) {
     double voxels = 0;
     for (const mesh::ObjectMesh& object : scene.objects) {
@@ -169,8 +169,8 @@ double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& i
     return voxels;
 }
 
-// Objects that lost every voxel get the one nearest to the middle of their first face, if no other object lives by it
-// alone.
+// An object that lost every voxel gets the one nearest to the centroid of one of its triangles: the first that lies in
+// the grid and is not another object's last voxel.
 ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, const volume::Grid& grid,
                           const IndexFromLocal& indexFromLocal, std::span<const ObjectClaim> claims,
                           std::span<const std::uint8_t> isPresent, std::vector<std::uint64_t>& thinVoxels,
@@ -244,7 +244,7 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
         all.uncertainVoxels[o] = addWindingFill(makeIndexMesh(scene.objects[o], indexFromLocal), scene, grid,
                                                 claims.solidOrder[o], options.threads, all.objects[o].boxes);
     }
-    // Levels of single objects are numbered anew, one object after the other.
+    // Append the levels of single objects to the common table, in object order, and renumber them.
     for (std::size_t o = 0; o < scene.objects.size(); ++o) {
         const LevelTable& own = ownLevels[o];
         if (own.sloped.empty()) continue;
@@ -256,7 +256,7 @@ Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid
     return all;
 }
 
-// Tells the progress from whichever thread is free to.
+// Reports progress from any thread.
 class TileProgress {
 public:
     TileProgress(const Progress* progress, std::size_t count) : progress_(progress), count_(count) {}
@@ -274,7 +274,7 @@ private:
     std::mutex mutex_;
 };
 
-// Tile makers with their buffers, lent from task to task.
+// A pool of tile makers, so that tasks reuse their buffers and caches.
 class MakerPool {
 public:
     MakerPool(std::span<const OrderedClaim> claims, const LevelTable& levels) : claims_(claims), levels_(levels) {}
@@ -289,7 +289,7 @@ public:
         const std::lock_guard lock(mutex_);
         free_.push_back(std::move(maker));
     }
-    // What all makers counted.
+    // Sum of the counts of all makers.
     SharedCounts takeCounts(int threads) {
         std::vector<SharedCounts> taken(free_.size());
         parallelFor(free_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
@@ -300,7 +300,7 @@ public:
             for (const SharedCount& sum : ofMaker.sums()) counts.add(sum);
         return counts;
     }
-    // Per scalar: some maker met it.
+    // Per scalar: 1 if some maker has written it.
     [[nodiscard]] std::vector<std::uint8_t> isPresent() const {
         std::vector<std::uint8_t> present;
         for (const auto& maker : free_) {

@@ -329,7 +329,7 @@ TEST(Voxelize, ConservativeSheetMarksEveryTouchedBox) {
 TEST(Voxelize, OpenShellIsFilledLikeItsWindingNumber) {
     mesh::ObjectMesh open = ball({1, 1, 1}, 0.9, 16);
     open.closure = mesh::Closure::Open;
-    // Take some triangles away and tell the edges that lost their partner.
+    // Remove some triangles and list the edges without a partner.
     std::vector<mesh::Triangle> kept;
     for (std::size_t t = 0; t < open.triangles.size(); ++t)
         if (t % 16 != 3) kept.push_back(open.triangles[t]);
@@ -366,7 +366,7 @@ TEST(Voxelize, OpenShellIsFilledLikeItsWindingNumber) {
 }
 
 TEST(Voxelize, TurnedGridGivesTheVolumeOfTheStraightModel) {
-    // A house of boxes turned by 30 degrees, in a grid turned with it, reads like the straight one.
+    // A house of boxes rotated by 30 degrees, in a grid rotated with it, gives the same voxels as the unrotated one.
     const auto straight = sceneOf({box({0, 0, 0}, {4, 3, 2}), box({4, 0, 0}, {4.5, 3, 2})});
     auto turned = straight;
     const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);

@@ -7,7 +7,7 @@
 namespace svt::voxelize {
 namespace {
 
-// Three numbers below 2^20 that sort in this order: what an axis of a grid holds fits.
+// Three numbers below 2^20 in one sort key. Grid coordinates fit, since a dimension is at most 65535.
 constexpr std::uint64_t pack(std::int32_t first, std::int32_t second, std::int32_t third) noexcept {
     return static_cast<std::uint64_t>(first) << 40 | static_cast<std::uint64_t>(second) << 20 |
            static_cast<std::uint64_t>(third);
@@ -22,7 +22,7 @@ class RowJoiner {
 public:
     explicit RowJoiner(std::vector<ClaimedBox>& disjoint) : disjoint_(disjoint) {}
 
-    // The next row, from `boxes` that may overlap. Returns its count of voxels.
+    // Adds the next row, given by `boxes` that may overlap. Returns its count of voxels.
     std::uint64_t addRow(std::span<const ClaimedBox> boxes) {
         if (boxes.size() == 1) {
             row_.assign(1, boxes.front());
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    // Runs along z, one voxel wide, that do not touch each other: low, high and place along x.
+    // Merges the boxes into disjoint runs along z, one voxel wide, packed as (low, high, i).
     void makeRuns(std::span<const ClaimedBox> boxes) {
         parts_.clear();
         for (const ClaimedBox& box : boxes)
@@ -66,7 +66,7 @@ private:
         }
     }
 
-    // Equal runs side by side become one box of the row that `like` is in.
+    // Merges equal adjacent runs into boxes; row and claim are those of `like`.
     void joinRuns(const ClaimedBox& like) {
         std::sort(runs_.begin(), runs_.end());
         row_.clear();
@@ -80,7 +80,7 @@ private:
     }
 
     std::vector<ClaimedBox>& disjoint_;
-    std::vector<std::size_t> previous_, current_;  // boxes that reach the row before, and this one; by rowOrder
+    std::vector<std::size_t> previous_, current_;  // boxes that end at the row before and at this row, by rowOrder
     std::vector<std::uint64_t> parts_, runs_;
     std::vector<ClaimedBox> row_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Voxels given as boxes that may overlap, to few boxes that do not.
+/// Merges voxels given as overlapping boxes into few disjoint boxes.
 
 #include <svt/voxelize/tiles/tile_plan.hpp>
 
@@ -10,11 +10,12 @@
 
 namespace svt::voxelize {
 
-/// Appends the voxels of `boxes`, each once: runs along z, equal runs side by side along x, then equal boxes of
-/// successive rows are joined.
-/// \param boxes  of one claim, each one row high, within the grid
+/// Appends the union of `boxes` to `disjoint`, as boxes without overlap: first runs along z, then equal adjacent runs
+/// along x and equal boxes of successive rows are merged.
+/// \param boxes  all of one claim, each one row high, inside the grid
 /// \return count of voxels
-/// Cost: O(r log r) in the runs of a row, O(boxes + rows) in all. Memory: the boxes, and the runs of one row.
+/// Cost: O(r log r) for the r runs of each row, plus O(boxes + rows). Memory: a copy of the boxes and the runs of one
+/// row.
 std::uint64_t addDisjoint(std::span<const ClaimedBox> boxes, std::vector<ClaimedBox>& disjoint);
 
 }  // namespace svt::voxelize

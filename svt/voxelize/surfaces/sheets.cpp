@@ -14,7 +14,7 @@ namespace {
 
 std::int32_t along(Vec3i dimension, std::size_t axis) { return dimension[int(axis)]; }
 
-// A stretch of samples [begin, end) along axes.x, in row `row` along axes.y, at sample `at` along axes.z.
+// Adds the samples [begin, end) along axes.x, in row `row` along axes.y, at sample `at` along axes.z.
 void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
                 std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     if (axes.z == 2)
@@ -25,7 +25,7 @@ void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std:
         boxes.push_back({at, at + 1, row, row + 1, begin, end, claim});
 }
 
-// Joins neighbours in a row that lie at the same sample.
+// Adds a row of samples; neighbours at the same `sampleAt` are merged into one box. -1: no sample.
 template <class SampleAt>
 void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::uint32_t claim,
                      std::vector<ClaimedBox>& boxes, SampleAt&& sampleAt) {
@@ -51,10 +51,10 @@ void addNearest(Vec3d index, Vec3i dimension, std::uint32_t claim, std::vector<C
     boxes.push_back({v.y, v.y + 1, v.x, v.x + 1, v.z, v.z + 1, claim});
 }
 
-// Lines between samples, each once, whichever end comes first.
+// A set of undirected lines between samples.
 class SampleLines {
 public:
-    // False where the line is there already.
+    // Returns false if the line was there already.
     bool add(Vec3i from, Vec3i to) {
         const std::pair<Vec3i, Vec3i> line = std::minmax(from, to);
         const auto count = static_cast<std::uint32_t>(lines_.size());
@@ -116,7 +116,7 @@ void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, s
                          const std::int64_t base = scan.height.base + scan.height.slopeY * row;
                          addRowOfSamples(axes, row, begin, end, claim, boxes, [&](std::int32_t x) {
                              const std::int32_t above = sampleAbove(scan, base + scan.height.slopeX * x);
-                             // On the rim of the grid the sample behind may be missing: the one before stands for it.
+                             // At the border of the grid the sample behind may not exist: use the one in front.
                              const std::int32_t sample = above + behind;
                              if (sample == -1 && above == 0) return 0;
                              if (sample == count && above == count) return count - 1;
@@ -128,7 +128,7 @@ void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, s
 }
 
 void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
-    constexpr double kTouch = 0.5 + 1.0 / double(kQuanta);  // the snap must not take a touch away
+    constexpr double kTouch = 0.5 + 1.0 / double(kQuanta);  // widened by one quantum, so that snapping loses no contact
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         std::array<Vec3d, 3> corner;
         Vec3d low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
@@ -151,7 +151,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
             for (std::int32_t i = first(0); i <= last(0); ++i) {
                 std::int32_t k0 = first(2), k1 = last(2);
                 if (std::abs(normal.z) > 1e-9) {
-                    // The plane bounds the stretch of the column that can touch.
+                    // Only samples near the plane can touch the triangle.
                     const double at =
                         corner[0].z - (normal.x * (i - corner[0].x) + normal.y * (j - corner[0].y)) / normal.z;
                     const double reach =
@@ -180,7 +180,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
     SampleLines rodLines;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
-        if (!(triangle.thickness < widest)) continue;  // no chord through it can be shorter than a voxel
+        if (!(triangle.thickness < widest)) continue;  // the material behind this face is thicker than a voxel
         const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]],
                     c = vertices[triangle.corners[2]];
         const Vec3d inward = indexFromLocal.direction(-normalized(cross(b - a, c - a)) * double(triangle.thickness));
@@ -197,7 +197,7 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
         if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
                       mesh.points[triangle.corners[2]], axes, scan) &&
             scan.sign > 0) {
-            // Only faces that look down the axis: those on the other side of the sheet would find the same voxels.
+            // Only faces that look down the axis; the opposite faces of the part would yield the same voxels.
             const auto depth = static_cast<std::int64_t>(std::ldexp(chord * double(kQuanta), Height::kBits));
             const std::int64_t half = std::int64_t{1} << (Height::kBits + kQuantaBits - 1);
             scanRows(scan, 0, along(dimension, axes.y), 0, along(dimension, axes.x),
@@ -216,9 +216,9 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
                          });
                      });
         }
-        // A rod: the face itself is narrower than a voxel, so sample lines may pass it by. One line along its longest
-        // edge, in the middle of the material, with one voxel per step of its dominant axis. The faces around a rod all
-        // give nearly the same line; one is enough.
+        // A rod: the face is narrower than a voxel, so sample lines may miss it. Draw one line along its longest edge,
+        // in the middle of the material, one voxel per step of its dominant axis. All faces around a rod give nearly
+        // the same line; duplicates are skipped.
         const Vec3d corners[3] = {a, b, c};
         const Vec3d edges[3] = {ab, indexFromLocal.direction(c - b), -ac};
         std::size_t longest = 0;

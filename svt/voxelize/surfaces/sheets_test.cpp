@@ -97,7 +97,7 @@ TEST(AddThinSheet, SheetsOnTheTwoSidesOfAFaceShareNoVoxel) {
         for (const Voxel& voxel : front) {
             const auto [i, j, k] = voxel;
             ASSERT_TRUE(i >= 0 && j >= 0 && k >= 0 && i < 20 && j < 20 && k < 20);
-            // On the rim of the grid the one sample that is there stands for both.
+            // At the border of the grid the only existing sample is used for both.
             if (i == 0 || j == 0 || k == 0 || i == 19 || j == 19 || k == 19) continue;
             ASSERT_EQ(back.count(voxel), 0u) << n << ": " << i << ' ' << j << ' ' << k;
         }
@@ -121,8 +121,8 @@ TEST(AddThinSheet, EveryPairOfSamplesWithTheSheetBetweenIsParted) {
                         low[(axis + 1) % 3] = a;
                         low[(axis + 2) % 3] = b;
                         low[axis] = c;
-                        // Where the line from this sample to the next meets the plane; not told near its ends and near
-                        // edges.
+                        // Where the line from this sample to the next meets the plane; not tested near its ends and
+                        // near edges.
                         if (std::abs(normal[axis]) < 1e-3) continue;
                         const double t = dot(v[0] - low, normal) / normal[axis];
                         if (t < 0.02 || t > 0.98) continue;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Solid angle of the spherical triangle of three unit vectors.
+// Signed solid angle of the spherical triangle of three unit vectors (Van Oosterom & Strackee 1983).
 double solidAngle(Vec3d a, Vec3d b, Vec3d c) noexcept {
     return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
@@ -23,11 +23,12 @@ double distanceToSegment(Vec3d p, Vec3d a, Vec3d b) noexcept {
     return length(p - (a + ab * t));
 }
 
+// The open edges of the shell.
 struct Rim {
-    std::vector<std::pair<Vec3d, Vec3d>> edges;  // as the mesh uses them, local space
+    std::vector<std::pair<Vec3d, Vec3d>> edges;  // directed as in the mesh, local space
     double totalLength = 0;
 
-    // Winding number of the curtains below the rim, and how far the nearest edge is.
+    // Winding number of the curtains (see winding.hpp) at p, and the distance of the nearest edge.
     [[nodiscard]] double curtains(Vec3d p, double& nearest) const noexcept {
         const Vec3d down{0, 0, -1};
         double sum = 0;
@@ -64,7 +65,7 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
             low[axis] = std::min(low[axis], point[axis]);
             high[axis] = std::max(high[axis], point[axis]);
         }
-    // Outside the hull the winding number stays below 1/2.
+    // From outside the bounding box the shell is seen within a half-space: the winding number stays below 1/2.
     const auto first = [&](std::size_t axis) {
         return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(low[axis])), 0,
                                         dimension[int(axis)]);
@@ -111,7 +112,7 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
             for (std::int32_t i = firstI; i < endI; ++i) {
                 while (c < crossings.size() && crossings[c].i < i) ++c;
                 std::size_t cEnd = c;
-                int above = 0;  // signed crossings of the upward ray
+                int above = 0;  // signed crossings of the upward ray from the current sample
                 for (; cEnd < crossings.size() && crossings[cEnd].i == i; ++cEnd) above += crossings[cEnd].winding;
                 std::int32_t begin = -1;
                 for (std::int32_t k = firstK; k < endK;) {

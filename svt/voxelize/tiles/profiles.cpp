@@ -31,7 +31,7 @@ std::uint32_t Profiles::find(std::span<const std::uint32_t> codes) {
         [&] { return add(codes); });
 }
 
-// Crosses all that lies at the level of codes[first]; returns where the next level begins.
+// Processes all crossings at the level of codes[first]; returns the index of the first crossing of the next level.
 std::size_t Profiles::passLevel(std::span<const std::uint32_t> codes, std::size_t first) {
     std::size_t c = first;
     do {

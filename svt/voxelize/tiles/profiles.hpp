@@ -1,7 +1,13 @@
 #pragma once
 /// \file
-/// Profiles: what a vertical line reads when it meets given boundaries in a given order. Columns by the
-/// thousand share one profile and differ in heights alone, so the sweep that settles who owns what runs once for each.
+/// A profile is the sequence of boundaries that a vertical line crosses, in order, and the scalars between them.
+/// Thousands of columns share one profile and differ only in the heights of the crossings, so the sweep that resolves
+/// priority between overlapping claims runs once per profile, not once per column.
+///
+///     crossings, bottom up   room entry | room exit, attic entry | attic exit
+///     isLevel of their codes      0     |      0          1      |     0           (1: same level as the one before)
+///     scalars between       0           | room                   | attic           | 0
+///     changes                {level 0, below 0} {level 1, below room} {level 2, below attic}, top 0
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -12,31 +18,31 @@
 
 namespace svt::voxelize {
 
-/// A claim in order of priority: index 0 wins over all others.
+/// A claim. Claims are indexed by priority ("order"): index 0 wins over all others.
 struct OrderedClaim {
     volume::Scalar scalar = 0;
     std::uint32_t object = 0;
-    bool isSolid = false;  ///< counts in overlaps; sheets and thin parts do not
+    bool isSolid = false;  ///< is counted in overlaps; sheets and thin parts are not
 };
 
-/// Voxels that two claims share.
+/// Number of voxels claimed by both of two claims.
 struct SharedCount {
     std::uint32_t first = 0, second = 0;  ///< orders, first < second
     std::uint64_t voxels = 0;
 };
 
-/// What is shared, summed up for each two claims.
+/// Sums of shared voxels per pair of claims.
 class SharedCounts {
 public:
     void add(const SharedCount& shared);
-    [[nodiscard]] std::span<const SharedCount> sums() const noexcept { return sums_; }  ///< in no order
+    [[nodiscard]] std::span<const SharedCount> sums() const noexcept { return sums_; }  ///< unordered
 
 private:
     HashIndex index_;
     std::vector<SharedCount> sums_;
 };
 
-/// A crossing of a profile, packed: which claim's boundary, in which direction, and whether it lies at the level of the
+/// A crossing of a profile, packed into 32 bits: the claim, the direction, and whether it is at the same level as the
 /// crossing before.
 struct ProfileCode {
     std::uint32_t claim = 0;  ///< below 2^30
@@ -49,31 +55,31 @@ struct ProfileCode {
     }
 };
 
-/// Where a profile's scalar changes.
+/// A change of the scalar in a profile.
 struct ScalarChange {
-    std::uint32_t level = 0;  ///< number of the level, bottom up
+    std::uint32_t level = 0;  ///< index of the level within the profile, bottom up
     volume::Scalar below = 0;
 };
 
-/// All profiles met so far, and how many voxels lie in their intervals. One per thread.
+/// All profiles found so far, each stored once, and the voxels shared by solids in them. One instance per thread.
 class Profiles {
 public:
     explicit Profiles(std::span<const OrderedClaim> claims) : claims_(claims), winding_(claims.size(), 0) {}
 
-    /// Number of the profile with these crossings (packed ProfileCodes, bottom up). Cost: O(n) where known, else
-    /// O(n * claims active at once).
+    /// Number of the profile with these crossings (packed ProfileCodes, bottom up), added if it is new. Cost: O(n) if
+    /// known, else O(n * claims active at once).
     [[nodiscard]] std::uint32_t find(std::span<const std::uint32_t> codes);
 
     [[nodiscard]] std::span<const ScalarChange> changes(std::uint32_t profile) const noexcept {
         const Profile& p = profiles_[profile];
         return std::span(changes_).subspan(p.firstChange, p.changeCount);
     }
-    /// Above the last crossing.
+    /// Scalar above the last crossing.
     [[nodiscard]] volume::Scalar topScalar(std::uint32_t profile) const noexcept { return profiles_[profile].top; }
 
-    /// Calls `body(group, length)` for each interval in which a group of two solids or more is active and that is not
-    /// empty where a column meets the profile's levels at `heights` (first sample above, ascending; one more than
-    /// levels, the last is the grid's depth).
+    /// Calls `body(group, length)` for each non-empty interval of a column in which two or more solids (a group) are
+    /// active.
+    /// \param heights  first sample above each level of the profile, ascending, followed by the grid's depth
     template <class Body>
     void forEachShared(std::uint32_t profile, const std::int32_t* heights, Body&& body) const {
         const Profile& p = profiles_[profile];
@@ -82,12 +88,12 @@ public:
             if (height[1] > height[0]) body(shared_[s].group, static_cast<std::uint32_t>(height[1] - height[0]));
         }
     }
-    /// Adds voxels that a group shares.
+    /// Adds to the shared voxels of a group.
     void addShared(std::uint32_t group, std::uint64_t voxels) noexcept { groups_[group].voxels += voxels; }
 
-    /// Adds what solids share to `counts` and forgets all profiles and groups: their numbers are no longer valid.
+    /// Adds the shared voxels of all groups to `counts`, then clears profiles and groups; their numbers become invalid.
     void takeCounts(SharedCounts& counts);
-    /// How much memory is in use, in crossings and solids kept.
+    /// Measure of the memory in use: stored crossings and group members.
     [[nodiscard]] std::size_t size() const noexcept { return codes_.size() + groupMembers_.size(); }
 
 private:
@@ -97,14 +103,14 @@ private:
         std::uint32_t firstShared = 0, sharedCount = 0;
         volume::Scalar top = 0;
     };
-    // Between two levels, where two solids or more are active.
+    // An interval between two levels in which two or more solids are active.
     struct SharedInterval {
         std::uint32_t level = 0;  // the lower one
         std::uint32_t group = 0;
     };
-    // Solids that are active together, in this or that profile.
+    // A set of solids that are active together, in any number of profiles.
     struct Group {
-        std::uint32_t firstMember = 0, memberCount = 0;  // of groupMembers_: orders, ascending
+        std::uint32_t firstMember = 0, memberCount = 0;  // range of groupMembers_: orders, ascending
         std::uint64_t voxels = 0;
     };
 
@@ -127,9 +133,9 @@ private:
     std::vector<Group> groups_;
     HashIndex groupIndex_;
     std::vector<std::uint32_t> groupMembers_;
-    std::vector<std::int32_t> winding_;  // per order; all zero between sweeps
+    std::vector<std::int32_t> winding_;  // per order; all zero outside of add()
     std::vector<std::uint32_t> active_;  // orders with winding > 0, ascending
-    std::vector<std::uint32_t> solids_;  // the solids among them
+    std::vector<std::uint32_t> solids_;  // the solids among active_
 };
 
 }  // namespace svt::voxelize

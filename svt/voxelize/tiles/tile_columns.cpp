@@ -9,9 +9,9 @@ namespace svt::voxelize {
 namespace {
 
 constexpr int kKnownBits = 10;
-constexpr std::size_t kStride = 8;  // columns that are written at once
+constexpr std::size_t kStride = 8;  // columns are written in blocks of this size
 
-// The lowest set bit above `bit`, or `end`.
+// Index of the lowest set bit above `bit`, or `end` if there is none.
 std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noexcept {
     const std::uint64_t above = bit + 1 < 64 ? bits >> (bit + 1) << (bit + 1) : 0;
     return above != 0 ? std::countr_zero(above) : end;
@@ -49,7 +49,7 @@ std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::u
     members_.insert(members_.end(), members.begin(), members.end());
     const std::size_t firstCode = stackCodes_.size();
     stackCodes_.resize(firstCode + members.size());
-    // Ascending, so that those of one level stand side by side, and flat levels come bottom up.
+    // Sorted, so that boundaries of one level are adjacent and flat levels come bottom up.
     ascending_.assign(members.begin(), members.end());
     std::sort(ascending_.begin(), ascending_.end());
     for (std::size_t m = 0; m < members.size(); ++m) {
@@ -75,8 +75,8 @@ std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::u
     return static_cast<std::uint32_t>(stacks_.size() - 1);
 }
 
-// Sorts the stack's levels by their heights and finds the profile that goes with this order. Which of equal heights
-// comes first makes no difference: nothing lies between them.
+// Sorts the levels of the stack by height and finds the profile of this order. The order of equal heights does not
+// matter, since the interval between them is empty.
 void TileColumns::orderStack(Stack& stack) {
     std::uint32_t* const order = order_.data() + stack.firstLevel;
     std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
@@ -113,7 +113,7 @@ void TileColumns::orderStack(Stack& stack) {
     stack.profile = profiles_.find(codes_);
 }
 
-// All heights of a stack.
+// Computes all heights of the stack at column (i, j) and sorts them.
 void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
     for (std::uint32_t c = 0; c < stack.levelCount; ++c) {
         const std::uint32_t level = stackLevels_[stack.firstLevel + c].level;
@@ -124,7 +124,8 @@ void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
     stack.isOrdered = true;
 }
 
-// Sets the heights of the sloped levels, which are those at a step of a line.
+// Sets the heights of the sloped levels to those of a step of a line; sorts again if they no longer ascend.
+// `heights`: those of the step, with stride kTile.
 void TileColumns::moveStack(Stack& stack, const std::int32_t* heights) {
     const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
     for (const SlopedLevel& level : sloped) {
@@ -139,14 +140,14 @@ void TileColumns::moveStack(Stack& stack, const std::int32_t* heights) {
     if (!ascends) orderStack(stack);
 }
 
-// Counts the voxels that solids share in columns at the stack's heights.
+// Counts the voxels shared by solids in `columns` columns with the current heights of the stack.
 void TileColumns::countShared(const Stack& stack, std::uint64_t columns) {
     profiles_.forEachShared(
         stack.profile, heights_.data() + stack.firstHeight + 1,
         [&](std::uint32_t group, std::uint32_t length) { profiles_.addShared(group, columns * length); });
 }
 
-// The same for a column that is now known, of which there may be more; false where it is too much to note.
+// Stores the shared voxels per column in a cache entry instead; returns false if it has too few places.
 bool TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
     std::size_t count = 0;
     profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
@@ -158,7 +159,7 @@ bool TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
     return count <= KnownColumn::kMostShared;
 }
 
-// Number of the column with the stack's heights.
+// Makes the column with the current heights of the stack and returns its number.
 std::uint16_t TileColumns::makeColumn(const Stack& stack) {
     const std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
     volume::Run* const first = builder_.beginColumn(std::size_t(stack.levelCount) + 1);
@@ -178,8 +179,8 @@ std::uint16_t TileColumns::makeColumn(const Stack& stack) {
     return builder_.endColumn(static_cast<std::size_t>(end - first));
 }
 
-// Heights along a line to lines_, from `place` on. Bit n of the result: some height of step n differs from that of the
-// step before, or n is 0.
+// Computes the heights along a line into lines_, from index `place` on. Returns the breaks: bit n is set if some height
+// of step n differs from that of step n - 1, and bit 0 always.
 std::uint64_t TileColumns::measureLine(const Cell& cell, const Line& line, std::uint32_t place) {
     const Stack& stack = stacks_[cell.stack];
     const std::size_t needed = place + (std::size_t(stack.slopedCount) + 1) * kTile;
@@ -193,7 +194,7 @@ std::uint64_t TileColumns::measureLine(const Cell& cell, const Line& line, std::
     return heightsAlong(lineLevels_, line.count, cell.stack, lines_.data() + place) | 1;
 }
 
-// The column at a step of a line, of which there are `columns`.
+// Number of the column at a step of the line at index `line`. The caller will use it for `columns` columns.
 inline std::uint16_t TileColumns::findStep(std::uint32_t number, std::uint32_t line, std::size_t step,
                                            std::uint64_t columns) {
     const std::int32_t* const hash = lines_.data() + line + step;
@@ -207,7 +208,7 @@ inline std::uint16_t TileColumns::findStep(std::uint32_t number, std::uint32_t l
     return known.column;
 }
 
-// The same for a column that is not known, and goes where `known` is.
+// Cache miss: makes the column and stores it in the entry `known`, if it fits there.
 std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* heights, KnownColumn& known,
                                     std::uint64_t columns) {
     Stack& stack = stacks_[number];
@@ -227,8 +228,8 @@ std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* he
     return column;
 }
 
-// Columns of a cell in row y, as far as they differ from those of the row before. Rows [firstRow, endRow) have one
-// plan.
+// Writes the columns of a cell in row y to row_, unless they are those of the row before, which row_ still has. Rows
+// [firstRow, endRow) have the same plan.
 void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow) {
     Stack& stack = stacks_[cell.stack];
     if (!stack.isOrdered) beginStack(stack, firstColumn_ + cell.begin, firstRow_ + y);
@@ -261,7 +262,8 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
         const int next = breaks != 0 ? std::countr_zero(breaks) : width;
         const std::uint16_t column =
             findStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
-        // Some too many, which the next step or the end below puts right: short stretches have no loop to foretell.
+        // Writes whole blocks: a fixed-size copy avoids a mispredicted loop branch for short intervals. The excess is
+        // overwritten by the next interval or restored below.
         std::uint16_t* to = columns + x;
         do {
             std::fill_n(to, kStride, column);
@@ -271,7 +273,7 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
     std::copy_n(beyond, kStride, columns + width);
 }
 
-// Rows [firstRow, endRow), which have one plan.
+// Makes the rows [firstRow, endRow), which have the same plan.
 void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
     const PlanRow plan = plan_.layOut(firstRow);
     cells_.resize(plan.cells.size());
@@ -292,7 +294,7 @@ void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
         }
     }
     for (Cell& cell : cells_)
-        if (stacks_[cell.stack].slopesX) cell.line = line;  // one place for all lines along x
+        if (stacks_[cell.stack].slopesX) cell.line = line;  // all lines along x share one buffer
     for (std::int32_t y = firstRow; y < endRow; ++y) {
         if ((changedRows >> y & 1) == 0) {
             builder_.repeatRow();
@@ -318,19 +320,19 @@ volume::ColumnTileData TileColumns::make(const TileInput& input) {
         y = next;
     }
     volume::ColumnTileData tile = builder_.finish();
-    // Every run of a tile's dictionary is in use, so a look at the runs tells who is there.
+    // Every run in the dictionary of a tile is in use, so its scalars are those present.
     for (const volume::Run& run : tile.runs) isPresent_[run.scalar] = 1;
     return tile;
 }
 
-// What solids share in the columns that were found again.
+// Counts the voxels shared by solids in all pending uses of a cache entry.
 void TileColumns::countKnown(KnownColumn& known) {
     for (const auto& shared : std::span(known.shared, known.sharedCount))
         profiles_.addShared(shared.group, std::uint64_t{known.columns} * shared.length);
     known.columns = 0;
 }
 
-// Forgets all stacks and profiles; what they counted goes to counts_.
+// Clears all stacks and profiles; their counts go to counts_.
 void TileColumns::forget() {
     for (KnownColumn& known : known_) countKnown(known);
     std::ranges::fill(known_, KnownColumn{});

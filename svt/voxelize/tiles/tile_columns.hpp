@@ -1,7 +1,48 @@
 #pragma once
 /// \file
-/// One tile of 64 x 64 columns: from boundaries over its plan to columns of labelled runs. A cell of the plan has a
-/// stack of boundaries; their levels have an order and with it a profile; a column is that profile at its heights.
+/// Makes the columns of a tile (64 x 64 at most) from the boundaries over its plan.
+///
+///     z                    _.-|               section along one row of the tile: a room below a sloped attic
+///     ^                _.-'   |  roof
+///     |            _.-'       |
+///     |            |  attic   |
+///     |            |----------|  ceiling
+///     |            |   room   |
+///     |            |----------|  floor
+///     +------------+----------+--------> x
+///     |   cell A   |  cell B  |  cell C       cells of the row, see tile_plan.hpp; A and C have no boundaries
+///
+///     stack of B   floor {room entry}, ceiling {room exit, attic entry}, roof {attic exit}
+///     order        floor, ceiling, roof       slots of the levels, sorted by height
+///     profile      0 | room | attic | 0       scalars below, between and above the levels in this order
+///
+///     step n              0  1  2  3  4  5    one line along x over B
+///     height of the roof  5  5  6  6  7  7    first sample above it; floor and ceiling are flat, at 2 and 4
+///     break               1  0  1  0  1  0    some height differs from that of the step before
+///     column              a  a  b  b  c  c    a = {end 2, 0} {end 4, room} {end 5, attic} {end nz, 0}
+///                                             b = the same with {end 6, attic}, c with {end 7, attic}
+///
+/// The ideas; all are ours, except for coherence, which is that of scanline rendering:
+/// - A column is a profile at heights. Priority between claims is resolved once per profile (profiles.hpp).
+/// - Cells with equal boundaries share one stack, in all tiles; it is found by hash.
+/// - Coherence: a stack keeps its levels in the order of its last column. Moving to the next one updates only the
+///   heights of sloped levels; levels are sorted again only if they no longer ascend.
+/// - Heights are computed for whole lines by SIMD (line_heights.hpp), and columns are made only at breaks: a cell
+///   without slopes has one column per tile; one that slopes along y alone has one column per break along y; one that
+///   slopes along x alone is made only for the first of the rows with one plan. Unchanged rows are repeated as a whole.
+/// - On slopes the same heights recur from row to row: a direct-mapped cache, indexed by a hash of stack and heights,
+///   finds columns made before. Its entries also count voxels shared by solids, so a hit costs one addition.
+///
+/// Glossary:
+///   boundary     a face of a claim, or an end of one of its boxes, at a level: entry or exit (Boundary)
+///   stack        all boundaries over a cell, grouped by level; a level's index in the stack is its slot
+///   line, step   up to 64 samples along x or y over a cell; step n is its sample n
+///   beginStack   computes all heights of a stack at one column and sorts them (first use of the stack)
+///   moveStack    sets the heights of the sloped levels to those of a step
+///   measureLine  computes the heights of the sloped levels at all steps of a line, and the breaks
+///   findStep     number of the column at a step: looks it up in the cache, calls makeStep() on a miss
+///   makeStep     moves the stack to the step, makes the column and replaces the cache entry
+///   KnownColumn  an entry of the cache
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -16,58 +57,61 @@
 
 namespace svt::voxelize {
 
-/// Makes the columns of tiles; keeps its buffers between them. One per thread.
+/// Makes the columns of tiles, one tile after the other; keeps stacks, profiles and buffers between them. One instance
+/// per thread.
 class TileColumns {
 public:
     TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels);
 
+    /// The finished tile, in canonical form.
     [[nodiscard]] volume::ColumnTileData make(const TileInput& input);
 
-    /// Voxels that two solids share in all tiles made since the last call.
+    /// Voxels claimed by two solids, in all tiles made since the last call.
     [[nodiscard]] SharedCounts takeCounts();
-    /// Per scalar, 1: some voxel of the tiles made so far has it. Scalars that no claim has are not told.
+    /// Entry s is 1 if some voxel of the tiles made so far has scalar s. Ends at the largest scalar of the claims.
     [[nodiscard]] std::span<const std::uint8_t> isPresent() const noexcept { return isPresent_; }
 
 private:
     static constexpr std::size_t kTile = kLineSamples;
 
-    // The boundaries over a cell, by levels, in the order in which the last column met them. Cells with the same
-    // boundaries share one, in all tiles.
+    // The boundaries over a cell, grouped by level, and the order of the levels in the last column. Cells with equal
+    // boundaries share a stack, in all tiles.
     struct Stack {
         std::uint64_t hash = 0;
-        std::uint32_t firstMember = 0, memberCount = 0;  // of members_
-        std::uint32_t firstLevel = 0, levelCount = 0;    // of stackLevels_ and order_
-        std::uint32_t firstSloped = 0, slopedCount = 0;  // of sloped_
-        std::uint32_t firstHeight = 0;                   // of heights_: 0, those of the levels bottom up, depth
+        std::uint32_t firstMember = 0, memberCount = 0;  // range of members_
+        std::uint32_t firstLevel = 0, levelCount = 0;    // range of stackLevels_ and order_
+        std::uint32_t firstSloped = 0, slopedCount = 0;  // range of sloped_
+        std::uint32_t firstHeight = 0;                   // in heights_: 0, the heights of the levels bottom up, depth
         std::uint32_t profile = 0;
-        std::uint32_t tile = 0;    // whose column is known:
-        std::uint16_t column = 0;  // of a stack without slopes
+        std::uint32_t tile = 0;    // stack without slopes: the tile for which `column` is valid
+        std::uint16_t column = 0;  // its column in that tile
         bool isOrdered = false, slopesX = false, slopesY = false;
     };
     struct StackLevel {
-        std::uint32_t level, firstCode, codeCount;  // of stackCodes_
+        std::uint32_t level, firstCode, codeCount;  // codes: range of stackCodes_
     };
     struct SlopedLevel {
-        std::uint32_t level, slot, height;  // slot: number within the stack; height: its place in heights_
+        std::uint32_t level, slot, height;  // slot: index within the stack; height: its index in heights_
     };
     struct Cell {
         std::int32_t begin = 0, end = 0;
         std::uint32_t stack = 0;
-        std::uint32_t line = 0;    // of lines_: along y, where it slopes that way alone
-        std::uint64_t breaks = 0;  // bit i: row i of the line differs from the one before
+        std::uint32_t line = 0;    // index in lines_ of its line: along y if it slopes along y alone, else along x
+        std::uint64_t breaks = 0;  // line along y, bit i: row i differs from row i - 1
     };
-    // Columns side by side along x, or rows along y; samples of the grid.
+    // `count` samples from (i, j) on, along x or along y; samples of the grid.
     struct Line {
         std::int32_t i, j, count;
         bool isAlongX;
     };
 
-    // Columns made lately, by their stack and the heights of its sloped levels, with what solids share in each.
+    // Cache entry: a recent column with its key (stack, heights of the sloped levels), and the voxels that solids share
+    // in it, per group.
     struct alignas(64) KnownColumn {
         static constexpr std::size_t kMostSloped = 6, kMostShared = 3;
         std::uint32_t stack = kNoStack, tile = 0;
         std::int32_t heights[kMostSloped] = {};
-        std::uint32_t columns = 0;  // found again and not counted yet, at most a tile's
+        std::uint32_t columns = 0;  // uses not counted yet, at most the columns of a tile
         std::uint16_t column = 0;
         std::uint8_t sharedCount = 0;
         struct Shared {
@@ -99,25 +143,25 @@ private:
     TilePlan plan_;
     volume::ColumnTileBuilder builder_;
     std::int32_t firstColumn_ = 0, firstRow_ = 0;
-    std::uint32_t tile_ = 0;  // counts the tiles
+    std::uint32_t tile_ = 0;  // number of the current tile
     SharedCounts counts_;
     std::vector<std::uint8_t> isPresent_;
 
     std::vector<Stack> stacks_;
     HashIndex stackIndex_;
     std::vector<std::uint64_t> members_;
-    std::vector<std::uint64_t> ascending_;  // members of a stack that is added
+    std::vector<std::uint64_t> ascending_;  // sorted members of the stack being added
     std::vector<StackLevel> stackLevels_;
-    std::vector<std::uint32_t> stackCodes_;  // of the boundaries, level by level
-    std::vector<std::uint32_t> order_;       // slots, bottom up
+    std::vector<std::uint32_t> stackCodes_;  // profile codes of the boundaries, level by level
+    std::vector<std::uint32_t> order_;       // slots of a stack, bottom up
     std::vector<SlopedLevel> sloped_;
     std::vector<std::int32_t> heights_;
-    std::vector<std::pair<std::int32_t, std::uint32_t>> sorted_;  // of one stack: height and slot
-    std::vector<std::uint32_t> codes_, places_;                   // of one stack: codes bottom up; per slot
+    std::vector<std::pair<std::int32_t, std::uint32_t>> sorted_;  // scratch: (height, slot) of one stack
+    std::vector<std::uint32_t> codes_, places_;                   // scratch: codes bottom up; heights_ index by slot
 
     std::vector<Cell> cells_;  // of the current row
     std::vector<std::uint16_t> row_;
-    std::vector<std::int32_t> lines_;  // as heightsAlong() makes them, kTile numbers for each level and one more
+    std::vector<std::int32_t> lines_;  // output of heightsAlong(), per line (sloped levels + 1) * kTile numbers
     std::vector<LineLevel> lineLevels_;
     std::vector<KnownColumn> known_;
 };

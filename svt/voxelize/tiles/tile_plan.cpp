@@ -10,15 +10,15 @@
 namespace svt::voxelize {
 namespace {
 
-// Bits below `end`, at most 64.
+// Mask of bits [0, end), `end` at most 64.
 std::uint64_t bitsBelow(std::int32_t end) noexcept {
     return end >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << end) - 1;
 }
 
-// Bits [first, end).
+// Mask of bits [first, end).
 std::uint64_t bits(std::int32_t first, std::int32_t end) noexcept { return bitsBelow(end) & ~bitsBelow(first); }
 
-// Bits whose value differs from that of the bit below.
+// Mask of bits that differ from the next lower bit.
 std::uint64_t changes(std::uint64_t rows) noexcept { return rows ^ rows << 1; }
 
 std::uint64_t scramble(std::uint64_t number) noexcept {
@@ -32,16 +32,16 @@ const FaceTriangle& triangleOf(const TileInput& input, PartNumber part) noexcept
 
 }  // namespace
 
-// False where the edge makes no difference to the tile.
+// Returns false if the edge does not affect the tile.
 bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
                          PlacedEdge& out) noexcept {
     const int from = edge, to = edge == 2 ? 0 : edge + 1;
     out.first = std::min(t.column(from), t.column(to)) - input.firstColumn;
     if (out.first >= input.width) return false;
-    // The triangle beyond an inner edge touches the tile too, unless all of the edge lies west of it.
+    // Inner edges cancel: the triangle beyond touches the tile too, unless the whole edge lies west of the tile.
     const bool isInner = (t.innerEdges >> edge & 1) != 0;
     if (isInner && out.first > 0) return false;
-    // Counter-clockwise, an edge that goes south has the triangle to its east.
+    // In a counter-clockwise triangle, an edge that goes south has the triangle on its east side.
     const bool goesNorth = t.y[from] < t.y[to];
     const int south = goesNorth ? from : to, north = goesNorth ? to : from;
     out.firstRow = std::max(t.row(south) - input.firstRow, 0);
@@ -55,7 +55,7 @@ bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge
     out.y1 = t.y[north];
     if (!isInner || out.last <= 0) return true;
     const std::int64_t dx = std::int64_t(out.x1) - out.x0, dy = std::int64_t(out.y1) - out.y0;
-    const auto isWest = [&](std::int32_t row) {  // of the tile's first sample, or on it
+    const auto isWest = [&](std::int32_t row) {  // is the edge west of the first sample of the row, or on it?
         const std::int64_t y = std::int64_t(input.firstRow + row) * kQuanta + 1 - out.y0;
         return y * dx <= (std::int64_t(input.firstColumn) * kQuanta + 1 - out.x0) * dy;
     };
@@ -64,7 +64,7 @@ bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge
     return true;
 }
 
-// West of the tile only the sum of windings matters.
+// Adds an edge west of the tile. Only the sum of windings matters there.
 void TilePlan::addWest(std::uint64_t rows, bool isEntry) {
     std::uint64_t& same = isEntry ? outline_.westIn : outline_.westOut;
     std::uint64_t& opposite = isEntry ? outline_.westOut : outline_.westIn;
@@ -80,7 +80,7 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
         return;
     }
     std::uint8_t* columns = edge.isEntry ? outline_.cover.begin : outline_.cover.end;
-    std::uint64_t within = 0, turns = 0;  // rows in which the edge lies within the tile, and where it moves
+    std::uint64_t within = 0, turns = 0;  // rows in which the edge is inside the tile, and in which it moves
     if (edge.first == edge.last) {
         within = bits(edge.firstRow, edge.endRow);
         std::memset(columns + edge.firstRow, edge.first, static_cast<std::size_t>(edge.endRow - edge.firstRow));
@@ -90,7 +90,7 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
         const EdgeRows rows = edgeColumns(walk, input.firstColumn, input.width, edge.endRow - edge.firstRow, placed);
         within = rows.within << edge.firstRow;
         turns = rows.moves << edge.firstRow;
-        if (rows.within != 0) {  // rows side by side, as an edge is straight
+        if (rows.within != 0) {  // contiguous rows, since an edge is straight
             const int first = std::countr_zero(rows.within), end = 64 - std::countl_zero(rows.within);
             std::memcpy(columns + edge.firstRow + first, placed + first, static_cast<std::size_t>(end - first));
         }
@@ -102,7 +102,7 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
     outline_.turns |= (turns & within) | changes(within);
 }
 
-// The rare face of which a row meets more than one stretch: all crossings, sorted and paired.
+// The rare face with several intervals in a row: all crossings are sorted and paired by winding.
 void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartNumber> triangles, Boundary face) {
     crossings_.clear();
     for (const PartNumber part : triangles) {
@@ -227,7 +227,7 @@ void TilePlan::build(const TileInput& input) {
 
 PlanRow TilePlan::layOut(std::int32_t y) {
     const std::vector<Span>& spans = rows_[y];
-    std::uint64_t breaks = 1;  // bit x: a cell begins
+    std::uint64_t breaks = 1;  // bit x: a cell begins at column x
     for (const Span& span : spans) {
         breaks |= std::uint64_t{1} << span.begin;
         if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
@@ -252,7 +252,7 @@ PlanRow TilePlan::layOut(std::int32_t y) {
     }
     if (isKept) return {cells, true};
 
-    std::uint64_t* next[kTile];  // where the next member of a cell goes
+    std::uint64_t* next[kTile];  // per cell: where its next member is written
     const std::size_t room = spans.size();
     if (members_.size() < cells.size() * room) members_.resize(cells.size() * room);
     for (std::size_t cell = 0; cell < cells.size(); ++cell) next[cell] = members_.data() + cell * room;

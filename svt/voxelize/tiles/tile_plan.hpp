@@ -1,7 +1,26 @@
 #pragma once
 /// \file
-/// One tile of 64 x 64 columns seen from above: which faces lie over which columns. Rows whose plan is that of
-/// the row before are told apart from those that must be laid out again.
+/// The plan of a tile: which faces and boxes lie over which of its columns (64 x 64 at most), seen from above.
+///
+///     y   +-----------------------+         one row of the tile, columns from west (0) to east (width):
+///     ^   |      ,-------.        |
+///     |   |   ,--+---.  2 \       |         covers   1  [3 ......... 10)
+///     |  >|---|--|-1--\----\------|<                 2       [6 ............. 15)
+///     |   |   `--+-----`   /      |         cells    |     |   |        |      |       |
+///     |   |      `--------'       |                  0     3   6        10     15      width
+///     |   +-----------------------+         members   {}    {1}  {1, 2}   {2}    {}
+///     +--------> x
+///
+/// - A cover is a boundary (of a face or a box) with one interval of columns in each row. The intervals come from scan
+///   conversion of the outline of the face; edges between its triangles are skipped. An edge with winding +1 begins
+///   the interval of a row, one with -1 ends it. Of edges west of the tile only the sum of windings matters.
+/// - Faces with several intervals in a row (concave in x) fall back to the textbook scanline polygon fill: all
+///   crossings of a row are sorted and paired by winding, and the n-th interval of each row goes to the n-th cover.
+/// - Sets of rows are 64-bit masks, one bit per row. newRows() has the rows where some cover begins, ends or moves:
+///   only these are laid out again (row coherence, as in scanline rendering).
+/// - A row is cut into cells at all interval ends. The cells of a row often have the same members as those of the row
+///   laid out before, with other ends: such a row "keeps boundaries" and its members are not collected again.
+/// - The members of a cell have an order-independent hash (a sum), by which the stacks of tile_columns.hpp are found.
 
 #include <svt/voxelize/lattice/faces.hpp>
 
@@ -11,57 +30,57 @@
 
 namespace svt::voxelize {
 
-/// Samples [firstRow, endRow) along y, [begin, end) along x, [low, high) along z, claimed as a whole (sheets, thin
-/// parts, winding fills).
+/// A box of samples that one claim takes as a whole (from sheets, thin parts, winding fills): [firstRow, endRow) along
+/// y, [begin, end) along x, [low, high) along z.
 struct ClaimedBox {
     std::int32_t firstRow = 0, endRow = 0, begin = 0, end = 0, low = 0, high = 0;
     std::uint32_t claim = 0;
 };
 
-/// What one object brings.
+/// The faces and boxes of one object.
 struct ObjectParts {
     FaceList faces;
     std::vector<ClaimedBox> boxes;
 };
 
-/// A triangle or a box of an object.
+/// Reference to a triangle or a box of an object.
 struct PartNumber {
     std::uint32_t object = 0, number = 0;
 };
 
-/// What lies over a tile.
+/// A tile and the parts that touch it.
 struct TileInput {
     std::int32_t firstColumn = 0, firstRow = 0, width = 0, height = 0, depth = 0;  ///< samples; width, height <= 64
     std::span<const ObjectParts> objects;
-    std::span<const PartNumber> triangles, boxes;  ///< those that touch the tile, by objects, then ascending
+    std::span<const PartNumber> triangles, boxes;  ///< those that touch the tile, by object, then by number
 };
 
-/// A stretch of a row under the same boundaries.
+/// An interval of a row in which all columns have the same boundaries.
 struct PlanCell {
     std::int32_t begin = 0, end = 0;  ///< columns of the tile
     std::uint32_t firstMember = 0, memberCount = 0;
-    std::uint64_t hash = 0;  ///< of its boundaries, in any order
+    std::uint64_t hash = 0;  ///< of its boundaries, independent of their order
 };
 
-/// Cells of a row, west to east, without gap.
+/// Cells of a row, west to east, without gaps.
 struct PlanRow {
     std::span<const PlanCell> cells;
-    bool keepsBoundaries = false;  ///< cell by cell the boundaries of the row laid out before; only stretches are new
+    bool keepsBoundaries = false;  ///< each cell has the boundaries of the same cell of the row laid out before
 };
 
-/// Keeps its buffers between tiles.
+/// Builds the plans of tiles, one after the other; keeps its buffers between them.
 class TilePlan {
 public:
-    /// Takes in what lies over a tile. Cost: O(triangles + rows of slanted edges).
+    /// Starts a new tile and makes its covers. Cost: O(triangles + rows of slanted edges).
     void build(const TileInput& input);
 
-    /// Bit y: the plan of row y may differ from that of the row before. Bit 0 is set.
+    /// Bit y is set if the plan of row y may differ from that of row y - 1. Bit 0 is always set.
     [[nodiscard]] std::uint64_t newRows() const noexcept { return newRows_; }
 
-    /// Row y, which is one of newRows(). Valid until the next call.
+    /// Cells of row y, which must be one of newRows(). Valid until the next call.
     [[nodiscard]] PlanRow layOut(std::int32_t y);
-    /// Boundaries of a cell of the last layOut(), unless its row kept them: packed, in the order of faces, then boxes,
-    /// in all tiles.
+    /// Packed boundaries of a cell of the last layOut(), unless its row keeps boundaries. Their order, faces before
+    /// boxes, each by object and number, is the same in all tiles.
     [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanCell& cell) const noexcept {
         return std::span(members_).subspan(cell.firstMember, cell.memberCount);
     }
@@ -69,9 +88,9 @@ public:
 private:
     static constexpr std::size_t kTile = 64;
 
-    // Where a boundary is: in each row over one stretch of columns. Concave faces have several.
+    // A boundary and one interval of columns per row. Faces that are concave in x have several covers.
     struct Cover {
-        std::uint64_t rows = 0;  // bit y: [begin[y], end[y]) is covered; may be empty
+        std::uint64_t rows = 0;  // bit y: row y is covered over [begin[y], end[y]), which may be empty
         std::uint64_t boundary = 0;
         std::uint8_t begin[kTile], end[kTile];
     };
@@ -82,26 +101,26 @@ private:
         std::uint32_t cover;
         std::uint8_t begin, end;  // columns
     };
-    // The same in cells instead of columns.
+    // The same with cells [begin, end) instead of columns.
     struct CellSpan {
         std::uint32_t cover;
         std::uint8_t begin, end;
         friend bool operator==(const CellSpan&, const CellSpan&) = default;
     };
-    // The cover of one face while its edges come. Passing an edge to the east adds its winding to the cover.
+    // The cover of one face while its edges are added. Passing an edge eastwards changes the winding by +1 or -1.
     struct Outline {
         Cover cover = {};
-        std::uint64_t westIn = 0, westOut = 0;  // rows with winding 1 and -1 to the west of the tile
-        std::uint64_t begun = 0, ended = 0;     // rows with an edge of winding 1 and -1 within the tile
-        std::uint64_t turns = 0;                // rows in which one of these begins, ends or moves
-        bool isSimple = true;                   // no row has two of either
+        std::uint64_t westIn = 0, westOut = 0;  // rows with winding +1 and -1 from edges west of the tile
+        std::uint64_t begun = 0, ended = 0;     // rows with an edge of winding +1 and -1 inside the tile
+        std::uint64_t turns = 0;                // rows in which one of these edges begins, ends or moves
+        bool isSimple = true;                   // no row has two edges of one sign
     };
 
-    // An edge as far as it matters to the tile: over rows [firstRow, endRow) of it, between columns first and last.
+    // An edge clipped to the rows [firstRow, endRow) of the tile; `first` and `last` bound its columns.
     struct PlacedEdge {
         std::int32_t firstRow, endRow, first, last;
-        std::int32_t x0, y0, x1, y1;  // quanta, to the north
-        bool isEntry;                 // winding 1, else -1
+        std::int32_t x0, y0, x1, y1;  // ends in quanta, y0 < y1
+        bool isEntry;                 // winding +1, else -1
     };
     struct Crossing {
         std::uint8_t row, column;
@@ -124,9 +143,9 @@ private:
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
     std::vector<Span> rows_[kTile];
-    PlanCell cells_[kTile];  // of the row laid out last, the first cellCount_
+    PlanCell cells_[kTile];  // cells of the row laid out last, the first cellCount_ are valid
     std::size_t cellCount_ = 0;
-    std::vector<CellSpan> cellSpans_, previousSpans_;  // of the rows laid out last
+    std::vector<CellSpan> cellSpans_, previousSpans_;  // of the two rows laid out last
     std::vector<std::uint64_t> members_;
 };
 
