@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace svt::illustrate {
 
@@ -15,5 +16,8 @@ namespace svt::illustrate {
 
 /// The member of that name, or of a pointer with indices such as "/passes/0/level"; there must be one.
 [[nodiscard]] const Option& sceneMember(std::string_view pointer);
+
+/// Names of the members of an object: {"strength", "width", ...} of "/lines"; "" is the scene.
+[[nodiscard]] std::vector<std::string_view> sceneMembersOf(std::string_view pointer);
 
 }  // namespace svt::illustrate

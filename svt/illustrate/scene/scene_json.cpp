@@ -1,5 +1,6 @@
 #include <svt/illustrate/scene.hpp>
 
+#include <svt/illustrate/scene_members.hpp>
 #include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 namespace svt::illustrate {
@@ -18,6 +18,7 @@ using Join = render::Pass::Join;
 
 constexpr int kVersion = 1;
 constexpr std::size_t kMaxPasses = render::FrameSpec::kMaxPasses;
+// The values of members that have choices, by name.
 constexpr std::pair<render::HiddenLines, std::string_view> kHidden[] = {{render::HiddenLines::None, "none"},
                                                                         {render::HiddenLines::Faint, "faint"},
                                                                         {render::HiddenLines::Dashed, "dashed"}};
@@ -36,19 +37,25 @@ public:
         if (error_.empty()) error_ = fmt::format("{}: {}", path.empty() ? "/" : path, what);
     }
 
-    // Every member must be known: a typing error must not pass in silence.
-    bool object(const Json& value, const std::string& path, std::initializer_list<std::string_view> known) {
+    // Every member must be declared: a typing error must not pass in silence.
+    bool object(const Json& value, const std::string& path) {
         if (!value.is_object()) {
             fail(path, fmt::format("expected an object, found {}", value.type_name()));
             return false;
         }
+        const std::vector<std::string_view> known = sceneMembersOf(path);
         for (const auto& [key, member] : value.items())
-            if (std::find(known.begin(), known.end(), key) == known.end())
+            if (std::ranges::find(known, key) == known.end())
                 fail(path, fmt::format("unknown member '{}'; possible are {}", key, fmt::join(known, ", ")));
         return isFine();
     }
     template <class T>
-    void number(const Json& value, const std::string& path, double least, double most, T& to) {
+    void number(const Json& value, const std::string& path, T& to) {
+        number(value, path, sceneMember(path), to);
+    }
+    template <class T>
+    void number(const Json& value, const std::string& path, const Option& member, T& to) {
+        const double least = member.least, most = member.most;
         if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
             return fail(path, fmt::format("expected a number from {} to {}, found {}", least, most, shorten(value)));
         if constexpr (std::is_integral_v<T>) {
@@ -77,12 +84,29 @@ public:
         Vec3d p;
         if (!value.is_array() || value.size() != 3) return fail(path, "expected [x, y, z] in metres");
         for (int axis = 0; axis < 3; ++axis)
-            number(value[static_cast<std::size_t>(axis)], fmt::format("{}/{}", path, axis), -1e9, 1e9, p[axis]);
+            number(value[static_cast<std::size_t>(axis)], fmt::format("{}/{}", path, axis), sceneMember(path), p[axis]);
         to = p;
     }
     void texts(const Json& value, const std::string& path, std::vector<std::string>& to) {
         if (!value.is_array()) return fail(path, fmt::format("expected an array of texts, found {}", shorten(value)));
         for (std::size_t n = 0; n < value.size(); ++n) text(value[n], fmt::format("{}/{}", path, n), to.emplace_back());
+    }
+
+    // One of the member's choices; `what` names its kind in the message.
+    bool choice(const Json& value, const std::string& path, std::string_view what, std::string& to) {
+        text(value, path, to);
+        if (!isFine()) return false;
+        const auto choices = splitChoices(sceneMember(path).choices);
+        if (std::ranges::find(choices, to) != choices.end()) return true;
+        fail(path, fmt::format("'{}' is no {}; possible are {}", to, what, fmt::join(choices, ", ")));
+        return false;
+    }
+    template <class T, std::size_t N>
+    void choice(const Json& value, const std::string& path, std::string_view what,
+                const std::pair<T, std::string_view> (&names)[N], T& to) {
+        std::string name;
+        if (!choice(value, path, what, name)) return;
+        to = std::ranges::find(names, std::string_view(name), [](const auto& known) { return known.second; })->first;
     }
 
     static std::string shorten(const Json& value) {
@@ -95,63 +119,46 @@ private:
 
 void readCamera(Reader& read, const Json& json, SceneCamera& camera) {
     const std::string path = "/camera";
-    if (!read.object(json, path, {"preset", "around", "parallel", "fieldOfView", "zoom", "eye", "target"})) return;
+    if (!read.object(json, path)) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = path + "/" + key;
         if (key == "preset") read.text(value, at, camera.preset);
         if (key == "around") read.text(value, at, camera.around);
         if (key == "parallel") read.flag(value, at, camera.isParallel);
-        if (key == "fieldOfView") read.number(value, at, 0.001, 179.999, camera.fieldOfView);
-        if (key == "zoom") read.number(value, at, 1e-6, 1e6, camera.zoom);
+        if (key == "fieldOfView") read.number(value, at, camera.fieldOfView);
+        if (key == "zoom") read.number(value, at, camera.zoom);
         if (key == "eye") read.point(value, at, camera.eye);
         if (key == "target") read.point(value, at, camera.target);
     }
 }
 
 void readStyle(Reader& read, const Json& json, const std::string& path, SceneStyle& style) {
-    if (!read.object(json, path, {"select", "color", "opacity", "hatch", "ghost"})) return;
+    if (!read.object(json, path)) return;
     if (!json.contains("select")) return read.fail(path, "needs \"select\", a query");
     for (const auto& [key, value] : json.items()) {
         const std::string at = path + "/" + key;
         if (key == "select") read.text(value, at, style.select);
         if (key == "color") read.color(value, at, style.color);
-        if (key == "opacity") read.number(value, at, 0, 1, style.opacity.emplace());
+        if (key == "opacity") read.number(value, at, style.opacity.emplace());
         if (key == "ghost") read.flag(value, at, style.isGhost);
-        if (key == "hatch") {
-            std::string name;
-            read.text(value, at, name);
+        if (std::string name; key == "hatch" && read.choice(value, at, "hatch", name))
             style.hatch = render::hatchFromName(name);
-            if (!style.hatch)
-                read.fail(
-                    at, fmt::format("'{}' is no hatch; possible are {}", name, fmt::join(render::hatchNames(), ", ")));
-        }
     }
 }
 
 void readSceneLines(Reader& read, const Json& json, const std::string& path, SceneLines& lines) {
-    if (!read.object(json, path, {"select", "width", "color", "hidden"})) return;
+    if (!read.object(json, path)) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = path + "/" + key;
         if (key == "select") read.text(value, at, lines.select);
-        if (key == "width") read.number(value, at, 0.1, 64, lines.width);
+        if (key == "width") read.number(value, at, lines.width);
         if (key == "color") read.color(value, at, lines.color);
-        if (key == "hidden") {
-            std::string name;
-            read.text(value, at, name);
-            const auto found = std::ranges::find(kHidden, name, [](const auto& hidden) { return hidden.second; });
-            if (found == std::end(kHidden))
-                read.fail(at,
-                          fmt::format("'{}' is no way to draw hidden lines; possible are none, faint, dashed", name));
-            else
-                lines.hidden = found->first;
-        }
+        if (key == "hidden") read.choice(value, at, "way to draw hidden lines", kHidden, lines.hidden);
     }
 }
 
 void readPass(Reader& read, const Json& json, const std::string& path, ScenePass& pass) {
-    if (!read.object(json, path,
-                     {"show", "hide", "styles", "cut", "keep", "join", "shell", "level", "lines", "meshes"}))
-        return;
+    if (!read.object(json, path)) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = path + "/" + key;
         if (key == "show") read.texts(value, at, pass.show);
@@ -159,30 +166,15 @@ void readPass(Reader& read, const Json& json, const std::string& path, ScenePass
         if (key == "cut") read.text(value, at, pass.cut);
         if (key == "keep") read.text(value, at, pass.keep);
         if (key == "meshes") read.texts(value, at, pass.meshes);
-        if (key == "level") read.number(value, at, 0, 6, pass.form.level.emplace());
-        if (key == "shell") {
-            std::string level;
-            read.text(value, at, level);
+        if (key == "level") read.number(value, at, pass.form.level.emplace());
+        if (std::string level; key == "shell" && read.choice(value, at, "level of shells", level))
             pass.form.shell = shellLevelFromName(level);
-            if (!pass.form.shell)
-                read.fail(at, fmt::format("'{}' is no level of shells; possible are component, room, unit, storey, "
-                                          "building",
-                                          level));
-        }
         if (key == "lines") {
             if (!value.is_array()) return read.fail(at, "expected an array of lines");
             for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
                 readSceneLines(read, value[n], fmt::format("{}/{}", at, n), pass.lines.emplace_back());
         }
-        if (key == "join") {
-            std::string name;
-            read.text(value, at, name);
-            const auto found = std::ranges::find(kJoins, name, [](const auto& join) { return join.second; });
-            if (found == std::end(kJoins))
-                read.fail(at, fmt::format("'{}' is no way to join; possible are over, replace, depth", name));
-            else
-                pass.join = found->first;
-        }
+        if (key == "join") read.choice(value, at, "way to join", kJoins, pass.join);
         if (key == "styles") {
             if (!value.is_array()) return read.fail(at, "expected an array of styles");
             for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
@@ -192,31 +184,27 @@ void readPass(Reader& read, const Json& json, const std::string& path, ScenePass
 }
 
 void readLines(Reader& read, const Json& json, Scene& scene) {
-    if (!read.object(json, "/lines", {"strength", "width", "cutWidth", "color"})) return;
-    const double widest = double(render::BorderLines::kMaxWidth);
+    if (!read.object(json, "/lines")) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = "/lines/" + key;
-        if (key == "strength") read.number(value, at, 0, 1, scene.lineStrength.emplace());
-        if (key == "width") read.number(value, at, 0, widest, scene.lineWidth.emplace());
-        if (key == "cutWidth") read.number(value, at, 0, widest, scene.cutWidth.emplace());
+        if (key == "strength") read.number(value, at, scene.lineStrength.emplace());
+        if (key == "width") read.number(value, at, scene.lineWidth.emplace());
+        if (key == "cutWidth") read.number(value, at, scene.cutWidth.emplace());
         if (key == "color") read.color(value, at, scene.lineColor);
     }
 }
 
 void readHatches(Reader& read, const Json& json, Scene& scene) {
-    if (!read.object(json, "/hatches", {"show", "spacing"})) return;
+    if (!read.object(json, "/hatches")) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = "/hatches/" + key;
         if (key == "show") read.flag(value, at, scene.hasHatches.emplace());
-        if (key == "spacing") read.number(value, at, 1e-4, 1e4, scene.hatchSpacing.emplace());
+        if (key == "spacing") read.number(value, at, scene.hatchSpacing.emplace());
     }
 }
 
 void readScene(Reader& read, const Json& json, Scene& scene) {
-    if (!read.object(json, "",
-                     {"format", "version", "size", "samples", "look", "camera", "background", "transparent", "lines",
-                      "hatches", "ambientOcclusion", "names", "passes"}))
-        return;
+    if (!read.object(json, "")) return;
     for (const auto& [key, value] : json.items()) {
         const std::string at = "/" + key;
         if (key == "format" && value != "svt-scene") read.fail(at, "expected \"svt-scene\"");
@@ -224,27 +212,18 @@ void readScene(Reader& read, const Json& json, Scene& scene) {
             read.fail(at, fmt::format("expected {}, found {}; a newer program may have written it", kVersion,
                                       Reader::shorten(value)));
         if (key == "size") {
-            const double most = render::FrameSpec::kMaxSize;
             if (!value.is_array() || value.size() != 2) return read.fail(at, "expected [width, height] in pixels");
-            read.number(value[0], at + "/0", 1, most, scene.width);
-            read.number(value[1], at + "/1", 1, most, scene.height);
+            read.number(value[0], at + "/0", sceneMember(at), scene.width);
+            read.number(value[1], at + "/1", sceneMember(at), scene.height);
         }
-        if (key == "samples") read.number(value, at, 1, 16, scene.samples);
-        if (key == "look") {
-            std::string name;
-            read.text(value, at, name);
-            const auto look = lookFromName(name);
-            if (look)
-                scene.look = *look;
-            else
-                read.fail(at, fmt::format("'{}' is no look; possible are plain, paper, blueprint, dark", name));
-        }
+        if (key == "samples") read.number(value, at, scene.samples);
+        if (std::string name; key == "look" && read.choice(value, at, "look", name)) scene.look = *lookFromName(name);
         if (key == "camera") readCamera(read, value, scene.camera);
         if (key == "background") read.color(value, at, scene.background);
         if (key == "transparent") read.flag(value, at, scene.isTransparent);
         if (key == "lines") readLines(read, value, scene);
         if (key == "hatches") readHatches(read, value, scene);
-        if (key == "ambientOcclusion") read.number(value, at, 0, 1, scene.ambientOcclusion.emplace());
+        if (key == "ambientOcclusion") read.number(value, at, scene.ambientOcclusion.emplace());
         if (key == "names") read.texts(value, at, scene.names);
         if (key == "passes") {
             if (!value.is_array() || value.empty() || value.size() > kMaxPasses)

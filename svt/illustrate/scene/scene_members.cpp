@@ -25,7 +25,13 @@ constexpr Option kMembers[] = {
      .help = "width and height",
      .count = 2,
      .leastCount = 2},
-    {.name = "/samples", .kind = Whole, .choices = "1|4|9|16", .byDefault = "4", .help = "rays per pixel"},
+    {.name = "/samples",
+     .kind = Whole,
+     .least = 1,
+     .most = 16,
+     .choices = "1|4|9|16",
+     .byDefault = "4",
+     .help = "rays per pixel"},
     {.name = "/look",
      .choices = "plain|paper|blueprint|dark",
      .byDefault = "plain",
@@ -196,6 +202,16 @@ const Option& sceneMember(std::string_view pointer) {
     const auto found = std::ranges::find_if(kMembers, [&](const Option& m) { return matches(m.name, pointer); });
     SVT_CHECK(found != std::end(kMembers));
     return *found;
+}
+
+std::vector<std::string_view> sceneMembersOf(std::string_view pointer) {
+    std::vector<std::string_view> names;
+    for (const Option& member : kMembers) {
+        const std::size_t slash = member.name.rfind('/');
+        if (matches(member.name.substr(0, slash), pointer) && member.name.substr(slash + 1) != "*")
+            names.push_back(member.name.substr(slash + 1));
+    }
+    return names;
 }
 
 }  // namespace svt::illustrate
