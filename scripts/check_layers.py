@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Checks who includes whom. svt/layers.txt is the table; the rules that hold everywhere are below.
+"""Checks the includes between folders. svt/layers.txt is the table; the general rules are below.
 
-  1  A folder includes only what the table gives it, and the table goes one way.
-  2  What stands at the top of a folder is public. A sub-folder is its inside: nobody else includes it.
-  3  The top never includes the inside, so no public header leaks it; sub-folders include each other one way.
-  4  No folder has more than 25 files, and no sub-folder has folders of its own.
+  1  A folder includes only what the table allows, and the table has no cycles.
+  2  Headers at the top of a folder are public. Sub-folders are internal: no other folder includes them.
+  3  Top-level headers never include internal headers, so none is exposed; sub-folders form no include cycles.
+  4  No folder has more than 25 files, and sub-folders have no folders of their own.
   5  Public headers include no third-party header; every header has its guard; the namespace is that of the folder.
-  6  Calls of one operating system stand in the few places that are listed here.
+  6  Calls specific to one operating system occur only in the places listed here.
 
-  check_layers.py [ROOT]    prints what breaks a rule and exits with 1
+  check_layers.py [ROOT]    prints violations and exits with 1
 """
 import collections
 import pathlib
@@ -98,7 +98,7 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
                 problems.append(f"{place}: third-party include in a public header ({other})")
             if POSIX.match(other) and not is_test and not name.startswith(MAY_CALL_POSIX):
                 problems.append(f"{place}: {other} is of one operating system; it belongs into {', '.join(MAY_CALL_POSIX)}")
-        # Headers of SIMD kernels are included once for each set of instructions, with a guard that knows which.
+        # Headers of SIMD kernels are included once per instruction set, with a guard that depends on it.
         guard = "HWY_TARGET_TOGGLE" if path.name.endswith("-inl.hpp") else "#pragma once"
         if path.suffix == ".hpp" and guard not in text:
             problems.append(f"{name}: no {guard}")

@@ -65,7 +65,7 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
     return json;
 }
 
-// Counts voxels before and after, and reports the output written.
+// Writes the shell; returns the number of voxels before and after, and figures of the output.
 Result<Json> makeShell(const volume::SemanticVolume& volume, const Arguments& arguments, const Progress* progress) {
     illustrate::ShellOptions options;
     options.thickness = arguments.thickness;
