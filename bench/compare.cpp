@@ -13,11 +13,11 @@ namespace svt::bench {
 namespace {
 
 constexpr std::uint32_t kSteps = 9;                             // per channel
-constexpr std::uint32_t kTelltales = kSteps * kSteps * kSteps;  // black among them
+constexpr std::uint32_t kTelltales = kSteps * kSteps * kSteps;  // including black
 constexpr double kStepSize = 28;
 
 std::array<std::uint32_t, 3> digitsOf(std::uint32_t scalar) {
-    constexpr std::uint32_t kSpread = 275;  // without common factor with 728: neighbours get unlike colors
+    constexpr std::uint32_t kSpread = 275;  // coprime to 728: neighbours get different colors
     const std::uint32_t number = scalar == 0 ? 0 : 1 + (scalar - 1) % (kTelltales - 1) * kSpread % (kTelltales - 1);
     return {number % kSteps, number / kSteps % kSteps, number / kSteps / kSteps};
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Volumes and frames that the benchmark draws, the same for every renderer.
+/// Volumes and frames drawn by the benchmark, the same for every renderer.
 
 #include <bench/workload.hpp>
 #include <svt/render/frame_spec.hpp>
@@ -12,7 +12,7 @@
 
 namespace svt::bench {
 
-/// A volume ready to be drawn by ours and by the peers.
+/// A volume prepared for our renderer and the peers.
 struct Drawable {
     volume::Grid grid;
     volume::ColumnVolume columns;
@@ -22,19 +22,19 @@ struct Drawable {
 
 [[nodiscard]] Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension, int threads = 0);
 
-/// What has a built-in opacity below 1 (rooms, units) is hidden; all else is opaque. Telltale colors.
+/// Labels with a built-in opacity below 1 (rooms, units) are hidden; all others are opaque. Identifying colors.
 [[nodiscard]] std::vector<render::Style> opaqueStyles(const volume::LabelTable& labels);
-/// Everything, rooms too, stops 30 % of the light per metre: hardly a ray ends early. Telltale colors.
+/// Everything, including rooms, stops 30 % of the light per metre: hardly any ray ends early. Identifying colors.
 [[nodiscard]] std::vector<render::Style> translucentStyles(const volume::LabelTable& labels);
 
-/// From the south-east and above, with light, over white.
+/// From the south-east and above, with lighting, on white.
 [[nodiscard]] Result<render::FrameSpec> frameOf(const volume::Grid& grid, std::vector<render::Style> styles,
                                                 std::int32_t width, std::int32_t height);
 
-/// The same with ambient light alone and no ambient occlusion: the least that our caster can be asked for.
+/// The same with ambient light only and no ambient occlusion: the least work our caster can do.
 [[nodiscard]] render::FrameSpec unlit(render::FrameSpec spec);
-/// The same in the dark, over black. A translucent body is lit half as strongly as a surface (castRays()), so in the
-/// dark half of its color is left: twice this picture is the one without light, for styles that are all translucent.
+/// The same without light, on black. A translucent body is lit half as strongly as a surface (castRays()), so without
+/// light half of its color remains: twice this picture is the unlit one, if all styles are translucent.
 [[nodiscard]] render::FrameSpec dark(render::FrameSpec spec);
 
 }  // namespace svt::bench

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the figures were taken on. No host name, no path.
+/// Describes the machine of the measurements. No host name, no path.
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@ namespace svt::bench {
 /// cores, processor, simd, memory, compiler, build type.
 [[nodiscard]] nlohmann::ordered_json describeMachine();
 
-/// Bytes that a program may still take without swapping; 0 where the system does not tell.
+/// Memory in bytes available without swapping; 0 if unknown.
 [[nodiscard]] std::uint64_t availableMemory();
 
 }  // namespace svt::bench

@@ -1,4 +1,4 @@
-// svt_bench: times every stage, and beside it VTK, OpenVDB, libcitygml and the paper's own method, in one run on one
+// svt_bench: times every stage together with VTK, OpenVDB, libcitygml and the paper's own method, in one run on one
 // machine. scripts/bench.py runs it part by part and makes the tables.
 #include <bench/benches.hpp>
 #include <bench/machine.hpp>

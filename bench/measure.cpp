@@ -19,7 +19,7 @@ double secondsOf(const std::function<void()>& run) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// A line such as "VmHWM:   1234 kB" of the process' status, in bytes; 0 where there is none.
+// Reads a line such as "VmHWM:   1234 kB" of the process status, in bytes; 0 if missing.
 std::uint64_t statusBytes(const std::string& key) {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);) {
@@ -38,7 +38,7 @@ double medianOf(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-// Seconds of a run: the median of as many as fit into a turn, one at least.
+// Seconds per run: the median of as many runs as fit into a turn, at least one.
 double secondsOfTurn(const std::function<void()>& run, double secondsATurn) {
     std::vector<double> seconds;
     const auto start = Clock::now();
@@ -51,10 +51,10 @@ double secondsOfTurn(const std::function<void()>& run, double secondsATurn) {
 }  // namespace
 
 std::uint64_t peakMemoryOf(const std::function<void()>& run) {
-    // What was freed before must not hide what is needed now.
+    // Release freed memory, which would hide new allocations.
     malloc_trim(0);
     std::ofstream clear("/proc/self/clear_refs");
-    clear << 5 << std::flush;  // the peak begins anew
+    clear << 5 << std::flush;  // resets the peak
     const bool isCleared = clear.good();
     const std::uint64_t before = statusBytes("VmRSS");
     run();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Everything that was measured, as rows of JSON. scripts/bench.py makes the tables.
+/// All measurements, as rows of JSON. scripts/bench.py makes the tables.
 
 #include <bench/measure.hpp>
 
@@ -14,27 +14,27 @@ namespace svt::bench {
 
 using Json = nlohmann::ordered_json;
 
-/// A peer (or another way to run ours) beside our time of the same row.
+/// The time of a peer (or of ours run in another way), compared with our time of the same row.
 struct Beside {
     Measurement measurement;
-    std::string note;  ///< how it agrees with ours, or what it leaves out
+    std::string note;  ///< agreement with ours, or omissions
     Json extra = Json::object();
-    bool isPeer = true;  ///< false: ours, run in another way; no ratio is watched
+    bool isPeer = true;  ///< false: ours, run in another way; the ratio is not monitored
 };
 
-/// One piece of work.
+/// One measured task.
 struct Row {
     std::string stage;  ///< "voxelize"
     std::string input;  ///< "FZK-Haus"
-    std::string size;   ///< "800 x 700 x 400", or what else says how much
+    std::string size;   ///< "800 x 700 x 400", or another measure of size
     Measurement ours;
     std::string note;
     Json extra = Json::object();
     std::vector<Beside> beside;
-    std::vector<std::string> missing;  ///< peers that were not there, with the reason
-    bool isStage = false;              ///< stands in the table of stages: time, memory, size
-    double yardsticks = 0;             ///< our time in units of yardstick(); 0 where it was not run beside
-    std::uint64_t resultBytes = 0;     ///< size of what the stage makes; 0: not told
+    std::vector<std::string> missing;  ///< missing peers, with the reason
+    bool isStage = false;              ///< belongs to the table of stages: time, memory, size
+    double yardsticks = 0;             ///< our time in units of yardstick(); 0 if that was not measured
+    std::uint64_t resultBytes = 0;     ///< size of the stage's output; 0: not reported
 
     /// "voxelize/fzk-haus/800x700x400"
     [[nodiscard]] std::string id() const;
@@ -43,7 +43,7 @@ struct Row {
 struct Report {
     Json machine;
     std::vector<Row> rows;
-    std::vector<std::string> skipped;  ///< inputs that were not there
+    std::vector<std::string> skipped;  ///< missing inputs
 
     [[nodiscard]] Json json() const;
 };

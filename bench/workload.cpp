@@ -37,7 +37,7 @@ Result<std::string> readText(const std::filesystem::path& file) {
     return text;
 }
 
-// Turns the points of one list of coordinates and appends them.
+// Rotates the points of one coordinate list and appends them.
 class PlanTurner {
 public:
     explicit PlanTurner(double degrees)
@@ -60,7 +60,7 @@ private:
     double pivotX_ = 0, pivotY_ = 0;
 };
 
-// Leaves out all members of the city model that are groups.
+// Removes all city object group members of the city model.
 std::string withoutGroups(const std::string& text) {
     const std::string open = "<core:cityObjectMember>\n<grp:CityObjectGroup", close = "</core:cityObjectMember>\n";
     std::string result;

@@ -25,18 +25,18 @@ inline constexpr const char* kHouse = "FZK-Haus";
 inline constexpr const char* kTurnedHouse = "FZK-Haus, turned";
 inline constexpr double kTurnDegrees = 30;
 
-/// The models that are there: the FZK-Haus of the data directory ($SVT_DATA_DIR, else ../shared/data); the same turned
-/// by kTurnDegrees in plan, so that hardly a face is parallel to the grid; the generated tower. The last two are
+/// The available models: the FZK-Haus of the data directory ($SVT_DATA_DIR, else ../shared/data); the same rotated
+/// by kTurnDegrees in plan, so that hardly any face is parallel to the grid; the generated tower. The last two are
 /// written to `scratch`.
-/// \param skipped  gets a sentence for each input that is not there
+/// \param skipped  receives a sentence for each missing input
 [[nodiscard]] Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch,
                                                     std::vector<std::string>& skipped);
 
-/// The generated tower as classical CityGML 2.0, without its groups of storeys: libcitygml refuses references to
-/// features, and with them the whole file.
+/// The generated tower as classical CityGML 2.0, without its storey groups: libcitygml rejects files with references to
+/// features.
 [[nodiscard]] Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch);
 
-/// CityGML with all coordinates turned counter-clockwise about the first point, in plan; written with six decimals.
+/// CityGML with all coordinates rotated counter-clockwise about the first point, in plan; written with six decimals.
 [[nodiscard]] std::string turnedCityGml(const std::string& text, double degrees);
 
 /// 20 x 20 generated houses in one CityGML 3.0 file.
@@ -45,7 +45,7 @@ inline constexpr double kTurnDegrees = 30;
 /// $SVT_DATA_DIR, else ../shared/data beside the checkout.
 [[nodiscard]] std::filesystem::path dataDir();
 
-/// A model ready to be voxelized.
+/// A model prepared for voxelization.
 struct Scene {
     std::string name;
     model::BuildingModel model;
@@ -57,14 +57,14 @@ struct Scene {
 
 inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGrid{1000, 1200, 600};  // the paper's
 
-/// The grid that most rows are about.
+/// The grid used for most rows.
 [[nodiscard]] Vec3i gridSize(bool isQuick);
 /// "800 x 700 x 400"
 [[nodiscard]] std::string sizeText(Vec3i dimension);
 [[nodiscard]] Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension);
 
-/// Objects from the one that loses where objects overlap to the one that wins: whoever writes labels in this order ends
-/// with the same owner everywhere as the voxelizer.
+/// Objects in increasing priority where they overlap: painting labels in this order gives the same owners as the
+/// voxelizer.
 /// \param claims  one per object, same order
 [[nodiscard]] std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes,
                                                     const std::vector<voxelize::ObjectClaim>& claims);

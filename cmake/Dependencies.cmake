@@ -41,7 +41,7 @@ endforeach()
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
   /usr/share/fonts/dejavu-sans-fonts REQUIRED)
 
-# Clipper is a second implementation in tests; see docs/dev/dependencies.md.
+# Clipper serves as a second implementation in tests; see docs/dev/dependencies.md.
 if(SVT_TESTS)
   find_path(CLIPPER_INCLUDE_DIR polyclipping/clipper.hpp REQUIRED)
   find_library(CLIPPER_LIBRARY polyclipping REQUIRED)

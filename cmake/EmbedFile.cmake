@@ -1,5 +1,5 @@
-# svt_embed_file(<target> <file> <symbol>): the file's bytes as `extern "C" const unsigned char <symbol>[]` and
-# `<symbol>_size` in a source of the target.
+# svt_embed_file(<target> <file> <symbol>): embeds the bytes of the file as `extern "C" const unsigned char <symbol>[]`
+# and `<symbol>_size` in a source of the target.
 function(svt_embed_file target file symbol)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded/${symbol}.cpp)

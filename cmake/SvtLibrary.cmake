@@ -1,4 +1,4 @@
-# svt_layers(): reads svt/layers.txt, which says for each folder what it may include, and so what it links.
+# svt_layers(): reads svt/layers.txt, which lists for each folder the folders it may include and therefore links.
 function(svt_layers)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/svt/layers.txt)
   file(STRINGS ${PROJECT_SOURCE_DIR}/svt/layers.txt lines REGEX "^[^#]")
@@ -41,7 +41,7 @@ function(svt_library folder)
   endif()
 endfunction()
 
-# svt_link(<target> <folder> [<targets>...]): links what svt/layers.txt gives a folder outside of svt/, and targets.
+# svt_link(<target> <folder> [<targets>...]): links the layers of a folder outside svt/ (svt/layers.txt), and targets.
 function(svt_link target folder)
   string(REPLACE "/" "_" folder ${folder})
   list(TRANSFORM SVT_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE below)
@@ -57,14 +57,14 @@ function(svt_test name)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()
 
-# Warnings, and arithmetic that gives the same bits with every compiler and on every machine: no contraction into fused
-# multiply-add, no value-changing optimizations. The code reads neither errno nor the floating-point exception flags, so
-# roundings and square roots need no calls, and comparisons no branches.
+# Warnings, and floating-point settings that give identical bits with every compiler and on every machine: no
+# contraction into fused multiply-add, no value-changing optimizations. The code reads neither errno nor the
+# floating-point exception flags, so rounding and square roots need no calls, and comparisons no branches.
 function(svt_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic -ffp-contract=off -fno-math-errno
                          -fno-trapping-math)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # False alarms on std::string concatenation: GCC bug 105651.
+    # False positives on std::string concatenation: GCC bug 105651.
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
   if(SVT_WERROR)

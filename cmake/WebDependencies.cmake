@@ -1,5 +1,5 @@
-# The libraries of the WebAssembly module, from the sources that scripts/web_dependencies.sh fetches, under the names
-# that cmake/Dependencies.cmake gives to the system's.
+# Builds the libraries of the WebAssembly module from the sources fetched by scripts/web_dependencies.sh, under the
+# target names of cmake/Dependencies.cmake.
 set(WEB_SOURCES ${PROJECT_SOURCE_DIR}/build/web-sources)
 if(NOT EXISTS ${WEB_SOURCES}/zlib/.complete)
   message(FATAL_ERROR "The sources of the libraries are missing: run scripts/web_dependencies.sh")
@@ -16,8 +16,8 @@ function(web_library alias include)
   target_compile_options(${target} PRIVATE -w)
 endfunction()
 
-# Headers of Debian's packages fit every target.
-# No threads, since hosts do not always allow them; of OpenGL, Emscripten has what is needed.
+# Header-only Debian packages work for every target.
+# No threads, since web hosts do not always allow them; Emscripten provides OpenGL.
 foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2)
   add_library(${none} INTERFACE IMPORTED)
 endforeach()
@@ -46,11 +46,11 @@ configure_file(${WEB_SOURCES}/libpng/scripts/pnglibconf.h.prebuilt ${CMAKE_CURRE
 target_include_directories(web_PNG SYSTEM PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/libpng)
 target_link_libraries(web_PNG PUBLIC ZLIB::ZLIB)
 
-# Highway 1.0.3 has no 64-bit floats on WASM; its portable vectors have, which the compiler turns into SIMD.
+# Highway 1.0.3 has no 64-bit floats for WASM; its portable vectors do, and the compiler turns them into SIMD.
 web_library(hwy::hwy highway highway/hwy/targets.cc highway/hwy/aligned_allocator.cc highway/hwy/per_target.cc)
 target_compile_definitions(web_hwy PUBLIC HWY_COMPILE_ONLY_EMU128)
 
-# Of FreeType, what draws the letters of one TrueType font.
+# The parts of FreeType needed to draw glyphs of one TrueType font.
 web_library(Freetype::Freetype freetype/include freetype/src/base/ftbase.c freetype/src/base/ftinit.c
   freetype/src/base/ftsystem.c freetype/src/base/ftdebug.c freetype/src/base/ftbitmap.c
   freetype/src/sfnt/sfnt.c freetype/src/truetype/truetype.c
@@ -75,7 +75,7 @@ target_compile_definitions(web_Freetype PRIVATE FT2_BUILD_LIBRARY
 
 web_library(GLU::GLU glu/include glu/src/libtess/*.c)
 target_include_directories(web_GLU PRIVATE ${WEB_SOURCES}/glu/src/include)
-target_compile_options(web_GLU PRIVATE -include limits.h)  # which one of its files forgets
+target_compile_options(web_GLU PRIVATE -include limits.h)  # missing in one of its source files
 
 foreach(library pugixml simdjson PNG Freetype GLU)
   target_compile_options(web_${library} PRIVATE -Os)

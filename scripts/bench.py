@@ -25,7 +25,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-sys.dont_write_bytecode = True  # nothing is left in scripts/
+sys.dont_write_bytecode = True  # write no cache files into scripts/
 import bench_page
 import bench_plot
 
@@ -35,7 +35,7 @@ PAGE = ROOT / "docs" / "dev" / "performance.md"
 PLOT = ROOT / "docs" / "images" / "scaling.svg"
 BEGIN, END = "<!-- BEGIN bench -->", "<!-- END bench -->"
 TOLERANCE = 0.10
-BUSY = 0.1  # cores that others may use during a part before its figures are called rough
+BUSY = 0.1  # cores used by other processes during a part, above which its figures are marked as rough
 PARTS = ["read", "voxelize", "render", "stages", "scaling", "profile"]
 
 
@@ -50,7 +50,7 @@ def commit():
 
 
 class Quiet:
-    """How much of the machine others used between start and end: cores on average, and what a host took away."""
+    """Load from other processes between start and end: cores on average, and time stolen by a hypervisor."""
 
     def __init__(self):
         self.start = self.now()
@@ -77,7 +77,7 @@ class Quiet:
 
 
 def run_part(program, build, part, quick):
-    """One part in a process of its own, so that no part finds memory that another has left."""
+    """Runs one part in its own process, so that memory freed by another part does not affect it."""
     out = build / f"bench-{part}.json"
     command = [str(program), "--only", part, "--json", str(out)] + (["--quick"] if quick else [])
     if part == "render" and not os.environ.get("DISPLAY") and shutil.which("xvfb-run"):
@@ -89,7 +89,7 @@ def run_part(program, build, part, quick):
 
 
 def counted(program, build, piece):
-    """Instructions and cache misses of one piece of work, as cachegrind simulates them."""
+    """Instructions and cache misses of one piece of work, as simulated by cachegrind."""
     out = build / f"cachegrind-{piece}.out"
     done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=yes", f"--cachegrind-out-file={out}",
                            str(program), "--profile", piece], capture_output=True, text=True)
@@ -103,14 +103,14 @@ def counted(program, build, piece):
 
 
 def run_profile(program, build):
-    """What each piece takes over the preparation that all share, per unit of its work."""
+    """Cost of each piece beyond the common preparation, per unit of its work."""
     if not shutil.which("valgrind"):
         return {"results": [], "skipped": ["the counted piece: valgrind is not installed"]}
     units = json.loads(subprocess.run([str(program), "--profile", "count"], stdout=subprocess.PIPE, text=True,
                                       check=True).stdout)
     print("bench: profile, under valgrind", file=sys.stderr)
     pieces = {"voxelize": "crossings", "opaque": "rays", "translucent": "rays"}
-    with ThreadPoolExecutor(2) as pool:  # counts do not depend on what else runs
+    with ThreadPoolExecutor(2) as pool:  # counts do not depend on other load
         counts = dict(zip(["prepare", *pieces], pool.map(lambda p: counted(program, build, p), ["prepare", *pieces])))
     rows = []
     for piece, unit in pieces.items():
@@ -131,7 +131,7 @@ def run(build, parts, quick, figures):
 
 
 def watched(figures):
-    """What may not get worse: name -> (value, whether more is better)."""
+    """Figures to monitor: name -> (value, whether more is better)."""
     values = {}
     for row in bench_page.all_rows(figures):
         for beside in row.get("beside", []):

@@ -1,4 +1,4 @@
-"""The tables of docs/dev/performance.md, made of the benchmark's figures. Used by bench.py."""
+"""Makes the tables of docs/dev/performance.md from the benchmark figures. Used by bench.py."""
 
 HOUSE = "FZK-Haus"
 GRID = "800x700x400"
@@ -11,7 +11,7 @@ def all_rows(figures):
 
 
 def ratio(rows, row, name):
-    """Time of what stands beside ours, over ours."""
+    """Ratio of another program's time to ours."""
     return next(b["ratio"] for b in rows[row]["beside"] if b["name"].startswith(name))
 
 
@@ -20,7 +20,7 @@ def stage(rows, name, house, key):
     return row["ours"]["median_s"] if key == "time" else row["result_bytes"] / 1e6
 
 
-# What is wanted, where it is read, how it is written, must, moonshot, whether more is better.
+# Goal, source of the figure, format, required value, ideal value, whether more is better.
 GOALS = [
     ("voxelize, 800 x 700 x 400: times faster than VTK's stencils with their images",
      lambda r, h: ratio(r, f"voxelize/{h}/{GRID}", "VTK stencils + images"), "{:.1f} x", 30, 150, True),
@@ -112,7 +112,7 @@ def peers(row):
 
 
 def missing(rows):
-    """Each reason once."""
+    """The reasons without duplicates."""
     return list(dict.fromkeys(reason for row in rows for reason in row.get("missing", [])))
 
 
@@ -230,12 +230,12 @@ def profile(rows):
 
 
 def machine(figures):
-    """Of the first part that says it."""
+    """The machine of the first part that states it."""
     return next((part["machine"] for part in figures["parts"].values() if "machine" in part), None)
 
 
 def commits(figures):
-    """One commit, or which part is of which."""
+    """The commit, or the commits of the parts if they differ."""
     found = {name: part["commit"] for name, part in figures["parts"].items()}
     if len(set(found.values())) == 1:
         return next(iter(found.values()))

@@ -4,7 +4,7 @@ import math
 
 WIDTH, HEIGHT = 470, 400
 LEFT, RIGHT, TOP, BOTTOM = 64, 104, 40, 52
-# Line, its key, its color (Okabe and Ito, told apart by the color-blind).
+# Line, its key, its color (Okabe and Ito, distinguishable by the color-blind).
 TIMES = [("voxelize", "voxelize_s", "#0072B2"), ("make bricks", "bricks_s", "#D55E00"),
          ("opaque frame", "frame_s", "#009E73")]
 SIZES = [("columns", "columns_bytes", "#0072B2"), ("bricks", "bricks_bytes", "#D55E00"),
@@ -49,7 +49,7 @@ class Panel:
         return parts
 
     def guides(self):
-        """Slopes of surface and volume, at the lower right, where no curve is."""
+        """Reference slopes for surface and volume growth, at the lower right, where no curve is."""
         parts = []
         start, end = self.xs[-min(3, len(self.xs))], self.xs[-1]
         base = 10.0 ** (self.y_range[0] + 0.1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scripts/build.sh PRESET [TARGET...]: configures once and builds, quietly; shows the log where something fails.
+# scripts/build.sh PRESET [TARGET...]: configures once and builds quietly; shows the log if something fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=$1

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What can be said without building: layers, error pages, format (where clang-format is installed).
+# Checks that need no build: layers, error pages, format (if clang-format is installed).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 python3 scripts/check_layers.py

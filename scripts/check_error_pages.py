@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails where an error code lacks its page, its row in the index or its name in the program, or a page its code.
+"""Fails if an error code lacks its page, its row in the index or its name in the program, or if a page lacks its code.
 
     scripts/check_error_pages.py [ROOT]
 """

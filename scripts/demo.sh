@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Generates the sample house, builds its volume and draws it, whole and cut open. Pictures land in build/demo.
+# Generates the sample house, builds its volume and draws it, whole and cut open. Pictures are written to build/demo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 svt=build/release/bin/svt

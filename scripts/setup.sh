@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs what SVT needs to build and test on Debian 12. Does nothing when all is there.
-#   scripts/setup.sh          what `make build`, `make test` and `make demo` need
-#   scripts/setup.sh peers    also the peers that only `make bench` compares with
-#   scripts/setup.sh web      also what the WebAssembly module and the page are made and tested with
+# Installs the packages that SVT needs to build and test on Debian 12. Does nothing if all are installed.
+#   scripts/setup.sh          for `make build`, `make test` and `make demo`
+#   scripts/setup.sh peers    also the peers used only by `make bench`
+#   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
 packages=(
@@ -14,7 +14,7 @@ packages=(
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
-# A Node.js from elsewhere brings its own npm, beside which Debian's cannot be installed.
+# A Node.js from another source has its own npm, which conflicts with Debian's.
 command -v node >/dev/null || web+=(nodejs)
 command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs all tests of the release build; skipped ones say why. Ends with the runner's count.
+# Runs all tests of the release build; skipped ones state the reason. Ends with the number of tests.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export SVT_DATA_DIR=${SVT_DATA_DIR:-$PWD/../shared/data}

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Tests of the viewer: `units` (state, links, camera) or `page` (the built page in a browser).
-# Exits with 77 and the reason where something that they need is missing.
+# Exits with 77 and the reason if a requirement is missing.
 set -euo pipefail
 cd "$(dirname "$0")/../web/viewer"
 skip() { echo "skipped: $1"; exit 77; }

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the viewer page into build/release/share/svt/viewer. Does nothing when it is newer than all it is made of.
+# Builds the viewer page into build/release/share/svt/viewer. Does nothing if it is newer than all its sources.
 # Needs node with npm (scripts/setup.sh web) and the library as WebAssembly (build/web, `make web`).
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Sources of the libraries that the WebAssembly module is made with, into build/web-sources/<library>: Debian's own, of
-# the release that is installed, since Debian compiles them for no browser. The user's list of package sources stays as
-# it is. Each archive is checked against the SHA-256 that Debian's signed index states. Does nothing when all is there.
+# Fetches the sources of the libraries of the WebAssembly module into build/web-sources/<library>: Debian's sources of
+# the installed release, since Debian does not compile them for browsers. The system's package source list is not
+# changed. Each archive is checked against the SHA-256 of Debian's signed index. Does nothing if all are present.
 #   scripts/web_dependencies.sh
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sources=$PWD/build/web-sources
-# package=folder it unpacks to
+# package=folder of its sources
 packages=(libzstd=zstd pugixml=pugixml simdjson=simdjson highway=highway freetype=freetype libglu=glu zlib=zlib libpng1.6=libpng)
-headers=(fmt nlohmann fast_float)  # of Debian's packages of headers, which fit every target
+headers=(fmt nlohmann fast_float)  # Debian's header-only packages, which work for every target
 
 missing=()
 for pair in "${packages[@]}"; do [ -e "$sources/${pair#*=}/.complete" ] || missing+=("$pair"); done
@@ -29,14 +29,14 @@ apt=(-q -o "Dir::Etc::SourceList=$sources/debian.list" -o Dir::Etc::SourceParts=
 log=$sources/fetch.log
 apt-get "${apt[@]}" update >"$log" 2>&1 || { cat "$log" >&2; echo "web: no package index; see above" >&2; exit 1; }
 
-# One archive, unless it is there; wrong bytes count as none.
+# Fetches one archive, unless it is present with the right checksum.
 fetch() { # uri, name, "SHA256:..."
   (cd "$sources/archives" && echo "${3#SHA256:}  $2" | sha256sum --check --status 2>/dev/null) && return 0
   /usr/lib/apt/apt-helper "${apt[@]}" download-file "$1" "$sources/archives/$2" "$3" >>"$log" 2>&1
 }
 
-# All archives of a package: what Debian publishes and its changes. Sets description and original; fails where one is
-# missing, as a mirror may have dropped it.
+# Fetches all archives of a package: upstream source and Debian's changes. Sets description and original; fails if one
+# is missing, as mirrors may drop old ones.
 fetch_package() { # package, with /release where only that will do
   description='' original=''
   local uri name hash isWhole=yes

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What all commands share: exit codes, messages, progress, loading of inputs.
+/// Shared by all commands: exit codes, messages, progress, loading of inputs.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
@@ -36,10 +36,10 @@ enum Exit {
 /// Prints "svt: error ..." to stderr and returns the exit code.
 int fail(const Error& error);
 
-/// Prints findings to stderr: all with --verbose, else errors and warnings up to a dozen and a count of the rest.
+/// Prints findings to stderr: all with --verbose, else up to a dozen errors and warnings and the number of the rest.
 void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose);
 
-/// A bar on stderr where that is a terminal, from the first second on; Ctrl-C cancels.
+/// A progress bar on stderr if that is a terminal, shown after the first second; Ctrl-C cancels.
 class TerminalProgress {
 public:
     TerminalProgress();
@@ -53,29 +53,29 @@ private:
     bool hasDrawn_ = false;
 };
 
-/// Options of everything that turns models into volumes.
+/// Options shared by all commands that turn models into volumes.
 struct BuildArguments {
     std::string dimension, spacing, frame = "world", sheets = "thin", style;
     double lod = -1;
     bool noBodies = false, patterns = false, noThin = false;
     int threads = 0;
-    pipeline::VectorChoice vectors;  ///< no option of all commands
+    pipeline::VectorChoice vectors;  ///< not an option of all commands
 
     void addTo(CLI::App& command);
-    /// The options, checked; `styleSheet` keeps what they point at.
+    /// The checked options; `styleSheet` owns the data they point to.
     [[nodiscard]] Result<pipeline::BuildOptions> options(std::optional<pipeline::StyleSheet>& styleSheet) const;
 };
 
-/// A volume from a `.svt` or, by building it, from a model file.
-/// \param grid  of another volume that a model is built on; null: as the arguments say
+/// Loads a volume from a `.svt`, or builds it from a model file.
+/// \param grid  of another volume, to build the model on; null: according to the arguments
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const BuildArguments& arguments, const Progress* progress,
                                                         Diagnostics& diagnostics, const volume::Grid* grid = nullptr);
 
-/// "800,700,400" or "800x700x400" -> three numbers; one number stands for all three.
+/// Parses "800,700,400" or "800x700x400" as three numbers; a single number is used for all three.
 [[nodiscard]] Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std::string_view unit);
 
-/// A command puts its options on its subcommand and returns what to run.
+/// Each command adds its options to its subcommand and returns the function to run.
 using Run = std::function<int()>;
 Run addSampleCommand(CLI::App& app);
 Run addBuildCommand(CLI::App& app);

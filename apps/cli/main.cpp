@@ -24,7 +24,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
     return best;
 }
 
-// The option or command that the user may have meant.
+// The nearest option or command, to suggest to the user.
 std::string suggestionFor(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
     const auto commands = app.get_subcommands();
@@ -40,7 +40,7 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
     return found.empty() ? "" : fmt::format("; did you mean {}?", found);
 }
 
-// Results that stdout cannot take (a full disk behind '>') must not pass for success.
+// Reports success only if stdout accepted all output (not with a full disk behind '>').
 int flushed(int exitCode) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
     fmt::print(stderr, "svt: error: stdout cannot be written\n");
@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "svt: error: out of memory; choose a coarser --spacing or a smaller model\n");
         return kLimit;
     } catch (const std::system_error& error) {
-        // What fmt throws where stdout cannot be written.
+        // fmt throws this when stdout cannot be written.
         fmt::print(stderr, "svt: error: stdout cannot be written: {}\n", error.code().message());
         return kOutput;
     } catch (const std::exception& error) {

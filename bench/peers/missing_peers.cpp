@@ -1,4 +1,4 @@
-// Stand-ins for the peers that were not installed when this was built.
+// Stand-ins for the peers that were not installed at build time.
 #include <bench/peers.hpp>
 
 namespace svt::bench {

@@ -39,7 +39,7 @@ public:
             const auto model = citygml::load(file.string(), parameters, std::make_shared<Silent>());
             if (model == nullptr) return counts;
             for (const citygml::CityObject* object : model->getRootCityObjects()) count(*object, counts);
-        } catch (...) {  // Xerces has exceptions of its own
+        } catch (...) {  // Xerces has its own exception types
             return {};
         }
         return counts;

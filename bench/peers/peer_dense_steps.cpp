@@ -1,6 +1,6 @@
-// The paper's method (section 4.3), plainly: the labels as one dense 16-bit texture, the styles as one table, and a ray
-// per pixel that samples the nearest label every half voxel, front to back, until it leaves the volume or is opaque.
-// The paper does this in a fragment shader; here each core takes pixels, as in our caster.
+// The paper's method (section 4.3), unoptimized: the labels as one dense 16-bit texture, the styles as one table, and a
+// ray per pixel that samples the nearest label every half voxel, front to back, until it leaves the volume or is
+// opaque. The paper does this in a fragment shader; here each core processes pixels, as in our caster.
 #include <bench/peers.hpp>
 #include <svt/core/parallel.hpp>
 
@@ -12,7 +12,7 @@
 namespace svt::bench {
 namespace {
 
-constexpr float kOpaqueLeft = 0.001f;  // a ray ends where less light than this comes through, as ours does
+constexpr float kOpaqueLeft = 0.001f;  // a ray ends when less than this fraction of light is left, as in our caster
 
 // Color and opacity of one sample.
 struct Entry {
@@ -64,7 +64,7 @@ public:
     render::Image<render::Rgba8> picture() override { return image_; }
 
 private:
-    // Opacity is given per metre; a sample stands for a step.
+    // Opacity is given per metre; converted to one step.
     void makeTable() {
         table_.assign(std::numeric_limits<std::uint16_t>::max() + std::size_t{1}, Entry{});
         for (std::size_t s = 0; s < styles_.size() && s < table_.size(); ++s) {
@@ -104,7 +104,7 @@ private:
             const auto i = static_cast<std::uint32_t>(static_cast<std::int32_t>(x0 + dx * t));
             const auto j = static_cast<std::uint32_t>(static_cast<std::int32_t>(y0 + dy * t));
             const auto k = static_cast<std::uint32_t>(static_cast<std::int32_t>(z0 + dz * t));
-            if (i >= nx || j >= ny || k >= nz) continue;  // by rounding, at the border
+            if (i >= nx || j >= ny || k >= nz) continue;  // possible at the border due to rounding
             const Entry& entry = table[texture[i + std::size_t{nx} * (j + std::size_t{ny} * k)]];
             if (entry.opacity == 0) continue;
             const float share = left * entry.opacity;
@@ -125,7 +125,7 @@ private:
     double step_ = 1;  // metres
     std::vector<render::Style> styles_;
     std::vector<Entry> table_;
-    Vec3d eye_{}, forward_{}, right_{}, up_{};  // right_ and up_ reach to the picture's border
+    Vec3d eye_{}, forward_{}, right_{}, up_{};  // right_ and up_ reach to the border of the picture
     render::Image<render::Rgba8> image_;
 };
 

@@ -9,7 +9,7 @@
 namespace svt::bench {
 namespace {
 
-// Our mesh as OpenVDB's meshToVolume wants to see it; points are in index space already.
+// Our mesh in the form required by OpenVDB's meshToVolume; points are already in index space.
 struct IndexMesh {
     std::vector<openvdb::Vec3d> points;
     const std::vector<mesh::Triangle>* triangles = nullptr;
@@ -22,8 +22,8 @@ struct IndexMesh {
     }
 };
 
-// meshToVolume with the narrowest band that keeps signs right, one voxel to each side; all cores (TBB). Distances are
-// in voxels, since a level set needs cubes. The sign tells inside.
+// meshToVolume with the narrowest band that gives correct signs, one voxel to each side; all cores (TBB). Distances are
+// in voxels, since a level set requires cubes. The sign gives the inside.
 class OpenVdb final : public SolidPeer {
 public:
     OpenVdb() { openvdb::initialize(); }

@@ -19,7 +19,7 @@ namespace svt::bench {
 namespace {
 
 // vtkPolyDataToImageStencil, each object in the extent of its own bounds. The stencil is a list of runs per row,
-// computed by VTK with one thread. Tolerance 0: a voxel is inside when its centre is, which is our rule too, and VTK's
+// computed by VTK with one thread. Tolerance 0: a voxel is inside if its centre is, which is our rule too, and VTK's
 // faster path.
 class VtkStencils final : public SolidPeer {
 public:
@@ -79,7 +79,7 @@ private:
         return data;
     }
 
-    // The samples inside of `bounds` (local space), cut at the grid; one that lies on them but for rounding is inside.
+    // The samples inside `bounds` (local space), clipped to the grid; a sample on them up to rounding is inside.
     std::array<int, 6> extentOf(const Box3d& bounds) const {
         const Vec3d spacing = grid_.spacing();
         const Vec3i n = grid_.dimension();
@@ -95,7 +95,7 @@ private:
         return {x[0], x[1], y[0], y[1], z[0], z[1]};
     }
 
-    // The fastest way from a stencil to labels: its runs, with no image between.
+    // The fastest way from a stencil to labels: directly from its runs, without an intermediate image.
     static void paint(vtkImageStencilData& stencil, const std::array<int, 6>& extent, std::uint16_t scalar,
                       DenseLabels& labels) {
         const std::size_t nx = static_cast<std::size_t>(labels.dimension.x),

@@ -21,8 +21,8 @@
 namespace svt::bench {
 namespace {
 
-// Debian's VTK draws through X alone, and ends the program where there is no display; so ask X first. The connection
-// stays open: an X server that loses its last client starts anew, and refuses whoever comes at that moment.
+// Debian's VTK draws only through X and ends the program if there is no display, so check X first. The connection
+// stays open: an X server that loses its last client restarts and rejects connections at that moment.
 bool hasDisplay() {
     static void* const display = []() -> void* {
         void* const library = dlopen("libX11.so.6", RTLD_LAZY);
@@ -55,13 +55,14 @@ public:
 
     void setVolume(const DenseLabels& labels, const volume::Grid& grid) override {
         gridOrigin_ = grid.origin();
-        // VTK draws from the first sample to the last; a layer of background around shows the outer half voxels too.
+        // VTK draws from the first sample to the last; a surrounding layer of background shows the outer half voxels
+        // too.
         const Vec3i n = labels.dimension;
         const Vec3d spacing = grid.spacing();
         vtkNew<vtkImageData> image;
         image->SetDimensions(n.x + 2, n.y + 2, n.z + 2);
         image->SetSpacing(spacing.x, spacing.y, spacing.z);
-        // The fixed-point caster takes the label at the next lower sample, not at the nearest.
+        // The fixed-point caster takes the label at the next lower sample, not the nearest.
         const double first = kind_ == VtkMapper::FixedPoint ? -1.5 : -1;
         image->SetOrigin(first * spacing.x, first * spacing.y, first * spacing.z);
         image->AllocateScalars(VTK_UNSIGNED_SHORT, 1);
@@ -90,7 +91,7 @@ public:
     void setStyles(std::span<const render::Style> styles) override {
         vtkNew<vtkColorTransferFunction> colors;
         vtkNew<vtkPiecewiseFunction> opacities;
-        // The GPU caster samples these functions into textures with filtering, so each label gets a plateau.
+        // The GPU caster samples these functions into filtered textures, so each label gets a plateau.
         for (std::size_t s = 0; s < styles.size(); ++s)
             for (const double side : {-0.4, 0.4}) {
                 colors->AddRGBPoint(double(s) + side, styles[s].color.x, styles[s].color.y, styles[s].color.z);
@@ -142,7 +143,7 @@ private:
 
     VtkMapper kind_;
     Vec3d gridOrigin_{};
-    double voxel_ = 1;  // its shortest side, metres
+    double voxel_ = 1;  // shortest side of the voxel, metres
     vtkNew<vtkFixedPointVolumeRayCastMapper> fixedPoint_;
     vtkNew<vtkGPUVolumeRayCastMapper> gpu_;
     vtkNew<vtkVolumeProperty> property_;

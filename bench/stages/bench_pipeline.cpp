@@ -43,7 +43,7 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
     const auto levels = volume::buildLodPyramid(volume.columns, volume.grid);
     if (!levels) return levels.error();
 
-    // A stage that failed above would have been told; here only time counts.
+    // Failures of this stage were already reported above; only time counts here.
     const auto done = [](const auto& result) { static_cast<void>(result.hasValue()); };
     const std::array sheets{&pipeline::defaultStyle(false)};
     const std::vector<Stage> stages{

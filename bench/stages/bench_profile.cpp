@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int32_t kWidth = 1280, kHeight = 720;
 
-// Columns of samples that a triangle lies over (or under): where the column's line crosses it. A line that meets an
-// edge may count for both neighbours; this is a unit of work, not a result.
+// Number of sample columns above or below a triangle, that is, whose line crosses it. A line through an edge may count
+// for both neighbours; this is a unit of work, not a result.
 std::uint64_t crossingsOf(const std::array<Vec3d, 3>& p, Vec3i n) {
     const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
     if (area == 0) return 0;
@@ -24,7 +24,7 @@ std::uint64_t crossingsOf(const std::array<Vec3d, 3>& p, Vec3i n) {
     for (auto j = std::max(0, static_cast<int>(std::ceil(least))); j <= std::min(n.y - 1, static_cast<int>(most));
          ++j) {
         double from = 0, to = n.x - 1;
-        for (std::size_t e = 0; e < 3; ++e) {  // inside of each edge: a + b x >= 0
+        for (std::size_t e = 0; e < 3; ++e) {  // inside each edge: a + b x >= 0
             const Vec3d s = p[e], d = p[(e + 1) % 3] - s;
             const double sign = area > 0 ? 1 : -1, a = sign * (d.x * (j - s.y) + d.y * s.x), b = -sign * d.y;
             if (b > 0) from = std::max(from, -a / b);

@@ -9,7 +9,7 @@ namespace {
 
 double megabytesPerSecond(double bytes, double seconds) { return bytes / 1e6 / seconds; }
 
-// Polygons, one for each time that a geometry uses it.
+// Number of polygons, counted once per use by a geometry.
 std::size_t countUses(const model::BuildingModel& model) {
     std::size_t uses = 0;
     for (const model::Feature& feature : model.features)

@@ -22,7 +22,7 @@ void cast(const Drawable& drawable, const render::FrameSpec& spec) {
     static_cast<void>(render::castRays(drawable.bricks, drawable.grid, spec).hasValue());
 }
 
-// What all who draw one frame need.
+// Data shared by all renderers of one frame.
 struct Frame {
     const Drawable& drawable;
     Look look;
@@ -39,8 +39,8 @@ Result<Frame> makeFrame(const Scene& scene, const Drawable& drawable, Look look)
     return Frame{drawable, look, std::move(styles), std::move(*spec)};
 }
 
-// Opaque colors are not blended, so the peers get them as they are, and labels can be read back. Translucent ones are
-// blended in linear light by ours, so the peers get linear numbers, and their pictures hold linear numbers.
+// Opaque colors are not blended, so the peers get them unchanged, and labels can be read back. Ours blends translucent
+// ones in linear light, so the peers get linear values, and their pictures hold linear values.
 std::vector<render::Style> stylesForPeers(const Frame& frame) {
     std::vector<render::Style> styles = frame.styles;
     if (frame.look == Look::Translucent)
@@ -48,7 +48,7 @@ std::vector<render::Style> stylesForPeers(const Frame& frame) {
     return styles;
 }
 
-// Our picture of the frame without light, in the numbers of the peers' pictures, and its labels.
+// Our unlit picture of the frame, in the color values of the peers' pictures, and its labels.
 struct OurPicture {
     image::Image<image::Rgba8> color;
     image::Image<volume::Scalar> label;
@@ -97,8 +97,8 @@ private:
         return row;
     }
 
-    // Both looks beside all peers; where there is a smaller grid, beside the paper's method alone and our frame of the
-    // smaller grid.
+    // Both looks compared with all peers; if there is a smaller grid, compared with only the paper's method and our
+    // frame of the smaller grid.
     Result<void> frames(const Drawable& drawable, const Drawable* smaller) {
         DenseLabels dense;
         std::string noDense;
@@ -151,7 +151,7 @@ private:
         for (std::size_t p = 0; p < peers.size(); ++p)
             contestants.push_back({peers[p]->name(), [&, p] {
                                        VolumePeer& peer = *peers[p];
-                                       // The warm-up has the peer's copy of the volume in its memory.
+                                       // The warm-up creates the peer's copy of the volume.
                                        if (!isReady[p]) {
                                            peer.setVolume(dense, frame.drawable.grid);
                                            peer.setStyles(styles);
@@ -192,8 +192,8 @@ private:
         return samples == 1 ? "one sample a voxel" : fmt::format("{} samples a voxel", samples);
     }
 
-    // How the peer's picture agrees with ours: as it was timed, and for surfaces also at a fine step, which tells
-    // what is due to the step.
+    // Agreement of the peer's picture with ours: as timed, and for surfaces also at a fine step, which shows how much
+    // is due to the step.
     Json picturesJson(const Frame& frame, const OurPicture& ours, VolumePeer& peer, const Row& row) const {
         constexpr int kFineSamples = 8;
         Json json = Json::object();
@@ -219,7 +219,7 @@ private:
         if (!image::writePng(file, picture)) tell(fmt::format("cannot write {}", file.string()));
     }
 
-    // A frame with a section plane; the same with the plane in another place each time, and with another style each
+    // A frame with a section plane; the same with the plane at another position each time, and with another style each
     // time.
     Result<void> edits(const Drawable& drawable) {
         Row row = newRow("section frame", fmt::format("{}, 1280 x 720 pixels", sizeText(drawable.grid.dimension())));
@@ -253,8 +253,8 @@ private:
         return {};
     }
 
-    // A lens over the solid model and a highlight in its ghost; the same with the lens in another place and another
-    // object lit before each frame; and the plain frame of as many pixels.
+    // A lens over the solid model, and a highlight with the rest as ghost; the same with another lens position and
+    // another highlighted object before each frame; and the plain frame with as many pixels.
     Result<void> illustrations(const Drawable& drawable) {
         const auto plain = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
         if (!plain) return plain.error();

@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
 
-// A stage that failed would have been told when the drawable was made; here only time counts.
+// Failures were already reported when the drawable was made; only time counts here.
 const auto done = [](const auto& result) { static_cast<void>(result.hasValue()); };
 
 std::uint64_t denseBytes(const volume::Grid& grid) { return 2 * grid.sampleCount(); }
 
-// The largest resolutions take seconds a round; three rounds are enough for a plot.
+// The largest resolutions take seconds per round; three rounds are sufficient for a plot.
 MeasureOptions fewRuns(const BenchOptions& options) {
     MeasureOptions measure = options.measure;
     measure.leastRuns = 3;
@@ -30,7 +30,7 @@ MeasureOptions fewRuns(const BenchOptions& options) {
 
 Result<Row> scalingRow(const Scene& scene, Vec3i dimension, const BenchOptions& options) {
     tell(fmt::format("scaling {} {}", scene.name, sizeText(dimension)));
-    // In the order of use, as a program would: meshes to a frame. The memory is that of the whole.
+    // In program order: from meshes to a frame. The memory is that of the whole.
     Drawable drawable;
     render::FrameSpec spec;
     Result<void> outcome;

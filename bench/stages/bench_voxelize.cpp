@@ -19,12 +19,12 @@ Json comparisonJson(const VoxelComparison& comparison) {
             {"differing_percent", comparison.differingPercent()}};
 }
 
-// The closed objects alone, which is all that the peers can fill.
+// Only the closed objects, since the peers can fill no others.
 struct Solids {
     mesh::MeshScene meshes;
     std::vector<voxelize::ObjectClaim> claims;
     std::vector<std::uint16_t> scalars;
-    std::vector<std::uint32_t> order;  // who loses first
+    std::vector<std::uint32_t> order;  // in increasing priority
 };
 
 Solids solidsOf(const Scene& scene) {
@@ -42,7 +42,7 @@ Solids solidsOf(const Scene& scene) {
     return solids;
 }
 
-// How a peer does one step, and what the reader must know of it.
+// How a peer performs one step, and remarks for the reader.
 struct PeerRun {
     SolidPeer* peer = nullptr;
     SolidStep step = SolidStep::Inside;
@@ -98,7 +98,7 @@ Result<Row> voxelizeRow(const Scene& scene, const Solids& solids, Vec3i dimensio
                                    p.peer->run(p.step, solids.order, solids.scalars, &labels);
                                }});
     const auto measured = measureInTurns(contestants, options.measure);
-    // The peers go by voxel centers and lose what is thinner than a voxel, so they are compared with the same rule.
+    // The peers use voxel centers and lose parts thinner than a voxel, so they are compared with the same rule.
     const auto centersOnly = run(0, false);
     if (!centersOnly) return centersOnly.error();
     row.ours = measured[0];
@@ -124,7 +124,7 @@ Result<Row> voxelizeRow(const Scene& scene, const Solids& solids, Vec3i dimensio
 
 Result<void> benchVoxelize(const Scene& scene, const BenchOptions& options, Report& report) {
     const Solids solids = solidsOf(scene);
-    // OpenVDB computes distances, which takes it seconds; one row says so.
+    // OpenVDB computes distances, which takes seconds; one row is sufficient.
     const bool isHouse = scene.name == kHouse;
     std::vector<Vec3i> sizes{gridSize(options.isQuick)};
     if (isHouse && !options.isQuick) sizes.insert(sizes.begin(), kSmallGrid);

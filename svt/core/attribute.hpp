@@ -10,12 +10,12 @@ namespace svt {
 
 using AttributeValue = std::variant<std::string, std::int64_t, double, bool>;
 
-/// Names keep the source's local name ("roofType", "ifcType"); members of a generic
-/// attribute set are "set/name".
+/// Names keep the source's local name ("roofType", "ifcType"); a member of a generic
+/// attribute set is named "set/name".
 struct Attribute {
     std::string name;
     AttributeValue value;
-    std::string unit;  ///< uom of a measure, else empty
+    std::string unit;  ///< unit of measure (uom), else empty
 
     friend bool operator==(const Attribute&, const Attribute&) = default;
 };

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// SVT_CHECK stops the program on a programmer's error. Input can never reach one.
+/// SVT_CHECK stops the program on a programming error. Input data can never cause one.
 
 namespace svt {
-/// Prints the condition and place to stderr and aborts.
+/// Prints the condition and its location to stderr and aborts.
 [[noreturn]] void checkFailed(const char* condition, const char* file, int line) noexcept;
 }  // namespace svt
 

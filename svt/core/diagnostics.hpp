@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Findings that did not stop the work: a dangling link, an open shell, a face left out.
+/// Findings that do not stop processing: a dangling link, an open shell, a face left out.
 
 #include <svt/core/error.hpp>
 
@@ -26,8 +26,8 @@ struct Diagnostic {
     [[nodiscard]] std::string toString() const;
 };
 
-/// Collects diagnostics in the order they are found. Keeps at most `kKeptPerCode`
-/// of each code, counts all, so a hopeless file cannot fill the memory.
+/// Collects diagnostics in the order in which they are found. Keeps at most `kKeptPerCode`
+/// of each code but counts all of them, which bounds the memory for a file full of errors.
 /// Threads: not synchronized; parallel stages collect per task and append in order.
 class Diagnostics {
 public:
@@ -37,7 +37,7 @@ public:
     void append(const Diagnostics& other);
 
     [[nodiscard]] const std::vector<Diagnostic>& items() const noexcept { return items_; }
-    /// How often `code` was found, kept or not.
+    /// Number of diagnostics with `code`, kept or not.
     [[nodiscard]] std::size_t count(Code code) const noexcept;
     [[nodiscard]] std::size_t count(Severity severity) const noexcept;
 

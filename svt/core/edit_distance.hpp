@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// How far two names are apart, for "did you mean".
+/// Edit distance between two names, for "did you mean" hints.
 
 #include <cstddef>
 #include <string_view>
 
 namespace svt {
 
-/// Letters to insert, drop, change or swap with their neighbour, without regard to ASCII case (optimal string
-/// alignment); `limit` + 1 where there are more. Cost: O(a * b), less where the limit is met early.
+/// Number of letters to insert, delete, replace or swap with their neighbour, ignoring ASCII case (optimal string
+/// alignment distance); `limit` + 1 where it exceeds `limit`. Cost: O(a * b), less where the limit is exceeded early.
 [[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit);
 
 }  // namespace svt

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Errors: a stable code, a message that says what was found, what was expected
-/// and what to do, and the place. One page per code stands in docs/errors/.
+/// and what to do, and the place. Each code has a page in docs/errors/.
 
 #include <cstdint>
 #include <string>
@@ -10,25 +10,25 @@
 namespace svt {
 
 /// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render, 9xx program.
-/// A code is never given a second meaning.
+/// The meaning of a code never changes.
 enum class Code : std::uint16_t {
     // 1xx: reading a model
     CannotOpen = 101,         ///< file missing or unreadable
     BadXml = 102,             ///< not well-formed XML
-    UnknownFormat = 103,      ///< the content is none of the formats that can be read
+    UnknownFormat = 103,      ///< none of the readable formats
     InputTooBig = 104,        ///< over a stated limit (bytes, depth, count)
     BadJson = 105,            ///< not well-formed JSON, or not the expected structure
-    UnknownVersion = 106,     ///< a version of the format that cannot be read
+    UnknownVersion = 106,     ///< unsupported version of the format
     DtdRefused = 107,         ///< a DOCTYPE or entity declaration in XML
-    BadEncoding = 108,        ///< bytes that are no valid UTF-8 (or the declared encoding)
+    BadEncoding = 108,        ///< invalid UTF-8 (or invalid in the declared encoding)
     EmptyModel = 109,         ///< no feature with geometry
-    DanglingReference = 110,  ///< an xlink, child or template reference without target
-    ReferenceCycle = 111,     ///< references that lead back to themselves
-    DuplicateId = 112,        ///< the same id twice
-    MissingId = 113,          ///< a feature without id; one was made from its path
-    BadValue = 114,           ///< a number, code or attribute that cannot be understood
+    DanglingReference = 110,  ///< an XLink, child or template reference without target
+    ReferenceCycle = 111,     ///< circular references
+    DuplicateId = 112,        ///< the same id used twice
+    MissingId = 113,          ///< a feature without id; one is made from its path
+    BadValue = 114,           ///< a number, code or attribute that cannot be interpreted
     ExternalReference = 115,  ///< a reference to another file or host; never fetched
-    UnknownElement = 116,     ///< an element or type that is not known; skipped
+    UnknownElement = 116,     ///< an unknown element or type; skipped
     MixedCrs = 117,           ///< parts of one model in different CRSs
     GeographicCrs = 118,      ///< coordinates in degrees; project them first
     BadIndex = 119,           ///< a vertex, material or template index out of range
@@ -39,36 +39,36 @@ enum class Code : std::uint16_t {
     DuplicateFace = 204,        ///< the same face twice in one shell
     SelfTouchingRing = 205,     ///< a ring that touches or crosses itself
     NonPlanar = 206,            ///< a polygon further from its plane than the tolerance
-    ShellNotClosed = 207,       ///< edges without partner: the shell leaks
+    ShellNotClosed = 207,       ///< open edges: the shell is not closed
     TJunction = 208,            ///< edges that match only up to T-junctions; geometrically tight
     ShellCapped = 209,          ///< open shell closed by planar caps (ClosureSurface)
     WindingFilled = 210,        ///< open shell filled by generalized winding number
     FaceFlipped = 211,          ///< faces reoriented
     TriangulationFailed = 212,  ///< a polygon that could not be triangulated; left out
-    NoGeometry = 213,           ///< a feature that was expected to have geometry has none
+    NoGeometry = 213,           ///< a feature without the geometry expected of it
     FacesComplemented = 214,    ///< open shell completed with faces of adjoining objects
     // 3xx: voxels
     BadDimension = 301,   ///< grid dimension or spacing out of range
     GridTooLarge = 302,   ///< over the grid's limits
-    TooManyLabels = 303,  ///< more scalars than a volume may number
+    TooManyLabels = 303,  ///< more labels than a volume can number
     BadPattern = 304,     ///< a spatial pattern that cannot be used
     BadStyle = 305,       ///< a style file that does not follow its schema
     ThinObject = 306,     ///< an object thinner than a voxel, kept by a surface pass
     Overlap = 307,        ///< two objects claim the same voxels
     // 4xx: volumes and files
-    BadVolume = 401,      ///< not a .svt, or damaged
+    BadVolume = 401,      ///< not a .svt file, or damaged
     BadChecksum = 402,    ///< CRC32 of an entry does not match
     VolumeVersion = 403,  ///< written by a newer version
     CannotWrite = 404,    ///< output cannot be written
     DiskFull = 405,       ///< no space left for the output
     BadImage = 406,       ///< an image or raw file that cannot be read
-    BadNrrd = 407,        ///< not an NRRD that can be read
+    BadNrrd = 407,        ///< not a readable NRRD file
     // 5xx: pictures
     BadCamera = 501,   ///< up parallel to view, or field of view out of range
     BadFrame = 502,    ///< picture size or plane out of range
     BadSection = 503,  ///< a plane, region or lens that cannot be used
     BadScene = 504,    ///< a scene file that does not follow its schema
-    NoGraphics = 505,  ///< no graphics context, or one that cannot draw
+    NoGraphics = 505,  ///< no graphics context, or one without the required features
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing
@@ -80,10 +80,10 @@ enum class Code : std::uint16_t {
 /// Name of a code as in the enum, such as "ShellNotClosed".
 [[nodiscard]] std::string_view codeName(Code code) noexcept;
 
-/// "E207"
+/// The code as a tag: "E207".
 [[nodiscard]] std::string codeTag(Code code);
 
-/// Where in the input something was found. Empty parts are unknown.
+/// Location of a finding in the input. Empty parts are unknown.
 struct Place {
     std::string file;          ///< path or name as the caller gave it
     std::uint64_t line = 0;    ///< 1-based; 0: unknown

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Files as the library needs them: read by mapping, written so that a failure leaves the old file untouched.
+/// File access: read by memory mapping; written so that a failure leaves the old file untouched.
 
 #include <svt/core/result.hpp>
 
@@ -14,9 +14,9 @@
 
 namespace svt {
 
-/// A regular file mapped read-only into memory. Move-only; the bytes stay valid as long as the object lives.
-/// Replacing the file by rename (what AtomicFile does) leaves the mapping intact; a file that another program
-/// cuts short in place while it is mapped raises SIGBUS on access, as with every mapping.
+/// A regular file mapped read-only into memory. Move-only; the bytes stay valid for the lifetime of the object.
+/// Replacing the file by rename (as AtomicFile does) leaves the mapping intact. If another program truncates the
+/// file while it is mapped, access raises SIGBUS, as with every mapping.
 class MappedFile {
 public:
     /// Maps the whole file; an empty file gives an empty span. Cost: O(1), pages are read when touched.
@@ -41,11 +41,11 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-/// Writes a new file beside `target` and puts it in place at commit(), so that readers see the old file or the whole
-/// new one, never a part. Without commit() the new file is removed and the old one stays.
-/// A symbolic link is followed and stays; the permissions of an existing file are kept. A target that is no regular
+/// Writes to a temporary file next to `target` and renames it to `target` in commit(), so readers see either the old
+/// file or the complete new one. Without commit() the temporary file is removed and the old file stays.
+/// Symbolic links are followed and kept; so are the permissions of an existing file. A target that is not a regular
 /// file (/dev/stdout, a pipe) is written directly.
-/// Threads: one object belongs to one thread at a time.
+/// Threads: one object must be used by one thread at a time.
 class AtomicFile {
 public:
     /// \return the writer, or CannotWrite where the folder is missing or not writable, or the target is a folder or
@@ -58,14 +58,16 @@ public:
     AtomicFile& operator=(const AtomicFile&) = delete;
     ~AtomicFile();
 
-    /// Appends bytes; small pieces are gathered. \return DiskFull or CannotWrite; nothing more can be written then.
+    /// Appends bytes, buffered.
+    /// \return DiskFull or CannotWrite; nothing more can be written after an error
     Result<void> write(std::span<const std::byte> bytes);
     Result<void> write(std::string_view text);
     /// Appends `count` zero bytes.
     Result<void> writeZeros(std::uint64_t count);
 
-    /// Forces the bytes to the disk and renames the new file to the target. \return bytes written, or DiskFull or
-    /// CannotWrite; on failure the old file stays and the new one is removed.
+    /// Syncs the bytes to disk and renames the temporary file to the target.
+    /// \return the number of bytes written, or DiskFull or CannotWrite; on failure the old file stays and the temporary
+    ///         file is removed
     Result<std::uint64_t> commit();
 
     /// Bytes appended so far.
@@ -78,16 +80,16 @@ private:
     Error fail(int systemError);
     void discard() noexcept;
 
-    std::filesystem::path path_;       // as the caller gave it, for messages
-    std::filesystem::path target_;     // with links followed
-    std::filesystem::path temporary_;  // empty where the target is written directly
+    std::filesystem::path path_;       // as given by the caller, for messages
+    std::filesystem::path target_;     // with symbolic links resolved
+    std::filesystem::path temporary_;  // empty if the target is written directly
     std::vector<std::byte> buffer_;
     std::uint64_t size_ = 0;
     int descriptor_ = -1;
     int failed_ = 0;  // errno of the first failure
 };
 
-/// Writes `parts` one after the other as the file `target`; all or nothing, see AtomicFile.
+/// Writes the concatenated `parts` to the file `target`; all or nothing, see AtomicFile.
 /// \return bytes written, or CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target,
                                                         std::span<const std::span<const std::byte>> parts);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Parallel loops. What a loop computes must not depend on the number of threads:
-/// every index writes only its own results, which are joined in index order.
+/// Parallel loops. Results must not depend on the number of threads: each index writes only
+/// its own results, which are combined in index order.
 
 #include <cstddef>
 #include <functional>
@@ -9,8 +9,8 @@
 namespace svt {
 
 /// Calls `body(begin, end)` for disjoint ranges that cover [0, count).
-/// \param threads  at most this many threads at once; 0: all cores; 1: the caller's alone
-/// \param grain    ranges hold at least this many indices where possible, >= 1
+/// \param threads  maximum number of threads; 0: all cores; 1: the calling thread only
+/// \param grain    minimum number of indices per range where possible, >= 1
 void parallelFor(std::size_t count, std::size_t grain, int threads,
                  const std::function<void(std::size_t begin, std::size_t end)>& body);
 

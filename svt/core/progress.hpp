@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a long call tells where it is, and how it is told to stop.
+/// Progress reports and cancellation of long calls.
 
 #include <atomic>
 #include <functional>
@@ -8,10 +8,10 @@
 
 namespace svt {
 
-/// Given to long calls by the caller, who may be on another thread.
-/// `report` is called from one thread at a time, at most a few hundred times a call.
+/// Passed to long calls by the caller, which may run on another thread.
+/// `report` is called by one thread at a time, at most a few hundred times per call.
 struct Progress {
-    /// stage such as "read" or "voxelize", and how much of it is done, 0..1
+    /// name of the stage, such as "read" or "voxelize", and the fraction of it that is done, 0..1
     std::function<void(std::string_view stage, double fraction)> report;
     /// set to true to stop; the call then returns Code::Cancelled
     std::atomic<bool> cancel{false};

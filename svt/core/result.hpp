@@ -26,7 +26,7 @@ public:
     [[nodiscard]] bool hasValue() const noexcept { return state_.index() == 0; }
     [[nodiscard]] explicit operator bool() const noexcept { return hasValue(); }
 
-    /// The value. Only where hasValue().
+    /// The value. Requires hasValue().
     [[nodiscard]] T& value() & { return *std::get_if<0>(&state_); }
     [[nodiscard]] const T& value() const& { return *std::get_if<0>(&state_); }
     [[nodiscard]] T&& value() && { return std::move(*std::get_if<0>(&state_)); }
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] T* operator->() { return &value(); }
     [[nodiscard]] const T* operator->() const { return &value(); }
 
-    /// The error. Only where not hasValue().
+    /// The error. Requires !hasValue().
     [[nodiscard]] const Error& error() const& { return *std::get_if<1>(&state_); }
     [[nodiscard]] Error&& error() && { return std::move(*std::get_if<1>(&state_)); }
 
@@ -44,7 +44,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-/// Done, or an error.
+/// Success, or an error.
 template <>
 class [[nodiscard]] Result<void> {
 public:

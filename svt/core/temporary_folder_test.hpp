@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A folder for the files of one test.
+/// A temporary folder for the files of one test.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 
 namespace svt::test {
 
-/// An empty folder that is removed with all it holds when the object ends.
+/// An empty folder, removed with all its contents when the object is destroyed.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

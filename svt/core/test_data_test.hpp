@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where tests find the real models that are not part of the repository.
+/// Finds real models that are not part of the repository.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ inline std::filesystem::path dataDir() {
 
 }  // namespace svt::test
 
-/// Skips the test where `file` of the data directory is absent; else declares `variable`.
+/// Skips the test if `file` is missing in the data directory; else declares `variable`.
 #define SVT_NEEDS_DATA(variable, file)                                      \
     const std::filesystem::path variable = ::svt::test::dataDir() / (file); \
     if (!std::filesystem::exists(variable)) GTEST_SKIP() << variable << " is absent; set SVT_DATA_DIR to run this test"

@@ -43,7 +43,7 @@ template <class T>
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 [[nodiscard]] inline double length(Vec3d a) noexcept { return std::sqrt(dot(a, a)); }
-/// Unit vector along `a`, or `a` itself where its length is zero.
+/// Unit vector along `a`, or `a` itself if its length is zero.
 [[nodiscard]] inline Vec3d normalized(Vec3d a) noexcept {
     const double l = length(a);
     return l > 0 ? a / l : a;
@@ -52,7 +52,7 @@ template <class T>
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
-/// Axis-parallel box; empty until a point is added.
+/// Axis-aligned box; empty until a point is added.
 struct Box3d {
     Vec3d min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
               std::numeric_limits<double>::infinity()};

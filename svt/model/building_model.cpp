@@ -53,7 +53,7 @@ int LodChoice::choose(const Feature& feature) const {
     for (int i = 0; i < static_cast<int>(feature.geometries.size()); ++i) {
         const Geometry& candidate = feature.geometries[i];
         if (candidate.solids.empty() && candidate.surfaces.empty()) continue;
-        // A whole level takes its refinements too, 2 takes 2.2; a refined one is meant as it is.
+        // A whole level includes its refinements (2 includes 2.2); a refined level matches only itself.
         const bool isWhole = lod == std::floor(lod);
         if (lod >= 0 && (isWhole ? std::floor(candidate.lod) : candidate.lod) > lod) continue;
         if (best < 0) {

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The semantic tree that every reader fills: features with attributes, parents, groups,
-/// and their geometry as the file gives it (rings, shells, solids; world space, metres).
-/// Data only; nothing here is repaired, closed or triangulated.
+/// The semantic tree that every reader fills: features with attributes, parents, groups
+/// and their geometry as stored in the file (rings, shells, solids; world space, metres).
+/// Data only: nothing is repaired, closed or triangulated here.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/vec.hpp>
@@ -19,13 +19,13 @@ using FeatureIndex = std::uint32_t;  ///< into BuildingModel::features
 using PolygonIndex = std::uint32_t;  ///< into BuildingModel::polygons
 inline constexpr FeatureIndex kNoFeature = 0xFFFFFFFFu;
 
-/// A polygon with holes, as read. World space, double.
+/// A polygon with holes, as read. World space, double precision.
 ///
 ///     points:   e0 e1 e2 e3 h0 h1 h2        one exterior ring of 4, one hole of 3
 ///     ringEnds:             4        7      ends of the rings in `points`; first ring = exterior
 ///
-/// Rings keep the file's order and direction; a closing point equal to the first is dropped.
-/// Counter-clockwise seen from outside where the file is right.
+/// Rings keep the order and direction of the file; a closing point equal to the first is dropped.
+/// Counter-clockwise seen from outside if the file is correct.
 struct Polygon {
     std::vector<Vec3d> points;
     std::vector<std::uint32_t> ringEnds;
@@ -33,7 +33,7 @@ struct Polygon {
     std::int32_t material = -1;  ///< into BuildingModel::materials, -1: none
 };
 
-/// One use of a polygon. A wall face shared by two rooms is one polygon with two uses,
+/// A reference to a polygon. A wall face shared by two rooms is one polygon with two uses,
 /// one of them reversed (gml:OrientableSurface "-").
 struct SurfaceUse {
     PolygonIndex polygon = 0;
@@ -41,7 +41,7 @@ struct SurfaceUse {
     friend bool operator==(const SurfaceUse&, const SurfaceUse&) = default;
 };
 
-/// Exterior shell and shells of voids.
+/// Exterior shell and the shells of its voids.
 struct Solid {
     std::string id;
     std::vector<SurfaceUse> exterior;
@@ -53,10 +53,10 @@ enum class GeometryKind : std::uint8_t {
     Surface,  ///< MultiSurface, CompositeSurface, Surface, TIN, ...: `surfaces` is filled
 };
 
-/// One geometry of a feature in one level of detail.
+/// One geometry of a feature at one level of detail.
 struct Geometry {
     GeometryKind kind = GeometryKind::Surface;
-    double lod = -1;  ///< 0..4, CityJSON 2.2 as 2.2; -1: not stated
+    double lod = -1;  ///< 0..4; CityJSON 2.2 is 2.2; -1: not stated
     std::string id;   ///< gml:id of the solid or (multi)surface, or empty
     std::vector<Solid> solids;
     std::vector<SurfaceUse> surfaces;
@@ -64,18 +64,18 @@ struct Geometry {
 
 /// A semantic object: building, storey, room, wall, window, table, parcel, tree.
 struct Feature {
-    std::string id;  ///< unique in the model; made from the path where the file has none
+    std::string id;  ///< unique in the model; made from the path if the file has none
     std::string
         className;  ///< CityGML 3.0 local name where one exists: Building, BuildingRoom, WallSurface (see classes.hpp)
     std::string name;  ///< gml:name, or empty
     std::vector<Attribute> attributes;
     FeatureIndex parent = kNoFeature;
     std::vector<FeatureIndex> children;  ///< in document order
-    std::vector<Geometry> geometries;    ///< every level of detail that the file has
-    std::uint64_t line = 0;              ///< 1-based line of the input, 0: unknown
+    std::vector<Geometry> geometries;    ///< all levels of detail in the file
+    std::uint64_t line = 0;              ///< 1-based line in the input, 0: unknown
 };
 
-/// Aggregation beside the hierarchy: a storey, unit or CityObjectGroup that points at its members.
+/// Aggregation outside the hierarchy: a storey, unit or CityObjectGroup that references its members.
 struct Membership {
     FeatureIndex group = kNoFeature;
     FeatureIndex member = kNoFeature;
@@ -90,27 +90,27 @@ struct Material {
     float transparency = 0;           ///< 0 opaque .. 1 invisible
 };
 
-/// Coordinate reference system as the file names it. Coordinates are never reprojected;
-/// axes are brought to (east, north, up) order.
+/// Coordinate reference system as named in the file. Coordinates are never reprojected;
+/// axes are reordered to (east, north, up).
 struct Crs {
     std::string name;          ///< srsName or referenceSystem, or empty
-    int epsg = 0;              ///< horizontal EPSG code where the name has one, else 0
-    bool axesSwapped = false;  ///< the file's order was (north, east); the model's is (east, north)
+    int epsg = 0;              ///< horizontal EPSG code if the name contains one, else 0
+    bool axesSwapped = false;  ///< true if the file's order is (north, east); the model's is always (east, north)
 };
 
 /// A whole model. Index-based: features and polygons refer to each other by index.
 struct BuildingModel {
-    std::string source;  ///< path or name as the caller gave it
+    std::string source;  ///< path or name as given by the caller
     std::string format;  ///< "CityGML 2.0", "CityJSON 1.1", "CityJSONSeq 2.0"
     Crs crs;
     std::string name;                 ///< name of the whole model, or empty
-    std::vector<Feature> features;    ///< a parent stands before its children
+    std::vector<Feature> features;    ///< parents precede their children
     std::vector<FeatureIndex> roots;  ///< features without parent, in document order
     std::vector<Membership> memberships;
     std::vector<Polygon> polygons;
     std::vector<Material> materials;
 
-    /// Adds a feature under `parent` (kNoFeature: a root) and returns its index.
+    /// Adds a feature under `parent` (kNoFeature: as a root) and returns its index.
     FeatureIndex addFeature(Feature feature, FeatureIndex parent);
     /// Adds a polygon and returns its index.
     PolygonIndex addPolygon(Polygon polygon);
@@ -120,15 +120,15 @@ struct BuildingModel {
     [[nodiscard]] Box3d bounds(const Geometry& geometry) const;
 };
 
-/// Which level of detail to use of a feature that has several.
+/// The level of detail to use for a feature that has several.
 struct LodChoice {
-    /// -1: the finest that each feature has; else the finest not above this. A whole level takes its refinements
-    /// (2 takes 2.2), a refined one does not (2.1 leaves 2.2).
+    /// -1: the finest that each feature has; else the finest not above this. A whole level includes its refinements
+    /// (2 includes 2.2); a refined level does not (2.1 excludes 2.2).
     double lod = -1;
     [[nodiscard]] static LodChoice finest() { return {}; }
 
-    /// Index into `feature.geometries` of the geometry to use, or -1 for none. Among geometries of
-    /// the same level solids come before surfaces.
+    /// Index into `feature.geometries` of the geometry to use, or -1 if there is none. Solids are preferred
+    /// to surfaces of the same level.
     [[nodiscard]] int choose(const Feature& feature) const;
 };
 

@@ -37,7 +37,7 @@ constexpr std::array<std::pair<string_view, string_view>, 14> kAliases{{
     {"HollowSpace", "HollowSpace"},
     {"BridgeConstructiveElement", "BridgeConstructiveElement"},
     {"TunnelHollowSpace", "HollowSpace"},
-    {"+Window", "Window"},  // CityJSON has no objects for openings; the generated models bring an extension
+    {"+Window", "Window"},  // CityJSON has no objects for openings; the generated models use an extension
     {"+Door", "Door"},
 }};
 
@@ -45,7 +45,7 @@ constexpr std::array<string_view, 4> kFillings{"Door", "Window", "DoorSurface", 
 constexpr std::array<string_view, 4> kRooms{"BuildingRoom", "BridgeRoom", "HollowSpace", "TunnelRoom"};
 constexpr std::array<string_view, 8> kBuildings{
     "Building", "BuildingPart", "Bridge", "BridgePart", "Tunnel", "TunnelPart", "OtherConstruction", "+NoiseBuilding"};
-// Thematic surfaces of every module; waterbody and transportation surfaces bound spaces too.
+// Thematic surfaces of all modules; water body and transportation surfaces bound spaces too.
 constexpr std::array<string_view, 17> kBoundaries{"WallSurface",
                                                   "RoofSurface",
                                                   "GroundSurface",
@@ -63,7 +63,7 @@ constexpr std::array<string_view, 17> kBoundaries{"WallSurface",
                                                   "GenericThematicSurface",
                                                   "HoleSurface",
                                                   "Marking"};
-// Transportation objects are surfaces in CityGML 1.0 and 2.0, and spaces without a body of their own in 3.0.
+// Transportation objects are surfaces in CityGML 1.0 and 2.0, and spaces without their own solid in 3.0.
 constexpr std::array<string_view, 14> kSurfaceOnly{"TINRelief",
                                                    "ReliefFeature",
                                                    "LandUse",

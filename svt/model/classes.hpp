@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What the classes of CityGML and CityJSON mean to a volume: one name per class for all
-/// formats, who wins where solids overlap, and which classes stand for bodies.
+/// The meaning of CityGML and CityJSON classes for voxelization: one name per class across all
+/// formats, priority where solids overlap, and which classes represent solids.
 
 #include <cstdint>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace svt::model {
 
-/// One name for all formats: the CityGML 3.0 local name where one exists. "Room" gives "BuildingRoom",
-/// "IntBuildingInstallation" "BuildingInstallation", "BuildingStorey" "Storey"; an unknown name, a leading
-/// '+' (CityJSON extension) included, stays as it is, but "+Window" and "+Door" are windows and doors.
-/// Known old names are found without regard to ASCII case.
+/// One name for all formats: the CityGML 3.0 local name where one exists. "Room" becomes "BuildingRoom",
+/// "IntBuildingInstallation" "BuildingInstallation", "BuildingStorey" "Storey". An unknown name, including one with a
+/// leading '+' (CityJSON extension), is kept, except that "+Window" and "+Door" are windows and doors.
+/// Known old names are matched ignoring ASCII case.
 [[nodiscard]] std::string canonicalClassName(std::string_view sourceName);
 
-/// Who wins a voxel that several objects claim: the finer component, that is the lower rank.
+/// Priority where several objects claim a voxel: the finer component, that is, the lower rank, gets it.
 enum class ClassRank : std::uint8_t {
     Furniture,     ///< BuildingFurniture, CityFurniture, vegetation objects
     Filling,       ///< Door, Window and their surfaces
@@ -29,17 +29,17 @@ enum class ClassRank : std::uint8_t {
 };
 [[nodiscard]] ClassRank classRank(std::string_view className) noexcept;
 
-/// True where the class stands for a body with volume (Building, BuildingRoom, furniture, Door of CityGML 3.0):
-/// an open shell of such a feature is closed. False for boundary surfaces, openings as surfaces, terrain.
+/// True if the class represents a body with volume (Building, BuildingRoom, furniture, Door of CityGML 3.0);
+/// an open shell of such a feature gets closed. False for boundary surfaces, openings as surfaces, terrain.
 [[nodiscard]] bool hasSolidMeaning(std::string_view className) noexcept;
 
-/// True for the surfaces that bound a space: WallSurface, RoofSurface, ..., ClosureSurface.
+/// True for surfaces that bound a space: WallSurface, RoofSurface, ..., ClosureSurface.
 [[nodiscard]] bool isBoundarySurface(std::string_view className) noexcept;
 
 /// True for Door, Window, DoorSurface, WindowSurface.
 [[nodiscard]] bool isFilling(std::string_view className) noexcept;
 
-/// True for spaces that are air: BuildingRoom, BuildingUnit, Storey, HollowSpace, ....
+/// True for spaces filled with air: BuildingRoom, BuildingUnit, Storey, HollowSpace, ....
 [[nodiscard]] bool isSpace(std::string_view className) noexcept;
 
 }  // namespace svt::model

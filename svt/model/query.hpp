@@ -1,30 +1,30 @@
 #pragma once
 /// \file
-/// The selection language that every command speaks:
+/// The selection language used by all commands:
 ///
 ///     class=BuildingRoom and volume>20
 ///     name~"Unterzug.*" or under "ID_storey_2"
 ///     storey="EG" and not (class=Window or ifcType=IfcDoor)
 ///
-/// Grammar (keywords, class names and attribute names without regard to case; all else as written):
+/// Grammar (keywords, class names and attribute names ignore case; everything else is case-sensitive):
 ///     query      := and ('or' and)*
 ///     and        := not ('and' not)*
 ///     not        := 'not' not | '(' query ')' | term
 ///     term       := key op value | 'under' value | 'all' | 'none'
 ///     key        := class | id | name | storey | volume | voxels | any attribute name
 ///     op         := = | == | != | < | <= | > | >= | ~ (regular expression, found anywhere) | !~
-/// A key or value with blanks, quotes, brackets ( ) or operators stands in "..." or '...'; there \" and \' are the
-/// quotes themselves, any other backslash stays. A key in quotes is always an attribute: "class"=1000 asks the
-/// attribute `class`. Two values compare as numbers where both are numbers, else as text; `class`, `id` and `name` are
-/// always text, `volume` (m3) and `voxels` always numbers. Class names compare as canonicalClassName() gives them:
-/// class=room takes BuildingRoom. `class`, `id` and `storey` know = != ~ !~ only. Patterns are those of regex.hpp.
+/// A key or value with blanks, quotes, brackets ( ) or operators must be quoted as "..." or '...'; inside, \" and \'
+/// are literal quotes and any other backslash is kept. A quoted key is always an attribute: "class"=1000 tests the
+/// attribute `class`. Two values compare as numbers if both are numbers, else as text; `class`, `id` and `name` are
+/// always text, `volume` (m3) and `voxels` always numbers. Class names are compared after canonicalClassName():
+/// class=room selects BuildingRoom. `class`, `id` and `storey` support = != ~ !~ only. See regex.hpp for patterns.
 ///
-/// `under X` takes the feature whose id or name is X, everything below it, its members and what is below those: a flat
-/// has its rooms as children in one format and as members in another. `storey=X` takes what is below or a member of a
-/// Storey of that id or name, or of a CityObjectGroup of that id or name whose attribute function, class or usage
-/// speaks of a storey or Geschoss, and what is below or a member of those. A feature without the attribute (for storey:
-/// in no storey) matches no comparison with it, != and !~ included; an empty name is none. `not` takes the others,
-/// those without the attribute included.
+/// `under X` selects the feature whose id or name is X, all its descendants, its members and their descendants: a flat
+/// has its rooms as children in one format and as members in another. `storey=X` selects the descendants and members of
+/// a Storey with that id or name, or of a CityObjectGroup with that id or name whose attribute function, class or usage
+/// contains "storey" or "Geschoss", and the descendants and members of those. A feature without the attribute (for
+/// storey: in no storey) matches no comparison with it, not even != or !~; an empty name counts as missing. `not`
+/// selects all others, including those without the attribute.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/result.hpp>
@@ -40,7 +40,7 @@ namespace svt::model {
 
 inline constexpr std::uint32_t kNoRow = 0xFFFFFFFFu;
 
-/// One feature as a query sees it. Views into the owner's data.
+/// One feature as a query sees it. Views into data of the caller.
 struct QueryRow {
     std::string_view id;
     std::string_view className;
@@ -53,7 +53,7 @@ struct QueryRow {
 };
 
 namespace query {
-/// True for a Storey and for a group whose function, class or usage speaks of a storey or Geschoss.
+/// True for a Storey and for a group whose function, class or usage contains "storey" or "Geschoss".
 [[nodiscard]] bool isStorey(const QueryRow& row);
 
 }  // namespace query
@@ -61,20 +61,20 @@ namespace query {
 /// A parsed query. Copyable, immutable, safe to use from several threads.
 class Query {
 public:
-    static constexpr std::size_t kMaxBytes = 65536;  ///< of the text of a query
-    static constexpr int kMaxDepth = 64;             ///< of brackets and nots
+    static constexpr std::size_t kMaxBytes = 65536;  ///< maximum length of a query
+    static constexpr int kMaxDepth = 64;             ///< maximum nesting of brackets and nots
 
     /// \return the query, or Code::BadQuery with the 1-based byte column, what was found and what was expected
     [[nodiscard]] static Result<Query> parse(std::string_view text);
 
-    /// Rows that match, ascending. A value that exists nowhere selects nothing; see unknownValue(). Rows may come in
-    /// any order; a cycle of parents or groups does no harm. Cost: O(rows * terms). Regular expressions are searched in
+    /// Matching rows, ascending. A value that occurs nowhere selects nothing; see unknownValue(). Rows may be in any
+    /// order; cycles of parents or groups are allowed. Cost: O(rows * terms). Regular expressions are searched in
     /// the first 4096 bytes of a value.
     [[nodiscard]] std::vector<std::uint32_t> select(std::span<const QueryRow> rows) const;
 
-    /// Why the query may select nothing, in words that name the nearest existing value ("no class 'BuildingRom';
-    /// did you mean 'BuildingRoom'?"), or empty where every value exists. Looks at what is asked with = or != or
-    /// `under`, and at attribute names; the first in the text that no row has counts.
+    /// Explains why the query may select nothing and names the nearest existing value ("no class 'BuildingRom';
+    /// did you mean 'BuildingRoom'?"); empty if every value exists. Checks values compared with = or != or
+    /// `under`, and attribute names; reports the first in the text that no row has.
     [[nodiscard]] std::string unknownValue(std::span<const QueryRow> rows) const;
 
     [[nodiscard]] const std::string& text() const noexcept { return text_; }

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Appends `from` to `into`; ids that exist already get the number of the file.
+// Appends `from` to `into`; duplicate ids get the number of the file as suffix.
 void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size_t number, Diagnostics* log) {
     const auto firstFeature = static_cast<model::FeatureIndex>(into.features.size());
     const auto firstPolygon = static_cast<model::PolygonIndex>(into.polygons.size());
@@ -64,7 +64,7 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
     into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
 }
 
-// Buildings whose material between hull and rooms has only boundary surfaces to belong to.
+// Buildings in which only boundary surfaces can own the material between hull and rooms.
 std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshScene& scene, const Labelling& labelling) {
     std::vector<std::uint32_t> objectOf(labelling.table.labels.size(), volume::kNoLabel);
     for (std::uint32_t o = 0; o < scene.objects.size(); ++o) objectOf[labelling.labelOfObject[o]] = o;
@@ -95,7 +95,7 @@ bool isAncestor(const volume::LabelTable& table, std::uint32_t ancestor, std::ui
     return ancestor < label && label < table.labels[ancestor].subtreeEnd;
 }
 
-// A door in an inner wall of a flat is in the flat when the wall is its member.
+// A door in an inner wall of a flat belongs to the flat if the wall is its member.
 bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_t label) {
     for (; label != volume::kNoLabel; label = table.labels[label].parent) {
         const auto& groups = table.labels[label].groups;
@@ -117,7 +117,7 @@ void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimP
     });
 }
 
-// Whether the box of an object, along the grid's axes, meets its voxels.
+// Whether the bounding box of an object, along the grid's axes, intersects the grid.
 bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshScene& scene, const volume::Grid& grid) {
     Box3d box;
     for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + scene.origin));
@@ -125,7 +125,7 @@ bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshScene& scene, con
     return box.overlaps({{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}});
 }
 
-// Says which objects lie outside of a grid that was made for another model; an error where all do.
+// Reports objects outside a grid that was made for another model; an error if all are outside.
 Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshScene& scene, const volume::Grid& grid,
                             Diagnostics* log) {
     std::size_t outside = 0;
@@ -172,7 +172,7 @@ Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions
     Box3d box;
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
     if (options.frame == FrameKind::Building) {
-        // All objects together have a dominant direction as one has.
+        // All objects together, to find their dominant direction.
         mesh::ObjectMesh all;
         for (const mesh::ObjectMesh& object : scene.objects) {
             const auto first = static_cast<std::uint32_t>(all.vertices.size());

@@ -40,7 +40,7 @@ BuildOptions withSpacing(double spacing) {
     return options;
 }
 
-// A building of 6 x 5 x 3 m with one room and the surfaces of both.
+// A building of 6 x 5 x 3 m with one room and the boundary surfaces of both.
 model::BuildingModel thematicHouse() {
     model::BuildingModel model;
     const Vec3d low{0, 0, 0}, high{6, 5, 3}, roomLow{0.4, 0.4, 0.4}, roomHigh{5.6, 4.6, 2.6};
@@ -104,7 +104,7 @@ TEST(BuildVolume, BoxHasItsVoxelsAndFigures) {
     const BuildOutput output = build(model, withSpacing(0.1));
     const Label& house = labelOf(output, "house");
     EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{41, 31, 21}));
-    // The last samples along each axis stand on the envelope and the first ones too: one of the two belongs to the box.
+    // First and last samples of each axis lie on the envelope: only one of the two belongs to the box.
     EXPECT_EQ(house.voxels, 40u * 30 * 20);
     EXPECT_NEAR(double(house.voxels) * output.volume.grid.voxelVolume(), house.volume, 1e-9);
     EXPECT_EQ(output.report.objects, 1u);
@@ -149,9 +149,9 @@ TEST(BuildVolume, OverlapsTellNestedFromConflicting) {
     EXPECT_EQ((found[{"room", "house"}]), (Entry{30 * 20 * 20, true}));
     EXPECT_EQ((found[{"table", "room"}]), (Entry{1000, true}));
     EXPECT_EQ((found[{"room", "flat"}]), (Entry{30 * 20 * 20, true}));    // a member
-    EXPECT_EQ((found[{"table", "flat"}]), (Entry{1000, true}));           // below a member
+    EXPECT_EQ((found[{"table", "flat"}]), (Entry{1000, true}));           // a descendant of a member
     EXPECT_EQ((found[{"rival", "room"}]), (Entry{5 * 20 * 20, false}));   // the smaller room wins
-    EXPECT_EQ((found[{"rival", "flat"}]), (Entry{10 * 20 * 20, false}));  // rooms come before flats
+    EXPECT_EQ((found[{"rival", "flat"}]), (Entry{10 * 20 * 20, false}));  // rooms take precedence over flats
     EXPECT_TRUE(std::is_sorted(output.volume.labels.overlaps.begin(), output.volume.labels.overlaps.end(),
                                [](const auto& p, const auto& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); }));
 }
@@ -164,7 +164,7 @@ TEST(BuildVolume, GridByDimensionSpacingOrLongestSide) {
     EXPECT_NEAR(build(model, options).volume.grid.spacing().y, 8.0 / 399, 1e-12);
     options.spacing = Vec3d{0.5, 0.25, 0.125};
     EXPECT_EQ(build(model, options).volume.grid.dimension(), (Vec3i{17, 17, 17}));
-    options.dimension = Vec3i{5, 6, 7};  // stronger than spacing
+    options.dimension = Vec3i{5, 6, 7};  // takes precedence over spacing
     const BuildOutput output = build(model, options);
     EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{5, 6, 7}));
     EXPECT_EQ(output.volume.grid.origin(), (Vec3d{100, 200, 10}));
@@ -173,7 +173,7 @@ TEST(BuildVolume, GridByDimensionSpacingOrLongestSide) {
 }
 
 TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
-    // A box of 8 x 4 m turned by 30 degrees: in its own frame it fills the grid.
+    // A box of 8 x 4 m rotated by 30 degrees: in its own frame it fills the grid.
     const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
     const Vec3d world{458877, 5438353, 100};
     model::BuildingModel model;
@@ -195,7 +195,7 @@ TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
 }
 
 TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
-    BuildOptions options = withSpacing(0.037);  // no layer of samples in the middle of a wall
+    BuildOptions options = withSpacing(0.037);  // no layer of samples at the centre of a wall
     const BuildOutput given = build(thematicHouse(), options);
     options.giveThematicBodies = false;
     const BuildOutput kept = build(thematicHouse(), options);
@@ -351,7 +351,7 @@ TEST_F(TwoFiles, MissingFileIsAnError) {
 
 TEST(BuildVolume, AGivenGridIsTaken) {
     const BuildOutput house = build(thematicHouse(), withSpacing(0.25));
-    // A parcel that reaches beyond the house's grid on three sides, and one that lies elsewhere.
+    // A parcel that extends beyond the house's grid on three sides, and one elsewhere.
     model::BuildingModel parcels;
     addBoxFeature(parcels, "LandUse", "parcel", {-5, -5, -1}, {3, 20, 10});
     addBoxFeature(parcels, "LandUse", "elsewhere", {50, 0, 0}, {60, 10, 3});
@@ -360,14 +360,14 @@ TEST(BuildVolume, AGivenGridIsTaken) {
     Diagnostics log;
     const BuildOutput output = build(parcels, options, &log);
     EXPECT_EQ(output.volume.grid, house.volume.grid);
-    // 12 of 25 samples along x: those at 0, 0.25, ... 2.75 m, and that at 3 m by the half-open rule or not.
+    // 12 of 25 samples along x: those at 0, 0.25, ... 2.75 m, and the one at 3 m depending on the half-open rule.
     const std::uint64_t layer = 21 * 13;
     EXPECT_GE(labelOf(output, "parcel").voxels, 12 * layer);
     EXPECT_LE(labelOf(output, "parcel").voxels, 13 * layer);
     EXPECT_EQ(labelOf(output, "elsewhere").voxels, 0u);
     ASSERT_EQ(log.count(Severity::Warning), 1u);
     EXPECT_EQ(log.items().back().where.id, "elsewhere");
-    // Nothing in the grid at all.
+    // Nothing inside the grid.
     model::BuildingModel far;
     addBoxFeature(far, "LandUse", "far", {500, 0, 0}, {510, 10, 3});
     const auto failed = buildVolume(far, options);

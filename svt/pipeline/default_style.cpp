@@ -2,7 +2,7 @@
 
 namespace svt::pipeline {
 
-// Later rules win. Rooms and other spaces are thin coloured air, so that what is in them shows.
+// Later rules win. Rooms and other spaces are thin coloured air, so that their contents are visible.
 const char* const kDefaultStyleJson = R"json({
   "rules": [
     {"select": "all", "color": "#c9c4ba", "opacity": 1},

@@ -25,7 +25,7 @@ volume::Filling fillingOf(mesh::Closure closure) noexcept {
     return volume::Filling::None;
 }
 
-// Labels in tree order, without scalars; and the label of each feature.
+// Labels in tree order, without scalars, and the label of each feature.
 std::vector<std::uint32_t> numberFeatures(const model::BuildingModel& model, volume::LabelTable& table) {
     std::vector<std::uint32_t> labelOf(model.features.size(), volume::kNoLabel);
     for (const FeatureIndex index : model.treeOrder()) {
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> numberFeatures(const model::BuildingModel& model, vol
     return labelOf;
 }
 
-// The colour that most of the feature's polygons have.
+// The most frequent colour of the feature's polygons.
 std::optional<Vec3f> materialColor(const model::BuildingModel& model, const model::Feature& feature) {
     std::map<std::int32_t, std::size_t> uses;
     const auto count = [&](const std::vector<model::SurfaceUse>& surfaces) {
@@ -82,7 +82,7 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene) {
         for (std::size_t c = 0; c < object.caps.size(); ++c) {
             model::Feature cap;
             cap.id = fmt::format("{}_cap_{}", model.features[object.feature].id, c + 1);
-            // A model that is built again has its caps already.
+            // A model that is built again already has its caps.
             const auto& children = model.features[object.feature].children;
             if (std::any_of(children.begin(), children.end(),
                             [&](FeatureIndex child) { return model.features[child].id == cap.id; }))

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// From features and meshes to the label table: tree order, scalar ranges, styles.
+/// Creates the label table from features and meshes: tree order, scalar ranges, styles.
 
 #include <svt/mesh/mesh_scene.hpp>
 #include <svt/model/building_model.hpp>
@@ -20,10 +20,10 @@ struct Labelling {
     std::vector<voxelize::PatternedObject> patterns;  ///< objects with a pattern
 };
 
-/// Adds a ClosureSurface feature below each object that was closed by caps, with its area as attribute.
+/// Adds a ClosureSurface feature below each object that was closed by caps, with the cap area as attribute.
 void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene);
 
-/// Numbers all features in tree order and gives every object its contiguous scalar range.
+/// Numbers all features in tree order and assigns every object a contiguous scalar range.
 /// \return the labels, or TooManyLabels over volume::kMaxScalarCount
 [[nodiscard]] Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::MeshScene& scene,
                                            std::span<const StyleSheet* const> sheets);

@@ -31,7 +31,7 @@ const volume::Label& labelOf(const Labelling& labelling, const std::string& id) 
     return labelling.table.labels[indexOf(labelling, id)];
 }
 
-// A house with two storeys, two rooms in each, one of them with a table; a shed. Not added in tree order.
+// A house with two storeys, two rooms in each, one of them with a table; and a shed. Not added in tree order.
 model::BuildingModel village() {
     model::BuildingModel model;
     const FeatureIndex house = addFeature(model, "Building", "house");
@@ -56,7 +56,7 @@ TEST(MakeLabels, TreeOrderGivesEverySubtreeOneRange) {
     EXPECT_EQ(labelOf(labelling, "shed").subtreeEnd, 8u);
     EXPECT_EQ(labelOf(labelling, "table").parent, indexOf(labelling, "kitchen"));
     EXPECT_EQ(labelOf(labelling, "house").parent, volume::kNoLabel);
-    // Scalars of any subtree are contiguous and those of no other feature lie between.
+    // Scalars of any subtree are contiguous and contain those of no other feature.
     const auto& labels = labelling.table.labels;
     volume::Scalar next = 1;
     for (const volume::Label& label : labels) {
@@ -103,7 +103,7 @@ TEST(MakeLabels, PatternGivesOneScalarPerPhase) {
     EXPECT_EQ(labelOf(labelling, "hall").first, 1u);
     EXPECT_EQ(labelOf(labelling, "hall").count, 3u);
     EXPECT_EQ(labelOf(labelling, "kitchen").first, 4u);
-    EXPECT_EQ(labelOf(labelling, "house").count, 0u);  // no geometry, nothing to lay a pattern into
+    EXPECT_EQ(labelOf(labelling, "house").count, 0u);  // no geometry, so nothing to pattern
     ASSERT_EQ(labelling.patterns.size(), 1u);
     EXPECT_EQ(labelling.patterns[0].first, 1u);
     ASSERT_EQ(labelling.table.phaseColors.size(), labelling.table.scalarCount());
@@ -137,7 +137,7 @@ TEST(AddCapFeatures, CapIsAClosureSurfaceWithItsArea) {
                {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop, test::kWest}))});
     addBoxFeature(model, "BuildingRoom", "next", {8, 0, 0}, {9, 1, 1});
     Labelling labelling = labelsOf(model);
-    // The top and the west side share an edge: one loop, which is no planar hole, would stay open.
+    // The top and the west side share an edge: they form one open loop that is not a planar hole.
     EXPECT_EQ(labelOf(labelling, "room").filling, volume::Filling::Winding);
     model = {};
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,

@@ -1,4 +1,4 @@
-/// The exact point-in-solid oracle on real and generated models, through the whole chain.
+/// Exact point-in-solid oracle on real and generated models, through the whole pipeline.
 
 #include <svt/core/test_data_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
@@ -16,13 +16,13 @@ namespace {
 
 struct Verdict {
     int checked = 0;
-    int nearFaces = 0;  // too near to a face to be told
-    int overlaps = 0;   // in several solids: any of them may win
+    int nearFaces = 0;  // too close to a face to decide
+    int overlaps = 0;   // in several solids: any of them may own the sample
     int wrong = 0;
     std::string first;
 };
 
-/// Compares samples of the voxelized model with the solids that contain their centres.
+/// Compares samples of the voxelized model with the solids that contain their centers.
 Verdict consultOracle(model::BuildingModel& model, Vec3i dimension, int randomSamples, int columnStep) {
     Verdict verdict;
     auto scene = mesh::buildMeshes(model);
@@ -61,7 +61,7 @@ Verdict consultOracle(model::BuildingModel& model, Vec3i dimension, int randomSa
             }
             const bool isInside = oracles[o].contains(local);
             if (isInside) containing.push_back(scalar);
-            // A part thinner than a voxel may claim the sample next to it.
+            // A part thinner than a voxel may claim an adjacent sample.
             if (!isInside && found == scalar && voxels->thinVoxels[o] > 0 && oracles[o].distance(local, spacing) <= 0.9)
                 isSheetOrThin = true;
         }

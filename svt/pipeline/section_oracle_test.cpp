@@ -1,4 +1,4 @@
-/// Section drawings against a second implementation: the polygons where the plane cuts the triangle meshes.
+/// Section drawings against a second implementation: the intersection polygons of the plane and the triangle meshes.
 
 #include <svt/core/test_data_test.hpp>
 #include <svt/illustrate/section_drawing.hpp>
@@ -17,10 +17,10 @@
 namespace svt::pipeline {
 namespace {
 
-/// What a plane cuts out of a closed mesh.
+/// Intersection of a plane with a closed mesh.
 struct MeshSection {
     double area = 0;   ///< m2
-    double bound = 0;  ///< m2; what half a voxel's extent across each triangle makes in the plane
+    double bound = 0;  ///< m2; error bound from half a voxel's extent across each triangle in the plane
 };
 
 MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illustrate::PlaneFrame& frame,
@@ -41,7 +41,8 @@ MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illu
             ++count;
         }
         if (count != 2) continue;
-        // Counter-clockwise seen from outside: where the edge goes down the segment begins, and the inside is left.
+        // Counter-clockwise seen from outside: the segment begins where the edge goes down, and the inside is to the
+        // left.
         const double u0 = dot(ends[0], frame.u), v0 = dot(ends[0], frame.v);
         const double u1 = dot(ends[1], frame.u), v1 = dot(ends[1], frame.v);
         section.area += 0.5 * (u0 * v1 - v0 * u1);
@@ -63,7 +64,7 @@ struct Tally {
     double area = 0, error = 0, bound = 0;
 };
 
-/// Compares all solids that give nothing away; sums up what they cover.
+/// Compares all solids that lose no voxels to others; sums up their areas.
 Tally compare(model::BuildingModel& model, const BuildOptions& options,
               const std::vector<illustrate::SectionPlane>& planes) {
     Tally tally;
@@ -89,7 +90,7 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
                 std::ranges::find(volume.labels.labels, id, &volume::Label::id) - volume.labels.labels.begin();
             const auto number = static_cast<std::uint32_t>(label);
             EXPECT_LT(number, volume.labels.labels.size());
-            // Sheets take their voxel from the rooms that they bound.
+            // Sheets take their voxels from the rooms that they bound.
             if (hasSheets && model::isSpace(volume.labels.labels[number].className)) continue;
             // Parts thinner than a voxel are drawn one voxel thick.
             if (losers.contains(number) || volume.labels.labels[number].thinVoxels != 0) continue;
@@ -97,7 +98,7 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
             const auto found = std::ranges::find(drawing->components, number, &illustrate::SectionComponent::label);
             const double area = found == drawing->components.end() ? 0 : found->area;
             if (exact.area == 0 && area == 0) continue;
-            // What is drawn is a little longer, and straightened within a hundredth of a voxel.
+            // Drawn outlines are slightly longer, and simplified within a hundredth of a voxel.
             const double drawnBound = found == drawing->components.end() ? 0 : found->areaBound;
             const double bound = exact.bound + 0.05 * drawnBound;
             const double error = std::abs(area - exact.area);
@@ -126,7 +127,7 @@ TEST(SectionOracle, FzkHausAgreesWithItsMeshes) {
     const Tally tally = compare(*model, options, kPlanes);
     EXPECT_GT(tally.compared, 100);
     EXPECT_GT(tally.area, 250);
-    // Planes stand for most surfaces: far nearer than half voxels ask for.
+    // Most surfaces are represented by planes: far more accurate than half a voxel.
     EXPECT_LT(tally.error, 0.5 * tally.bound);
     RecordProperty("compared", tally.compared);
     RecordProperty("area", std::to_string(tally.area));

@@ -23,12 +23,12 @@ Error badStyle(std::string_view path, std::string_view what) {
     return Error(Code::BadStyle, fmt::format("style {}: {}", path, what));
 }
 
-// An error of another stage, with the JSON path in front.
+// An error of another stage, prefixed with the JSON path.
 Error atPath(std::string_view path, const Error& error) {
     return Error(error.code(), fmt::format("style {}: {}", path, error.message()), error.where());
 }
 
-// Every member must be known: a typing error must not pass in silence.
+// Every member must be known, so that a typing error is reported.
 Result<void> checkMembers(const json& object, std::string_view path, std::initializer_list<std::string_view> known) {
     if (!object.is_object()) return badStyle(path, fmt::format("expected an object, found {}", object.type_name()));
     for (const auto& [key, value] : object.items()) {
@@ -175,7 +175,7 @@ StyleSheet builtIn(std::initializer_list<const char*> texts) {
     return all;
 }
 
-// Shades for phases that a sheet gives no colour for: each a little darker.
+// Shades for phases without a colour in the sheet: each a little darker.
 Vec3f shade(Vec3f color, std::size_t phase) {
     const float factor = 1.0f / (1.0f + 0.35f * float(phase));
     return color * factor;
@@ -201,7 +201,7 @@ const StyleSheet& defaultStyle(bool withPatterns) {
 }
 
 Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem::path& folder) {
-    // Depth first: a parser that recurses must not meet more than it can bear.
+    // Checks the depth first, since the parser is recursive.
     int depth = 0, deepest = 0;
     bool isText = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -240,7 +240,7 @@ Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
     if (text.size() > kMostBytes)
         return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
     auto sheet = parseStyleSheet(text, file.parent_path());
-    // An error of a pattern's own file keeps that file as its place.
+    // An error in the file of a pattern keeps that file as its place.
     if (!sheet && sheet.error().where().file.empty())
         return Error(sheet.error().code(), sheet.error().message(), {file.string(), 0, 0, {}});
     return sheet;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which class or query gets which colour, opacity and spatial pattern. A JSON file
-/// (docs/formats/style.schema.json); a good default for buildings is built in.
+/// Assigns colour, opacity and spatial pattern by class or query. A JSON file
+/// (docs/formats/style.schema.json); a default style for buildings is built in.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -16,7 +16,7 @@
 
 namespace svt::pipeline {
 
-/// One rule: what is set overrides what earlier rules set.
+/// One rule; its members override those of earlier rules.
 struct StyleRule {
     model::Query select;
     std::optional<Vec3f> color;    ///< sRGB, 0..1
@@ -25,7 +25,7 @@ struct StyleRule {
     std::vector<Vec3f> patternColors;  ///< per phase; missing ones are shades of the colour
 };
 
-/// Rules in order; later ones win.
+/// Rules in order; later rules win.
 struct StyleSheet {
     std::vector<StyleRule> rules;
 };
@@ -35,11 +35,11 @@ struct StyleSheet {
 [[nodiscard]] const StyleSheet& defaultStyle(bool withPatterns);
 
 /// Reads a style file; files of image patterns are found relative to it.
-/// \return the sheet, or CannotOpen, BadStyle (with the JSON path, what was found and expected), BadPattern, BadImage
+/// \return the sheet, or CannotOpen, BadStyle (with the JSON path, found and expected values), BadPattern, BadImage
 [[nodiscard]] Result<StyleSheet> readStyleSheet(const std::filesystem::path& file);
 [[nodiscard]] Result<StyleSheet> parseStyleSheet(std::string_view json, const std::filesystem::path& folder);
 
-/// What one row ends up with.
+/// The resulting style of one row.
 struct ResolvedStyle {
     Vec3f color{0.8f, 0.8f, 0.8f};
     float opacity = 1;
@@ -47,9 +47,9 @@ struct ResolvedStyle {
     std::vector<Vec3f> phaseColors;  ///< pattern.phaseCount() entries
 };
 
-/// Applies the sheets one after the other; entry per row.
-/// \param materialColors  per row: the model's own colour, stronger than the built-in sheet (the first), weaker than
-/// the others
+/// Applies the sheets in order; one entry per row.
+/// \param materialColors  per row: the colour from the model; overrides the built-in sheet (the first), but not
+///                        the others
 [[nodiscard]] std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows,
                                                        std::span<const StyleSheet* const> sheets,
                                                        std::span<const std::optional<Vec3f>> materialColors);

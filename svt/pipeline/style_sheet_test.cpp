@@ -12,7 +12,7 @@ namespace {
 
 using voxelize::PatternKind;
 
-// A sheet with one rule for `all`, `members` put in.
+// A sheet with one rule for `all` with the given members.
 std::string ruleWith(const std::string& members) { return R"({"rules": [{"select": "all")" + members + "}]}"; }
 
 void expectBad(const std::string& json, Code code, const std::vector<std::string>& words) {

@@ -1,4 +1,4 @@
-/// Surfaces by voxels against those of the meshes, on real solids one by one.
+/// Compares voxel surface areas with mesh surface areas, on individual real solids.
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/core/test_data_test.hpp>
@@ -12,7 +12,7 @@
 namespace svt::pipeline {
 namespace {
 
-// Surface of one object voxelized alone, m2.
+// Surface area of one object voxelized alone, m2.
 double surfaceByVoxels(const mesh::MeshScene& scene, const mesh::ObjectMesh& object, double spacing) {
     mesh::MeshScene alone;
     alone.origin = scene.origin;
@@ -43,7 +43,7 @@ TEST(Surfaces, OfTheFzkHausAreThoseOfItsMeshes) {
         // Rafters, doors and windows are a few voxels thin; walls, slabs, roofs and rooms are not.
         if (object.volume < 1) continue;
         const double area = surfaceByVoxels(*scene, object, 0.03);
-        // The gables lose most: 0.2 m thin, with slanted edges.
+        // The gables deviate most: 0.2 m thin, with slanted edges.
         EXPECT_NEAR(area, object.area, 0.07 * object.area) << model->features[object.feature].name;
         ++checked;
         near += std::abs(area - object.area) < 0.015 * object.area ? 1 : 0;
@@ -51,7 +51,7 @@ TEST(Surfaces, OfTheFzkHausAreThoseOfItsMeshes) {
         voxels += area;
     }
     EXPECT_GE(checked, 20);
-    EXPECT_GE(near, checked - 4);  // all but the walls of the upper floor, two of them gables
+    EXPECT_GE(near, checked - 4);  // all but the walls of the upper floor, two of which are gables
     EXPECT_NEAR(voxels, mesh, 0.01 * mesh);
 }
 

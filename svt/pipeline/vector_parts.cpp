@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kReach = 200'000;  // metres; 2^31 units are 214,748 m
 
-// Parts of one object; its points are numbered by first use.
+// Parts of one object; its points are numbered in order of first use.
 class ObjectParts {
 public:
     ObjectParts(const mesh::ObjectMesh& mesh, Vec3d fromGrid) : mesh_(mesh), fromGrid_(fromGrid) {}

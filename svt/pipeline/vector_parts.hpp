@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Lines and triangles of meshes, by label, to be kept beside the voxels.
+/// Lines and triangles of meshes, by label, stored alongside the voxels.
 
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_scene.hpp>
@@ -12,7 +12,7 @@
 
 namespace svt::pipeline {
 
-/// What is kept.
+/// What to store.
 struct VectorChoice {
     bool edges = false;   ///< feature edges, see mesh::findFeatureEdges()
     bool meshes = false;  ///< all triangles
@@ -20,7 +20,7 @@ struct VectorChoice {
 };
 
 /// \param labelOfObject  per scene.objects
-/// \return the parts, in the order of labels, or GridTooLarge where a point lies over 200 km from the grid's origin
+/// \return the parts, in label order, or GridTooLarge if a point is over 200 km from the grid's origin
 /// Cost: that of the feature edges, parallel. The result does not depend on `threads`.
 [[nodiscard]] Result<volume::VectorParts> makeVectorParts(const mesh::MeshScene& scene,
                                                           std::span<const std::uint32_t> labelOfObject,

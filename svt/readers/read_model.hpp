@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The way in: a model file of any format that can be read. What a file is, its content says;
-/// its name does not matter.
+/// Entry point: reads a model file of any supported format. The format is detected from the content;
+/// the file name does not matter.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -15,28 +15,28 @@
 
 namespace svt::readers {
 
-/// One format. readModel() asks the formats of formats() in order and takes the first that says yes.
+/// One format. readModel() tries formats() in order and uses the first that matches.
 struct Format {
     std::string_view name;  ///< "CityGML"
-    /// Whether the first bytes of a file (up to 1 MiB) are of this format.
+    /// Whether a file with these first bytes (up to 1 MiB) has this format.
     bool (*looksLike)(std::span<const std::byte> head) noexcept;
     Result<model::BuildingModel> (*read)(std::span<const std::byte> bytes, std::string_view name,
                                          const ReadOptions& options, Diagnostics* diagnostics);
 };
 
-/// All formats that can be read.
+/// All readable formats.
 [[nodiscard]] std::span<const Format> formats() noexcept;
 
-/// Reads a model file; one compressed with gzip is decompressed first. A feature with the attribute `svtClass` takes
-/// that class: a way to say BuildingConstructiveElement in formats that lack it. \param diagnostics  receives findings
-/// that did not stop the reading; may be null \return the model; CannotOpen (missing, unreadable, a folder, damaged
-/// gzip), UnknownFormat, InputTooBig for more
-///         than options.maxBytes (after decompression), or what the reader of the format returns
-/// Cost: the file is mapped, not copied; see the readers. Do not shorten the file while it is read.
+/// Reads a model file; gzip files are decompressed first. The attribute `svtClass` of a feature replaces its
+/// class: a way to express BuildingConstructiveElement in formats that lack it.
+/// \param diagnostics  receives findings that did not stop reading; may be null
+/// \return the model; CannotOpen (missing, unreadable, a folder, damaged gzip), UnknownFormat, InputTooBig for more
+///         than options.maxBytes (after decompression), or an error of the reader of the format
+/// Cost: the file is mapped, not copied; see the readers. Do not truncate the file while it is read.
 [[nodiscard]] Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options = {},
                                                      Diagnostics* diagnostics = nullptr);
 
-/// The same for a file that is in memory. `name` is used in messages.
+/// The same for a file in memory. `name` is used in messages.
 [[nodiscard]] Result<model::BuildingModel> readModel(std::span<const std::byte> bytes, std::string_view name,
                                                      const ReadOptions& options = {},
                                                      Diagnostics* diagnostics = nullptr);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What every reader is told: limits and who hears of the progress.
+/// Options common to all readers: limits, threads and progress reports.
 
 #include <svt/core/progress.hpp>
 
@@ -9,8 +9,8 @@
 namespace svt::readers {
 
 struct ReadOptions {
-    std::uint64_t maxBytes = std::uint64_t{16} << 30;  ///< larger input (after decompression) is refused, bytes
-    std::uint32_t maxDepth = 512;                      ///< deeper nesting of elements or arrays is refused
+    std::uint64_t maxBytes = std::uint64_t{16} << 30;  ///< limit on input bytes (after decompression)
+    std::uint32_t maxDepth = 512;                      ///< limit on nesting of elements or arrays
     int threads = 0;                                   ///< 0: all cores; the result does not depend on it
     const Progress* progress = nullptr;                ///< may be null
 };

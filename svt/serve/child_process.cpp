@@ -27,7 +27,7 @@ void limit(int resource, std::uint64_t value) noexcept {
     ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-// Between fork and exec; nothing here allocates.
+// Runs between fork and exec; nothing here allocates.
 [[noreturn]] void become(char* const* arguments, const char* folder, const ChildLimits& limits, int errors,
                          pid_t parent) {
     ::setpgid(0, 0);
@@ -39,7 +39,7 @@ void limit(int resource, std::uint64_t value) noexcept {
     ::dup2(errors, 2);
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too long is an error to report
+    std::signal(SIGXFSZ, SIG_IGN);  // writing past the file size limit becomes an error instead of a signal
     limit(RLIMIT_AS, limits.memoryBytes);
     limit(RLIMIT_FSIZE, limits.fileBytes);
     limit(RLIMIT_CORE, 0);
@@ -47,7 +47,8 @@ void limit(int resource, std::uint64_t value) noexcept {
     ::_exit(kCannotStart);
 }
 
-// Appends what has come. \return false at the end
+// Appends the available output.
+// \return false at the end
 bool gather(int from, std::string& messages) {
     std::array<char, 4096> buffer;
     const ssize_t got = ::read(from, buffer.data(), buffer.size());
@@ -89,11 +90,11 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
         result.isCancelled = Progress::isCancelled(&stop);
         if (!result.isTimeout && !result.isCancelled) continue;
         ::kill(-child, SIGKILL);
-        ::kill(child, SIGKILL);  // where it has no group of its own yet
+        ::kill(child, SIGKILL);  // in case it has no process group yet
         ::waitpid(child, &status, 0);
         break;
     }
-    if (child > 0) ::kill(-child, SIGKILL);  // what it may have started
+    if (child > 0) ::kill(-child, SIGKILL);  // its descendants
     while (isOpen && child > 0) {
         const std::size_t had = result.messages.size();
         isOpen = gather(pipe[0], result.messages) && result.messages.size() != had;

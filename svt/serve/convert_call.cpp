@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A name for the model's file by which messages may call it; harmless, whatever the client said.
+// Name of the model's file for messages; safe for any client input.
 std::string fileName(std::string_view wanted) {
     constexpr std::size_t kMaxLength = 100;
     std::string name;
@@ -24,7 +24,7 @@ std::string fileName(std::string_view wanted) {
     return name.empty() ? "model" : name;
 }
 
-// The last line of `svt: error E102 BadXml: message`, or of `svt: error: message`.
+// Parses the last line of the form `svt: error E102 BadXml: message` or `svt: error: message`.
 Reply refusalOf(std::string_view messages) {
     constexpr std::string_view kStart = "svt: error";
     const std::size_t at = messages.rfind(kStart);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The call that turns a model into a volume: POST with the model as body, `?name=house.gml`. The work is done by
-/// another program, under limits, since a model from a stranger may be anything.
+/// The HTTP call that converts a model to a volume: POST with the model as body, `?name=house.gml`. Another program
+/// does the conversion, under resource limits, since models from clients are untrusted.
 
 #include <svt/serve/child_process.hpp>
 #include <svt/serve/http_server.hpp>
@@ -13,15 +13,15 @@
 namespace svt::serve {
 
 struct ConvertOptions {
-    /// Program and first arguments; behind them stand the model's file, `-o`, the volume's file and `options`.
+    /// Program and first arguments; followed by the model's file, `-o`, the volume's file and `options`.
     std::vector<std::string> command;
     std::vector<std::string> options;
     std::uint64_t maxUploadBytes = std::uint64_t{200} << 20;
     ChildLimits limits;
 };
 
-/// One model at a time, two more may wait. The reply is the `.svt`; or {code, message} with 422 where the program
-/// refuses the model or is over a limit (E104), its message being what it last said as `svt: error E...`.
+/// Converts one model at a time; the queue length is two. The reply is the `.svt`; or {code, message} with status 422
+/// if the program rejects the model or exceeds a limit (E104); the message is its last `svt: error E...` line.
 /// Needs ServerOptions::bodyFolder.
 [[nodiscard]] Route convertRoute(ConvertOptions options);
 

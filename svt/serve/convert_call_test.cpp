@@ -85,7 +85,7 @@ TEST(ConvertCall, LimitsHold) {
     narrow.fileBytes = 1 << 20;
     EXPECT_EQ(Conversions("head -c 2000000 /dev/zero > \"$3\" || exit 5", narrow).convert("a.gml", "x").status, 422);
 
-    const Conversions calls("cat >&2; head -c 10000000 /dev/zero >&2; exit 3");  // no input; messages without end
+    const Conversions calls("cat >&2; head -c 10000000 /dev/zero >&2; exit 3");  // no input; endless messages
     EXPECT_EQ(calls.convert("a.gml", "x").status, 422);
     EXPECT_EQ(calls.server->ask("POST /api/convert?name=a", "Content-Length: 1000001\r\n").status, 413);
 }

@@ -1,5 +1,5 @@
-// What hostile clients do, and what it may cost: no file outside the folder, bounded memory, threads and time, and an
-// honest client is answered meanwhile.
+// Hostile clients and their cost: no file outside the folder is served, memory, threads and time are bounded, and an
+// honest client is still answered.
 #include <svt/serve/http_client_test.hpp>
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ using test::TemporaryFolder;
 using test::writeText;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool hasSanitizer = true;  // whose own memory would be measured
+constexpr bool hasSanitizer = true;  // the sanitizer's own memory would be measured
 #else
 constexpr bool hasSanitizer = false;
 #endif
@@ -31,7 +31,7 @@ std::ptrdiff_t threadCount() {
     return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
 }
 
-// What `attack` leaves in memory after a first round has warmed all buffers.
+// Memory growth caused by `attack`, after a first round has warmed up all buffers.
 template <class Attack>
 void expectNoGrowth(int rounds, const Attack& attack) {
     constexpr std::int64_t kMaxGrowth = 4 << 20;
@@ -43,7 +43,7 @@ void expectNoGrowth(int rounds, const Attack& attack) {
     EXPECT_TRUE(hasSanitizer || growth < kMaxGrowth) << growth << " bytes";
 }
 
-// Sends `part` for ever; the server must end that.
+// Sends `part` repeatedly; the server must close the connection.
 void expectCutOff(Client& client, const std::string& part) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     while (std::chrono::steady_clock::now() < end)
@@ -61,7 +61,7 @@ struct HostileRequests : testing::Test {
         fs::create_symlink("../secret.txt", folder / "site/link.txt");
         EXPECT_TRUE(site.addFolder(folder / "site"));
         site.add("/data.svt", Bytes::of(std::string(8 << 20, 'd')));
-        // A thousand connections need two descriptors each here, where client and server are one process.
+        // A thousand connections need two descriptors each, since client and server share one process.
         rlimit limit{};
         ::getrlimit(RLIMIT_NOFILE, &limit);
         limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, 4096);
@@ -128,22 +128,22 @@ TEST_F(HostileRequests, LongAndEndlessHeadsAreCutOff) {
             EXPECT_TRUE(client.isClosed(5));
         }
         {
-            Client client = server.client();  // headers without end
+            Client client = server.client();  // endless headers
             client.send("GET / HTTP/1.1\r\nHost: localhost\r\n");
             expectCutOff(client, "X-Header: " + std::string(60000, 'x') + "\r\n");
         }
         {
-            Client client = server.client();  // a line without end
+            Client client = server.client();  // an endless line
             client.send("GET /");
             expectCutOff(client, std::string(1 << 16, 'a'));
         }
         {
-            Client client = server.client();  // 9 KiB of request line, whole
+            Client client = server.client();  // a complete request line of 9 KiB
             client.send("GET /" + std::string(9 << 10, 'a') + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
             EXPECT_EQ(client.receive().status, 414);
         }
         {
-            Client client = server.client();  // lines that are no lines, without end
+            Client client = server.client();  // endless invalid lines
             expectCutOff(client, std::string(1 << 16, '\n'));
         }
         EXPECT_EQ(server.ask("GET /").status, 200);
@@ -167,7 +167,7 @@ TEST_F(HostileRequests, BodiesOverTheLimitAreNotTaken) {
             for (int i = 0; i < 64 && client.send(body); ++i) continue;
             EXPECT_TRUE(client.isClosed(5));
         }
-        // More than was said: what is over is the next request, and no good one.
+        // More than Content-Length: the excess is read as the next request, which is invalid.
         Client client = server.client();
         client.send("POST /api/call HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n" + body);
         EXPECT_EQ(client.receive().status, 200);
@@ -200,7 +200,7 @@ TEST_F(HostileRequests, SlowClientsLoseTheirPlaceAndHoldUpNobody) {
     }
     const auto start = std::chrono::steady_clock::now();
     double slowest = 0;
-    for (int i = 0; i < 12; ++i) {  // a byte from time to time, for 1.2 s
+    for (int i = 0; i < 12; ++i) {  // one byte at a time, for 1.2 s
         for (Client& client : heads) client.send("h");
         const auto asked = std::chrono::steady_clock::now();
         EXPECT_EQ(server.ask("GET /").status, 200);
@@ -210,7 +210,7 @@ TEST_F(HostileRequests, SlowClientsLoseTheirPlaceAndHoldUpNobody) {
     EXPECT_LT(slowest, hasSanitizer ? 4 : 1);
     for (Client& client : heads) EXPECT_TRUE(client.isClosed(3));
     for (Client& client : bodies) EXPECT_TRUE(client.isClosed(3));
-    for (Client& client : readers) EXPECT_TRUE(client.isClosed(3));  // after what was on its way
+    for (Client& client : readers) EXPECT_TRUE(client.isClosed(3));  // after the data in flight
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
@@ -236,7 +236,7 @@ TEST_F(HostileRequests, AThousandConnectionsAtOnce) {
         std::vector<Client> clients;
         for (int i = 0; i < 1000; ++i) {
             clients.push_back(server.client());
-            switch (i % 4) {  // silent, half a head, a request that waits for its reply, one that never reads it
+            switch (i % 4) {  // silent, half a head, a request awaiting its reply, one that never reads its reply
                 case 1: clients.back().send("GET / HT"); break;
                 case 2: clients.back().send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"); break;
                 case 3: clients.back().send("GET /data.svt HTTP/1.1\r\nHost: localhost\r\n\r\n"); break;
@@ -244,7 +244,7 @@ TEST_F(HostileRequests, AThousandConnectionsAtOnce) {
             }
         }
         EXPECT_EQ(threadCount(), threads);
-        // Among a thousand that hold on: within what those who stall are granted.
+        // With a thousand connections held open: answered within the stall timeout.
         int status = 0;
         for (int i = 0; i < 40 && status != 200; ++i) {
             status = server.ask("GET /").status;
@@ -257,7 +257,7 @@ TEST_F(HostileRequests, AThousandConnectionsAtOnce) {
     EXPECT_EQ(server.ask("GET /").status, 200);
 }
 
-// Bytes of all kinds, the same in every run.
+// Random bytes, the same in every run.
 TEST_F(HostileRequests, NonsenseIsSurvived) {
     const RunningServer server(site);
     std::uint32_t state = 1;

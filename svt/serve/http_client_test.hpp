@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A server on a thread of its own, and a client that sends any bytes.
+/// A server on its own thread, and a client that sends arbitrary bytes.
 
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/serve/http_server.hpp>
@@ -40,7 +40,7 @@ public:
 
     [[nodiscard]] bool isConnected() const { return isConnected_; }
 
-    /// \return false where the server has closed
+    /// \return false if the server has closed the connection
     bool send(std::string_view bytes) {
         while (!bytes.empty()) {
             const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -51,7 +51,7 @@ public:
     }
 
     struct Answer {
-        int status = 0;  ///< 0: none came
+        int status = 0;  ///< 0: no reply
         std::string head, body;
         [[nodiscard]] std::string header(const std::string& name) const {
             const std::size_t at = head.find("\r\n" + name + ": ");
@@ -61,7 +61,7 @@ public:
         }
     };
 
-    /// One reply; `hasBody` is false after HEAD.
+    /// Receives one reply; `hasBody` is false after HEAD.
     Answer receive(bool hasBody = true, double seconds = 10) {
         const auto end = endAfter(seconds);
         Answer answer;
@@ -80,7 +80,7 @@ public:
         return answer;
     }
 
-    /// Whether the server closes within so many seconds; what it still sends is thrown away.
+    /// True if the server closes the connection within `seconds`; discards what it still sends.
     bool isClosed(double seconds) {
         const auto end = endAfter(seconds);
         while (more(end)) in_.clear();
@@ -109,7 +109,7 @@ private:
     std::string in_;
 };
 
-/// A server that runs until the object ends.
+/// A server that runs for the lifetime of the object.
 class RunningServer {
 public:
     explicit RunningServer(Site site, std::vector<Route> routes = {}, ServerOptions options = {}) {
@@ -137,7 +137,7 @@ public:
 
     [[nodiscard]] int port() const { return server_->port(); }
     [[nodiscard]] Client client() const { return Client(port()); }
-    /// The reply to one request on a connection of its own; Host is added.
+    /// The reply to one request on a new connection; the Host header is added.
     [[nodiscard]] Client::Answer ask(const std::string& line, const std::string& headers = {},
                                      const std::string& body = {}) const {
         Client to = client();

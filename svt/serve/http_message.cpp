@@ -23,7 +23,7 @@ bool isToken(std::string_view text) noexcept {
     return !text.empty() && std::all_of(text.begin(), text.end(), isTokenCharacter);
 }
 
-// Control characters other than a tab.
+// Control characters other than tab.
 bool hasControl(std::string_view text) noexcept {
     return std::any_of(text.begin(), text.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
@@ -44,7 +44,7 @@ std::string_view trimmed(std::string_view text) noexcept {
     return text;
 }
 
-// Digits alone: no sign, no blanks, no overflow.
+// Digits only: no sign, no blanks, no overflow.
 std::optional<std::uint64_t> wholeNumber(std::string_view text) noexcept {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -121,7 +121,7 @@ std::optional<HeadError> readHeader(std::string_view line, Fields& headers) {
     return std::nullopt;
 }
 
-// What the headers mean for the connection and the body.
+// Interprets the headers that concern the connection and the body.
 std::optional<HeadError> readMeaning(Head& head) {
     const Fields& headers = head.request.headers;
     if (countOf(headers, "host") != 1) return HeadError{400, "exactly one Host is expected"};
@@ -251,7 +251,7 @@ RangeKind parseRange(std::string_view header, std::uint64_t size, ByteRange& ran
     const std::string_view from = header.substr(0, dash), to = header.substr(dash + 1);
     const auto first = wholeNumber(from), last = wholeNumber(to);
     if ((!from.empty() && !first) || (!to.empty() && !last) || (!first && !last)) return RangeKind::Whole;
-    if (!first) {  // the last so many
+    if (!first) {  // a suffix range: the last bytes
         if (*last == 0 || size == 0) return RangeKind::Unsatisfiable;
         range = {size - std::min(size, *last), size - 1};
         return RangeKind::Part;

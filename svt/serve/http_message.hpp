@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Requests and replies of HTTP/1.1, and the reading of a request's head (RFC 9110, RFC 9112). Whatever two readers
-/// could understand in two ways is refused, not guessed at.
+/// HTTP/1.1 requests and replies, and the parser for request heads (RFC 9110, RFC 9112). Ambiguous input is
+/// rejected, never guessed at.
 
 #include <svt/core/file.hpp>
 
@@ -18,7 +18,7 @@
 
 namespace svt::serve {
 
-/// Bytes, and what keeps them alive. Cheap to copy.
+/// Bytes and their owner. Cheap to copy.
 struct Bytes {
     std::span<const std::byte> data;
     std::shared_ptr<const void> owner;
@@ -35,14 +35,14 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 struct Request {
     std::string method;  ///< as sent: GET, HEAD, POST, ...
     std::string path;    ///< decoded once, begins with '/', no control characters
-    Fields query;        ///< decoded names and values, in their order
+    Fields query;        ///< decoded names and values, in order
     Fields headers;      ///< names in lower case
     std::string body;
-    std::filesystem::path bodyFile;  ///< holds the body instead where the route says so; gone after the reply
+    std::filesystem::path bodyFile;  ///< holds the body if the route asks for it; deleted after the reply
 
-    /// Value of the first header of this lower-case name; empty where there is none.
+    /// Value of the first header with this lower-case name; empty if missing.
     [[nodiscard]] std::string_view header(std::string_view name) const noexcept;
-    /// Value of the first parameter of this name; empty where there is none.
+    /// Value of the first parameter with this name; empty if missing.
     [[nodiscard]] std::string_view parameter(std::string_view name) const noexcept;
 };
 
@@ -50,18 +50,18 @@ struct Reply {
     int status = 200;
     std::string type;  ///< Content-Type
     Bytes body;
-    Fields headers;                 ///< further ones
-    std::uint64_t skippedBody = 0;  ///< HEAD: so many bytes are announced and not sent
+    Fields headers;                 ///< additional headers
+    std::uint64_t skippedBody = 0;  ///< HEAD: length announced but not sent
 
-    /// A JSON object {code, message}: an error code such as E102, or HTTP404 where only HTTP was broken.
+    /// A JSON object {code, message}: an error code such as E102, or HTTP404 for errors of HTTP itself.
     [[nodiscard]] static Reply error(int status, std::string_view code, std::string_view message);
     [[nodiscard]] static Reply refusal(int status, std::string_view message);
 };
 
-/// "Not Found"
+/// Reason phrase, such as "Not Found".
 [[nodiscard]] std::string_view reasonOf(int status) noexcept;
 
-/// What a head says beyond the request itself.
+/// A parsed head, beyond the request itself.
 struct Head {
     Request request;
     std::uint64_t bodyBytes = 0;
@@ -69,7 +69,7 @@ struct Head {
     bool expectsContinue = false;
 };
 
-/// Why a head is refused: the status to answer, and a sentence.
+/// Reason for rejecting a head: the status to answer, and a sentence.
 struct HeadError {
     int status = 400;
     std::string message;
@@ -78,30 +78,31 @@ struct HeadError {
 inline constexpr std::size_t kMaxRequestLineBytes = 8192;
 inline constexpr std::size_t kMaxHeaders = 100;
 
-/// Reads a head.
-/// \param text  from the request line to the empty line, both included
-/// \return the head; 400 for what is not well-formed or ambiguous (bare line feeds, folded lines, several lengths or
-///         hosts, a target that is no path), 411 for a body of unknown length, 414 for a request line over 8 KiB, 431
-///         over 100 headers, 505 for another version of HTTP
+/// Parses a head.
+/// \param text  from the request line to the empty line, inclusive
+/// \return the head; 400 for malformed or ambiguous input (bare line feeds, folded lines, several lengths or
+///         hosts, a target that is not a path), 411 for a body of unknown length, 414 for a request line over 8 KiB,
+///         431 for more than 100 headers, 505 for another version of HTTP
 [[nodiscard]] std::variant<Head, HeadError> parseHead(std::string_view text);
 
-/// Undoes %XX. \return false where a percent sign leads nowhere
+/// Decodes %XX.
+/// \return false for an invalid percent encoding
 [[nodiscard]] bool decodePercent(std::string_view text, std::string& decoded);
 
-/// Whether a page of another name could not have sent this Host (DNS rebinding): an address, localhost, or one of
-/// `names`. The port does not count.
+/// Whether the Host header is safe from DNS rebinding: an IP address, localhost, or one of `names`. The port is
+/// ignored.
 [[nodiscard]] bool isKnownHost(std::string_view host, std::span<const std::string> names);
 
-/// A single range of bytes `first` to `last`, both included.
+/// A single range of bytes `first` to `last`, inclusive.
 struct ByteRange {
     std::uint64_t first = 0, last = 0;
 };
 enum class RangeKind : std::uint8_t {
-    Whole,         ///< none, several, or none that can be understood: the whole is sent, as RFC 9110 allows
+    Whole,         ///< no range, several, or an invalid one: everything is sent, as RFC 9110 allows
     Part,          ///< `range` is set
-    Unsatisfiable  ///< begins behind the end
+    Unsatisfiable  ///< begins after the end
 };
-/// What a Range header asks of `size` bytes.
+/// Parses the Range header for content of `size` bytes.
 [[nodiscard]] RangeKind parseRange(std::string_view header, std::uint64_t size, ByteRange& range) noexcept;
 
 }  // namespace svt::serve

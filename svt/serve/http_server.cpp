@@ -33,7 +33,7 @@ Clock::duration seconds(double value) {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
 }
 
-// A file descriptor that is closed with its object.
+// Owns a file descriptor.
 class Descriptor {
 public:
     explicit Descriptor(int value = -1) noexcept : value_(value) {}
@@ -53,14 +53,14 @@ private:
     int value_;
 };
 
-// A call between the loop, which makes it and sends its reply, and the thread that works on it.
+// A call, shared by the event loop, which creates it and sends its reply, and the worker thread.
 struct Job {
     Request request;
     Progress stop;
     Reply reply;
     std::atomic<bool> isDone{false};
 
-    /// \param places  counts the jobs there are
+    /// \param places  counter of existing jobs
     explicit Job(std::atomic<int>& places) : places_(places) { ++places_; }
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
@@ -74,7 +74,7 @@ private:
     std::atomic<int>& places_;
 };
 
-// The thread of a route, and what waits for it.
+// The worker thread of a route, and its queue.
 class Worker {
 public:
     Worker(Route call, int wakeUp) : route(std::move(call)), wakeUp_(wakeUp), thread_([this] { work(); }) {}
@@ -97,7 +97,7 @@ public:
     }
 
     const Route route;
-    std::atomic<int> admitted{0};  // requests whose body comes, that wait or are at work
+    std::atomic<int> admitted{0};  // requests that are receiving a body, queued or in progress
 
 private:
     void work() {
@@ -133,21 +133,21 @@ private:
     std::deque<std::shared_ptr<Job>> waiting_;
     std::shared_ptr<Job> current_;
     bool isStopping_ = false;
-    std::thread thread_;  // last: it uses all above
+    std::thread thread_;  // declared last: it uses all members above
 };
 
 enum class State : std::uint8_t {
-    Head,     // of the next request
-    Body,     // of a call
-    Working,  // a call is with its worker
+    Head,     // receiving the head of the next request
+    Body,     // receiving the body of a call
+    Working,  // a worker is processing the call
     Writing,
-    Draining  // what a refused client still sends is thrown away, so that it gets to read why
+    Draining  // discards the rest of a rejected request, so that the client can read the reply
 };
 
 struct Connection {
     Descriptor socket;
     State state = State::Head;
-    std::string in;  // not yet understood, at most kMaxHeadBytes
+    std::string in;  // unparsed input, at most kMaxHeadBytes
     Head head;
     Worker* worker = nullptr;  // of `job`
     std::uint64_t bodyLeft = 0;
@@ -156,11 +156,11 @@ struct Connection {
     std::string out;  // head of the reply
     Bytes body;
     std::uint64_t sent = 0;    // of out and body
-    bool isKept = false;       // after the reply
+    bool isKept = false;       // keep-alive after the reply
     bool isEnded = false;      // to be closed by the loop
-    bool isPipelined = false;  // `in` may hold a whole request already
+    bool isPipelined = false;  // `in` may already hold a complete request
     short events = POLLIN;
-    Time since;  // the state was entered, or the last byte went through
+    Time since;  // when the state was entered, or the last byte was transferred
     Time deadline, lastChance;
 };
 
@@ -176,8 +176,8 @@ std::string dateNow() {
                        utc.tm_min, utc.tm_sec);
 }
 
-// What the page may do: run its own scripts, workers and WebAssembly, and talk to this server; nothing from elsewhere,
-// no styles or scripts within the text of the page, and no other page may hold it.
+// Permissions of the page: run its own scripts, workers and WebAssembly, and contact this server; nothing from other
+// origins, no inline styles or scripts, and no embedding in other pages.
 constexpr std::string_view kSafetyHeaders =
     "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
     "style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; base-uri 'none'; "
@@ -198,7 +198,7 @@ std::string headOf(const Reply& reply, bool isKept) {
     return text;
 }
 
-// Whether a page of this server, or no page at all, made the call.
+// True if the call comes from a page of this server or from no page at all.
 bool isOwnCall(const Request& request) {
     const std::string_view origin = request.header("origin"), site = request.header("sec-fetch-site");
     if (!site.empty() && site != "same-origin" && site != "none") return false;
@@ -211,7 +211,7 @@ struct FreeAddresses {
     void operator()(addrinfo* list) const noexcept { ::freeaddrinfo(list); }
 };
 
-// At the first address that allows it; none, and `reason`, where none does.
+// Listens at the first address that allows it; returns none and sets `reason` if all fail.
 Descriptor listenAt(const addrinfo* address, int& reason) {
     for (; address != nullptr; address = address->ai_next) {
         Descriptor socket(::socket(address->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -287,7 +287,7 @@ public:
     [[nodiscard]] int port() const noexcept { return port_; }
 
 private:
-    // Waits for bytes, workers and deadlines, and takes new connections.
+    // Waits for bytes, workers and deadlines, and accepts new connections.
     void wait() {
         polls_.clear();
         polls_.push_back({wakeUp_.get(), POLLIN, 0});
@@ -329,13 +329,13 @@ private:
     }
 
     void acceptAll() {
-        constexpr int kAtOnce = 64;  // then those who are here have their turn
+        constexpr int kAtOnce = 64;  // then the existing connections get their turn
         for (int i = 0; i < kAtOnce; ++i) {
             Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
             if (socket.get() < 0) {
                 if (errno == ECONNABORTED || errno == EINTR) continue;
                 if (errno == EAGAIN || errno == EWOULDBLOCK) return;
-                // Out of descriptors or memory: asking again at once would only burn time.
+                // Out of descriptors or memory: retrying at once would only waste CPU time.
                 if (!makeRoom()) acceptFrom_ = now_ + std::chrono::milliseconds(100);
                 return;
             }
@@ -351,7 +351,8 @@ private:
         }
     }
 
-    // Ends the connection that has been waited for longest. \return false where none is waited for
+    // Closes the connection that has waited longest for its client.
+    // \return false if none is waiting
     bool makeRoom() {
         auto longest = connections_.end();
         for (auto at = connections_.begin(); at != connections_.end(); ++at)
@@ -386,19 +387,19 @@ private:
         enter(connection, State::Head, limit);
     }
 
-    // Bytes went through: the connection does not stall.
+    // Bytes were transferred: restarts the stall timeout.
     void postpone(Connection& connection) {
         connection.since = now_;
         connection.deadline = std::min(connection.lastChance, now_ + seconds(options_.stallSeconds));
     }
 
-    // Ends a connection; the loop removes it.
+    // Marks a connection as ended; the loop removes it.
     void end(Connection& connection) {
         release(connection);
         connection.isEnded = true;
     }
 
-    // Nobody waits for the call any more.
+    // The client no longer waits for the call.
     static void release(Connection& connection) {
         if (connection.job) connection.job->stop.cancel = true;
         connection.job.reset();
@@ -406,7 +407,7 @@ private:
         connection.bodyFile.reset();
     }
 
-    // Does all that can be done for a connection without waiting.
+    // Does everything possible for a connection without blocking.
     void advance(Connection& connection) {
         if (connection.isPipelined) {
             connection.isPipelined = false;
@@ -431,7 +432,7 @@ private:
         reply(connection, Reply::refusal(408, "the request came too slowly"), false);
     }
 
-    // \return bytes read into `buffer`; 0 where there are none now; the connection is ended where its client has gone
+    // \return bytes read into `buffer`; 0 if none are available; ends the connection if the client has closed it
     std::size_t receive(Connection& connection, std::span<char> buffer) {
         const ssize_t got = ::recv(connection.socket.get(), buffer.data(), buffer.size(), 0);
         if (got > 0) return static_cast<std::size_t>(got);
@@ -450,10 +451,10 @@ private:
         understand(connection);
     }
 
-    // Takes a request out of what has come, if it is all there.
+    // Parses a request from the input, if it is complete.
     void understand(Connection& connection) {
         std::string& in = connection.in;
-        while (in.compare(0, 2, "\r\n") == 0) in.erase(0, 2);  // empty lines before a request do not count
+        while (in.compare(0, 2, "\r\n") == 0) in.erase(0, 2);  // empty lines before a request are ignored
         const std::size_t end = in.find("\r\n\r\n");
         if (end == std::string::npos) {
             if (in.find("\r\n") > kMaxRequestLineBytes && in.size() > kMaxRequestLineBytes)
@@ -482,7 +483,7 @@ private:
         reply(connection, site_.reply(request), connection.head.isKeptAlive);
     }
 
-    // A call, whose body is still to come.
+    // Accepts a call whose body is still to be received.
     void admit(Connection& connection, Worker& worker) {
         const Request& request = connection.head.request;
         if (request.method != "POST") {
@@ -561,7 +562,7 @@ private:
             Reply done = std::move(connection.job->reply);
             return reply(connection, std::move(done), connection.head.isKeptAlive);
         }
-        if (connection.events != 0) end(connection);  // the client has gone
+        if (connection.events != 0) end(connection);  // the client has disconnected
     }
 
     void reply(Connection& connection, Reply reply, bool isKept) {
@@ -580,7 +581,7 @@ private:
     }
 
     void write(Connection& connection) {
-        constexpr std::size_t kAtOnce = std::size_t{1} << 20;  // then the others have their turn
+        constexpr std::size_t kAtOnce = std::size_t{1} << 20;  // then the other connections get their turn
         const std::uint64_t headBytes = connection.out.size(), total = headBytes + connection.body.data.size();
         const bool isHead = connection.sent < headBytes;
         const char* from = isHead ? connection.out.data() + connection.sent
@@ -599,7 +600,7 @@ private:
         if (isHead) write(connection);
     }
 
-    // The reply is out.
+    // Called when the reply has been sent.
     void finish(Connection& connection) {
         connection.out.clear();
         connection.body = {};

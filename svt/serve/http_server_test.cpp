@@ -42,7 +42,7 @@ TEST(HttpServer, AnswersWithTheHeadersOfSafety) {
     EXPECT_NE(policy.find("default-src 'none'"), std::string::npos);
     EXPECT_NE(policy.find("script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'"), std::string::npos);
     EXPECT_EQ(policy.find("http"), std::string::npos);
-    // Refusals have them as well.
+    // Rejections have the header as well.
     EXPECT_EQ(server.ask("GET /missing").header("X-Content-Type-Options"), "nosniff");
 }
 
@@ -70,7 +70,7 @@ TEST(HttpServer, OneConnectionTakesManyRequests) {
         ASSERT_TRUE(client.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"));
         EXPECT_EQ(client.receive().status, 200);
     }
-    // All at once, a call with its body among them; replies come in their order.
+    // Sent at once, including a call with its body; replies come in order.
     std::string all;
     for (int i = 0; i < 50; ++i) {
         const std::string number = std::to_string(i);
@@ -132,7 +132,7 @@ TEST(HttpServer, BodiesGoToFilesThatAreRemoved) {
     EXPECT_EQ(server.ask("POST /api/size", "Content-Length: 5000000\r\n", std::string(5000000, 'b')).body, "5000000");
     EXPECT_EQ(server.ask("POST /api/size", "Content-Length: 10000001\r\n").status, 413);
     {
-        Client client = server.client();  // goes away in the middle
+        Client client = server.client();  // disconnects in the middle
         client.send("POST /api/size HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5000000\r\n\r\nhalf");
     }
     for (int i = 0; i < 500 && folder.count() != 0; ++i) ::usleep(10000);
@@ -152,7 +152,7 @@ TEST(HttpServer, ClientIsToldToGoOnWithItsBody) {
     EXPECT_EQ(large.receive().status, 413);
 }
 
-// A call that works until it is told to stop.
+// A call that runs until it is cancelled.
 struct Slow {
     std::atomic<int> begun{0}, stopped{0};
     Route route() {
@@ -183,10 +183,10 @@ TEST(HttpServer, CallsWaitInAShortQueueAndEndWithTheirClient) {
         clients.back().send(call);
     }
     slow.await(slow.begun, 1);
-    EXPECT_EQ(server.ask("GET /").status, 200);  // others are not held up
+    EXPECT_EQ(server.ask("GET /").status, 200);  // other requests are not blocked
     for (int i = 0; i < 100 && server.ask("POST /api/slow", "Content-Length: 0\r\n").status != 503; ++i) ::usleep(1000);
     EXPECT_EQ(server.ask("POST /api/slow", "Content-Length: 0\r\n").status, 503);
-    clients.clear();  // all go away: the one at work stops, the others are not begun
+    clients.clear();  // all disconnect: the call in progress is cancelled, the queued ones never start
     slow.await(slow.stopped, 1);
     for (int i = 0; i < 100; ++i) ::usleep(1000);
     EXPECT_EQ(slow.begun, 1);

@@ -53,7 +53,7 @@ std::string lowerExtension(std::string_view path) {
 
 const Type& typeOf(std::string_view path) {
     const std::string extension = lowerExtension(path);
-    if (extension.empty()) return kTypes[4];  // what the server itself names, such as /api
+    if (extension.empty()) return kTypes[4];  // paths of the server itself, such as /api
     const auto* found =
         std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& type) { return type.extension == extension; });
     return found == kTypes.end() ? kOtherType : *found;
@@ -66,7 +66,7 @@ std::uint64_t hashOf(std::span<const std::byte> bytes) noexcept {
     return hash;
 }
 
-// One gzip member; empty where it saves less than a tenth.
+// One gzip member; empty if it saves less than a tenth.
 Bytes compressed(std::span<const std::byte> bytes) {
     constexpr int kGzip = 15 + 16, kMemory = 8;
     if (bytes.size() < kMinCompressed || bytes.size() > UINT32_MAX / 2) return {};
@@ -85,7 +85,7 @@ Bytes compressed(std::span<const std::byte> bytes) {
     return Bytes::of(std::move(out));
 }
 
-// What Vite names by its content: assets/index-BX3k9a1_.js. Such a file never changes.
+// Files that Vite names by a content hash: assets/index-BX3k9a1_.js. Such a file never changes.
 bool isNamedByContent(std::string_view path) noexcept {
     constexpr std::size_t kHash = 8;
     if (path.find("/assets/") == std::string_view::npos) return false;
@@ -112,12 +112,12 @@ bool acceptsGzip(std::string_view header) {
     return isAccepted;
 }
 
-// Tags of If-None-Match are compared weakly: W/ does not count, nor whether the bytes were compressed.
+// Tags of If-None-Match are compared weakly: W/ is ignored, and so is whether the bytes were compressed.
 bool namesTag(std::string_view header, std::string_view tag) {
     return header == "*" || (!header.empty() && header.find(tag) != std::string_view::npos);
 }
 
-// A file of the folder, and its path in the site.
+// A file of the folder, and its path on the site.
 struct Found {
     fs::path file;
     std::string path;
@@ -162,7 +162,7 @@ Error cannotWrite(const fs::path& path, std::string message) {
     return Error(Code::CannotWrite, std::move(message), Place{path.string(), 0, 0, {}});
 }
 
-// A folder that goes with all it holds.
+// A staging folder, removed with its contents by the destructor.
 struct Staging {
     fs::path path;
     ~Staging() {
@@ -255,7 +255,7 @@ Reply Site::reply(const Request& request) const {
             if (resource->gzip.data.empty() || !acceptsGzip(request.header("accept-encoding"))) break;
             reply.body = resource->gzip;
             reply.headers.emplace_back("Content-Encoding", "gzip");
-            // Other bytes, so another strong tag; the first part is what If-None-Match is compared with.
+            // Different bytes must not have the same strong tag, so it becomes weak; If-None-Match ignores the W/.
             reply.headers[1].second = "W/" + resource->tag;
             break;
     }
@@ -287,7 +287,7 @@ std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
     static const std::set<std::string, std::less<>> kExtensions{".svt",  ".gml",   ".xml", ".citygml",
                                                                 ".json", ".jsonl", ".gz",  ".city"};
     std::vector<std::string> names;
-    std::set<std::string> taken;  // in lower case: some file systems do not tell a from A
+    std::set<std::string> taken;  // in lower case: some file systems ignore case
     for (const fs::path& file : files) {
         fs::path bare = file.filename();
         while (kExtensions.count(lowerExtension(bare.string())) != 0) bare = bare.stem();

@@ -47,7 +47,7 @@ std::string longScript() {
     return text;
 }
 
-// A page as the viewer's build makes it, with what must not be served around it.
+// A page as built by the viewer's build, surrounded by files that must not be served.
 void makeViewer(const fs::path& folder) {
     fs::create_directories(folder / "viewer/assets");
     writeText(folder / "viewer/index.html", "<!doctype html><title>page</title>");
@@ -196,7 +196,7 @@ TEST(PublishedSite, FolderHoldsWhatIsServed) {
     EXPECT_EQ(files, site->resources().size());
     EXPECT_EQ(total, *written);
 
-    // Not again, unless it may; and then only what is of the site is touched.
+    // Fails the second time unless replacing is allowed; then only files of the site are touched.
     EXPECT_EQ(writeSite(*site, out, false).error().code(), Code::CannotWrite);
     writeText(out / "mine.txt", "mine");
     writeText(out / "index.html", "old");
@@ -216,7 +216,7 @@ TEST(PublishedSite, FailureLeavesNothing) {
     writeText(folder / "file", "");
     EXPECT_EQ(writeSite(site, folder / "file", true).error().code(), Code::CannotWrite);
     EXPECT_EQ(writeSite(site, folder / "file/site", false).error().code(), Code::CannotWrite);
-    // A file stands where a folder is needed: the page that was there stays.
+    // A file exists where a folder is needed: the old page is kept.
     fs::create_directories(folder / "site");
     writeText(folder / "site/models", "");
     writeText(folder / "site/index.html", "old");
@@ -225,7 +225,7 @@ TEST(PublishedSite, FailureLeavesNothing) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "site"), fs::directory_iterator()), 2);
 }
 
-// Any web server shows a published folder.
+// Any web server can serve a published folder.
 TEST(PublishedSite, PythonServesIt) {
     if (std::system("command -v python3 >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
     const TemporaryFolder folder;

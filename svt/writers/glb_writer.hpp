@@ -1,20 +1,20 @@
 #pragma once
 /// \file
-/// The labels of a volume as triangles in one binary glTF 2.0 file (.glb), which Blender, Windows, three.js, Cesium and
-/// most other 3D programs open.
+/// Writes the labels of a volume as triangles to one binary glTF 2.0 file (.glb), which Blender, Windows, three.js,
+/// Cesium and most other 3D programs open.
 ///
 ///     header       12 bytes: "glTF", 2, length of the file
-///     JSON chunk   scene: a root node, below it the labels as a tree, each with mesh and material of its own
+///     JSON chunk   scene: a root node, below it the labels as a tree, each with its own mesh and material
 ///     BIN chunk    positions of all labels, then their indices; see bufferViews
 ///
-/// Space: metres. A mesh holds places along the grid's axes from the grid's lower corner, the outer corner of sample
-/// (0, 0, 0): x, y, z. The root node's matrix turns them into the world's directions with y up, as glTF wants it:
-/// east is +x, height +y, north -z. So the lower corner lies at the origin and numbers stay small;
+/// Space: metres. Mesh positions are relative to the grid's lower corner, the outer corner of sample (0, 0, 0), along
+/// the grid's axes x, y, z. The matrix of the root node rotates them to world directions with y up, as glTF requires:
+/// east is +x, height +y, north -z. The lower corner is at the origin, which keeps coordinates small;
 /// `asset.extras.origin` has its world coordinates, `asset.extras.crs` their CRS.
 ///
-/// A label: `name` of its node is the label's name or id, `extras` has its `id` and `class`. The material has the
-/// label's colour (linear, as glTF wants it); its opacity is the share of light that one metre of the label stops,
-/// since a surface has no depth. No normals: glTF then asks for flat faces.
+/// A label: the node's `name` is the label's name or id, its `extras` hold `id` and `class`. The material has the
+/// label's colour (linear, as glTF requires); its opacity is the fraction of light that one metre of the label stops,
+/// since a surface has no thickness. No normals are written: glTF then requires flat shading.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -25,23 +25,23 @@
 
 namespace svt::writers {
 
-/// Where the corners of surfaces are.
+/// Placement of the surface vertices.
 enum class GlbFaces : std::uint8_t {
-    Planes,  ///< on the oblique planes that the voxels came from, where these are known; see SlopeVertices
-    Voxels   ///< where the voxels' are: slopes are stairs
+    Planes,  ///< on the oblique planes of the original geometry, where known; see SlopeVertices
+    Voxels   ///< on voxel corners: slopes are stairs
 };
 
 struct GlbOptions {
     GlbFaces faces = GlbFaces::Planes;
-    /// The volume that the one to write was cut out of, such as that of a shell, on the same grid: its planes count,
-    /// since a thin hull has few of its own. Null: those of the volume itself.
+    /// The volume from which the one to write was extracted, such as that of a shell, on the same grid: its planes are
+    /// used, since a thin hull has few of its own. Null: the planes of the volume itself.
     const volume::SemanticVolume* planesOf = nullptr;
-    std::uint64_t maxTriangles = std::uint64_t{1} << 27;  ///< a larger surface is refused
-    int threads = 0;                     ///< at most this many; 0: all cores. The bytes do not depend on it.
-    const Progress* progress = nullptr;  ///< stage "surface"
+    std::uint64_t maxTriangles = std::uint64_t{1} << 27;  ///< upper limit; more give GridTooLarge
+    int threads = 0;                                      ///< maximum; 0: all cores. The bytes do not depend on it.
+    const Progress* progress = nullptr;                   ///< stage "surface"
 };
 
-/// What was written.
+/// Figures of the file written.
 struct GlbReport {
     std::uint64_t bytes = 0;
     std::uint64_t triangles = 0;
@@ -50,10 +50,10 @@ struct GlbReport {
 };
 
 /// Writes the surfaces of all labels with voxels (see labelSurfaces: voxel faces merged into rectangles, closed per
-/// label; then the corners on slopes are moved by at most a voxel) as one .glb, all or nothing. Equal volumes give
-/// equal bytes. Cost and memory: those of labelSurfaces; the file itself is not held. \return figures, or CannotWrite,
-/// DiskFull, Cancelled; NothingSelected where no label has voxels; GridTooLarge where
-///         there are too many triangles or the file would reach 4 GiB, which a .glb cannot; BadArgument where grid,
+/// label; then the vertices on slopes are moved by at most a voxel) as one .glb, all or nothing. Equal volumes give
+/// equal bytes. Cost and memory: those of labelSurfaces; the file itself is not kept in memory.
+/// \return figures, or CannotWrite, DiskFull, Cancelled; NothingSelected if no label has voxels; GridTooLarge if
+///         there are too many triangles or the file would reach the .glb limit of 4 GiB; BadArgument if grid,
 ///         columns or `planesOf` differ in dimension
 [[nodiscard]] Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                          const GlbOptions& options = {});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Areas that a section cuts, per component and per class, as JSON and CSV.
+/// Cut areas of a section, per component and per class, as JSON and CSV.
 
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
@@ -12,12 +12,12 @@
 namespace svt::writers {
 
 /// One JSON object: `plane` (origin, u, v, normal), `components` (id, class, name, polygons, area, areaBound),
-/// `classes` (class, components, area) and `area`, all m2.
+/// `classes` (class, components, area) and `area`, all in m2.
 [[nodiscard]] std::string sectionJsonOf(const illustrate::SectionDrawing& drawing,
                                         const volume::SemanticVolume& volume);
 
 /// CSV (RFC 4180) with the header `kind,id,class,name,polygons,area_m2,area_bound_m2`. `kind` is component, class or
-/// total; rows of classes and the total name no component.
+/// total; rows of classes and of the total have no id and name.
 [[nodiscard]] std::string sectionCsvOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 }  // namespace svt::writers

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A section drawing as SVG to scale, in millimetres of paper: hatches of the building trade (after ISO 128-3 and
-/// DIN 1356-1), bold lines around what is cut, names and areas of rooms in plans, scale bar and title.
+/// Writes a section drawing as SVG to scale, in millimetres on paper: construction hatches (after ISO 128-3 and
+/// DIN 1356-1), bold outlines of cut parts, names and areas of rooms in plans, scale bar and title.
 ///
 ///     <g class="WallSurface">                          one group per class
 ///       <path class="WallSurface" data-id="wall-1" data-area="1.23" d="..."><title>wall-1: Outer wall</title></path>
@@ -23,12 +23,13 @@ struct SvgOptions {
     double scale = 100;  ///< 100 draws 1 m as 10 mm; 0.01 to 10^7
 };
 
-/// The drawing as SVG text. `volume` is what the drawing was made from. Equal drawings give equal bytes.
-/// \return the text, or BadArgument where the scale is out of range or the drawing is empty
+/// The drawing as SVG text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
+/// \return the text, or BadArgument if the scale is out of range or the drawing is empty
 [[nodiscard]] Result<std::string> svgOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                         const SvgOptions& options = {});
 
-/// The same as a file, all or nothing. \return bytes written, or as svgOf, CannotWrite or DiskFull
+/// Writes the same as a file, all or nothing.
+/// \return bytes written, or the errors of svgOf, CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing,
                                              const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                              const SvgOptions& options = {});

@@ -1,5 +1,5 @@
-// Every way in which input can be bad, one defect per file: the command ends in time and within its memory, with the
-// documented exit code, and says what was found.
+// Every kind of bad input, one defect per file: the command ends within its time and memory limits, with the
+// documented exit code, and reports what was found.
 #include "run_command.hpp"
 #include "small_model.hpp"
 
@@ -38,7 +38,7 @@ TEST_P(BadInputTest, EndsInTimeWithCodeAndMessage) {
     EXPECT_EQ(result.exitCode, input.exitCode) << input.what << ": " << result.toString();
     EXPECT_TRUE(std::regex_search(result.err, std::regex(input.message)))
         << input.what << "\nexpected: " << input.message << "\nfound: " << result.toString();
-    // Nothing that looks like a result may stay behind a failure.
+    // A failure must leave no output files.
     if (result.exitCode != 0) {
         EXPECT_FALSE(std::filesystem::exists(folder / "o.svt")) << input.what;
     }
@@ -283,7 +283,7 @@ INSTANTIATE_TEST_SUITE_P(Geometry, BadInputTest, ::testing::ValuesIn(kGeometry),
 const std::string kTwoIds =
     cityModel(building("b", solid(box())) + building("b", solid(boxFaces(500005, 5400000, 100, 500009, 5400006, 103))));
 
-// A composite surface that holds itself, over one more composite surface.
+// A composite surface that contains itself through another composite surface.
 std::string cycle() {
     return oneBox(
         R"(<bldg:lod1MultiSurface><gml:MultiSurface gml:id="x"><gml:surfaceMember><gml:CompositeSurface gml:id="y">
@@ -301,7 +301,7 @@ std::string groupOfGroups() {
     return cityModel(building("b", solid(box())) + group('g', 'h') + group('h', 'g'));
 }
 
-// Each surface holds the next one twice: 2^40 polygons in 40 lines.
+// Each surface contains the next one twice: 2^40 polygons in 40 lines.
 std::string doubling() {
     std::string all = "<bldg:lod1MultiSurface><gml:MultiSurface>";
     for (int i = 0; i < 40; ++i)

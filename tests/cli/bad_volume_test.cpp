@@ -15,7 +15,7 @@ protected:
         runSvtWell(folder.path(), {"build", "two.gml", "-o", "good.svt", "--spacing", "0.25"});
         bytes = readText(folder / "good.svt");
     }
-    // What `svt info` says to a damaged volume.
+    // Output of `svt info` for a damaged volume.
     CommandResult infoOf(const std::string& damaged) {
         writeText(folder / "bad.svt", damaged);
         return runSvt(folder.path(), {"info", "bad.svt", "--json"});
@@ -48,7 +48,7 @@ TEST_F(GoodVolume, AChangedByteIsNoticedOrDoesNoHarm) {
             EXPECT_TRUE(std::regex_search(result.err, std::regex("E40[123]"))) << result.toString();
         }
     }
-    // Only padding may change in silence.
+    // Only damage to padding may go undetected.
     EXPECT_GT(refused * 2, tried);
 }
 
@@ -98,7 +98,7 @@ class OutputTest : public ::testing::TestWithParam<Output> {
 protected:
     OutputTest() {
         writeText(folder / "two.gml", twoBoxes());
-        // Grains that no compression makes small.
+        // Grains that do not compress well.
         writeText(folder / "grains.json",
                   R"({"rules": [{"select": "all", "pattern": {"type": "concrete", "size": 0.08}}]})");
         std::filesystem::create_directory(folder / "sub");
@@ -155,7 +155,7 @@ TEST_P(OutputTest, FullDeviceIsTold) {
     expect(runWith("o"), "E405 DiskFull");
 }
 
-// OUT in the last argument stands for the path without its extension.
+// OUT in the last argument is replaced by the path without its extension.
 const std::vector<Output> kOutputs{
     {"Build", {"build", "two.gml", "--dimension", "300,200,100", "--style", "grains.json", "--output", "OUT.svt"}},
     {"Sample", {"sample", "house", "--output", "OUT.gml"}},

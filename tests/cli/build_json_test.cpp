@@ -1,4 +1,4 @@
-// What programs read: the JSON of build, info, check and query, and the NRRD header.
+// Machine-readable output: the JSON of build, info, check and query, and the NRRD header.
 #include "run_command.hpp"
 #include "small_model.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 using Keys = std::vector<std::string>;
 using nlohmann::json;
 
-// nlohmann::json sorts keys, so lists of keys stand in alphabetical order here.
+// nlohmann::json sorts keys, so lists of keys are in alphabetical order here.
 const json& byId(const json& objects, const std::string& id) {
     for (const json& object : objects)
         if (object.at("id") == id) return object;
@@ -89,7 +89,7 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
     EXPECT_EQ(left["filling"], "solid");
     EXPECT_NEAR(left["volume"].get<double>(), 72, 1e-6);
     EXPECT_EQ(left["voxelVolume"].get<double>(), left["voxels"].get<double>() * 0.125);
-    // Half a metre is coarse: 16 x 12 x 6 voxels fill the 144 m3, and a layer more where samples lie on faces.
+    // Half a metre is coarse: 16 x 12 x 6 voxels fill the 144 m3, plus a layer where samples lie on faces.
     const double both = left["voxelVolume"].get<double>() + byId(info["objects"], "right")["voxelVolume"].get<double>();
     EXPECT_NEAR(both, 144, 0.35 * 144);
 }
@@ -154,7 +154,7 @@ TEST(CheckJson, NamesTheDefectItsPlaceAndTheLeak) {
     EXPECT_EQ(finding["file"], "open.gml");
     EXPECT_EQ(finding["id"], "b");
     EXPECT_GT(finding["line"].get<int>(), 1);
-    // The leaks are world coordinates.
+    // Leak positions are world coordinates.
     EXPECT_NEAR(check["objects"][0]["leaks"][0][1].get<double>(), 5400003, 3.01);
 }
 
@@ -232,7 +232,7 @@ TEST_F(TwoBoxes, NrrdHeaderIsInWorldMetres) {
         << header["space origin"];
     const json info = runSvtForJson(folder.path(), {"info", "two.svt", "--json"});
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(o[axis], info["grid"]["origin"][axis].get<double>());
-    // One byte per sample behind the header, x fastest; the labels are those of info.
+    // One byte per sample after the header, x fastest; labels as in info.
     const std::string samples = bytes.substr(bytes.find("\n\n") + 2);
     std::map<int, std::uint64_t> counts;
     for (const char c : samples) ++counts[static_cast<unsigned char>(c)];

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A built volume sample by sample, as another program gets it: `svt convert` to raw NRRD, labels from `svt info
+/// A built volume sample by sample, as seen by other programs: `svt convert` to raw NRRD, labels from `svt info
 /// --json`.
 
 #include "run_command.hpp"
@@ -18,7 +18,7 @@ struct DenseVolume {
     std::map<std::string, nlohmann::json> objects;  ///< by id
     std::vector<std::uint32_t> scalars;             ///< per sample, x fastest, then y, then z
 
-    /// A name per sample: `nameOf` of the object's JSON, empty for background.
+    /// One name per sample: `nameOf` of the object's JSON, empty for background.
     [[nodiscard]] std::vector<std::string> names(const std::function<std::string(const nlohmann::json&)>& nameOf) const;
 };
 

@@ -1,6 +1,6 @@
-// Every command that the documents show works as it stands there. Blocks of ```sh in README.md and docs/user/*.md are
+// Every command shown in the documents works as written. Blocks of ```sh in README.md and docs/user/*.md are
 // run line by line in one folder per document; lines that do not start with the command (or with build/release/bin/svt)
-// are left out. A command that serves runs until it has said its address, and must then end well when it is told to.
+// are skipped. A server command runs until it has printed its address, and must then end successfully when stopped.
 #include "run_command.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::vector<ShownCommand> commandsOf(const fs::path& document) {
     return commands;
 }
 
-// The command as it would be installed: with a page for the browser, here a stand-in, and a browser, here none.
+// The command as installed: with a stand-in for the viewer page, and without a browser.
 class Installed {
 public:
     Installed() {
@@ -60,16 +60,16 @@ private:
     TemporaryFolder folder_;
 };
 
-// A script that starts what serves, waits for its address, and stops it.
+// A script that starts a server, waits for its address, and stops it.
 std::string untilItServes(const std::string& text) {
-    // The file may still hold the address of the server before.
+    // The file may still hold the address of the previous server.
     return "rm -f address\n( exec " + text + "\n) > address 2> messages &\nserver=$!\n" +
            "until grep -qs ^http address; do kill -0 $server || break; sleep 0.02; done\n" +
            "kill -TERM $server\nwait $server\ncode=$?\ncat address messages\nexit $code\n";
 }
 
-// Runs a line in a shell that knows `svt`, as a reader would. A comment `# exit N` behind it names another exit code
-// than 0.
+// Runs a line in a shell that has `svt` in its path, as a reader would. A trailing comment `# exit N` states an exit
+// code other than 0.
 void expectWorks(const fs::path& folder, const ShownCommand& command, const fs::path& document) {
     int expected = 0;
     const std::size_t at = command.text.rfind("# exit ");
@@ -107,7 +107,7 @@ TEST(Documents, CommandsOfTheUserDocsWork) {
     std::size_t count = 0;
     for (const fs::path& page : pages) {
         const TemporaryFolder folder;
-        // Files that a page shows as ```json NAME or ```csv NAME are there before its commands run.
+        // Files shown on a page as ```json NAME or ```csv NAME are written before its commands run.
         std::ifstream in(page);
         std::string name, content;
         for (std::string line; std::getline(in, line);) {

@@ -1,4 +1,4 @@
-// One model in several formats is one volume, and the same input gives the same bytes.
+// One model in several formats gives one volume, and the same input gives the same bytes.
 #include "dense_volume.hpp"
 #include "run_command.hpp"
 
@@ -26,7 +26,7 @@ void writeHouse(const TemporaryFolder& folder, const std::string& file, const st
 
 bool isSheet(const json& object) { return object.at("filling") == "surface"; }
 
-// Boundary surfaces and openings have no names that all formats share; the room that they bound has.
+// Boundary surfaces and openings have no names common to all formats; the room that they bound has.
 const json& boundedBody(const DenseVolume& volume, const json& object) {
     const json* body = &object;
     while (isSheet(*body) && volume.objects.count(body->at("parent")) != 0)
@@ -55,9 +55,9 @@ class SameHouse : public ::testing::Test {
 protected:
     DenseVolume readHouse(const std::string& file, const std::vector<std::string>& sampleOptions = {}) {
         writeHouse(folder, file, sampleOptions);
-        // Parts thinner than a voxel compete by id, and formats do not share the ids of surfaces. No coordinate of the
+        // Parts thinner than a voxel compete by id, and ids of surfaces differ between formats. No coordinate of the
         // house is a multiple of the spacing: a sample exactly on a face may fall to either side of furniture that the
-        // formats place in different ways.
+        // formats place differently.
         return readDense(folder, build(folder, file, "0.0973", {"--no-thin"}));
     }
     TemporaryFolder folder;
@@ -68,7 +68,7 @@ void expectSameVolumes(const DenseVolume& a, const DenseVolume& b) {
     ASSERT_EQ(solidsA.size(), solidsB.size());
     for (const auto& [id, object] : solidsA) {
         ASSERT_EQ(solidsB.count(id), 1u) << id;
-        // Coordinates are whole millimetres in all formats, so volumes agree to rounding.
+        // Coordinates are whole millimetres in all formats, so volumes agree up to rounding.
         EXPECT_NEAR(object["volume"].get<double>(), solidsB.at(id)["volume"].get<double>(), 1e-6) << id;
     }
     EXPECT_EQ(a.info["grid"], b.info["grid"]);
@@ -90,8 +90,8 @@ TEST_F(SameHouse, CityJsonSeqHasTheSameScalarsAsCityJson) {
 TEST_F(SameHouse, CityGml2HasTheSameVolumesAndNearlyTheSameSamples) {
     const DenseVolume three = readHouse("house3.gml"), two = readHouse("house2.gml", {"--format", "citygml2"});
     expectSameVolumes(three, two);
-    // CityGML 2.0 calls slabs and roofs installations, which win against the surfaces of rooms that lie on them, so a
-    // few samples on such faces go to the other side.
+    // CityGML 2.0 represents slabs and roofs as installations, which take precedence over the surfaces of rooms on
+    // them, so a few samples on such faces go to the other side.
     const auto namesThree = bodyNames(three), namesTwo = bodyNames(two);
     ASSERT_EQ(namesThree.size(), namesTwo.size());
     std::size_t filled = 0, differing = 0;
@@ -172,16 +172,16 @@ TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
     const json world = runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--json"});
     const json& axes = turned["grid"]["frame"];
     const double angle = std::atan2(axes[0][1].get<double>(), axes[0][0].get<double>()) * 180 / std::acos(-1.0);
-    // Vertices are whole millimetres, so an edge of 10 m is turned right to 0.01 degrees.
+    // Vertices are whole millimetres, so an edge of 10 m has its direction within 0.01 degrees.
     EXPECT_NEAR(std::fmod(angle + 360, 90), 30, 0.02);
     EXPECT_EQ(axes[2], json::parse("[0, 0, 1]"));
     for (std::size_t axis = 0; axis < 3; ++axis) {
         EXPECT_NEAR(turned["grid"]["dimension"][axis].get<int>(), straight["grid"]["dimension"][axis].get<int>(), 1)
             << axis;
     }
-    // Along the axes of the CRS the turned house needs a wider grid.
+    // Along the axes of the CRS the rotated house needs a wider grid.
     EXPECT_GT(world["grid"]["dimension"][0].get<int>(), straight["grid"]["dimension"][0].get<int>() + 20);
-    // What is thick enough has the voxels of its volume.
+    // Sufficiently thick objects have as many voxels as their volume.
     const auto objects = objectsById(turned);
     std::size_t compared = 0;
     for (const auto& [id, object] : objects) {

@@ -1,4 +1,4 @@
-// Pictures that the command draws by OpenGL, against those that it draws without.
+// Compares pictures drawn with OpenGL with those drawn without it.
 #include "run_command.hpp"
 
 #include <svt/image/image.hpp>
@@ -36,7 +36,7 @@ void expectSame(const std::vector<std::string>& options) {
     runSvtWell(folder.path(), with({"-o", "cpu.png", "--labels", "cpuIds.png"}));
     const auto gl = image::readPng(folder / "gl.png"), cpu = image::readPng(folder / "cpu.png");
     ASSERT_TRUE(gl && cpu);
-    // Not 0: the CPU takes the samples of a pixel only where it differs from its neighbours.
+    // Not 0: the CPU supersamples a pixel only if it differs from its neighbours.
     EXPECT_LT(image::compareImages(*gl, *cpu).error, 0.02);
     const auto glIds = image::readGrayPng(folder / "glIds.png"), cpuIds = image::readGrayPng(folder / "cpuIds.png");
     ASSERT_TRUE(glIds && cpuIds);
@@ -57,7 +57,7 @@ TEST(RenderByGl, DrawsLensesAndLines) {
 TEST(RenderByGl, WithoutADriverExitsWith6) {
     const TemporaryFolder folder;
     runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    // The loader of drivers then knows none.
+    // The driver loader then finds no driver.
     ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
     const auto result =
         runSvt(folder.path(), {"render", "house.gml", "-o", "house.png", "--spacing", "0.3", "--gl"}, limits());

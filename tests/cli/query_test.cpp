@@ -39,7 +39,7 @@ TEST_F(TwoBoxReports, NeighboursShareAFaceAndMeetTheOutside) {
     // 6 x 3 m; the outside has the other five sides.
     EXPECT_NEAR(rows[1]["area"].get<double>(), 18, 1e-6);
     EXPECT_NEAR(rows[0]["area"].get<double>(), 2 * 24 + 2 * 12 + 18, 1);
-    // The other one says the same of the wall between them.
+    // The neighbour reports the same for the wall between them.
     EXPECT_EQ(report({"id=right", "--neighbours"})[1]["area"], rows[1]["area"]);
 }
 
@@ -72,7 +72,7 @@ TEST_F(TwoBoxReports, ARayMeetsOneAfterTheOther) {
 }
 
 TEST_F(TwoBoxReports, ParcelsDivideThem) {
-    // A border at y = 2; the parcels reach far beyond the houses, and leave x > 6 to nobody.
+    // A border at y = 2; the parcels extend far beyond the houses; x > 6 belongs to no parcel.
     writeText(folder / "parcels.gml",
               cityModel(building("south", solid(boxFaces(499990, 5399990, 90, 500006, 5400002, 120))) +
                         building("north", solid(boxFaces(499990, 5400002, 90, 500006, 5400030, 120)))));
@@ -89,7 +89,7 @@ TEST_F(TwoBoxReports, ParcelsDivideThem) {
     EXPECT_NEAR(byPair["right -"]["part"].get<double>(), 0.5, 0.02);
     EXPECT_NEAR(byPair["right south"]["part"].get<double>(), 1.0 / 6, 0.02);
     EXPECT_NEAR(byPair["left south"]["volume"].get<double>(), 24, 0.06 * 24);
-    // The same from a volume built on the same grid; another grid is refused, and the remedy is named.
+    // The same from a volume built on the same grid; another grid is rejected with a message that states the remedy.
     (void)runSvtWell(folder.path(), {"build", "parcels.gml", "-o", "p.svt", "--grid-of", "two.svt"});
     EXPECT_EQ(report({"all", "--parcels", "p.svt"}), rows);
     (void)runSvtWell(folder.path(), {"build", "parcels.gml", "-o", "other.svt", "--spacing", "1"});
@@ -146,7 +146,7 @@ TEST_F(TwoBoxReports, BadOwnersTablesSayWhere) {
 
 TEST(QueryReports, AHollowIsAGapAndOverlapsAreTold) {
     const TemporaryFolder folder;
-    // Five slabs around a hollow of 2 x 2 x 2 m, the lid reaching into the two side walls.
+    // Five slabs around a cavity of 2 x 2 x 2 m; the lid extends into the two side walls.
     const auto box = [](const char* id, double x0, double y0, double z0, double x1, double y1, double z1) {
         return building(id, solid(boxFaces(500000 + x0, 5400000 + y0, 100 + z0, 500000 + x1, 5400000 + y1, 100 + z1)));
     };
@@ -192,7 +192,8 @@ TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {
         EXPECT_NEAR(share["area"].get<double>(), 7 * 2.84, 0.04 * 7 * 2.84);
         EXPECT_NEAR(share["volume"].get<double>(), 0.12 * 7 * 2.84, 0.02 * 0.24 * 7 * 2.84);
     }
-    // A flat's own is its rooms and inner walls: what the model says of the unit, and doors and furniture beside it.
+    // The own volume of a flat is its rooms and inner walls: the volume of the unit in the model, plus doors and
+    // furniture.
     EXPECT_NEAR(report["owners"][0]["own"].get<double>(), 197.27, 0.02 * 197.27);
     const std::string csv = runSvtWell(folder.path(), asCsv);
     EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,class,name,owner,area,volume");
@@ -226,7 +227,7 @@ TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
         own += owner["own"].get<double>();
         all += owner["total"].get<double>();
     }
-    // Stairs, rafters and purlins stand in rooms.
+    // Stairs, rafters and purlins are inside rooms.
     EXPECT_NEAR(own, 470.83, 0.004 * 470.83);
     for (const json& component : report["components"])
         for (const json& share : component["shares"]) shares += share["volume"].get<double>();
@@ -235,7 +236,7 @@ TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
         runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--with", "surface", "--json"});
     // 12 x 10 x 0.2 m.
     EXPECT_NEAR(known[0]["surface"]["area"].get<double>(), 248.8, 0.002 * 248.8);
-    // The rooms of the ground floor stand on it: their floors.
+    // The rooms of the ground floor touch it with their floors.
     const json neighbors =
         runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--neighbours", "--json"});
     double floors = 0, contacts = 0;

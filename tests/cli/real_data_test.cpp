@@ -1,4 +1,4 @@
-// Real models, which are not part of the repository: figures that are known from their authors.
+// Real models that are not part of the repository, with figures published by their authors.
 #include "dense_volume.hpp"
 #include "run_command.hpp"
 
@@ -18,7 +18,7 @@ json infoOf(const TemporaryFolder& folder, const std::filesystem::path& model, c
 struct Known {
     const char* ifcType;
     double volume;     ///< m3
-    double tolerance;  ///< share; the GML is rounded to millimetres, which counts for rafters
+    double tolerance;  ///< fraction; the GML is rounded to millimetres, which matters for rafters
 };
 constexpr Known kHouse[] = {{"IfcWallStandardCase", 54.50, 0.001},
                             {"IfcSlab", 76.99, 0.001},
@@ -67,7 +67,7 @@ TEST(FzkHaus, BothFormatsGiveTheSameVoxels) {
     for (const auto& [id, object] : a) {
         ASSERT_EQ(b.count(id), 1u) << id;
         const double voxels = object["voxels"], others = b.at(id)["voxels"];
-        // Millimetres against tenths of millimetres: a thin part may win or lose a row of samples.
+        // Millimetres against tenths of millimetres: a thin part may gain or lose a row of samples.
         const double allowed = voxels > 10000 ? 0.005 * voxels : 0.05 * voxels + 2;
         EXPECT_NEAR(voxels, others, allowed) << id << ' ' << object["name"];
     }

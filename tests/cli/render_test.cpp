@@ -1,7 +1,7 @@
-// Pictures that the command draws, against pictures that somebody looked at. The distance is that of
-// svt/image/image.hpp: below 0.005 nobody sees a difference, below 0.05 only side by side.
+// Compares pictures of the command with visually approved pictures. The distance is defined in
+// svt/image/image.hpp: below 0.005 a difference is invisible, below 0.05 it is visible only side by side.
 //
-// SVT_UPDATE_GOLDEN=1 writes the pictures anew; look at each before it is committed.
+// SVT_UPDATE_GOLDEN=1 rewrites the pictures; look at each before committing it.
 #include "run_command.hpp"
 
 #include <svt/core/test_data_test.hpp>
@@ -38,7 +38,7 @@ image::Image<image::Rgba8> differenceOf(const image::Image<image::Rgba8>& a, con
     return result;
 }
 
-// Draws `picture` of house.svt in `folder` and holds it against its reference.
+// Draws `picture` of house.svt in `folder` and compares it with its reference.
 void expectAsReference(const std::filesystem::path& folder, const Picture& picture) {
     std::vector<std::string> arguments{"render", "house.svt", "-o", "actual.png", "--size", picture.size};
     arguments.insert(arguments.end(), picture.options.begin(), picture.options.end());
@@ -268,7 +268,7 @@ TEST_F(SmallHouse, LabelsAreThoseOfInfo) {
 }
 
 TEST_F(SmallHouse, DepthIsInMillimetres) {
-    // From the south in parallel projection: what is hit lies within the house, 12.6 m deep, before the eye.
+    // From the south in parallel projection: hits lie within the house, 12.6 m deep, in front of the eye.
     (void)draw({"--depth", "depth.png", "--camera", "front"});
     const auto depth = image::readGrayPng(folder / "depth.png");
     ASSERT_TRUE(depth);

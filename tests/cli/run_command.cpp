@@ -31,7 +31,7 @@ constexpr bool hasSanitizer = false;
 #endif
 constexpr double kSlowdown = hasSanitizer ? 20 : 1;
 
-// A file system of 4 KiB that nobody else sees and that goes with the process.
+// Mounts a file system of 4 KiB that is visible only to this process and disappears with it.
 bool mountTinyDisk(const char* folder) {
     if (::unshare(CLONE_NEWNS) != 0 && ::unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
     if (::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return false;
@@ -80,7 +80,7 @@ nlohmann::json CommandResult::json() const {
 
 CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                      const Limits& limits) {
-    // The streams go to files beside the folder, so that a command that prints without end cannot block.
+    // The streams go to files outside the folder, so that endless output cannot block the command.
     const TemporaryFolder streams;
     const std::filesystem::path outFile = limits.stdoutFile.empty() ? streams / "out" : limits.stdoutFile;
     const int out = ::open(outFile.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);

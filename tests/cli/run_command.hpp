@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Runs the real `svt` as a user would, in a folder of its own, under limits of time and memory, so that a test of
-/// "no hang, no unbounded memory" is one.
+/// Runs the real `svt` as a user would, in a separate folder, with time and memory limits, so that tests detect
+/// hangs and unbounded memory.
 
 #include <svt/core/temporary_folder_test.hpp>
 
@@ -15,25 +15,25 @@
 namespace svt::test {
 
 struct Limits {
-    double seconds = 10;                                 ///< of wall clock; a slower run is killed
-    std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< of address space; not applied where a sanitizer needs more
+    double seconds = 10;                                 ///< wall-clock limit; a slower run is killed
+    std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< address space; no limit if a sanitizer needs more
     std::uint64_t fileBytes = 0;                         ///< largest file that may be written; 0: no limit
     /// Mounts a file system of 4 KiB over this folder, seen by the command alone; empty: none.
     std::filesystem::path tinyDisk;
-    std::filesystem::path stdoutFile;  ///< takes stdout; empty: the result does
+    std::filesystem::path stdoutFile;  ///< receives stdout; empty: stdout is stored in the result
 };
 
 struct CommandResult {
-    int exitCode = -1;  ///< -1 where a signal ended the command
+    int exitCode = -1;  ///< -1 if the command was ended by a signal
     int signal = 0;
     bool isTimeout = false;
-    bool cannotMount = false;  ///< the tiny disk could not be made; nothing was run
+    bool cannotMount = false;  ///< the tiny disk could not be mounted; nothing was run
     std::string out, err;
     double seconds = 0;
 
-    /// Everything a failed test wants to see.
+    /// All details, for the message of a failed test.
     [[nodiscard]] std::string toString() const;
-    /// stdout as JSON; a test failure and null where it is none.
+    /// stdout as JSON; a test failure and null if it is not JSON.
     [[nodiscard]] nlohmann::json json() const;
 };
 
@@ -41,10 +41,10 @@ struct CommandResult {
 [[nodiscard]] CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                                    const Limits& limits = {});
 
-/// Runs `svt`, expects exit code 0, and gives stdout.
+/// Runs `svt`, expects exit code 0, and returns stdout.
 std::string runSvtWell(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// Runs `svt`, expects exit code 0, and gives stdout as JSON.
+/// Runs `svt`, expects exit code 0, and returns stdout as JSON.
 nlohmann::json runSvtForJson(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
 /// `objects` of `svt info --json` (or any array of objects) by id.

@@ -1,4 +1,4 @@
-// `svt section`: drawings that other programs open, their areas, and clear errors.
+// `svt section`: drawings that other programs can open, their areas, and clear errors.
 #include "run_command.hpp"
 #include "small_model.hpp"
 
@@ -63,7 +63,7 @@ TEST(Section, TableHasTheAreasOfTheBoxes) {
     const auto upright = runSvtForJson(folder.path(), {"section", "boxes.svt", "--plane", "y<3", "--json"});
     for (const auto& component : upright["components"])
         EXPECT_LE(std::abs(component["area"].get<double>() - 12), component["areaBound"].get<double>());
-    // The middle where there is no storey.
+    // The middle of the grid if there is no storey.
     const auto middle = runSvtForJson(folder.path(), {"section", "boxes.svt", "--json"});
     EXPECT_NEAR(middle["plane"]["origin"][2].get<double>() - plan["plane"]["origin"][2].get<double>(), 0.5, 1e-6);
     runSvtWell(folder.path(), {"section", "boxes.svt", "--table", "t.csv", "--table", "t.json"});
@@ -204,7 +204,7 @@ TEST(Section, DxfIsReadByOgr) {
             EXPECT_EQ(feature["properties"]["Layer"], "TEXT");
             const std::string text = feature["properties"]["Text"];
             hasKitchen = hasKitchen || text == "Kitchen";
-            hasArea = hasArea || text.ends_with(" m\u00B2");  // the code page is understood
+            hasArea = hasArea || text.ends_with(" m\u00B2");  // the code page is interpreted correctly
         }
     }
     EXPECT_EQ(lines, rings);

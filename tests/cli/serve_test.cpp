@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool hasSanitizer = true;  // which needs more address space than a conversion may have
+constexpr bool hasSanitizer = true;  // which needs more address space than a conversion may use
 #else
 constexpr bool hasSanitizer = false;
 #endif
@@ -25,7 +25,7 @@ void makePage(const fs::path& folder) {
     writeText(folder / "page/assets/index-BX3k9a1_.js", "1");
 }
 
-// `svt <arguments>` that runs until it is told to stop.
+// A running `svt <arguments>` that is stopped later.
 class Serving {
 public:
     Serving(const fs::path& folder, std::vector<std::string> arguments, const std::string& path = {})
@@ -59,7 +59,7 @@ public:
     Serving(const Serving&) = delete;
     Serving& operator=(const Serving&) = delete;
 
-    /// \return the exit code; -1 where it had to be killed
+    /// \return the exit code; -1 if it had to be killed
     int stop(int signal) {
         ::kill(child_, signal);
         int status = 0;

@@ -1,4 +1,4 @@
-// `svt shell`: volumes and meshes of hulls, and what is refused.
+// `svt shell`: volumes and meshes of hulls, and rejected requests.
 #include "dense_volume.hpp"
 #include "run_command.hpp"
 
@@ -22,7 +22,7 @@ protected:
         arguments.insert(arguments.end(), options.begin(), options.end());
         return runSvtForJson(folder.path(), arguments);
     }
-    // JSON chunk of a .glb.
+    // The JSON chunk of a .glb.
     json scene(const std::string& file) {
         const std::string bytes = readText(folder / file);
         EXPECT_EQ(bytes.substr(0, 4), "glTF");
@@ -61,7 +61,7 @@ TEST_F(Shell, EveryStepLeavesLess) {
         EXPECT_EQ(voxels(std::string(level) + ".svt", "voxels>0"), left);
         before = left;
     }
-    // Nothing of the inside is left, and labels and queries stay.
+    // The interior is removed; labels and queries are kept.
     EXPECT_EQ(voxels("building.svt", "name~'wall of bath'"), 0u);
     EXPECT_GT(voxels("building.svt", "name~'Exterior wall'"), 0u);
     EXPECT_EQ(voxels("building.svt", "name~'Party wall'"), 0u);
@@ -69,7 +69,7 @@ TEST_F(Shell, EveryStepLeavesLess) {
 }
 
 TEST_F(Shell, OutsideIsAsBefore) {
-    // The first voxel of each column from below is that of the volume.
+    // The first voxel of each column from below is the same as in the volume.
     shell("building.svt", {});
     const DenseVolume whole = readDense(folder, "tower.svt"), hull = readDense(folder, "building.svt");
     ASSERT_EQ(hull.scalars.size(), whole.scalars.size());
@@ -172,7 +172,7 @@ TEST(RealShell, HouseWithoutInside) {
         return sum;
     };
     EXPECT_EQ(voxels("name=Unterzug-1 or name~'Wand-Int'"), 0u);
-    // Of 1.9 million, behind panes that are thinner than the hull.
+    // Of 1.9 million: those behind panes thinner than the hull.
     EXPECT_LT(voxels("class=BuildingRoom"), 4000u);
     for (const char* name : {"Dach-1", "Dach-2", "Bodenplatte", "Haustuer", "Wand-Ext-ERDG-1"})
         EXPECT_GT(voxels(std::string("name=") + name), 0u) << name;

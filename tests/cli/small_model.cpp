@@ -6,7 +6,7 @@ namespace svt::test {
 
 std::vector<Face> boxFaces(double x0, double y0, double z0, double x1, double y1, double z1) {
     const double xs[] = {x0, x1}, ys[] = {y0, y1}, zs[] = {z0, z1};
-    // Bits 0, 1, 2 of a corner choose x, y, z.
+    // Bits 0, 1, 2 of a corner select x, y, z.
     constexpr int kCorners[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
     std::vector<Face> faces;
     for (const auto& corners : kCorners) {

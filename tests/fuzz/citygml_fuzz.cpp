@@ -1,5 +1,5 @@
 /// \file
-/// libFuzzer target: any bytes into the CityGML reader give a model or an error.
+/// libFuzzer target: for any bytes the CityGML reader returns a model or an error.
 /// Build with clang and SVT_FUZZ=ON.
 
 #include <svt/readers/citygml/citygml_reader.hpp>
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto model =
         svt::readers::readCityGml(std::as_bytes(std::span(data, size)), "fuzz.gml", options, &diagnostics);
     if (!model) return 0;
-    // What a reader gives must be sound: indices in range, parents before children.
+    // The model must be valid: indices in range, parents before children.
     for (std::size_t i = 0; i < model->features.size(); ++i) {
         const auto& feature = model->features[i];
         if (feature.id.empty() || (feature.parent != svt::model::kNoFeature && feature.parent >= i)) std::abort();

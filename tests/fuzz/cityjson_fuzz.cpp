@@ -1,4 +1,4 @@
-// Any bytes give a model whose indices are in range, or an error.
+// For any bytes the reader returns a model whose indices are in range, or an error.
 #include <svt/readers/cityjson/cityjson_reader.hpp>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Any streams of a block give tiles that can be used, or an error.
+// For any streams of a block the decoder returns valid tiles, or an error.
 // Input: four bytes for width, height, height in samples and scalars, then the eight streams, each with two bytes of
 // length.
 #include <svt/volume/columns/column_codec.hpp>
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t t = 0; t < tiles->size(); ++t)
         checkTile((*tiles)[t], std::size_t(shape.tileWidth(std::int32_t(t) % shape.tilesX())),
                   std::size_t(shape.tileHeight(std::int32_t(t) / shape.tilesX())), std::uint32_t(shape.nz), scalars);
-    // What was read can be written and read again.
+    // Tiles that were read can be written and read again.
     std::vector<ColumnTile> views;
     for (const ColumnTileData& tile : *tiles) views.push_back(tile.view());
     const BlockStreams written = encodeBlock(views, shape);

@@ -1,4 +1,4 @@
-// Any bytes are a request that the table can answer, or refused.
+// Any bytes are either a request that the site can answer, or are rejected.
 #include <svt/serve/http_message.hpp>
 #include <svt/serve/site.hpp>
 

@@ -1,4 +1,4 @@
-// Any bytes give a volume, or an error.
+// For any bytes the reader returns a volume, or an error.
 #include <svt/volume/svt_file.hpp>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Added to svt.js: how a page makes a call. See module.cpp for the calls.
 
-/** Runs a call; its reply lies in the module's memory until the next one. Throws { code, message } where it fails. */
+/** Makes a call; the reply is in the module's memory until the next call. Throws { code, message } on failure. */
 Module["call"] = (name, args, bytes) => {
   const held = [];
   const hold = (size) => {
@@ -29,7 +29,7 @@ Module["call"] = (name, args, bytes) => {
   }
 };
 
-/** Makes a WebGL2 context on an OffscreenCanvas and makes it current; false where there is none. */
+/** Creates a WebGL2 context on an OffscreenCanvas and makes it current; false if WebGL2 is unavailable. */
 Module["startGl"] = (canvas) => {
   const attributes = { majorVersion: 2, alpha: true, antialias: false, depth: false, stencil: false,
                        premultipliedAlpha: false, powerPreference: "high-performance" };

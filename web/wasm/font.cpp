@@ -5,7 +5,7 @@
 #include <algorithm>
 
 extern "C" {
-// What svt/image/text.cpp reads; empty until setFont().
+// Read by svt/image/text.cpp; empty until setFont().
 unsigned char svt_font[SVT_FONT_BYTES];
 extern const std::size_t svt_font_size;
 const std::size_t svt_font_size = sizeof svt_font;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The font of names in pictures. Elsewhere it is built into the library; here, three quarters of a megabyte that most
-/// pages never need, the page brings it when names are drawn.
+/// The font for names in pictures. Other builds embed it in the library; here the page loads its 750 KB only when names
+/// are drawn, since most pages never need it.
 
 #include <svt/core/result.hpp>
 
@@ -10,7 +10,8 @@
 
 namespace svt::web {
 
-/// \param file  DejaVuSans.ttf as it was when the module was built \return BadArgument where it has another size
+/// \param file  DejaVuSans.ttf, the same as when the module was built
+/// \return BadArgument if its size differs
 [[nodiscard]] Result<void> setFont(std::span<const std::byte> file);
 [[nodiscard]] bool hasFont() noexcept;
 

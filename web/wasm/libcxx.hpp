@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What the library uses of the C++20 standard library and Emscripten 3.1.6 (libc++ 13) lacks. Included before every
-/// source of the web build; each part goes when Debian's Emscripten has it.
+/// Parts of the C++20 standard library that the code uses and Emscripten 3.1.6 (libc++ 13) lacks. Included before every
+/// source of the web build; each part can be removed once Debian's Emscripten provides it.
 
 #ifdef __cplusplus
 #include <version>
@@ -21,7 +21,7 @@
 
 namespace std {
 
-/// As libstdc++ has it, which is fast_float too; too large or too small a number leaves `value` alone.
+/// As in libstdc++, which also uses fast_float; a number out of range leaves `value` unchanged.
 inline from_chars_result from_chars(const char* first, const char* last, double& value) {
     double parsed = 0;
     const auto [end, error] = fast_float::from_chars(first, last, parsed);
@@ -101,7 +101,7 @@ auto minmax(Range&& range, Less less = {}, Projection projection = {}) {
     return min_max_result<iter_value_t<decltype(low)>>{*low, *high};
 }
 
-/// The first and the last-but-one of what is equal to a value, in order.
+/// The first and the last-but-one of the elements equal to a value, in order.
 template <class Iterator>
 struct subrange {
     Iterator first, last;

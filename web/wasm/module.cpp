@@ -1,5 +1,5 @@
-// What JavaScript calls: one function that takes a call's name, its arguments as a JSON array and bytes, and leaves a
-// reply, JSON or bytes, to be read before the next call. See calls() for the calls.
+// Interface for JavaScript: one function that takes the name of a call, its arguments as a JSON array, and bytes. It
+// stores a reply, JSON or bytes, that must be read before the next call. See calls() for the calls.
 #include "font.hpp"
 #include "replies.hpp"
 
@@ -19,7 +19,7 @@
 #include <new>
 #include <utility>
 
-// What the worker tells the page while a volume is opened.
+// Reports progress to the page while a volume is opened.
 EM_JS(void, svt_progress, (const char* stage, int size, double done), {
     if (Module["onProgress"]) Module["onProgress"](UTF8ToString(stage, size), done);
 });
@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// JSON text or bytes. Pixels stay where they are until the next picture.
+/// JSON text or bytes. Pixels are not copied; they are valid until the next picture.
 struct Reply {
     std::vector<std::byte> owned;
     std::span<const std::byte> bytes;
@@ -49,7 +49,7 @@ struct Reply {
 std::unique_ptr<Session> session;
 Reply lastReply;
 
-/// Arguments of a call: the page's own, so a wrong kind is a defect of it, not of a user's file.
+/// Arguments of a call. They come from the page itself, so a wrong type is a programming error, not a bad user file.
 class Arguments {
 public:
     Arguments(const Json& values, std::span<const std::byte> bytes) : values_(values), bytes_(bytes) {}
@@ -63,14 +63,14 @@ public:
         return at(n).is_string() ? at(n).get_ref<const std::string&>() : std::string();
     }
     [[nodiscard]] double number(std::size_t n) const { return at(n).is_number() ? at(n).get<double>() : 0; }
-    /// Pixels; what no picture can have stays out of range.
+    /// A size in pixels; values out of range stay out of range.
     [[nodiscard]] std::int32_t pixels(std::size_t n) const {
         return static_cast<std::int32_t>(std::clamp(number(n), 0.0, 1e6));
     }
     [[nodiscard]] Result<illustrate::Scene> scene(std::size_t n) const {
         return illustrate::parseScene(at(n).dump(), "scene");
     }
-    /// One that is to be drawn.
+    /// A scene to draw.
     [[nodiscard]] Result<illustrate::Scene> picture(std::size_t n) const {
         auto parsed = scene(n);
         if (parsed && !parsed->names.empty() && !hasFont())
@@ -119,7 +119,7 @@ Result<Reply> draw(const Arguments& arguments) {
     return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
 }
 
-// (scene, width, height, whether it is a trial that nobody sees) -> nothing; drawn into the context that is current
+// (scene, width, height, whether it is an invisible trial) -> nothing; drawn into the current context
 Result<Reply> drawGl(const Arguments& arguments) {
     auto scene = arguments.scene(0);
     if (!scene) return scene.error();

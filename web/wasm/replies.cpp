@@ -24,7 +24,7 @@ std::string hexOf(Vec3f color) {
     return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
 }
 
-// Id, class and name: how the page calls a feature.
+// Id, class and name: the page's reference to a feature.
 Json namesOf(const volume::Label& label) {
     return {{"id", label.id}, {"class", label.className}, {"name", label.name}};
 }
@@ -67,7 +67,7 @@ Json findingsJson(const Diagnostics& findings) {
     return list;
 }
 
-// Edge lengths of the box in world axes around the first and last samples.
+// Edge lengths, in world axes, of the box around the centers of the first and last samples.
 Vec3d worldSize(const volume::Grid& grid) {
     Vec3d size;
     for (int axis = 0; axis < 3; ++axis) {
@@ -78,7 +78,7 @@ Vec3d worldSize(const volume::Grid& grid) {
     return size;
 }
 
-// Around a feature's voxels; where it has none, around those of all below it.
+// Bounding box of a feature's voxels; if it has none, of those of its descendants.
 Box3d boxOf(Session& session, std::uint32_t index) {
     const volume::SemanticVolume& volume = session.volume();
     analyze::SampleBox box = session.measures()[index].box;

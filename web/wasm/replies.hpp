@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the page is told, as JSON: the types of web/viewer/src/engine.ts, member by member. Points are metres from the
+/// Replies to the page as JSON: the types of web/viewer/src/engine.ts, member by member. Points are metres from the
 /// grid's lower corner.
 
 #include "session.hpp"
@@ -13,7 +13,7 @@ namespace svt::web {
 
 /// VolumeInfo
 [[nodiscard]] std::string infoOf(const Session& session);
-/// FeatureProperties, or NothingSelected where no feature has that id.
+/// FeatureProperties, or NothingSelected if no feature has that id.
 [[nodiscard]] Result<std::string> propertiesOf(Session& session, const std::string& id);
 /// Pick or null
 [[nodiscard]] std::string pickOf(Session& session, double x, double y);

@@ -111,7 +111,7 @@ std::optional<Picked> Session::pick(double x, double y) {
     if (scalar == 0 || scalar >= labelOfScalar_.size() || labelOfScalar_[scalar] == volume::kNoLabel ||
         !std::isfinite(pixel.depth))
         return {};
-    // Label and depth are those of the pixel's centre.
+    // Label and depth are those at the centre of the pixel.
     const auto ray = render::viewRay(*lastSpec_, volume_.grid, (column + 0.5) / width, (row + 0.5) / height);
     return Picked{scalar, labelOfScalar_[scalar],
                   ray.origin + ray.direction * double(pixel.depth) - volume_.grid.origin()};

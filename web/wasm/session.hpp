@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The volume that a page has open: drawn, picked and asked. Holds what is dear to make between calls.
+/// The volume opened by a page, for drawing, picking and queries. Caches expensive results between calls.
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/label_measures.hpp>
@@ -19,7 +19,7 @@
 
 namespace svt::web {
 
-/// What lies under a place of a picture.
+/// The hit at a position in a picture.
 struct Picked {
     volume::Scalar scalar = 0;
     std::uint32_t label = 0;
@@ -28,42 +28,42 @@ struct Picked {
 
 class Session {
 public:
-    /// A volume from the bytes of a `.svt`, or of a model, whose feature edges are kept.
-    /// \param name  stands for the file in messages
-    /// \return the session, or what readSvt(), readModel() or buildVolume() returns
+    /// Opens a volume from the bytes of a `.svt`, or of a model, whose feature edges are kept.
+    /// \param name  file name for messages
+    /// \return the session, or an error of readSvt(), readModel() or buildVolume()
     [[nodiscard]] static Result<std::unique_ptr<Session>> open(std::span<const std::byte> bytes,
                                                                const std::string& name, const Progress* progress);
 
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
-    /// Of building it from a model.
+    /// Findings of building the volume from a model.
     [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
 
-    /// Draws `scene` as `svt render` does; pick() and along() are of this picture then.
-    /// \param isDraft  it is a first picture, see ScenePainter::paintDraft()
+    /// Draws `scene` as `svt render` does; pick() and along() then refer to this picture.
+    /// \param isDraft  true for a first picture, see ScenePainter::paintDraft()
     [[nodiscard]] Result<const render::Frame*> draw(const illustrate::Scene& scene, bool isDraft = false);
-    /// Whether pick() and along() are of a picture.
+    /// Whether pick() and along() refer to a picture.
     enum class Purpose : std::uint8_t { Shown, Trial };
-    /// The same by WebGL2, into the lower left of the framebuffer of the context that is current; always the same one.
-    /// \return nothing, or what draw() and GlRenderer return; BadArgument where the scene needs the CPU: names, shells
-    ///         beside the volume, levels of detail
+    /// The same with WebGL2, into the lower left of the framebuffer of the current context; always the same context.
+    /// \return nothing, or an error of draw() or GlRenderer; BadArgument if the scene needs the CPU: names, shells
+    ///         besides the volume, levels of detail
     [[nodiscard]] Result<void> drawGl(const illustrate::Scene& scene, Purpose purpose);
-    /// Forgets what the context holds, as where it was lost.
+    /// Discards the resources in the context, for example after it was lost.
     void dropGl();
     /// Width by height of the last picture; 16 : 9 before the first.
     [[nodiscard]] double aspect() const noexcept;
-    /// The same as a PNG; the picture on the screen stays the last one.
+    /// The same as a PNG; does not replace the last picture for pick() and along().
     [[nodiscard]] Result<std::vector<std::byte>> picture(const illustrate::Scene& scene);
 
-    /// The scalars of such a picture, as `svt render --labels` writes them.
+    /// The scalars of such a picture, as written by `svt render --labels`.
     [[nodiscard]] Result<std::vector<std::byte>> labels(const illustrate::Scene& scene);
 
-    /// \param x, y  share of the last picture's width and height
-    /// \return what is seen there, or nothing
+    /// \param x, y  fractions of the last picture's width and height
+    /// \return the hit there, or nothing
     [[nodiscard]] std::optional<Picked> pick(double x, double y);
-    /// All along the ray through a place of the last picture, nearest first.
+    /// All stretches along the ray through a position of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::RayStretch>> along(double x, double y);
 
-    /// Who touches whom; made when first asked for.
+    /// Contacts between features; computed on first use.
     [[nodiscard]] const std::vector<analyze::Contact>& contacts();
     [[nodiscard]] const std::vector<analyze::LabelMeasure>& measures();
 
@@ -75,7 +75,7 @@ private:
     Diagnostics findings_;
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
-    std::optional<render::Frame> lastFrame_;  // none where WebGL2 drew
+    std::optional<render::Frame> lastFrame_;  // none if drawn with WebGL2
     std::optional<render_gl::GlRenderer> gl_;
     std::vector<std::uint32_t> labelOfScalar_;
     std::optional<std::vector<analyze::Contact>> contacts_;

@@ -1,19 +1,19 @@
-/** The library as a module; what `make web` leaves in build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. */
+/** The library as a module; `make web` writes to build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. */
 export interface SvtModule {
   /**
-   * Runs a call of web/wasm/module.cpp with the arguments it names. The reply, JSON as UTF-8 or bytes, lies in the
-   * module's memory: copy it before the next call. Throws { code, message } where the call fails, and a RuntimeError
-   * where the module itself does, which cannot be used any more then.
+   * Makes a call of web/wasm/module.cpp with its arguments. The reply, JSON as UTF-8 or bytes, is in the module's
+   * memory: copy it before the next call. Throws { code, message } if the call fails, and a RuntimeError if the module
+   * itself fails; the module is then unusable.
    */
   call(name: string, args: readonly unknown[], bytes?: Uint8Array): Uint8Array;
-  /** Makes a WebGL2 context on the canvas and makes it current, for drawGl; false where there is none. */
+  /** Creates a WebGL2 context on the canvas and makes it current, for drawGl; false if WebGL2 is unavailable. */
   startGl(canvas: OffscreenCanvas): boolean;
 }
 
 export interface SvtModuleOptions {
-  /** Told while a volume is opened; `done` is 0..1. */
+  /** Called while a volume is opened; `done` is 0..1. */
   onProgress?: (step: string, done: number) => void;
-  /** svt.wasm, where it is at hand; else it is fetched from beside svt.js. */
+  /** svt.wasm, if already loaded; else it is fetched from the folder of svt.js. */
   wasmBinary?: ArrayBuffer;
 }
 

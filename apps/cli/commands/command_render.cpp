@@ -25,7 +25,7 @@ struct Arguments {
     bool verbose = false;
 };
 
-// Draws the finest level of one volume by OpenGL; made when first used.
+// Draws the finest level of one volume with OpenGL; created on first use.
 class GlDrawer {
 public:
     explicit GlDrawer(int threads) : threads_(threads) {}
@@ -51,12 +51,12 @@ public:
 
 private:
     int threads_;
-    std::optional<render_gl::EglContext> context_;  // goes after what it holds
+    std::optional<render_gl::EglContext> context_;  // destroyed after the objects that use it
     std::optional<render_gl::GlRenderer> renderer_;
     const volume::BrickVolume* drawn_ = nullptr;
 };
 
-// What each pass of a scene that names no level has by OpenGL.
+// Takes the finest level for every pass that names none, as OpenGL does.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
         if (!pass.form.level) pass.form.level = 0;
@@ -84,7 +84,7 @@ Result<void> writeBuffers(const render::Frame& frame, const Arguments& arguments
     return {};
 }
 
-// What a model must keep of itself for a scene.
+// Options to keep the vector data of the model that a scene needs.
 BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene) {
     for (const illustrate::ScenePass& pass : scene.passes) {
         build.vectors.edges = build.vectors.edges || !pass.lines.empty();
@@ -94,7 +94,7 @@ BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene)
 }
 
 int runRender(const Arguments& arguments) {
-    // Before anything long: does what is asked for make sense?
+    // Validate the request before any long work.
     const auto first = arguments.scene.toScene(0, arguments.frames);
     if (!first) return fail(first.error());
     if (!arguments.sceneOutput.empty()) {

@@ -76,7 +76,7 @@ serve::ConvertOptions convertOptions(const Arguments& arguments) {
     return options;
 }
 
-// What this server can do beside files; a published folder has no such resource.
+// What this server offers besides files; a published folder has no such resource.
 std::string abilities(const Arguments& arguments) {
     Json json;
     json["picture"] = true;
@@ -85,7 +85,7 @@ std::string abilities(const Arguments& arguments) {
     return json.dump() + "\n";
 }
 
-// \return whether a browser could be started
+// \return true if a browser could be started
 bool openBrowser(const std::string& address) {
     if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return false;
     std::string program = "xdg-open", argument = address;

@@ -65,7 +65,7 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
     return json;
 }
 
-// Voxels before and after, and what was written.
+// Writes the shell; returns the number of voxels before and after, and figures of the output.
 Result<Json> makeShell(const volume::SemanticVolume& volume, const Arguments& arguments, const Progress* progress) {
     illustrate::ShellOptions options;
     options.thickness = arguments.thickness;

@@ -17,7 +17,7 @@ namespace {
 using illustrate::Context;
 using illustrate::Scene;
 
-// "query:value", split at the last colon (or equals sign) behind which there is a value.
+// Splits "query:value" at the last colon (or equals sign) that is followed by a value.
 Result<std::pair<std::string, std::string>> splitValue(const std::string& text, std::string_view option,
                                                        std::string_view example) {
     std::size_t at = text.rfind(':');
@@ -55,7 +55,7 @@ Result<void> parseSize(const std::string& text, int dpi, Scene& scene) {
     return {};
 }
 
-// "z=0..6" at its share of the way; other texts as they are.
+// Interpolates "z=0..6" for the frame; other texts are unchanged.
 Result<std::string> movedSection(const std::string& text, int frame, int frames) {
     const std::size_t dots = text.find("..");
     if (dots == std::string::npos) return text;
@@ -130,7 +130,7 @@ std::string either(const std::string& a, const std::string& b) {
     return a.empty() || b.empty() ? a + b : fmt::format("{} or {}", a, b);
 }
 
-// A plane of a region, whatever blanks its storey has.
+// A plane of a region, quoted in case its storey name contains blanks.
 std::string quoted(const std::string& plane) {
     const bool needsQuotes =
         plane.find_first_of(" ()") != std::string::npos && plane.find_first_of("\"'") == std::string::npos;
@@ -151,7 +151,7 @@ Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Sce
     }
     if (!arguments.keep.empty()) pass.keep = arguments.keep;
     if (!arguments.cut.empty()) pass.cut = either(pass.cut, fmt::format("({})", arguments.cut));
-    // Within a lens, and nowhere else, sections cut.
+    // With a lens, sections cut only inside it.
     if (arguments.lens.empty()) pass.cut = either(pass.cut, section);
     if (!arguments.shell.empty()) pass.form.shell = illustrate::shellLevelFromName(arguments.shell);
     const Context context = arguments.context == "ghost"   ? Context::Ghost

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The options that say what a picture shows, as a scene.
+/// Command-line options that describe a picture, converted to a scene.
 
 #include <svt/illustrate/scene.hpp>
 
@@ -13,7 +13,7 @@
 
 namespace svt::cli {
 
-/// What is not given is left to the scene file, or else to the scene's defaults.
+/// Options not given are taken from the scene file, or else from the scene's defaults.
 struct SceneArguments {
     std::filesystem::path sceneFile;
     std::optional<std::string> camera, size, background, look;
@@ -28,9 +28,9 @@ struct SceneArguments {
     bool isParallel = false, isTransparent = false, hasHatches = false;
 
     void addTo(CLI::App& command);
-    /// What the picture says of its size in print; 0: nothing.
+    /// Resolution to store in the picture for printing; 0: none.
     [[nodiscard]] int printedDpi() const;
-    /// The scene of frame `frame` of `frames`: sections such as z=0..6 move from the one end to the other.
+    /// The scene of frame `frame` of `frames`: sections such as z=0..6 move from one end to the other.
     [[nodiscard]] Result<illustrate::Scene> toScene(int frame, int frames) const;
 };
 

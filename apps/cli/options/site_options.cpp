@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A model as the bytes of a .svt; the file that held them for a moment is gone.
+// A model as the bytes of a .svt; the temporary file is removed.
 Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
     const auto volume = loadVolume(input, build, progress.get(), diagnostics);
@@ -45,13 +45,13 @@ Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name,
     return serve::SiteModel{name, title, serve::Bytes::of(std::move(*file))};
 }
 
-// One model at a time in memory, as pictures need it.
+// Keeps one model at a time in memory, ready to draw.
 class Pictures {
 public:
     Pictures(std::vector<serve::SiteModel> models, int threads) : models_(std::move(models)), threads_(threads) {}
 
     serve::Reply paint(const serve::Request& request, const Progress& stop) {
-        // What lies deeper than any scene is dropped while it is read.
+        // Values nested deeper than in any scene are dropped while parsing.
         constexpr int kMaxDepth = 32;
         const auto isShallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kMaxDepth; };
         const Json json = Json::parse(request.body, isShallow, false);

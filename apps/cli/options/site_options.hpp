@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What serving and publishing share: the page, the models it opens, and pictures for browsers that cannot draw.
+/// Shared by serve and publish: the page, its models, and server-side pictures for browsers that cannot draw.
 
 #include <apps/cli/cli.hpp>
 
@@ -13,22 +13,23 @@
 
 namespace svt::cli {
 
-/// Options of everything that makes a site.
+/// Options of the commands that create a site.
 struct SiteArguments {
-    std::filesystem::path viewer;  ///< folder of the page; empty: beside the program
+    std::filesystem::path viewer;  ///< folder of the page; empty: next to the program
     BuildArguments build;
     bool verbose = false;
 
     void addTo(CLI::App& command);
-    /// The page's folder. \return CannotOpen where there is none
+    /// The folder of the page.
+    /// \return CannotOpen if it does not exist
     [[nodiscard]] Result<std::filesystem::path> viewerFolder() const;
-    /// The inputs as `.svt`, model files built first, with feature edges; findings go to stderr.
+    /// The inputs as `.svt`; model files are built first, with feature edges. Findings go to stderr.
     [[nodiscard]] Result<std::vector<serve::SiteModel>> load(const std::vector<std::filesystem::path>& inputs) const;
 };
 
-/// POST /api/picture: {"model": NAME, "scene": {...}} -> PNG. NAME may end in ".svt"; without one, the first model. One
-/// picture at a time; 422 where the scene cannot be drawn, or has over 16,777,216 rays (pixels times samples). \param
-/// threads  0: all cores
+/// POST /api/picture: {"model": NAME, "scene": {...}} -> PNG. NAME may end in ".svt"; without it, the first model. One
+/// picture at a time; 422 if the scene cannot be drawn or has over 16,777,216 rays (pixels times samples).
+/// \param threads  0: all cores
 [[nodiscard]] serve::Route pictureRoute(std::vector<serve::SiteModel> models, int threads);
 
 }  // namespace svt::cli

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// JSON that commands print. Stable; described in docs/user/json.md.
+/// JSON printed by commands. Stable; described in docs/user/json.md.
 
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json overlapsJson(const volume::LabelTable& table);
 [[nodiscard]] Json diagnosticsJson(const Diagnostics& diagnostics);
 
-/// Prints with two spaces of indent; text that is no UTF-8 is replaced, not refused.
+/// Prints with two spaces of indentation; invalid UTF-8 is replaced.
 void print(const Json& json);
 
 }  // namespace svt::cli

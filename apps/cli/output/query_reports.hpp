@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `svt query` tells of the features that a query selects, as tables.
+/// Reports of `svt query` on the selected features, as tables.
 
 #include <apps/cli/output/table.hpp>
 
@@ -17,7 +17,7 @@ namespace svt::cli {
 
 using Labels = std::vector<std::uint32_t>;  ///< ascending
 
-/// Columns that `--with` adds.
+/// Additional columns of `--with`.
 struct With {
     bool volume = false, surface = false, box = false;
 };
@@ -37,7 +37,7 @@ struct With {
 [[nodiscard]] Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& selected,
                                         const volume::SemanticVolume& parcels, int threads);
 
-/// Who owns what: totals, and components with a row for each of their owners.
+/// Ownership: totals, and components with one row per owner.
 struct OwnerReport {
     Table totals, components;
     Json json;

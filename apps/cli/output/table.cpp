@@ -31,7 +31,7 @@ std::string csvOf(const Json& cell) {
     return quoted + "\"";
 }
 
-// Letters, not bytes.
+// Counts letters, not bytes.
 std::size_t widthOf(const std::string& text) {
     return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One table for people, spreadsheets and programs.
+/// A table with text, CSV and JSON output.
 
 #include <apps/cli/output/json_output.hpp>
 
@@ -22,9 +22,9 @@ struct Table {
 
     /// An array of objects.
     [[nodiscard]] Json toJson() const;
-    /// Columns as wide as they need, numbers to the right.
+    /// Columns are as wide as needed, numbers right-aligned.
     void printText() const;
-    /// RFC 4180 with a line of keys, separated by commas; numbers in full.
+    /// RFC 4180 with a header line of keys, separated by commas; numbers in full precision.
     void printCsv() const;
 };
 

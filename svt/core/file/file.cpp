@@ -70,8 +70,8 @@ Error cannotWrite(const fs::path& path, int systemError) {
     }
 }
 
-/// A name that no other writer uses; O_EXCL guards what is left to chance. Short, so that a long target name
-/// never makes it too long.
+/// A name that no other writer uses; O_EXCL catches a remaining collision. Short, so that a long target name
+/// does not exceed the length limit of file names.
 std::string temporaryName() {
     static std::atomic<std::uint32_t> counter{0};
     const auto ticks = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
@@ -88,7 +88,7 @@ int openRetrying(const char* path, int flags, mode_t mode = 0) noexcept {
 }  // namespace
 
 Result<MappedFile> MappedFile::open(const fs::path& path) {
-    // Without O_NONBLOCK, opening a pipe that nobody writes to would wait for ever.
+    // Without O_NONBLOCK, opening a pipe without a writer would block forever.
     const int descriptor = openRetrying(path.c_str(), O_RDONLY | O_NONBLOCK);
     if (descriptor < 0) return cannotOpen(path, errno);
     struct stat status {};
@@ -136,7 +136,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     if (target.empty() || !target.has_filename())
         return cannotWrite(target, Code::CannotWrite, "the name of the output file is empty");
 
-    // A link is followed, so that it stays a link; a dangling one names the file to make.
+    // Follow a symbolic link so that it remains a link; a dangling link names the file to create.
     std::error_code ignored;
     file.target_ = target;
     for (int links = 0; fs::is_symlink(fs::symlink_status(file.target_, ignored)); ++links) {
@@ -247,7 +247,7 @@ Result<std::uint64_t> AtomicFile::commit() {
     if (descriptor_ < 0) return fail(failed_ != 0 ? failed_ : EBADF);
     if (auto flushed = flush(); !flushed) return flushed.error();
     const bool isDirect = temporary_.empty();
-    // Without the force to disk, a crash after the rename could leave an empty file in place of the old one.
+    // Without fsync, a crash after the rename could leave an empty file in place of the old one.
     if (!isDirect && ::fsync(descriptor_) != 0) return fail(errno);
     const int closed = ::close(std::exchange(descriptor_, -1));
     if (closed != 0 && errno != EINTR) return fail(errno);

@@ -1,4 +1,4 @@
-// In place of parallel.cpp where there are no threads: in a browser, whose hosts do not always allow them.
+// Replaces parallel.cpp in builds without threads, such as for browsers, where hosting may not allow them.
 #include <svt/core/parallel.hpp>
 
 namespace svt {

@@ -26,7 +26,7 @@ void parallelFor(std::size_t count, std::size_t grain, int threads,
     if (threads <= 0) {
         loop();
     } else {
-        // More threads than cores bring nothing, and TBB would print a warning.
+        // More threads than cores do not help, and TBB would print a warning.
         tbb::task_arena arena(std::min(threads, hardwareThreads()));
         arena.execute(loop);
     }

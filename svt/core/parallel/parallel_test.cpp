@@ -25,7 +25,7 @@ TEST(Parallel, EveryIndexIsVisitedOnce) {
 }
 
 TEST(Parallel, OneThreadIsTheCaller) {
-    int calls = 0;  // not atomic: the sanitizer for threads would tell
+    int calls = 0;  // not atomic, so ThreadSanitizer reports a second thread
     parallelFor(1000, 10, 1, [&](std::size_t, std::size_t) { ++calls; });
     EXPECT_GE(calls, 1);
 }

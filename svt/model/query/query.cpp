@@ -18,7 +18,7 @@ using Kind = Node::Kind;
 using Key = Node::Key;
 using Op = Node::Op;
 using Rows = std::span<const QueryRow>;
-using Mask = std::vector<char>;  ///< per row: 1 where it matches
+using Mask = std::vector<char>;  ///< per row: 1 if it matches
 
 constexpr std::size_t kMaxSearchedBytes = 4096;
 
@@ -26,7 +26,7 @@ char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c 
 
 template <class T>
 bool parses(std::string_view text, T& value) noexcept {
-    // from_chars also takes "inf" and "nan", which are names rather than numbers here.
+    // from_chars also accepts "inf" and "nan", which are names rather than numbers here.
     const bool looksNumeric = !text.empty() && (text[0] == '-' || text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
     return looksNumeric && parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
@@ -63,7 +63,7 @@ bool attributeHolds(const Node& node, const AttributeValue& attribute) {
     const std::string made = known == nullptr ? toText(attribute) : std::string();
     const std::string_view text = known == nullptr ? made : *known;
     if (node.pattern) return isFound(node, text);
-    // Integers first: doubles lose digits of long numbers.
+    // Integers first: doubles lose digits of large numbers.
     std::int64_t leftInteger = 0, rightInteger = 0;
     if (parses(text, leftInteger) && parses(node.value, rightInteger)) return holds(node.op, leftInteger, rightInteger);
     double left = 0, right = 0;
@@ -84,7 +84,7 @@ bool classHolds(const Node& node, const QueryRow& row) {
     return query::isSameWord(name, node.value) == (node.op == Op::Equal);
 }
 
-/// Rows below each row: by the tree, and as members of groups.
+/// Descendants of each row: by the tree and by group membership.
 struct Below {
     std::vector<std::uint32_t> begins, rows;  ///< below row i: rows[begins[i]] .. rows[begins[i + 1]]
 
@@ -102,7 +102,7 @@ struct Below {
             forEachAbove(i, [&](std::uint32_t above) { rows[next[above]++] = static_cast<std::uint32_t>(i); });
     }
 
-    /// All rows that can be reached downwards from the rows where `isStart`; these themselves only if reached.
+    /// All rows reachable downwards from the rows where `isStart`; start rows are included only if reached.
     [[nodiscard]] Mask reachedFrom(const Mask& isStart) const {
         Mask isReached(isStart.size(), 0);
         std::vector<std::uint32_t> stack;
@@ -137,7 +137,7 @@ Mask selectUnder(const Node& node, Rows rows) {
     return mask;
 }
 
-/// For != and !~ too: a row of two storeys matches where one of them is another one.
+/// Used for != and !~ too: a row in two storeys matches if one of them differs.
 Mask selectStorey(const Node& node, Rows rows) {
     const Mask starts = rowsWhere(rows, [&](const QueryRow& row) {
         if (!query::isStorey(row)) return false;
@@ -167,7 +167,7 @@ Mask selectCompare(const Node& node, Rows rows) {
     return Mask(rows.size(), 0);
 }
 
-/// The depth of nodes is limited by the parser.
+/// The parser limits the depth of nodes.
 Mask evaluate(const Node& node, Rows rows) {
     switch (node.kind) {
         case Kind::All: return Mask(rows.size(), 1);

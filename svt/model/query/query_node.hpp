@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: the parsed form of a query.
+/// The parsed form of a query.
 
 #include <svt/model/query.hpp>
 #include <svt/model/query/regex.hpp>
@@ -17,11 +17,11 @@ struct Query::Node {
     Kind kind = Kind::None;
     std::vector<Node> children;  ///< of And, Or, Not
 
-    // of Compare; Under has `value` alone
+    // Used by Compare; Under uses `value` only
     Key key = Key::Attribute;
     Op op = Op::Equal;
-    std::string name;   ///< of the key as written
-    std::string value;  ///< as written; of a class its canonical name
+    std::string name;   ///< name of the key as written
+    std::string value;  ///< as written; for a class its canonical name
     std::optional<Regex> pattern;
 };
 
@@ -32,7 +32,7 @@ using Node = Query::Node;
 /// Parses a query; errors as Query::parse().
 [[nodiscard]] Result<Node> parse(std::string_view text);
 
-/// Without regard to the case of ASCII letters.
+/// Compares ignoring the case of ASCII letters.
 [[nodiscard]] bool isSameWord(std::string_view a, std::string_view b) noexcept;
 [[nodiscard]] bool containsWord(std::string_view text, std::string_view word) noexcept;
 

@@ -80,7 +80,7 @@ private:
     }
 
     [[nodiscard]] std::string_view operatorAt(std::size_t position) const noexcept {
-        // The longer ones first.
+        // Longer operators first.
         for (const std::string_view op : {"==", "!=", "<=", ">=", "!~", "=", "<", ">", "~"})
             if (text_.substr(position, op.size()) == op) return op;
         return {};

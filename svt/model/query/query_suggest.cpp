@@ -16,11 +16,11 @@ using query::Node;
 using Rows = std::span<const QueryRow>;
 using Names = std::set<std::string_view>;
 
-// A misspelled name is short; a long one would make the comparison with all ids slow.
+// A misspelled name is short; comparing a long one with all ids would be slow.
 constexpr std::size_t kMaxNameBytes = 100;
 constexpr std::size_t kMaxListed = 8;
 
-/// The nearest of `names`, else the shortest that contains `wanted`, else empty. Of equals the first in the alphabet.
+/// The nearest of `names`, else the shortest that contains `wanted`, else empty. Ties: the first alphabetically.
 std::string_view nearest(std::string_view wanted, const Names& names) {
     if (wanted.empty() || wanted.size() > kMaxNameBytes) return {};
     std::size_t limit = std::max<std::size_t>(1, wanted.size() / 3);
@@ -37,7 +37,7 @@ std::string_view nearest(std::string_view wanted, const Names& names) {
     return best;
 }
 
-/// "no class 'BuildingRom'; did you mean 'BuildingRoom'?", or what there is where nothing is near and it is little.
+/// "no class 'BuildingRom'; did you mean 'BuildingRoom'?", or a list of the names if none is near and there are few.
 std::string describe(std::string_view what, std::string_view wanted, const Names& names, std::string_view plural) {
     std::string text = fmt::format("no {} '{}'", what, wanted);
     if (const std::string_view name = nearest(wanted, names); !name.empty())
@@ -58,7 +58,7 @@ std::string unknownClass(const Node& node, Rows rows) {
     return describe("class", node.value, names, "classes");
 }
 
-/// Ids and names of the rows that `isAsked` takes.
+/// Ids and names of the rows that satisfy `isAsked`.
 template <class Condition>
 std::string unknownIdOrName(std::string_view what, std::string_view plural, bool withIds, bool withNames,
                             const Node& node, Rows rows, const Condition& isAsked) {

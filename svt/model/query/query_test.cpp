@@ -9,7 +9,7 @@
 namespace svt::model {
 namespace {
 
-/// A house with two storeys: one in the tree, one as a group, and things beside.
+/// A house with two storeys, one in the tree and one as a group, and unrelated objects:
 ///
 ///     0 b1 Building "Haus"            7 g CityObjectGroup "OG", function lod4Storey
 ///     1   s1 Storey "EG"              8 og1 BuildingRoom "Bad", member of g

@@ -9,10 +9,10 @@
 namespace svt::model {
 namespace {
 
-constexpr char32_t kStrayByte = 0x110000;  ///< + byte: a byte that is no UTF-8, equal to nothing but itself
+constexpr char32_t kStrayByte = 0x110000;  ///< + byte: an invalid UTF-8 byte, equal only to itself
 constexpr std::int32_t kMaxRepeats = 1000;
 
-/// The character at `position`, which moves behind it.
+/// Decodes the character at `position` and advances `position`.
 char32_t nextCharacter(std::string_view text, std::size_t& position) noexcept {
     const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned lead = byteAt(position++);
@@ -41,7 +41,7 @@ std::optional<Ranges> classOf(char letter) {
     }
 }
 
-/// Sorted and without overlap.
+/// Sorted and without overlaps.
 Ranges normalized(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end());
     Ranges result;
@@ -67,8 +67,8 @@ Ranges complement(const Ranges& sorted) {
 
 }  // namespace
 
-/// Recursive descent; every construct gives a stretch of program with relative targets, so stretches are
-/// put together, and repeated, by copying.
+/// Recursive descent; every construct compiles to a code fragment with relative targets, so fragments are
+/// concatenated and repeated by copying.
 class RegexCompiler {
 public:
     explicit RegexCompiler(std::string_view pattern) : pattern_(pattern) {}
@@ -141,7 +141,7 @@ private:
         Program program = atom(depth);
         bool isQuantified = false;
         while (!atEnd()) {
-            std::int32_t least = 0, most = -1;  // -1: without limit
+            std::int32_t least = 0, most = -1;  // -1: unlimited
             if (take('+')) {
                 least = 1;
             } else if (take('?')) {
@@ -171,7 +171,7 @@ private:
         Program program;
         for (std::int32_t k = 0; k < least; ++k) append(program, body);
         for (std::int32_t k = least; k < most; ++k) {
-            // Each further copy may be left out, and all after it with it.
+            // Each further copy is optional, along with all copies after it.
             program.push_back({Operation::Split, 1, (most - k) * (size + 1)});
             append(program, body);
         }
@@ -251,7 +251,7 @@ private:
         return program;
     }
 
-    /// At '\': one character or one class.
+    /// At '\': parses one character or one class.
     bool escape(Ranges& ranges) {
         ++position_;
         if (atEnd()) {

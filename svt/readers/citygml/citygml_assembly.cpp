@@ -22,12 +22,12 @@ using model::Feature;
 using model::FeatureIndex;
 using std::string_view;
 
-// References that are not needed to make the model as large as the file allows for: see GeometryResolver.
+// Work limit for following references, base and per byte of the file; see GeometryResolver.
 constexpr std::uint64_t kBudgetBase = 16'000'000;
 constexpr std::uint64_t kBudgetPerByte = 10;
 
 // Six times the signed volume of the cone from `apex` over a polygon; the sum over a closed shell is six times its
-// volume. Rings of holes run the other way and so subtract.
+// volume. Interior rings run the other way and therefore subtract.
 double coneVolume(const model::Polygon& polygon, Vec3d apex) {
     double volume = 0;
     std::size_t begin = 0;
@@ -39,8 +39,8 @@ double coneVolume(const model::Polygon& polygon, Vec3d apex) {
     return volume;
 }
 
-// Whether faces look outward as given (+1) or with x and y exchanged (-1): by the volumes of solids and by roofs,
-// which look up, and grounds, which look down. 0 where less than nine tenths agree, or there is nothing to tell by.
+// Whether faces look outward as given (+1) or with x and y swapped (-1): judged by the volumes of solids and by roofs
+// (which face up) and grounds (which face down). 0 if less than nine tenths agree or there is no evidence.
 int handedness(const BuildingModel& model) {
     double sum = 0;
     double total = 0;
@@ -58,7 +58,7 @@ int handedness(const BuildingModel& model) {
             if (up == 0) continue;
             for (const model::SurfaceUse use : geometry.surfaces) {
                 const model::Polygon& polygon = model.polygons[use.polygon];
-                // A cone of height 1 from below: its volume has the sign of the normal's z.
+                // A cone of height 1 from below: its volume has the sign of the z component of the normal.
                 const double area =
                     coneVolume(polygon, polygon.points.front() - Vec3d{0, 0, 1}) * (use.isReversed ? -up : up);
                 sum += area;
@@ -105,7 +105,7 @@ public:
 
 private:
     void report(Severity severity, Code code, std::string message, std::uint64_t offset, string_view id) {
-        // Beyond what is kept, counting is enough; finding a line means reading the file again.
+        // Findings beyond the limit are only counted, because finding their line means scanning the file again.
         const bool isKept = diagnostics_.count(code) < Diagnostics::kKeptPerCode;
         diagnostics_.add(severity, code, std::move(message),
                          isKept ? Place{facts_.fileName, facts_.lineOf(offset), 0, std::string(id)} : Place{});
@@ -136,7 +136,7 @@ private:
         }
     }
 
-    // "parent/WallSurface[2]": the second WallSurface of its parent, counted among all of that class.
+    // "parent/WallSurface[2]": the second WallSurface of its parent, counted among all features of that class.
     void makeMissingIds() {
         std::unordered_set<std::string> used;
         std::size_t missing = 0;
@@ -165,7 +165,7 @@ private:
             }
         };
         nameChildren({}, part_.roots);
-        // A parent stands before its children, so it has its id by then.
+        // Parents precede their children, so the parent already has its id.
         for (const Feature& feature : part_.features) nameChildren(feature.id, feature.children);
         for (const auto& [className, made] : perClass)
             report(Severity::Note, Code::MissingId,
@@ -175,7 +175,7 @@ private:
                    part_.featureOffsets[made.first], part_.features[made.first].id);
     }
 
-    // Properties that point elsewhere: memberships, or geometry where the target is one.
+    // Properties that are references: memberships, or geometry if the target is a geometry.
     void followLinks(const References& references) {
         for (Link& link : part_.links) {
             const std::string& href = part_.hrefs[link.href];
@@ -237,7 +237,7 @@ private:
         }
     }
 
-    // Reliefs state their level in a property of their own.
+    // Relief features state their level of detail in a separate property.
     double statedLod(FeatureIndex feature) const {
         for (int up = 0; up < 2 && feature != model::kNoFeature; ++up) {
             for (const Attribute& attribute : part_.features[feature].attributes)
@@ -249,7 +249,7 @@ private:
         return -1;
     }
 
-    // Prototypes and the remains of what was left out.
+    // Prototypes and polygons of rejected geometry.
     void dropUnusedPolygons() {
         std::vector<std::uint32_t> newIndex(part_.polygons.size(), kNone);
         const auto forEachUse = [this](auto&& visit) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The joined part of a whole file into a model: ids made unique, references followed,
-/// materials given to polygons, memberships found, axes brought to east, north, up. Internal to the readers.
+/// Turns the joined part of a whole file into a model: makes ids unique, resolves references,
+/// assigns materials to polygons, collects memberships, reorders axes to east, north, up.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -14,7 +14,7 @@
 
 namespace svt::readers::citygml {
 
-/// What the assembly needs to know of the document.
+/// Properties of the document that the assembly needs.
 struct DocumentFacts {
     std::string fileName;
     std::string format;  ///< "CityGML 2.0"
@@ -22,8 +22,8 @@ struct DocumentFacts {
     std::function<std::uint64_t(std::uint64_t)> lineOf;  ///< 1-based line of a byte offset
 };
 
-/// \return the model; GeographicCrs for coordinates in degrees; InputTooBig where references ask for a model
-///         out of all proportion to the file
+/// \return the model; GeographicCrs for coordinates in degrees; InputTooBig if references expand to a model
+///         out of proportion to the file size
 Result<model::BuildingModel> assemble(Part&& part, const DocumentFacts& facts, Diagnostics& diagnostics);
 
 }  // namespace svt::readers::citygml

@@ -17,7 +17,7 @@ using std::string_view;
 
 enum class ValueKind { Text, Integer, Real, Truth };
 
-// Properties of the CityGML modules that are no text. Codes (class, function, roofType) stay text, even if of digits.
+// Properties of the CityGML modules that are not text. Codes (class, function, roofType) stay text, even if numeric.
 constexpr std::pair<string_view, ValueKind> kKinds[] = {
     {"yearOfConstruction", ValueKind::Integer},
     {"yearOfDemolition", ValueKind::Integer},
@@ -77,7 +77,7 @@ bool endsWithAny(string_view name) noexcept {
     return name.ends_with("Attribute") || name.ends_with("AttributeSet") || name.ends_with("attribute");
 }
 
-// "IntAttribute" and "intAttribute" alike.
+// Matches "IntAttribute" and "intAttribute".
 ValueKind genericKind(string_view element) noexcept {
     const string_view tail = element.substr(std::min<std::size_t>(1, element.size()));
     if (tail.starts_with("nt")) return ValueKind::Integer;
@@ -89,14 +89,14 @@ ValueKind genericKind(string_view element) noexcept {
 
 string_view unitName(string_view uom) noexcept {
     const std::size_t at = uom.find_last_of("#:/");
-    // "m/s" is a unit, "urn:...:m" and "http://.../m" are names of one.
+    // "m/s" is a unit; "urn:...:m" and "http://.../m" are names of a unit.
     if (at == string_view::npos || (uom[at] == '/' && uom.find(':') == string_view::npos)) return uom;
     return uom.substr(at + 1);
 }
 
 bool addTextAttribute(std::vector<Attribute>& attributes, string_view name, string_view text, string_view uom) {
     ValueKind kind = kindOf(name);
-    // Lists of measures (storeyHeightsAboveGround) have a unit and are no number.
+    // Lists of measures (storeyHeightsAboveGround) have a unit but are not a single number.
     const bool isMeasure = kind == ValueKind::Text && !uom.empty() && parseFinite(text);
     if (isMeasure) kind = ValueKind::Real;
     return addValue(attributes, std::string(name), text, uom, kind);

@@ -13,7 +13,7 @@ namespace {
 
 using std::string_view;
 
-// A chunk as a text of its own: the start tags that are open, the content, the end tags that are missing.
+// A chunk as a separate document: the open start tags, the content, the missing end tags.
 class ChunkText {
 public:
     ChunkText(string_view document, const xml::Chunk& chunk) : chunk_(chunk) {
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] char* data() noexcept { return text_.get(); }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-    /// Offset in the document of a place in this text.
+    /// Offset in the document of a position in this text.
     [[nodiscard]] std::uint64_t offsetOf(const char* at) const noexcept {
         auto offset = static_cast<std::uint64_t>(at - text_.get());
         for (const xml::Range& tag : chunk_.open) {
@@ -85,7 +85,7 @@ Part parseChunk(string_view document, string_view rootTag, const xml::Chunk& chu
         return part;
     }
 
-    // The root's declarations hold for every chunk.
+    // The declarations of the root apply to every chunk.
     pugi::xml_document root;
     std::string rootText(rootTag);
     if (!rootText.ends_with("/>")) rootText.insert(rootText.size() - 1, 1, '/');

@@ -219,7 +219,7 @@ TEST(CityGmlDefects, SelfReferencesEverywhereAreHarmless) {
     EXPECT_TRUE(reading.feature("b").geometries.empty());
 }
 
-// Any change of a few bytes gives a model or an error, never a crash; what it gives is the same each time.
+// Any change of a few bytes gives a model or an error, never a crash; the result is the same each time.
 TEST(CityGmlDefects, MutatedFilesNeverCrash) {
     const std::string good = goodModel();
     const std::string_view words[] = {"<",           ">",    "</",    "/>",   "\"",

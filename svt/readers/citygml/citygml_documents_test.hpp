@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small CityGML documents for tests, and how to read them.
+/// Small CityGML documents for tests, and functions to read them.
 
 #include <svt/readers/citygml/citygml_reader.hpp>
 #include <svt/readers/read_model.hpp>
@@ -30,7 +30,7 @@ struct Reading {
     const BuildingModel& model() const { return *result; }
     Code code() const { return result ? Code::Internal : result.error().code(); }
     std::size_t count(Code code) const { return diagnostics.count(code); }
-    /// The feature of that id; an empty one where there is none.
+    /// The feature with that id, or an empty one.
     const Feature& feature(std::string_view id) const {
         static const Feature kNothing;
         for (const Feature& feature : model().features)
@@ -41,7 +41,7 @@ struct Reading {
     model::FeatureIndex index(std::string_view id) const {
         return static_cast<model::FeatureIndex>(&feature(id) - model().features.data());
     }
-    /// All findings as text, for messages of tests.
+    /// All findings as text, for test messages.
     std::string findings() const {
         std::string text;
         for (const Diagnostic& item : diagnostics.items()) text += item.toString() + "\n";
@@ -60,7 +60,7 @@ inline Reading read(std::string_view text, const ReadOptions& options = {}) {
     return reading;
 }
 
-/// A CityModel of version 1, 2 or 3 around `members`, on lines 1 and 2; the members begin on line 3.
+/// A CityModel of version 1, 2 or 3 around `members`; its tags are on lines 1 and 2, the members start on line 3.
 inline std::string cityModel(int version, std::string_view members) {
     const std::string gml = version == 3 ? "http://www.opengis.net/gml/3.2" : "http://www.opengis.net/gml";
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<core:CityModel xmlns:gml=\"" + gml +
@@ -83,7 +83,7 @@ inline std::string member(std::string_view object) {
     return fmt::format("<core:cityObjectMember>{}</core:cityObjectMember>", object);
 }
 
-/// A building `id` with `properties`, as a member.
+/// A cityObjectMember with building `id` and `properties`.
 inline std::string building(std::string_view id, std::string_view properties) {
     return member(fmt::format("<bldg:Building gml:id=\"{}\">{}</bldg:Building>", id, properties));
 }
@@ -92,7 +92,7 @@ inline std::string ring(std::string_view positions) {
     return fmt::format("<gml:LinearRing><gml:posList>{}</gml:posList></gml:LinearRing>", positions);
 }
 
-/// A unit square at height z, with an id if one is given.
+/// A unit square at height z, optionally with an id.
 inline std::string square(std::string_view id, double z = 0) {
     const std::string attribute = id.empty() ? "" : fmt::format(" gml:id=\"{}\"", id);
     return fmt::format("<gml:Polygon{}><gml:exterior>{}</gml:exterior></gml:Polygon>", attribute,
@@ -116,7 +116,7 @@ inline std::string solid(std::string_view id, std::string_view members) {
         attribute, members);
 }
 
-/// lod2MultiSurface of the version: in the core namespace for 3.0.
+/// The lod2MultiSurface property of the version: in the core namespace for 3.0.
 inline std::string lod2Surfaces(int version, std::string_view geometry) {
     const std::string_view prefix = version == 3 ? "core" : "bldg";
     return fmt::format("<{0}:lod2MultiSurface>{1}</{0}:lod2MultiSurface>", prefix, geometry);

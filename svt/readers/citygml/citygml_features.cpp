@@ -24,13 +24,13 @@ bool isIn(const string_view (&names)[N], string_view name) noexcept {
     return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-// Objects of the CityGML modules that are values of a feature, not features.
+// Types of the CityGML modules that are values of a feature, not features.
 constexpr string_view kDataTypes[] = {"Address",          "ExternalReference", "ExternalObject",  "CityObjectRelation",
                                       "Occupancy",        "QualifiedArea",     "QualifiedVolume", "Elevation",
                                       "Height",           "ConstructionEvent", "RoomHeight",      "Role",
                                       "CodeListMetaData", "SensorConnection",  "ImplicitGeometry"};
 
-// Features without geometry that say nothing about the building itself.
+// Features without geometry that do not describe the building itself.
 constexpr string_view kSkippedObjects[] = {"Dynamizer",
                                            "PointCloud",
                                            "Version",
@@ -41,10 +41,10 @@ constexpr string_view kSkippedObjects[] = {"Dynamizer",
                                            "StandardFileTimeseries",
                                            "TabulatedFileTimeseries"};
 
-// References between features that are no aggregation; kept as attributes.
+// References between features that are not aggregations; kept as attributes.
 constexpr string_view kRelations[] = {"parent", "groupParent", "generalizesTo", "relatedTo", "representedFeature"};
 
-// Children of the root and of features that GML itself defines and that carry nothing for a volume.
+// Children of the root and of features that are defined by GML and irrelevant for a volume.
 constexpr string_view kSkippedGml[] = {"metaDataProperty", "location", "identifier", "descriptionReference"};
 
 constexpr string_view kNoVolume[] = {"extent",       "pointCloud",         "dynamizer", "multiPoint",
@@ -61,7 +61,7 @@ bool isForeign(Vocabulary vocabulary) noexcept {
     return vocabulary == Vocabulary::Other || vocabulary == Vocabulary::None;
 }
 
-// Properties whose content bounds nothing: curves, points, extents.
+// Properties whose content bounds no volume: curves, points, extents.
 bool hasNoVolume(const Element& property) noexcept {
     const string_view name = property.localName;
     if (name.starts_with("lod"))
@@ -75,7 +75,7 @@ bool isGenericAttribute(const Element& element) noexcept {
            (element.localName.ends_with("Attribute") || element.localName.ends_with("AttributeSet"));
 }
 
-// Shallow: element > property > geometry, as features have it.
+// Not recursive: element > property > geometry, as in features.
 bool hasGeometry(xml::NameScope& scope, const Element& element) {
     bool found = false;
     scope.forEachChild(element.node, [&](const Element& property) {
@@ -243,7 +243,7 @@ void FeatureReader::readObject(FeatureIndex feature, const Element& property, co
     } else if (isCityGml(object.vocabulary) && isIn(kSkippedObjects, name)) {
         return;
     } else if (property.localName.starts_with("adeOf")) {
-        // CityGML 3.0 wraps the properties that an ADE adds to a class.
+        // CityGML 3.0 wraps properties that an ADE adds to a class.
         scope_.forEachChild(object.node, [&](const Element& added) { readProperty(feature, added); });
     } else if (isFeature(object)) {
         const FeatureIndex child = readFeature(object, feature, false);
@@ -346,7 +346,7 @@ void FeatureReader::addLink(FeatureIndex feature, const Element& property, strin
     part_.hrefs.emplace_back(href);
 }
 
-// A member that stands inside its group is its child; a role would be lost without a membership.
+// An inline member becomes a child of its group; its role would be lost without a membership.
 void FeatureReader::addMembership(FeatureIndex group, FeatureIndex member, std::string role) {
     if (!role.empty()) part_.memberships.push_back({group, member, std::move(role)});
 }

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// The children of a CityModel, parsed, into a part: features, attributes, appearances.
-/// Works by the rules of GML, not by a list of classes: properties are written lowerCamel, objects
-/// UpperCamel, and an object within a property of a feature is a feature itself unless it is
-/// geometry or a known data type. So modules and ADEs need no code of their own. Internal to the readers.
+/// Reads the parsed children of a CityModel into a part: features, attributes, appearances.
+/// Follows the rules of GML rather than a list of classes: properties are lowerCamel, objects
+/// UpperCamel, and an object within a property of a feature is itself a feature unless it is
+/// geometry or a known data type. Modules and ADEs therefore need no code of their own.
 
 #include <svt/readers/citygml/citygml_part.hpp>
 #include <svt/readers/citygml/gml_geometry.hpp>
@@ -16,11 +16,11 @@ namespace svt::readers::citygml {
 
 class FeatureReader {
 public:
-    /// \param offsetOf  byte offset in the document of a node of the walked tree
+    /// \param offsetOf  byte offset in the document of a node of the traversed tree
     FeatureReader(xml::NameScope& scope, Part& part, std::function<std::uint64_t(pugi::xml_node)> offsetOf);
 
     /// Reads a child of the root: cityObjectMember, featureMembers, appearanceMember, gml:name, ...
-    /// \param continues  its first object is the later stretch of the last one of the part before
+    /// \param continues  its first object continues the last one of the previous part
     void readMember(const xml::Element& member, bool continues);
 
 private:
@@ -47,7 +47,7 @@ private:
     std::string scratch_;
 };
 
-/// 2 for "lod2MultiSurface", -1 where the name states no level.
+/// 2 for "lod2MultiSurface"; -1 if the name states no level.
 [[nodiscard]] double lodOfProperty(std::string_view name) noexcept;
 
 }  // namespace svt::readers::citygml

@@ -81,10 +81,10 @@ TEST(GmlGeometry, FlatRingsGetHeightZeroWhereverTheDimensionIsStated) {
         const Reading reading = readGeometry(multiSurface(surfaceMember(polygon)));
         EXPECT_EQ(onlyPolygon(reading).points, expected) << polygon;
     }
-    // Six numbers pairs divide by three too: the ring closes only as a flat one.
+    // The number of values of six 2D points also divides by three, but the ring closes only as a 2D ring.
     const Reading six = readGeometry(polygonOf(ring("0 0 4 0 4 2 2 3 0 2 0 0")));
     EXPECT_EQ(onlyPolygon(six).points.size(), 5u);
-    // A dimension stated far above does not break rings that are plainly three-dimensional.
+    // A wrong dimension inherited from an ancestor does not break rings that are clearly three-dimensional.
     const Reading wrong =
         readGeometry("<gml:MultiSurface srsDimension=\"2\">" +
                      surfaceMember("<gml:Polygon><gml:exterior>" + ring("0 0 1 2 0 1 2 3 1 0 3 1 0 1 1 0 0 1") +
@@ -323,7 +323,7 @@ TEST(CityGmlReader, DanglingExternalAndCyclicReferencesAreToldWithPlace) {
 }
 
 TEST(CityGmlReader, MultiplyingReferencesAreRefused) {
-    // Each surface names the next one twice: 2^40 uses.
+    // Each surface references the next one twice: 2^40 uses.
     std::string members;
     for (int i = 0; i < 40; ++i)
         members += surfaceMember(fmt::format("<gml:CompositeSurface gml:id=\"c{0}\">{1}{1}</gml:CompositeSurface>", i,
@@ -356,7 +356,7 @@ std::string implicitGeometry(std::string_view matrix, std::string_view point, st
 }
 
 TEST(CityGmlReader, ImplicitGeometryIsPlacedByMatrixThenPoint) {
-    // Turns by 90 degrees about z, doubles, and moves by (5, 6, 7); then to the reference point.
+    // Rotates by 90 degrees about z, scales by 2, translates by (5, 6, 7); then moves to the reference point.
     const std::string_view matrix = "0 -2 0 5  2 0 0 6  0 0 2 7  0 0 0 1";
     const std::string first =
         implicitGeometry(matrix, "1000 2000 3000",

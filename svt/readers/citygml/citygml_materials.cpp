@@ -10,7 +10,7 @@ namespace {
 
 using std::string_view;
 
-// What a target names, coarse to fine.
+// Kind of a target, coarse to fine.
 enum class Level { Feature, Surface, Polygon };
 
 struct Application {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// X3DMaterials onto polygons. Internal to the readers.
+/// Assigns X3DMaterials to polygons.
 
 #include <svt/readers/citygml/citygml_resolver.hpp>
 
@@ -8,9 +8,10 @@
 
 namespace svt::readers::citygml {
 
-/// Sets Polygon::material of what the materials of one theme point at: the first theme of the file that has
-/// materials. A material of a polygon wins over one of its surface, that over one of its feature; among equals the
-/// later wins. \param materials  receives the materials of that theme, equal ones once
+/// Sets Polygon::material for the targets of the materials of one theme: the first theme of the file that has
+/// materials. A material of a polygon takes precedence over one of its surface, that over one of its feature; among
+/// equals the later takes precedence.
+/// \param materials  receives the materials of that theme, without duplicates
 void applyMaterials(Part& part, const References& references, GeometryResolver& resolver,
                     const GeometriesByFeature& geometries, std::vector<model::Material>& materials);
 

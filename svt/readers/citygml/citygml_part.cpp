@@ -8,7 +8,7 @@ namespace {
 
 using model::FeatureIndex;
 
-constexpr std::size_t kKeptNames = 64;  // different srsNames or unknown elements; more are of no help
+constexpr std::size_t kKeptNames = 64;  // limit on distinct srsNames or unknown elements
 
 template <class T>
 void append(std::vector<T>& to, std::vector<T>&& from) {
@@ -20,7 +20,7 @@ void append(std::vector<T>& to, std::vector<T>&& from) {
 
 std::uint32_t shifted(std::uint32_t index, std::uint32_t by) noexcept { return index == kNone ? kNone : index + by; }
 
-// The later stretch of a feature that was cut: what it adds goes to the earlier one.
+// The rest of a feature that was cut at a chunk boundary; its content is added to the first piece.
 void mergeFeature(model::Feature& into, model::Feature&& more) {
     if (into.name.empty()) into.name = std::move(more.name);
     append(into.attributes, std::move(more.attributes));

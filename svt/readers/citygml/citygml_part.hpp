@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// What one stretch of a CityGML file holds, before references are followed: features, polygons
+/// The content of one piece of a CityGML file before references are resolved: features, polygons
 /// and a graph of geometry nodes with links by id. Parts are read in parallel and joined in
-/// document order; all indices are into the same part. Internal to the readers.
+/// document order; all indices refer to the same part.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/model/building_model.hpp>
@@ -20,28 +20,28 @@ using NodeIndex = std::uint32_t;
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 enum class NodeKind : std::uint8_t {
-    Empty,      ///< geometry that was there but could not be used
+    Empty,      ///< geometry that was present but unusable
     Polygon,    ///< payload: polygon
     Surfaces,   ///< children: polygons, surfaces, references
-    Interior,   ///< as Surfaces: the shell of a void
+    Interior,   ///< like Surfaces: the shell of a void
     Solid,      ///< children: Surfaces (exterior), Interior*
     Bodies,     ///< children of any kind: MultiSolid, CompositeSolid, MultiGeometry
     Reference,  ///< payload: href
     Implicit    ///< payload: placement; child: the prototype or a reference to it
 };
 
-/// A geometry element. Children form a chain: firstChild, then nextSibling.
+/// A geometry element. Children form a linked list: firstChild, then nextSibling.
 struct Node {
     NodeKind kind = NodeKind::Empty;
-    bool isReversed = false;  ///< OrientableSurface "-": everything below is turned over
+    bool isReversed = false;  ///< OrientableSurface "-": reverses everything below
     std::uint32_t payload = kNone;
     NodeIndex firstChild = kNone;
     NodeIndex nextSibling = kNone;
-    std::uint32_t id = kNone;  ///< into Part::ids; a polygon's id stands in the polygon
-    std::uint64_t offset = 0;  ///< of the element in the document, bytes
+    std::uint32_t id = kNone;  ///< into Part::ids; the id of a polygon is stored in the polygon
+    std::uint64_t offset = 0;  ///< byte offset of the element in the document
 };
 
-/// world = matrix * (x, y, z, 1) + referencePoint; rows of the 4 x 4 matrix one after the other.
+/// world = matrix * (x, y, z, 1) + referencePoint; the 4 x 4 matrix is row-major.
 struct Placement {
     std::array<double, 16> matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     Vec3d referencePoint;
@@ -54,7 +54,7 @@ struct FeatureGeometry {
     double lod = -1;
 };
 
-/// A property that points elsewhere: a room of a storey, a member of a group, perhaps a geometry.
+/// A property that is a reference: a room of a storey, a member of a group, possibly a geometry.
 struct Link {
     model::FeatureIndex feature = 0;
     std::uint32_t href = 0;
@@ -66,20 +66,20 @@ struct Link {
 /// An X3DMaterial, or a reference to one, within an Appearance.
 struct MaterialRecord {
     std::string theme;
-    bool inheritsTheme = false;  ///< the Appearance began in the part before
-    bool isReference = false;    ///< `id` names a material that stands elsewhere
+    bool inheritsTheme = false;  ///< the Appearance began in the previous part
+    bool isReference = false;    ///< `id` names a material defined elsewhere
     std::string id;
     model::Material material;
     std::vector<std::string> targets;
 };
 
-/// A srsName and where it was first seen.
+/// A srsName and its first occurrence.
 struct CrsName {
     std::string name;
     std::uint64_t offset = 0;
 };
 
-/// A diagnostic whose line is not known yet.
+/// A diagnostic whose line is not yet known.
 struct Finding {
     Severity severity = Severity::Warning;
     Code code = Code::Internal;
@@ -88,7 +88,7 @@ struct Finding {
     std::uint64_t offset = 0;
 };
 
-/// Keeps no more findings than Diagnostics would, but counts all.
+/// Keeps at most as many findings as Diagnostics would, but counts all.
 struct Findings {
     struct Count {
         Severity severity;
@@ -107,7 +107,7 @@ struct Part {
     std::vector<model::Feature> features;
     std::vector<std::uint64_t> featureOffsets;
     std::vector<model::FeatureIndex> roots;
-    bool continuesRoot = false;  ///< feature 0 is more of the last root of the part before
+    bool continuesRoot = false;  ///< feature 0 continues the last root of the previous part
     std::vector<FeatureGeometry> geometries;
     std::vector<Link> links;
     std::vector<model::Membership> memberships;  ///< inline members with a role
@@ -121,18 +121,18 @@ struct Part {
 
     // The rest.
     std::vector<MaterialRecord> materials;
-    std::optional<std::string> lastTheme;  ///< of the last Appearance, which may have been cut
+    std::optional<std::string> lastTheme;  ///< theme of the last Appearance, which may continue in the next part
     std::vector<CrsName> crsNames;
     std::string modelName;
-    std::vector<std::string> unknownNames;  ///< elements that were skipped, each name once
+    std::vector<std::string> unknownNames;  ///< skipped elements, each name once
     std::vector<std::uint64_t> unknownOffsets;
     Findings findings;
     std::optional<Error> error;
 
-    /// Appends `next`, whose indices are moved up.
+    /// Appends `next` and offsets its indices.
     void join(Part&& next);
 
-    /// Notes an element that is not known; each name is kept once.
+    /// Records an unknown element; each name is kept once.
     void addUnknown(std::string_view name, std::uint64_t offset);
     void addCrsName(std::string_view name, std::uint64_t offset);
 };

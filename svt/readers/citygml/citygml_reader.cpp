@@ -19,13 +19,13 @@ namespace {
 using citygml::Part;
 using std::string_view;
 
-// Chunks that are parsed at once. Fixed, so that memory and results do not depend on the number of threads.
+// Chunks parsed in one batch. Fixed, so that memory and results do not depend on the number of threads.
 constexpr std::size_t kBatchChunks = 64;
-// Deeper recursion than this would be a danger to the stack of a thread, whatever the caller allows.
+// Deeper recursion could overflow the stack of a thread, whatever limit the caller sets.
 constexpr std::uint32_t kDeepest = 1000;
 constexpr string_view kCityGml04 = "http://www.citygml.org/citygml/1/0/0";
 
-// Lines of the document at the begin of each chunk.
+// Line number at the start of each chunk.
 class LineIndex {
 public:
     explicit LineIndex(string_view document) : document_(document) {}
@@ -39,7 +39,7 @@ public:
         const auto index = static_cast<std::size_t>(after - offsets_.begin());
         std::uint64_t from = index == 0 ? 0 : offsets_[index - 1];
         std::uint64_t line = index == 0 ? 1 : lines_[index - 1];
-        // Questions mostly come in document order: go on from the last answer where that is nearer.
+        // Lookups mostly come in document order: continue from the previous one if that is nearer.
         if (lastOffset_ >= from && lastOffset_ <= offset) {
             from = lastOffset_;
             line = lastLine_;
@@ -57,13 +57,13 @@ private:
     std::uint64_t lastLine_ = 1;
 };
 
-// Feature lines relative to the begin of the chunk, found in one pass: features stand in document order.
+// Feature lines relative to the start of the chunk, found in one pass: features are in document order.
 void setRelativeLines(string_view document, const xml::Chunk& chunk, Part& part) {
     std::uint64_t at = chunk.content.begin;
     std::uint64_t line = 0;
     for (std::size_t i = 0; i < part.features.size(); ++i) {
         const std::uint64_t offset = part.featureOffsets[i];
-        if (offset < at) continue;  // the feature that was cut: it has its line already
+        if (offset < at) continue;  // the continued feature: it already has its line
         line += xml::countLines(document.substr(at, offset - at));
         at = offset;
         part.features[i].line = line;
@@ -168,7 +168,7 @@ private:
         for (citygml::Finding& finding : part.findings.items)
             diagnostics_.add(finding.severity, finding.code, std::move(finding.message),
                              {fileName_, lines_.lineOf(finding.offset), 0, std::move(finding.id)});
-        // The kept ones fill the list of that code, so these are only counted.
+        // The kept findings fill the list of that code, so these are only counted.
         for (const citygml::Findings::Count& count : part.findings.counts)
             for (std::size_t i = 0; i < count.dropped; ++i) diagnostics_.add(count.severity, count.code, {});
         whole_.join(std::move(part));
@@ -194,7 +194,7 @@ bool looksLikeCityGml(std::span<const std::byte> head) noexcept {
                                               text[0] == '\0' || text[1] == '\0');
     std::string narrowed;
     if (isUtf16) {
-        // Enough to find a name that is ASCII.
+        // Sufficient to find an ASCII name.
         for (const char c : text.substr(0, 1 << 16))
             if (c != '\0' && static_cast<unsigned char>(c) < 0x80) narrowed += c;
         text = narrowed;

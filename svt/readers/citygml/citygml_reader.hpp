@@ -1,16 +1,16 @@
 #pragma once
 /// \file
-/// CityGML 1.0, 2.0 and 3.0 into the semantic tree.
+/// Reads CityGML 1.0, 2.0 and 3.0 into the semantic tree.
 ///
-/// What becomes what:
-///  - an object with geometry or parts is a feature, of whatever module or ADE; the object it stands in is its parent;
+/// Mapping:
+///  - an object with geometry or parts is a feature, whatever its module or ADE; the enclosing object is its parent;
 ///  - a reference to a feature (rooms of a storey, members of a group) is a membership. Its role is the role of the
-///    group member where the file has one, else the name of the property ("buildingRoom");
-///  - properties and generic attributes are attributes; parts of a value are "name/part" ("height" and
+///    group member if the file has one, else the name of the property ("buildingRoom");
+///  - properties and generic attributes are attributes; parts of a value are named "name/part" ("height" and
 ///    "height/status"), members of a generic set "set/name";
 ///  - lodN properties are geometries of level N; shared polygons are one polygon with several uses; an
-///    ImplicitGeometry is written out at its place. Curves, points and textures are left out;
-///  - a feature without gml:id is called after its place: "Building[1]/BuildingRoom[2]";
+///    ImplicitGeometry is instantiated at its location. Curves, points and textures are skipped;
+///  - a feature without gml:id is named after its path: "Building[1]/BuildingRoom[2]";
 ///  - Polygon::material follows the first theme of the file that has X3DMaterials.
 
 #include <svt/core/diagnostics.hpp>
@@ -24,19 +24,22 @@
 
 namespace svt::readers {
 
-/// True where `head`, the first bytes of a file, is XML with a root named CityModel, in UTF-8 or UTF-16.
+/// True if `head`, the first bytes of a file, is XML with a root named CityModel, in UTF-8 or UTF-16.
 [[nodiscard]] bool looksLikeCityGml(std::span<const std::byte> head) noexcept;
 
 /// Reads a whole CityGML document.
 ///
-/// Nothing is repaired: a ring, reference or value that cannot be used is reported with its line and id, and left out.
+/// Nothing is repaired: an unusable ring, reference or value is reported with its line and id, and left out.
 /// References to other files are reported, never fetched. Coordinates stay in the file's CRS, in (east, north, up)
-/// order. \param bytes  UTF-8, UTF-16 with byte order mark, or declared as ISO-8859-1 or Windows-1252 \param name path
-/// or name for messages \param diagnostics  receives findings, those of the parse in document order first; may be null
-/// \return the model, or BadXml with line and column (cut-off files included), DtdRefused, BadEncoding, UnknownFormat,
-///         UnknownVersion, InputTooBig (bytes, depth, multiplying references), GeographicCrs or Cancelled
+/// order.
+/// \param bytes        UTF-8, UTF-16 with byte order mark, or declared as ISO-8859-1 or Windows-1252
+/// \param name         path or name for messages
+/// \param diagnostics  receives findings, those of the parse in document order first; may be null
+/// \return the model, or BadXml with line and column (truncated files included), DtdRefused, BadEncoding,
+///         UnknownFormat, UnknownVersion, InputTooBig (bytes, depth, multiplying references), GeographicCrs or
+///         Cancelled
 /// Cost: linear in bytes. Memory: the model, and for UTF-8 the parsed form of some megabytes of the file at a time
-/// (of the largest part of one feature, if that is more). Threads: stretches of the file are parsed in parallel and
+/// (or of the largest part of one feature, if that is more). Threads: pieces of the file are parsed in parallel and
 /// joined in document order; the result does not depend on their number.
 [[nodiscard]] Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, std::string_view name,
                                                        const ReadOptions& options = {},

@@ -396,7 +396,7 @@ TEST(CityGmlReader, DegreesAreRefusedWithARemedy) {
 }
 
 TEST(CityGmlReader, NorthFirstCoordinatesAreExchanged) {
-    // Magnitude decides for Gauss-Krueger, whatever the form of the name promises.
+    // For Gauss-Krueger the magnitude decides, whatever axis order the form of the name implies.
     const std::string_view names[] = {"EPSG:31467", "urn:ogc:def:crs:EPSG::31467",
                                       "urn:ogc:def:crs,crs:EPSG:6.12:31467,crs:EPSG:6.12:5783"};
     for (const std::string_view name : names) {
@@ -407,7 +407,7 @@ TEST(CityGmlReader, NorthFirstCoordinatesAreExchanged) {
         EXPECT_FALSE(readWithCrs(name, "3458877 5438353 0 3458887 5438353 0 3458877 5438363 0").model().crs.axesSwapped)
             << name;
     }
-    // Poland's PL-1992 is ambiguous by size: the form decides, unless faces look the wrong way.
+    // Poland's PL-1992 is ambiguous by magnitude: the form of the name decides, unless faces look inward.
     EXPECT_TRUE(readWithCrs("urn:ogc:def:crs:EPSG::2180", "500000 600000 0 500010 600000 0 500000 600010 0")
                     .model()
                     .crs.axesSwapped);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What ids stand for, and what references by id mean. Internal to the readers.
+/// Resolves ids and references by id.
 
 #include <svt/readers/citygml/citygml_part.hpp>
 
@@ -17,18 +17,18 @@ struct Target {
     std::uint32_t index = kNone;
 };
 
-/// Ids of a joined part. Holds views: the part's features, nodes, ids and polygons must stay as they are.
+/// Ids of a joined part. Holds views: the part's features, nodes, ids and polygons must not change.
 class References {
 public:
-    /// \param fileName  a reference "name.gml#id" to the file itself is no reference elsewhere
+    /// \param fileName  a reference "name.gml#id" to the file itself counts as internal
     References(const Part& part, std::string_view fileName);
 
-    /// What a geometry reference points to: a geometry, else a feature.
+    /// Target of a geometry reference: a geometry, else a feature.
     [[nodiscard]] Target geometry(std::string_view href) const { return find(href, true); }
-    /// What a feature reference points to: a feature, else a geometry.
+    /// Target of a feature reference: a feature, else a geometry.
     [[nodiscard]] Target feature(std::string_view href) const { return find(href, false); }
 
-    /// Ids of geometry that occur more than once: the later nodes.
+    /// Duplicate geometry ids: the later nodes.
     [[nodiscard]] const std::vector<NodeIndex>& duplicates() const noexcept { return duplicates_; }
 
 private:
@@ -41,10 +41,10 @@ private:
     std::string_view fileName_;
 };
 
-/// The id that `href` names: behind '#' if there is one; percent-encoding is undone by the caller where needed.
+/// The id in `href`: the text after '#' if there is one; the caller decodes percent-encoding where needed.
 [[nodiscard]] std::string_view idOfHref(std::string_view href) noexcept;
 
-/// "a%20b" as "a b"; what is no encoding stays.
+/// Decodes "a%20b" to "a b"; invalid encodings are kept.
 [[nodiscard]] std::string percentDecoded(std::string_view text);
 
 /// gml:id of a node, or empty.

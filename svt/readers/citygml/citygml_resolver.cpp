@@ -18,7 +18,7 @@ using model::PolygonIndex;
 using model::SurfaceUse;
 using std::string_view;
 
-// Inline nesting is limited by the scanner; a chain of references could still be deeper than the stack.
+// The scanner limits inline nesting; a chain of references could still overflow the stack.
 constexpr std::uint32_t kDeepestWalk = 2000;
 constexpr std::uint64_t kCostPerPlacedPoint = 10;
 
@@ -136,7 +136,7 @@ void GeometryResolver::walkSolid(NodeIndex index, Resolved& into) {
     into.solids.push_back(std::move(solid));
 }
 
-// The geometry of the level that is being read, else the finest.
+// The geometry of the level being resolved, else the finest.
 const FeatureGeometry* GeometryResolver::geometryOf(FeatureIndex feature) const {
     const FeatureGeometry* best = nullptr;
     for (const FeatureGeometry* geometry = geometries_.begin(feature); geometry != geometries_.end(feature);
@@ -147,7 +147,7 @@ const FeatureGeometry* GeometryResolver::geometryOf(FeatureIndex feature) const 
     return best;
 }
 
-// The node that a reference stands for, or kNone where it has been reported.
+// The target node of a reference, or kNone if an error has been reported.
 NodeIndex GeometryResolver::follow(NodeIndex reference) {
     const Node& node = part_.nodes[reference];
     const std::string& href = part_.hrefs[node.payload];
@@ -185,7 +185,7 @@ void GeometryResolver::walkReference(NodeIndex index, bool isReversed, Resolved&
 
 void GeometryResolver::walkImplicit(NodeIndex index, bool isReversed, Resolved& into) {
     const Node& node = part_.nodes[index];
-    // A reference to an ImplicitGeometry from within another one means its prototype.
+    // A reference to an ImplicitGeometry from inside another one means its prototype.
     if (insidePlacement_) return walkChildren(index, isReversed, into);
     if (node.payload == kNone) return;
     Resolved prototype;

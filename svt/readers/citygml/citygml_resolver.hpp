@@ -1,8 +1,7 @@
 #pragma once
 /// \file
-/// Follows references in the node graph of a joined part: solids and surfaces of a node,
-/// with turned-over surfaces, prototypes put in place, cycles and dangling links reported.
-/// Internal to the readers.
+/// Resolves references in the node graph of a joined part: yields the solids and surfaces of a node,
+/// applies reversed orientation, places prototypes, and reports cycles and dangling links.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/readers/citygml/citygml_references.hpp>
@@ -14,13 +13,13 @@
 
 namespace svt::readers::citygml {
 
-/// What a geometry property comes to.
+/// The result of resolving a geometry property.
 struct Resolved {
     std::vector<model::Solid> solids;
     std::vector<model::SurfaceUse> surfaces;
 };
 
-/// Geometry properties in the order of their features.
+/// Geometry properties in feature order.
 class GeometriesByFeature {
 public:
     explicit GeometriesByFeature(const Part& part);
@@ -36,27 +35,27 @@ private:
     std::vector<std::size_t> first_;
 };
 
-/// Threads: none shared; may not be used by two at once.
+/// Threads: not thread-safe.
 class GeometryResolver {
 public:
     using Report = std::function<void(Severity, Code, std::string message, std::uint64_t offset, std::string_view id)>;
 
-    /// \param budget  how much may be made of references in all: visits of nodes, and points of placed
-    ///                prototypes times ten. A small file can ask for an endless model ("billion laughs").
+    /// \param budget  limit on the work caused by references: visits of nodes, plus ten per point of a placed
+    ///                prototype. A small file can expand to an unbounded model ("billion laughs").
     GeometryResolver(const Part& part, const References& references, const GeometriesByFeature& geometries,
                      std::uint64_t budget, Report report);
 
     /// Solids and surfaces of `node`, which belongs to `featureId` (for messages).
-    /// References to features take their geometry of level `lod`.
+    /// References to features use their geometry of level `lod`.
     Resolved resolve(NodeIndex node, double lod, std::string_view featureId);
 
-    /// Calls `visit` once for each polygon at or below `node`, prototypes as they are.
+    /// Calls `visit` once for each polygon at or below `node`, prototypes untransformed.
     void forEachPolygon(NodeIndex node, const std::function<void(model::PolygonIndex)>& visit);
 
     /// Polygons of placed prototypes. Their indices follow those of the part's polygons.
     [[nodiscard]] std::vector<model::Polygon>& placedPolygons() noexcept { return placed_; }
 
-    /// Counts work against the budget; false once it is used up.
+    /// Adds to the work done; false once the budget is exceeded.
     bool spend(std::uint64_t amount);
     [[nodiscard]] bool isOverBudget() const noexcept { return spent_ > budget_; }
 
@@ -82,7 +81,7 @@ private:
     std::string_view featureId_;
     std::uint32_t depth_ = 0;
     bool insidePlacement_ = false;
-    std::vector<bool> isActive_;            // reference targets that are being walked
+    std::vector<bool> isActive_;            // reference targets being resolved
     std::vector<std::uint32_t> visitedBy_;  // for forEachPolygon
     std::uint32_t visit_ = 0;
     std::vector<model::Polygon> placed_;

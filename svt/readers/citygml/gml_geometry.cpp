@@ -54,7 +54,7 @@ constexpr std::pair<string_view, Shape> kShapes[] = {
     {"Envelope", Shape::NoVolume},
 };
 
-// Members of a surface that are no faces.
+// Members of a surface that are not faces.
 bool isNoFace(string_view property) noexcept {
     return property == "stopLines" || property == "breakLines" || property == "maxLength" ||
            property == "controlPoint" || property == "name" || property == "description" ||
@@ -71,16 +71,16 @@ bool hasThreeDistinct(const std::vector<Vec3d>& points) noexcept {
     return std::any_of(second, points.end(), [&](Vec3d p) { return !(p == first) && !(p == *second); });
 }
 
-// Whether `numbers`, taken as points of `dimension` numbers, end where they begin.
+// Whether `numbers`, read as points with `dimension` coordinates, form a closed ring.
 bool closes(const std::vector<double>& numbers, std::size_t dimension) noexcept {
     return numbers.size() >= 2 * dimension &&
            std::equal(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(dimension),
                       numbers.end() - static_cast<std::ptrdiff_t>(dimension));
 }
 
-// CityGML is three-dimensional, but two-dimensional rings occur, often with a wrong srsDimension further up.
-// What the list itself states wins; else the first of (inherited, 3, 2) that divides the count and closes the ring,
-// else the first that divides it. 0: none does.
+// CityGML is three-dimensional, but two-dimensional rings occur, often with a wrong srsDimension on an ancestor.
+// The dimension stated by the list itself wins; else the first of (inherited, 3, 2) that divides the count and closes
+// the ring, else the first that divides it. 0: none does.
 int dimensionOf(const std::vector<double>& numbers, int stated, int inherited) noexcept {
     const int count = static_cast<int>(numbers.size() % 6);
     const auto divides = [&](int dimension) { return (dimension == 2 || dimension == 3) && count % dimension == 0; };
@@ -134,7 +134,7 @@ Shape shapeOf(const Element& element) noexcept {
             if (name == element.localName) return shape;
         return Shape::None;
     }
-    // The texturedsurface module of CityGML 1.0 and 2.0 derives a surface of its own.
+    // The TexturedSurface module of CityGML 1.0 and 2.0 defines its own surface type.
     return element.is(Vocabulary::Module, "TexturedSurface") ? Shape::Orientable : Shape::None;
 }
 
@@ -292,7 +292,7 @@ bool GeometryReader::readRing(const Element& property, int dimension, model::Pol
     return finishRing(polygon, property.node);
 }
 
-// A boundary made of curves: the positions of their segments one after the other.
+// A boundary made of curves: the positions of their segments, concatenated.
 void GeometryReader::readCurve(const Element& element, int dimension, int depth) {
     if (depth > kDeepestCurve) return;
     const ElementAttributes attributes = attributesOf(scope_, element.node);
@@ -311,10 +311,10 @@ void GeometryReader::readCurve(const Element& element, int dimension, int depth)
         }
     });
     if (hasPositions && element.localName != "LineString" && element.localName != "LineStringSegment")
-        part_.addUnknown(element.node.name(), offsetOf_(element.node));  // an arc, taken as its control polygon
+        part_.addUnknown(element.node.name(), offsetOf_(element.node));  // an arc, read as its control polygon
     if (attributes.orientation == "-")
         std::reverse(points_.begin() + static_cast<std::ptrdiff_t>(first), points_.end());
-    // A curve starts where the one before ended.
+    // A curve starts at the end of the previous one.
     if (first > 0 && first < points_.size() && points_[first] == points_[first - 1])
         points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(first));
 }
@@ -323,7 +323,7 @@ void GeometryReader::readPositions(const Element& element, int dimension) {
     scope_.forEachChild(element.node, [&](const Element& child) { readPosition(child, dimension); });
 }
 
-// One of the ways to give positions; they may be mixed within a ring.
+// One of the ways to write positions; they may be mixed within a ring.
 void GeometryReader::readPosition(const Element& element, int dimension) {
     const string_view name = element.localName;
     if (name == "posList" || name == "pos") {
@@ -379,7 +379,7 @@ void GeometryReader::addPoints(int dimension) {
         for (std::size_t i = 0; i + 1 < numbers_.size(); i += 2) points_.push_back({numbers_[i], numbers_[i + 1], 0});
 }
 
-// Moves the points read into `polygon` as its next ring; false where the ring cannot be used.
+// Moves the points read into `polygon` as its next ring; false if the ring is unusable.
 bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at) {
     if (ringFailed_) return false;
     for (const Vec3d& point : points_) {
@@ -453,7 +453,7 @@ NodeIndex GeometryReader::readImplicit(const Element& element) {
         isUsable = false;
     }
     if (!isUsable) {
-        // The prototype stays in the graph: others may refer to it.
+        // The prototype stays in the graph, since other references may use it.
         return kNone;
     }
     part_.nodes[index].payload = static_cast<std::uint32_t>(part_.placements.size());

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Geometry elements of GML 3.1 to 3.3 into polygons and the node graph of a part.
-/// Rings that cannot be used are reported and left out here; everything else about a
-/// polygon's shape is judged by later stages. Internal to the readers.
+/// Reads geometry elements of GML 3.1 to 3.3 into polygons and the node graph of a part.
+/// Unusable rings are reported and left out here; later stages check everything else about
+/// the shape of a polygon.
 
 #include <svt/readers/citygml/citygml_part.hpp>
 #include <svt/readers/xml/xml_names.hpp>
@@ -19,12 +19,12 @@ using citygml::NodeKind;
 using citygml::Part;
 using xml::Element;
 
-/// No place on earth has coordinates of this size in any unit of length.
+/// No location on Earth has coordinates this large in any unit of length.
 inline constexpr double kLargestCoordinate = 1e10;
 
-/// Attributes that matter, found in one pass.
+/// Relevant attributes, collected in one pass.
 struct ElementAttributes {
-    std::string_view id;  ///< gml:id, else the wrong spellings gml_id and id
+    std::string_view id;  ///< gml:id, else the misspellings gml_id and id
     bool isIdMisspelled = false;
     std::string_view href;  ///< xlink:href
     bool hasHref = false;
@@ -34,10 +34,10 @@ struct ElementAttributes {
 };
 [[nodiscard]] ElementAttributes attributesOf(const xml::NameScope& scope, pugi::xml_node node);
 
-/// What a geometry element is to a volume.
+/// Role of a geometry element for a volume.
 enum class Shape : std::uint8_t {
-    None,        ///< no geometry element
-    NoVolume,    ///< points, curves, grids: known and skipped
+    None,        ///< not a geometry element
+    NoVolume,    ///< points, curves, grids: known but skipped
     Polygon,     ///< Polygon, PolygonPatch, Triangle, Rectangle
     Compact,     ///< GML 3.3: one list of positions
     Surfaces,    ///< MultiSurface, CompositeSurface, Surface, Tin, ...
@@ -49,14 +49,14 @@ enum class Shape : std::uint8_t {
 
 class GeometryReader {
 public:
-    /// \param offsetOf  byte offset in the document of a node of the walked tree
+    /// \param offsetOf  byte offset in the document of a node of the traversed tree
     GeometryReader(xml::NameScope& scope, Part& part, std::function<std::uint64_t(pugi::xml_node)> offsetOf);
 
-    /// Reads a geometry element with all below.
-    /// \return its node, or kNone where it has no surface or solid
+    /// Reads a geometry element with all its descendants.
+    /// \return its node, or kNone if it has no surface or solid
     NodeIndex read(const Element& element);
 
-    /// A node that stands for the geometry `href` points to.
+    /// A node for a reference to the geometry `href`.
     NodeIndex readReference(std::string_view href, pugi::xml_node at);
 
     /// core:ImplicitGeometry: prototype, matrix and reference point.
@@ -86,9 +86,9 @@ private:
     xml::NameScope& scope_;
     Part& part_;
     std::function<std::uint64_t(pugi::xml_node)> offsetOf_;
-    std::vector<NodeIndex> lastChild_;  // of each node, to append in order
+    std::vector<NodeIndex> lastChild_;  // of each node, to append children in order
     std::string_view polygonId_;        // of the polygon being read, for messages
-    bool isPrototype_ = false;          // inside of ImplicitGeometry: no CRS
+    bool isPrototype_ = false;          // inside an ImplicitGeometry: no CRS
     bool ringFailed_ = false;
     std::vector<double> numbers_;
     std::vector<Vec3d> points_;  // of the ring being read

@@ -30,7 +30,7 @@ Result<void> settleCrs(model::BuildingModel& model, std::string_view file, Diagn
         for (const Vec3d& point : polygon.points) box.add(point);
     if (box.isEmpty()) return {};
     const Place place{std::string(file), 0, 0, {}};
-    // "EPSG:n" is the form of a name that promises no order; +1: what the coordinates have is taken as right.
+    // The form "EPSG:n" implies no axis order; +1: the axis order of the coordinates is taken as correct.
     const std::string name = model.crs.epsg != 0 ? fmt::format("EPSG:{}", model.crs.epsg) : model.crs.name;
     const gml::AxisDecision decision = gml::decideAxes(name, box, +1);
     if (decision.isGeographic)

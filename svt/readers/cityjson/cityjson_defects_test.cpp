@@ -22,7 +22,7 @@ TEST(CityJsonDefects, BadInstancesAreReportedAndLeftOut) {
 }
 
 TEST(CityJsonDefects, MultipliedTemplatesAreLimited) {
-    // 30 kB of template, written out 20,000 times by a few bytes each.
+    // 30 kB of template, instantiated 20,000 times with a few bytes each.
     std::string surfaces = "[[0,1,2]]";
     for (int i = 0; i < 3000; ++i) surfaces += ",[[0,1,2]]";
     std::string instances = R"({"type":"GeometryInstance","template":0,"boundaries":[1]})";

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Small CityJSON documents for tests, and how to read them.
+/// Small CityJSON documents for tests, and functions to read them.
 
 #include <svt/readers/cityjson/cityjson_reader.hpp>
 
@@ -38,7 +38,7 @@ inline Reading read(std::string_view text, const ReadOptions& options = {}) {
 constexpr std::string_view kCubeVertices = "[[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]]";
 constexpr std::string_view kCubeShell = "[[[0,2,3,1]],[[4,5,7,6]],[[0,1,5,4]],[[2,6,7,3]],[[0,4,6,2]],[[1,3,7,5]]]";
 
-/// A document with the given CityObjects and, after them, further root members.
+/// A document with the given CityObjects, followed by further root members.
 inline std::string document(std::string_view objects, std::string_view more = "", std::string_view version = "2.0") {
     std::string text = R"({"type":"CityJSON","version":")";
     text.append(version).append(R"(","transform":{"scale":[0.5,0.5,0.5],"translate":[1000,2000,3000]},"CityObjects":)");
@@ -46,7 +46,7 @@ inline std::string document(std::string_view objects, std::string_view more = ""
     return text;
 }
 
-/// A document with one Building "b" that has the given geometries.
+/// A document with one Building "b" that has these geometries.
 inline std::string withGeometry(std::string_view geometries, std::string_view more = "") {
     return document(R"({"b":{"type":"Building","geometry":[)" + std::string(geometries) + "]}}", more);
 }
@@ -72,7 +72,7 @@ inline std::string readFile(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A head with a material and a template, and two features on lines 2 and 4.
+/// A header line with a material and a template, and two features on lines 2 and 4.
 inline std::string sequence() {
     return R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.5,0.5,0.5],"translate":[1000,2000,3000]},"CityObjects":{},"vertices":[],)"
            R"("appearance":{"materials":[{"name":"stone"}]},)"

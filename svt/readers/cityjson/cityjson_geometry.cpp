@@ -13,12 +13,12 @@
 namespace svt::readers::cityjson {
 namespace {
 
-/// Absurdly large: farther than the Earth's surface in millimetres.
+/// Limit on coordinates: a quarter of the Earth's circumference in millimetres.
 constexpr double kMaxCoordinate = 1e10;
 
 using Matrix = std::array<double, 16>;  ///< row-major, world = matrix * (x, y, z, 1) + anchor
 
-/// An array that runs beside another one; absent where the file says null or too little.
+/// Iterates an array parallel to another one; yields nothing where the file has null or too few values.
 class Beside {
 public:
     Beside(std::optional<json::element> value, bool& hasBadNesting) {
@@ -44,12 +44,12 @@ private:
     bool isArray_ = false;
 };
 
-/// What a geometry says of its parts beside the boundaries, on one level of nesting.
+/// Semantics and material values of a geometry at one nesting level of its boundaries.
 struct Values {
     std::optional<json::element> semantics, material;
 };
 
-/// Both arrays of values, walked beside the boundaries.
+/// Both arrays of values, iterated in parallel with the boundaries.
 class BesideValues {
 public:
     BesideValues(const Values& values, bool& hasBadNesting)
@@ -63,7 +63,7 @@ private:
     Beside semantics_, material_;
 };
 
-/// True where three of the points differ from each other.
+/// True if at least three of the points are distinct.
 bool hasThreePoints(std::span<const Vec3d> points) noexcept {
     std::size_t second = 1;
     while (second < points.size() && points[second] == points[0]) ++second;
@@ -368,7 +368,7 @@ private:
         return -1;
     }
 
-    // Semantics: the surfaces of this geometry, each with the polygons it owns.
+    // Semantics: the surfaces of this geometry, each with its polygons.
 
     struct Draft {
         json::object members;
@@ -397,7 +397,7 @@ private:
         readSurfaceParents();
     }
 
-    /// `parent` of the child counts; `children` of the parent where the child says nothing.
+    /// `parent` of the child takes precedence; `children` of the parent is used if the child has none.
     void readSurfaceParents() {
         const auto count = static_cast<std::int64_t>(drafts_.size());
         const auto isUsable = [&](std::optional<std::int64_t> index) {
@@ -464,7 +464,7 @@ private:
         }
     }
 
-    /// A new semantic surface; or, where an earlier geometry has one of the same id and type, that one.
+    /// A new semantic surface; or the one of an earlier geometry with the same id and type.
     std::int32_t surfaceFor(Draft& draft) {
         const auto type = textMember(draft.members, "type");
         if (type.empty()) report(Code::BadValue, "has a semantic surface without type; read as GenericThematicSurface");
@@ -504,13 +504,13 @@ private:
         geometry.surfaces = std::move(uses);
     }
 
-    /// Brings object_.surfaces into tree order, so that a parent stands before its children.
+    /// Sorts object_.surfaces into tree order, so that parents precede their children.
     void giveSurfacesOrder() {
         const std::size_t count = object_.surfaces.size();
         if (count == 0) return;
         std::vector<std::int32_t> parents(count);
         for (std::size_t i = 0; i < count; ++i) parents[i] = object_.surfaces[i].parent;
-        // Surfaces that two geometries share by id can close a cycle that neither has.
+        // Surfaces shared by id between two geometries can form a cycle that neither has alone.
         for (const std::int32_t i : breakCycles(parents)) {
             report(Code::ReferenceCycle,
                    fmt::format("semantic surface '{}' is its own ancestor; its parent is left out",
@@ -537,7 +537,7 @@ private:
         object_.surfaces = std::move(sorted);
     }
 
-    static constexpr std::int32_t kNotAnObject = -2;  ///< as a draft's parent: the draft cannot be used
+    static constexpr std::int32_t kNotAnObject = -2;  ///< as the parent of a draft: the draft is unusable
 
     const TextContext& context_;
     ParsedObject& object_;

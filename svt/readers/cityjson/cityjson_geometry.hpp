@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: the geometries of one city object with their semantics and materials.
+/// The geometries of one city object with their semantics and materials.
 
 #include <svt/readers/cityjson/cityjson_objects.hpp>
 
@@ -9,7 +9,7 @@ namespace svt::readers::cityjson {
 /// Reads the array `geometry` of a city object into its feature, polygons and semantic surfaces.
 void readGeometries(json::array geometries, const TextContext& context, ParsedObject& object);
 
-/// Bytes of template text that the instances of `cityObject` stand for; to be known before any is written out.
+/// Bytes of template text that the instances of `cityObject` expand to; checked before any is instantiated.
 [[nodiscard]] std::uint64_t instancedBytes(json::element cityObject, const TemplateSet& templates);
 
 }  // namespace svt::readers::cityjson

@@ -15,7 +15,7 @@ constexpr std::size_t kMessageBytes = 200;
 bool isBlank(char c) noexcept { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-/// Offset of the first byte that is no valid UTF-8, or npos.
+/// Offset of the first byte of invalid UTF-8, or npos.
 std::size_t findBadUtf8(std::string_view text) noexcept {
     const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     for (std::size_t i = 0; i < text.size();) {
@@ -24,7 +24,7 @@ std::size_t findBadUtf8(std::string_view text) noexcept {
         if (more < 0 || i + static_cast<std::size_t>(more) >= text.size()) return i;
         for (int k = 1; k <= more; ++k)
             if ((byteAt(i + k) & 0xC0u) != 0x80u) return i;
-        // Overlong forms, surrogates and code points above 10FFFF show in the second byte.
+        // Overlong forms, surrogates and code points above 10FFFF are detected in the second byte.
         const unsigned second = more > 0 ? byteAt(i + 1) : 0;
         if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
             (lead == 0xF4 && second > 0x8F))
@@ -34,7 +34,7 @@ std::size_t findBadUtf8(std::string_view text) noexcept {
     return std::string_view::npos;
 }
 
-/// True where a well-formed number is too large for the types that it may be read as.
+/// True if a well-formed number is too large for the types it may be read as.
 bool isTooLarge(std::string_view number) noexcept {
     const char* begin = number.data();
     const char* end = begin + number.size();
@@ -46,7 +46,7 @@ bool isTooLarge(std::string_view number) noexcept {
     }
     double value = 0;
     if (std::from_chars(begin, end, value).ec == std::errc()) return !std::isfinite(value);
-    // Out of range is too large or too small: the decimal exponent of the first digit that counts tells which.
+    // Out of range means too large or too small: the decimal exponent of the first significant digit tells which.
     long exponent = 0;
     const std::size_t mark = number.find_first_of("eE");
     const std::string_view mantissa = number.substr(0, mark);
@@ -72,7 +72,7 @@ public:
     std::optional<JsonFault> run() {
         auto fault = scan();
         const std::size_t bad = findBadUtf8(text_);
-        // A text cut off inside a character is foremost cut off.
+        // A text truncated inside a character is reported as truncated.
         const bool isCutOff = fault && fault->offset >= text_.size() && bad + 4 > text_.size();
         if (bad == std::string_view::npos || isCutOff) return fault;
         return JsonFault{bad, Code::BadEncoding, "a byte that is no valid UTF-8; save the file as UTF-8"};
@@ -177,7 +177,7 @@ private:
         }
         return fail(fmt::format("the text ends inside the string that begins at byte {}; the file is cut off", begin));
     }
-    /// Leaves the position on the escape's last character.
+    /// Leaves the position on the last character of the escape.
     bool scanEscape() {
         ++position_;
         if (position_ >= text_.size()) return fail("the text ends inside a string; the file is cut off");
@@ -238,7 +238,7 @@ private:
     std::optional<JsonFault> fault_;
 };
 
-/// Line and column of offsets asked in ascending order, in one pass.
+/// Line and column of offsets queried in ascending order, in one pass.
 class PlaceFinder {
 public:
     PlaceFinder(std::string_view text, const TextOrigin& origin)
@@ -274,7 +274,7 @@ Result<json::element> JsonText::parse(std::string_view text, const TextOrigin& o
                      fmt::format("one JSON text has {} bytes, at most {} can be read; use CityJSONSeq", text.size(),
                                  simdjson::SIMDJSON_MAXSIZE_BYTES - 1),
                      {std::string(origin.file), origin.firstLine, 0, {}});
-    // simdjson counts one level more than there are brackets; growth in steps spares allocations between lines.
+    // simdjson counts one level more than there are brackets; growing in steps avoids reallocations between lines.
     simdjson::error_code error = simdjson::SUCCESS;
     if (parser_.capacity() < text.size() || parser_.max_depth() != maxDepth + 1)
         error = parser_.allocate(

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Internal: parsed JSON text, and where and why a text is not JSON. simdjson tells only the kind of an error,
-/// so a failed text is scanned a second time by a plain scanner that knows offsets.
+/// Parses JSON text and locates syntax errors. simdjson reports only the kind of an error,
+/// so invalid text is scanned again by a simple scanner that tracks offsets.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -19,33 +19,33 @@ namespace svt::readers::cityjson {
 
 namespace json = simdjson::dom;
 
-/// The first place where a text breaks the grammar.
+/// The first syntax error of a text.
 struct JsonFault {
     std::size_t offset = 0;
     Code code = Code::BadJson;  ///< BadJson, BadEncoding or InputTooBig (depth)
     std::string message;        ///< what was found and what was expected
 };
 
-/// Half-open range of bytes of a text.
+/// Half-open byte range of a text.
 struct TextRange {
     std::size_t begin = 0, end = 0;
 };
 
-/// Scans `text` as one JSON value of at most `maxDepth` levels.
-/// \param outOfRange  receives the numbers that are well-formed but fit neither 64 bits nor a double
+/// Checks `text` as one JSON value of at most `maxDepth` levels.
+/// \param outOfRange  receives well-formed numbers that fit neither 64 bits nor a double
 [[nodiscard]] std::optional<JsonFault> findJsonFault(std::string_view text, std::uint32_t maxDepth,
                                                      std::vector<TextRange>& outOfRange);
 
-/// Where a text begins in its file.
+/// Position of a text in its file.
 struct TextOrigin {
     std::string_view file;
-    std::uint64_t firstLine = 1;  ///< 1-based line of the text's first byte
+    std::uint64_t firstLine = 1;  ///< 1-based line of the first byte of the text
 };
 
-/// One parsed text; its elements live as long as it does, or until the next parse.
+/// One parsed text; its elements are valid as long as this object, or until the next parse.
 class JsonText {
 public:
-    /// Parses one JSON value. A number that no double can hold is read as null and reported (BadValue).
+    /// Parses one JSON value. A number beyond the range of double is read as null and reported (BadValue).
     /// \return the root, or BadJson, BadEncoding or InputTooBig with line and column
     [[nodiscard]] Result<json::element> parse(std::string_view text, const TextOrigin& origin, std::uint32_t maxDepth,
                                               Diagnostics& diagnostics);
@@ -58,15 +58,15 @@ private:
     json::parser parser_;
 };
 
-/// `text` cut to a length fit for messages and made ids, at a character's border.
+/// `text` truncated at a character boundary to a length suitable for messages and generated ids.
 [[nodiscard]] std::string shortened(std::string_view text);
 
-// Typed access that answers "absent" for a wrong type.
+// Typed access; absent for a wrong type.
 [[nodiscard]] std::optional<json::object> asObject(json::element value) noexcept;
 [[nodiscard]] std::optional<json::array> asArray(json::element value) noexcept;
 [[nodiscard]] std::optional<std::string_view> asString(json::element value) noexcept;
 [[nodiscard]] std::optional<double> asNumber(json::element value) noexcept;
-/// An integer, also one written as 3.0.
+/// An integer, also if written as 3.0.
 [[nodiscard]] std::optional<std::int64_t> asInteger(json::element value) noexcept;
 /// The first member `key` of `object`.
 [[nodiscard]] std::optional<json::element> memberOf(json::object object, std::string_view key) noexcept;

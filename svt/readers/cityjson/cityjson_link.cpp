@@ -47,13 +47,13 @@ private:
                          {std::string(file_), object.feature.line, 0, shortened(object.id)});
     }
 
-    /// The first object of an id stays.
+    /// Keeps the first object of each id.
     void dropDuplicates() {
         indexOfId_.reserve(objects_.size());
         std::size_t kept = 0;
         for (std::size_t i = 0; i < objects_.size(); ++i) {
             if (i != kept) objects_[kept] = std::move(objects_[i]);
-            // The key is a copy: moving an object moves its text.
+            // The key is a copy, because moving an object moves its text.
             if (indexOfId_.emplace(objects_[kept].id, static_cast<std::int32_t>(kept)).second)
                 ++kept;
             else
@@ -68,7 +68,7 @@ private:
         return found == indexOfId_.end() ? kNone : found->second;
     }
 
-    /// The child's own word counts; a parent's `children` where the child says nothing.
+    /// `parents` of the child takes precedence; `children` of the parent is used if the child has none.
     void findParents() {
         parents_.assign(objects_.size(), kNone);
         for (std::size_t i = 0; i < objects_.size(); ++i)
@@ -94,7 +94,7 @@ private:
             report(Code::ReferenceCycle, objects_[i], "is its own ancestor; it becomes a root");
     }
 
-    /// Children in the order of the parent's `children`, then those it does not name in file order.
+    /// Children in the order of the parent's `children`, then the remaining ones in file order.
     void orderChildren() {
         children_.resize(objects_.size());
         std::vector<bool> isPlaced(objects_.size(), false);
@@ -111,7 +111,7 @@ private:
 
     void emit() {
         featureOf_.assign(objects_.size(), model::kNoFeature);
-        // Room is reserved, so views of ids of features in the model stay valid.
+        // The capacity is reserved, so views of ids of features in the model stay valid.
         std::vector<std::int32_t> stack;
         for (std::size_t i = objects_.size(); i-- > 0;)
             if (parents_[i] == kNone) stack.push_back(static_cast<std::int32_t>(i));
@@ -163,7 +163,7 @@ private:
     [[nodiscard]] std::string makeId(std::int32_t i, std::string_view className, std::size_t number) const {
         const std::string& objectId = objects_[i].id;
         std::string stem = shortened(objectId);
-        // What is cut off may be all that tells two objects apart.
+        // The removed text may be the only difference between two objects.
         if (stem.size() != objectId.size()) stem += fmt::format("#{}", i);
         const std::string id = fmt::format("{}/{}[{}]", stem, shortened(className), number);
         std::string free = id;
@@ -184,7 +184,7 @@ private:
         }
     }
 
-    /// Groups with their members in the order of `children`; then every parent that is not the one of the tree.
+    /// Groups with their members in the order of `children`; then all parents other than the one in the tree.
     void addMemberships() {
         std::unordered_set<std::uint64_t> known;
         const auto add = [&](std::int32_t group, std::int32_t member, std::string role) {

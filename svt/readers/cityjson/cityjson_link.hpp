@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Internal: joins the objects of a file, each read for itself, into one tree.
+/// Joins the independently read objects of a file into one tree.
 
 #include <svt/readers/cityjson/cityjson_objects.hpp>
 
 namespace svt::readers::cityjson {
 
 /// Appends `objects` (in file order; consumed) to `model`: resolves parents, children and groups, numbers polygons,
-/// and gives every semantic surface an id of its own. Features come out in tree order.
-/// \return InputTooBig where features or polygons are more than 32 bits can number
+/// and gives every semantic surface a unique id. The resulting features are in tree order.
+/// \return InputTooBig if there are more features or polygons than 32 bits can number
 /// Cost: O(objects + polygons). Memory: the polygons are moved, not copied.
 [[nodiscard]] Result<void> linkObjects(std::vector<ParsedObject> objects, std::string_view file,
                                        model::BuildingModel& model, Diagnostics& diagnostics);

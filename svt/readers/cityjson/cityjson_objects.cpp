@@ -11,7 +11,8 @@
 namespace svt::readers::cityjson {
 namespace {
 
-// Members of deeper objects share their path, so path and depth are limited: text must not grow with both.
+// Nested members repeat the path of their ancestors, so path and depth are limited: otherwise text could grow with
+// both.
 constexpr std::size_t kMaxPathBytes = 256;
 constexpr int kMaxPathParts = 16;
 
@@ -79,7 +80,7 @@ std::optional<AttributeValue> scalarOf(json::element value) {
     }
 }
 
-/// {"value": 22.3, "uom": "m"}: a measure, not two attributes.
+/// {"value": 22.3, "uom": "m"} is one measure, not two attributes.
 bool appendMeasure(const std::string& name, json::object object, std::vector<Attribute>& attributes) {
     const auto value = memberOf(object, "value");
     const auto unit = memberOf(object, "uom");
@@ -124,7 +125,7 @@ std::vector<std::string> readIds(json::object object, std::string_view key, Pars
     return ids;
 }
 
-/// Entries of `children_roles` belong to the entries of `children`, so one that is no text stays, as an empty role.
+/// `children_roles` is parallel to `children`, so an entry that is not text is kept as an empty role.
 std::vector<std::string> readRoles(json::object object) {
     std::vector<std::string> roles;
     const auto value = memberOf(object, "children_roles");
@@ -188,7 +189,7 @@ ParsedObject readCityObject(std::string_view id, json::element value, const Text
     ParsedObject parsed;
     parsed.id = id;
     parsed.feature.id = id;
-    // Only a sequence has a line per object; a whole document says nothing about lines once it is parsed.
+    // Only a sequence gives a line per object; a parsed document has no line information.
     const bool hasLine = context.origin.firstLine > 1;
     parsed.feature.line = hasLine ? context.origin.firstLine : 0;
     const Place place{std::string(context.origin.file), parsed.feature.line, 0, shortened(id)};
@@ -201,7 +202,7 @@ ParsedObject readCityObject(std::string_view id, json::element value, const Text
     }
     readType(*object, parsed, place);
     parsed.parents = readIds(*object, "parents", parsed, place);
-    // CityJSON 1.0 calls the children of a group "members".
+    // CityJSON 1.0 names the children of a group "members".
     parsed.children = readIds(*object, "children", parsed, place);
     if (parsed.isGroup && parsed.children.empty()) parsed.children = readIds(*object, "members", parsed, place);
     if (parsed.isGroup) parsed.childrenRoles = readRoles(*object);
@@ -228,7 +229,7 @@ ParsedObject readCityObject(std::string_view id, json::element value, const Text
 
 std::vector<std::int32_t> breakCycles(std::span<std::int32_t> parents) {
     std::vector<std::int32_t> broken;
-    std::vector<std::int32_t> walkOf(parents.size(), -1);  // the walk that came by first
+    std::vector<std::int32_t> walkOf(parents.size(), -1);  // the first traversal that reached the node
     for (std::int32_t walk = 0; walk < static_cast<std::int32_t>(parents.size()); ++walk) {
         std::int32_t node = walk;
         while (node >= 0 && walkOf[node] < 0) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: one city object, read without knowledge of the others, so objects can be read in parallel.
+/// Reads one city object independently of the others, so objects can be read in parallel.
 
 #include <svt/readers/cityjson/cityjson_json.hpp>
 
@@ -17,14 +17,14 @@ namespace svt::readers::cityjson {
 
 inline constexpr std::int32_t kNoSurface = -1;
 
-/// Template geometries of the head.
+/// Template geometries of the header.
 struct TemplateSet {
     std::vector<json::element> geometries;
-    std::vector<std::uint64_t> textBytes;  ///< of each geometry as compact JSON
-    std::vector<Vec3d> vertices;           ///< never put through the transform
+    std::vector<std::uint64_t> textBytes;  ///< per geometry, as compact JSON
+    std::vector<Vec3d> vertices;           ///< never transformed
 };
 
-/// What the objects of one JSON text share. A vertex that cannot be used has x = NaN.
+/// Data shared by the objects of one JSON text. An unusable vertex has x = NaN.
 struct TextContext {
     TextOrigin origin;
     std::span<const Vec3d> vertices;
@@ -35,20 +35,20 @@ struct TextContext {
     std::string_view materialTheme;       ///< default-theme-material, or empty
 };
 
-/// A semantic surface that owns polygons, or is above one that does.
+/// A semantic surface that has polygons, or an ancestor of one.
 struct SemanticSurface {
-    model::Feature feature;            ///< id empty where the file gives none; parent and children unused
+    model::Feature feature;            ///< id empty if the file gives none; parent and children unused
     std::int32_t parent = kNoSurface;  ///< into ParsedObject::surfaces
 };
 
-/// A city object; its polygon indices count from 0 into its own polygons.
+/// A city object; its polygon indices count from 0 in its own list of polygons.
 struct ParsedObject {
     std::string id;
     bool isGroup = false;
     model::Feature feature;
     std::vector<std::string> parents, children, childrenRoles;
     std::vector<model::Polygon> polygons;
-    std::vector<SemanticSurface> surfaces;  ///< a parent before its children
+    std::vector<SemanticSurface> surfaces;  ///< parents precede their children
     Diagnostics diagnostics;
 };
 
@@ -62,7 +62,7 @@ void appendAttribute(std::string_view name, json::element value, std::vector<Att
 /// Value of the text attribute "name", else "gml:name", else empty.
 [[nodiscard]] std::string nameOf(std::span<const Attribute> attributes);
 
-/// Makes `parents` (index of the parent, -1: none) a forest: of every cycle the lowest index loses its parent.
+/// Turns `parents` (index of the parent, -1: none) into a forest: in every cycle the lowest index loses its parent.
 /// \return those indices, ascending. Cost: O(n).
 [[nodiscard]] std::vector<std::int32_t> breakCycles(std::span<std::int32_t> parents);
 

@@ -30,7 +30,8 @@ TEST(CityJsonSemantics, SurfacesBecomeChildrenThatShareThePolygons) {
 }
 
 TEST(CityJsonSemantics, WindowStandsUnderItsWall) {
-    // The window comes first and is tied by `children` once and by `parent` once; the roof only holds the skylight.
+    // The window comes first and is linked once by `children` and once by `parent`; the roof contains only the
+    // skylight.
     const Reading reading = read(withGeometry(cube(
         R"(,"semantics":{"surfaces":[{"type":"Window","id":"w1"},{"type":"WallSurface","children":[0]},)"
         R"({"type":"Door","parent":1},{"type":"RoofSurface"},{"type":"Window","parent":3}],"values":[[0,1,2,4,null,null]]})")));
@@ -100,7 +101,7 @@ TEST(CityJsonSemantics, BadReferencesAreReported) {
     EXPECT_EQ(reading.model().features[2].parent, 1u);
 }
 
-/// A tetrahedron with a ground, two walls and a roof, as both formats write it.
+/// A tetrahedron with a ground, two walls and a roof, in both formats.
 TEST(CityJsonSemantics, SolidWithSurfacesGivesWhatCityGmlGives) {
     const std::string corner[] = {"1000 2000 0 ", "1004 2000 0 ", "1000 2003 0 ", "1000 2000 5 "};
     const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};

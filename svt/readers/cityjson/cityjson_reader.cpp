@@ -22,7 +22,7 @@ using namespace cityjson;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
-/// A few bytes of instance stand for a whole template, so the sum of what they stand for is limited.
+/// A few bytes of instance stand for a whole template, so the total expanded size is limited.
 constexpr std::uint64_t kMaxInstancedBytes = std::uint64_t{1} << 28;
 
 std::string_view trimmed(std::string_view text) noexcept {
@@ -31,7 +31,8 @@ std::string_view trimmed(std::string_view text) noexcept {
     return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-/// A JSON text never has '}' and then '{' with only blanks between, so a sequence shows at the end of its first line.
+/// A JSON text never contains '}' and then '{' with only blanks between, so the end of the first line reveals a
+/// sequence.
 bool isSequence(std::string_view text) noexcept {
     const std::size_t begin = text.find_first_not_of(kBlanks);
     const std::size_t lineEnd = begin == std::string_view::npos ? begin : text.find('\n', begin);
@@ -41,7 +42,7 @@ bool isSequence(std::string_view text) noexcept {
     return line.ends_with('}') && next != std::string_view::npos && text[next] == '{';
 }
 
-/// The members of a CityJSON object or feature, found in one pass.
+/// The members of a CityJSON object or feature, collected in one pass.
 struct RootMembers {
     std::optional<json::element> type, version, transform, cityObjects, vertices, metadata, appearance, templates;
 
@@ -76,7 +77,7 @@ struct Transform {
     Vec3d scale{1, 1, 1}, translate{0, 0, 0};
 
     [[nodiscard]] Vec3d apply(Vec3d v) const noexcept {
-        // Written out: the same two roundings for the same integer, so shared vertices have equal bits.
+        // No fused operation: the same two roundings for equal integers, so shared vertices have identical bits.
         return {v.x * scale.x + translate.x, v.y * scale.y + translate.y, v.z * scale.z + translate.z};
     }
 };
@@ -94,7 +95,7 @@ std::optional<Vec3d> readVec3(json::element value) {
     return axis == 3 ? std::optional(result) : std::nullopt;
 }
 
-/// A vertex that is not three numbers gets NaN; the surfaces that use it are reported and left out.
+/// A vertex that is not three numbers becomes NaN; surfaces that use it are reported and left out.
 std::vector<Vec3d> readVertices(json::array array, const Transform& transform) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vec3d> vertices;
@@ -138,7 +139,7 @@ struct ParsedLine {
     std::string_view text;
     std::uint64_t number = 0;  ///< 1-based
     std::vector<ParsedObject> objects;
-    std::vector<model::Material> materials;  ///< of the line alone
+    std::vector<model::Material> materials;  ///< of this line only
     Diagnostics diagnostics;
 };
 
@@ -283,7 +284,7 @@ private:
         if (const auto array = geometries ? asArray(*geometries) : std::nullopt)
             for (const json::element geometry : *array) {
                 templates_.geometries.push_back(geometry);
-                // At least what a feature takes, so that empty templates count as well.
+                // At least the size of a feature, so that empty templates count as well.
                 templates_.textBytes.push_back(std::max<std::size_t>(64, simdjson::minify(geometry).size()));
             }
         if (const auto array = vertices ? asArray(*vertices) : std::nullopt)
@@ -306,7 +307,7 @@ private:
         return {};
     }
 
-    /// Lines in batches of a fixed number of bytes; a batch is parsed in parallel and joined in order.
+    /// Reads lines in batches of a fixed number of bytes; a batch is parsed in parallel and joined in order.
     Result<void> readLines(std::uint64_t headLine) {
         std::uint64_t number = headLine;
         std::size_t position = 0;
@@ -334,7 +335,7 @@ private:
         return {};
     }
 
-    /// Runs beside other lines: reads the members of this reader, writes `line` alone.
+    /// Runs in parallel with other lines: only reads the members of this reader, writes only to `line`.
     void readLine(JsonText& json, ParsedLine& line) {
         const TextOrigin origin{name_, line.number};
         const auto leaveOut = [&](std::string_view why) {
@@ -357,14 +358,14 @@ private:
         const auto cityObjects = members.cityObjects ? asObject(*members.cityObjects) : std::nullopt;
         const auto vertices = members.vertices ? asArray(*members.vertices) : std::nullopt;
         if (!cityObjects || !vertices) return leaveOut("the object 'CityObjects' or the array 'vertices' is absent");
-        // The sum over a batch decides, so that the order of threads does not: a reading fails always or never.
+        // The sum over a batch decides, so that failure does not depend on the order of threads.
         for (const auto [id, value] : *cityObjects) instancedBytes_ += instancedBytes(value, templates_);
         if (instancedBytes_ > kMaxInstancedBytes) return;
         const std::vector<Vec3d> points = readVertices(*vertices, transform_);
         TextContext context = contextOf(origin, points);
         line.materials = readMaterials(members.appearance);
         if (!line.materials.empty()) {
-            // Numbered after those of the head here; joinLine() gives the numbers of the model.
+            // Numbered after those of the header here; joinLine() assigns the numbers of the model.
             context.materialBegin = headMaterials_;
             context.materialEnd = context.materialBegin + line.materials.size();
         }
@@ -375,7 +376,7 @@ private:
 
     void joinLine(ParsedLine& line) {
         diagnostics_.append(line.diagnostics);
-        // Lines repeat the same few materials; each stands in the model once.
+        // Lines repeat the same few materials; the model stores each once.
         std::vector<std::int32_t> numberOf;
         for (model::Material& material : line.materials) {
             const auto next = static_cast<std::int32_t>(model_.materials.size());
@@ -398,14 +399,14 @@ private:
     std::string_view text_, rest_, name_;
     const ReadOptions& options_;
     Diagnostics& diagnostics_;
-    JsonText headText_;  ///< keeps the templates and the theme alive
+    JsonText headText_;  ///< owns the templates and the theme
     Transform transform_;
     bool isTransformOptional_ = false;
     TemplateSet templates_;
     std::atomic<std::uint64_t> instancedBytes_{0};
     std::string_view theme_;
     std::size_t headMaterials_ = 0;
-    /// Name, colour and transparency of the materials of lines.
+    /// Key: name, colour and transparency of the materials of lines.
     std::map<std::tuple<std::string, float, float, float, float>, std::int32_t> materialNumbers_;
     std::vector<ParsedObject> objects_;
     model::BuildingModel model_;

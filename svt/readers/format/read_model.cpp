@@ -36,7 +36,7 @@ constexpr Format kFormats[] = {
 
 string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-// A file in memory as long as the object lives.
+// A mapped file, unmapped by the destructor.
 class MappedFile {
 public:
     static Result<std::unique_ptr<MappedFile>> open(const std::filesystem::path& path, std::uint64_t maxBytes) {
@@ -79,7 +79,7 @@ private:
 
 bool isGzip(Bytes bytes) noexcept { return asText(bytes).starts_with("\x1F\x8B\x08"); }
 
-// All members of a gzip file, one after the other.
+// All members of a gzip file, concatenated.
 Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::uint64_t maxBytes) {
     const auto fail = [&](Code code, std::string message) {
         return Error(code, std::move(message), {std::string(name), 0, 0, {}});
@@ -88,7 +88,7 @@ Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::
     if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) throw std::bad_alloc();
     const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
 
-    constexpr std::size_t kStep = 1 << 30;  // counters of zlib have 32 bits
+    constexpr std::size_t kStep = 1 << 30;  // zlib counters have 32 bits
     std::vector<std::byte> output(
         std::min<std::uint64_t>(std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), maxBytes));
     std::size_t written = 0;
@@ -123,7 +123,7 @@ Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::
     return output;
 }
 
-// Content that people try, with what it is and what to do about it.
+// Content that users often try: what it is and what to do instead.
 struct KnownOther {
     string_view beginsWith;
     string_view isWhat;
@@ -201,7 +201,7 @@ Result<model::BuildingModel> readPlain(Bytes bytes, string_view name, const Read
     return unknownFormat(bytes, name);
 }
 
-// A feature whose format has no class for it may state one: walls as solids in CityGML 2.0, for example.
+// A feature may state a class that its format lacks: walls as solids in CityGML 2.0, for example.
 Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> model) {
     if (!model) return model;
     for (model::Feature& feature : model->features)

@@ -37,7 +37,7 @@ std::string gzipped(std::string_view text) {
     return out;
 }
 
-// A file that is gone when the test ends.
+// A file that is removed when the test ends.
 class TemporaryFile {
 public:
     explicit TemporaryFile(std::string_view content, std::string_view name)

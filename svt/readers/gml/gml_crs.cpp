@@ -27,7 +27,7 @@ std::size_t findIgnoringCase(string_view text, string_view word) noexcept {
 
 bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-// The last run of digits in `text` as a number, 0 where there is none or it is no code.
+// The last run of digits in `text` as a number; 0 if there is none or it is not a code.
 int lastNumber(string_view text) noexcept {
     while (!text.empty() && !isDigit(text.back())) text.remove_suffix(1);
     std::size_t begin = text.size();
@@ -38,7 +38,7 @@ int lastNumber(string_view text) noexcept {
     return value;
 }
 
-// GeoInfoDok names, as German cadastre data has them; their order is east, north.
+// GeoInfoDok names used in German cadastre data; their axis order is east, north.
 constexpr std::pair<string_view, int> kAdvNames[] = {
     {"ETRS89_UTM31", 25831}, {"ETRS89_UTM32", 25832}, {"ETRS89_UTM33", 25833}, {"DE_DHDN_3GK2", 31466},
     {"DE_DHDN_3GK3", 31467}, {"DE_DHDN_3GK4", 31468}, {"DE_DHDN_3GK5", 31469},
@@ -49,7 +49,7 @@ bool promisesAuthorityOrder(string_view name) noexcept {
     return findIgnoringCase(name, "urn:") == 0 || findIgnoringCase(name, "/def/crs") != string_view::npos;
 }
 
-// Where northings can be told from eastings by size alone.
+// CRSs in which northings and eastings differ by magnitude.
 struct Magnitudes {
     CodeRange codes;
     double eastMin, eastMax, northMin, northMax;
@@ -66,7 +66,7 @@ constexpr Magnitudes kMagnitudes[] = {
 
 bool isWithin(double value, double min, double max) noexcept { return value >= min && value <= max; }
 
-// Degrees under no name or an unknown one: next to nothing across, yet metres high, and away from the origin.
+// Degrees without a known CRS name: tiny horizontal extent, yet metres high, and away from the origin.
 bool looksLikeDegrees(const Box3d& box) noexcept {
     const Vec3d size = box.size();
     const Vec3d center = box.center();

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Names of coordinate reference systems: which EPSG code they mean, whether their coordinates are
-/// degrees, and which axis comes first. Nothing is reprojected. Internal to the readers.
+/// Names of coordinate reference systems: their EPSG code, whether coordinates are degrees,
+/// and which axis comes first. Nothing is reprojected.
 
 #include <svt/core/vec.hpp>
 
@@ -15,20 +15,20 @@ namespace svt::readers::gml {
 /// .../gml/srs/epsg.xml#25832, and the names of the German surveying authorities (urn:adv:crs:ETRS89_UTM32*...).
 [[nodiscard]] int epsgCode(std::string_view srsName) noexcept;
 
-/// True where both names mean the same horizontal CRS as far as can be told.
+/// True if both names denote the same horizontal CRS, as far as can be determined.
 [[nodiscard]] bool isSameCrs(std::string_view a, std::string_view b) noexcept;
 
 struct AxisDecision {
     bool isGeographic = false;  ///< degrees
-    bool isNorthFirst = false;  ///< x and y are to be exchanged
-    std::string remark;         ///< what is odd about name and coordinates, or empty
+    bool isNorthFirst = false;  ///< x and y must be swapped
+    std::string remark;         ///< an inconsistency between name and coordinates, or empty
 };
 
-/// Decides by code and form of the name (URN and URL forms promise the authority's axis order, EPSG:n does not).
-/// Many files break that rule, so the coordinates win where they tell: by magnitude, else by handedness.
+/// Decides by code and form of the name (URN and URL forms imply the authority's axis order, EPSG:n does not).
+/// Many files break that rule, so the coordinates take precedence if conclusive: by magnitude, else by handedness.
 /// \param box         of the coordinates as given in the file; may be empty
-/// \param handedness  +1 where faces of bodies look outward with coordinates as given, -1 where they do so
-///                    only with x and y exchanged, 0 where the geometry does not tell
+/// \param handedness  +1 if faces of solids look outward with coordinates as given, -1 if they do so
+///                    only with x and y swapped, 0 if the geometry is inconclusive
 [[nodiscard]] AxisDecision decideAxes(std::string_view srsName, const Box3d& box, int handedness);
 
 }  // namespace svt::readers::gml

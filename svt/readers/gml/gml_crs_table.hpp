@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which EPSG codes are geographic and which name north before east. Facts of the EPSG dataset (10.076);
-/// a range covers no code of another kind. Compound codes count as their horizontal part. Internal to the readers.
+/// EPSG codes that are geographic, and those with north before east. Facts of the EPSG dataset (10.076);
+/// a range contains no code of another kind. Compound codes count as their horizontal part.
 
 namespace svt::readers::gml {
 
@@ -11,7 +11,7 @@ struct CodeRange {
 };
 
 // clang-format off
-/// Degrees.
+/// Coordinates in degrees.
 inline constexpr CodeRange kGeographicCodes[] = {
     {3819, 3821}, {3823, 3824}, {3888, 3889}, {3906, 3906}, {4001, 4025}, {4027, 4036}, {4040, 4047}, {4052, 4055},
     {4074, 4075}, {4080, 4081}, {4120, 4216}, {4218, 4327}, {4329, 4329}, {4339, 4339}, {4341, 4341}, {4343, 4343},
@@ -73,7 +73,7 @@ inline constexpr CodeRange kNorthFirstCodes[] = {
     {31700, 31700}, {32761, 32761},
 };
 
-/// Projected, axes point south and west; values are usually given with signs turned, as east and north.
+/// Projected, axes point south and west; values are usually given with inverted signs, as east and north.
 inline constexpr CodeRange kSouthWestCodes[] = {
     {2046, 2055}, {2065, 2065}, {2963, 2963}, {3052, 3053}, {5017, 5017}, {5224, 5224}, {5513, 5513}, {5515, 5515},
     {8044, 8045}, {8352, 8352}, {22275, 22293}, {29371, 29385},

@@ -19,9 +19,9 @@ constexpr bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-// Plain decimals such as -458876.123: where the digits fit 53 bits and the power of ten is exact, one division
-// is correctly rounded (Clinger, How to read floating point numbers accurately, 1990). Anything else is left
-// to from_chars: returns false and leaves `at` alone.
+// Plain decimals such as -458876.123: if the digits fit 53 bits and the power of ten is exact, one division
+// is correctly rounded (Clinger, How to read floating point numbers accurately, 1990). For anything else returns
+// false and does not move `at`; the caller then uses from_chars.
 bool parsePlain(const char*& at, const char* end, double& value) noexcept {
     const char* p = at;
     const bool isNegative = p != end && *p == '-';
@@ -45,14 +45,14 @@ bool parsePlain(const char*& at, const char* end, double& value) noexcept {
     return true;
 }
 
-// One token, of any spelling; false where it is no number.
+// One token in any notation; false if it is not a number.
 bool parseToken(string_view token, double& value) noexcept {
     if (token.size() > 1 && token[0] == '+' && token[1] != '-' && token[1] != '+') token.remove_prefix(1);
     const char* const end = token.data() + token.size();
     const std::from_chars_result result = std::from_chars(token.data(), end, value);
     if (result.ptr != end) return false;
     if (result.ec == std::errc::result_out_of_range) {
-        // Too small becomes zero, too large infinite.
+        // Underflow becomes zero, overflow infinity.
         const std::size_t exponent = token.find_first_of("eE");
         const bool isTiny = exponent != string_view::npos ? token.find('-', exponent) != string_view::npos
                                                           : token.starts_with("0") || token.starts_with("-0");

@@ -59,7 +59,7 @@ Result<Utf8Text> fromUtf16(string_view bytes, bool isBigEndian, string_view file
     return text;
 }
 
-// 0x80 to 0x9F of Windows-1252; 0: not used.
+// 0x80 to 0x9F of Windows-1252; 0: unassigned.
 constexpr std::uint16_t kWindows1252[32] = {0x20AC, 0,      0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
                                             0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0,      0x017D, 0,
                                             0,      0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
@@ -110,7 +110,7 @@ Result<Utf8Text> toUtf8(std::span<const std::byte> bytes, string_view fileName) 
 std::size_t firstBadUtf8(string_view text) noexcept {
     const void* const nul = std::memchr(text.data(), 0, text.size());
     if (nul == nullptr && simdjson::validate_utf8(text.data(), text.size())) return string_view::npos;
-    // Rare: find the place, one character at a time.
+    // Rare: locate the error, one character at a time.
     std::size_t i = 0;
     while (i < text.size()) {
         const auto lead = static_cast<unsigned char>(text[i]);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Brings XML to UTF-8. Internal to the readers.
+/// Converts XML to UTF-8.
 
 #include <svt/core/result.hpp>
 
@@ -11,19 +11,19 @@
 
 namespace svt::readers::xml {
 
-/// Text in UTF-8 without byte order mark: a view of the input where possible, else of `owned`.
+/// Text in UTF-8 without byte order mark: a view of the input if possible, else of `owned`.
 struct Utf8Text {
     std::string_view text;
     std::string owned;
     [[nodiscard]] std::string_view view() const noexcept { return owned.empty() ? text : std::string_view(owned); }
 };
 
-/// UTF-8 is passed on unchecked (see firstBadUtf8); UTF-16 and the one-byte encodings of western Europe are converted.
-/// \return the text, or BadEncoding for any other declared encoding and for broken UTF-16
+/// UTF-8 is passed on unchecked (see firstBadUtf8); UTF-16 and single-byte Western European encodings are converted.
+/// \return the text, or BadEncoding for any other declared encoding and for invalid UTF-16
 Result<Utf8Text> toUtf8(std::span<const std::byte> bytes, std::string_view fileName);
 
-/// Offset of the first byte that is no valid UTF-8 (overlong forms and surrogates included) or no character of
-/// XML (NUL), or npos. Cost: several GB/s.
+/// Offset of the first byte of invalid UTF-8 (including overlong forms and surrogates) or of a character that XML
+/// forbids (NUL), or npos. Cost: several GB/s.
 [[nodiscard]] std::size_t firstBadUtf8(std::string_view text) noexcept;
 
 }  // namespace svt::readers::xml

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Names in XML: elements are compared by namespace and local name, never by prefix.
-/// Internal to the readers (uses pugixml, which knows nothing of namespaces).
+/// Uses pugixml, which does not support namespaces.
 
 #include <pugixml.hpp>
 
@@ -14,10 +14,10 @@
 
 namespace svt::readers::xml {
 
-/// What a namespace means to the CityGML reader.
+/// Meaning of a namespace for the CityGML reader.
 enum class Vocabulary : std::uint8_t {
-    None,        ///< no namespace, or a prefix that nobody declared
-    Other,       ///< an ADE or anything else that is not known
+    None,        ///< no namespace, or an undeclared prefix
+    Other,       ///< an ADE or any other unknown namespace
     Core,        ///< CityGML core
     Module,      ///< thematic modules: building, construction, bridge, ...
     Appearance,  ///< CityGML appearance
@@ -31,10 +31,10 @@ enum class Vocabulary : std::uint8_t {
 
 [[nodiscard]] Vocabulary vocabularyOf(std::string_view uri) noexcept;
 
-/// 1, 2 or 3 where `uri` is the core namespace of that CityGML version, else 0.
+/// 1, 2 or 3 if `uri` is the core namespace of that CityGML version, else 0.
 [[nodiscard]] int cityGmlVersion(std::string_view uri) noexcept;
 
-/// An element with its name resolved. Views into the document.
+/// An element with its resolved name. Views into the document.
 struct Element {
     pugi::xml_node node;
     Vocabulary vocabulary = Vocabulary::None;
@@ -52,19 +52,19 @@ struct QualifiedName {
 };
 [[nodiscard]] QualifiedName splitName(std::string_view name) noexcept;
 
-/// Prefix declarations in scope while a document is walked.
+/// Prefix declarations in scope during document traversal.
 class NameScope {
 public:
-    /// Takes the declarations of `element` into scope.
-    /// \return what leave() needs to drop them again
+    /// Adds the declarations of `element` to the scope.
+    /// \return a mark for leave(), which removes them again
     std::size_t enter(pugi::xml_node element);
     void leave(std::size_t mark);
 
     [[nodiscard]] Element resolve(pugi::xml_node node) const noexcept;
-    /// Namespace of an attribute; None where it has no prefix.
+    /// Namespace of an attribute; None if it has no prefix.
     [[nodiscard]] Vocabulary ofAttribute(std::string_view prefix) const noexcept;
 
-    /// Calls `visit(Element)` for each child element, its declarations in scope.
+    /// Calls `visit(Element)` for each child element, with its declarations in scope.
     template <class Visit>
     void forEachChild(pugi::xml_node parent, Visit&& visit) {
         for (pugi::xml_node child = parent.first_child(); child; child = child.next_sibling()) {
@@ -80,7 +80,7 @@ private:
         std::string prefix;
         Vocabulary vocabulary;
     };
-    // The last answers, by a hash of the prefix: a document uses a handful of prefixes over and over.
+    // Cache of lookups, indexed by a hash of the prefix: a document uses few distinct prefixes.
     struct Remembered {
         std::array<char, 14> prefix{};
         std::uint8_t size = 0xFF;
@@ -95,7 +95,7 @@ private:
 /// First child element, or an empty node.
 [[nodiscard]] pugi::xml_node firstChildElement(pugi::xml_node parent) noexcept;
 
-/// Text of an element without blanks around it. Text split by comments or CDATA is joined in `scratch`.
+/// Text of an element without surrounding blanks. Text split by comments or CDATA is joined in `scratch`.
 [[nodiscard]] std::string_view textOf(pugi::xml_node element, std::string& scratch);
 
 [[nodiscard]] constexpr bool isBlank(char c) noexcept { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }

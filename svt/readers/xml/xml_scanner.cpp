@@ -12,8 +12,8 @@ namespace {
 
 using std::string_view;
 
-constexpr std::uint64_t kChunkBytes = 256 << 10;       // between children of the root
-constexpr std::uint64_t kInnerChunkBytes = 512 << 10;  // before a child of the root is cut itself
+constexpr std::uint64_t kChunkBytes = 256 << 10;       // chunk size when cutting between children of the root
+constexpr std::uint64_t kInnerChunkBytes = 512 << 10;  // chunk size above which a child of the root is itself cut
 constexpr std::size_t kNone = string_view::npos;
 
 constexpr bool startsName(char c) noexcept {
@@ -29,7 +29,7 @@ std::size_t find(string_view text, char c, std::size_t from) noexcept {
     return found == nullptr ? kNone : static_cast<std::size_t>(static_cast<const char*>(found) - text.data());
 }
 
-// Position behind a DOCTYPE that starts at `from`, its internal subset included, or npos.
+// Position after a DOCTYPE that starts at `from`, including its internal subset, or npos.
 std::size_t skipDoctype(string_view text, std::size_t from) noexcept {
     int brackets = 0;
     for (std::size_t i = from; i < text.size(); ++i) {
@@ -66,7 +66,7 @@ string_view declaredEncoding(string_view declaration) noexcept {
 }  // namespace
 
 std::uint64_t countLines(string_view text) noexcept {
-    // Counters of one byte let the compiler compare 16 or more bytes at once.
+    // One-byte counters let the compiler compare 16 or more bytes at once.
     constexpr std::size_t kBlock = 128;
     std::uint64_t lines = 0;
     std::size_t i = 0;
@@ -195,7 +195,7 @@ bool Scanner::nextTag(Tag& tag, bool& hasTag) {
         const std::size_t nameBegin = at + (tag.isEnd ? 2 : 1);
         if (nameBegin >= text_.size() || !startsName(text_[nameBegin]))
             return fail(Code::BadXml, "'<' is not followed by a name; write '&lt;' in text", at);
-        // Deeper names are compared where their chunk is parsed.
+        // Deeper names are compared when their chunk is parsed.
         const bool needsName = depth_ <= std::size(open_);
         if (needsName) tag.name = nameAt(text_, nameBegin);
         if (!tag.isEnd) {

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Cuts a large XML document into pieces that can be parsed on their own, in one pass over its
-/// bytes: nothing but tags, quotes, comments and CDATA is looked at. Strict: what it lets through
-/// is balanced, without DTD, and not nested deeper than allowed. Internal to the readers.
+/// Cuts a large XML document into chunks that can be parsed independently, in one pass over its
+/// bytes that examines only tags, quotes, comments and CDATA. Strict: accepted documents are
+/// balanced, without DTD, and not nested deeper than allowed.
 
 #include <svt/core/result.hpp>
 
@@ -21,31 +21,31 @@ struct Range {
     [[nodiscard]] std::uint64_t size() const noexcept { return end - begin; }
 };
 
-/// A stretch of the root's content. Cuts lie between children of the root where possible, and
-/// below that (between children of a child of the root, or one level further down) where a child is
+/// A piece of the content of the root. Cuts lie between children of the root where possible, and one or two
+/// levels below (between children of a child of the root, or of a grandchild) if a child is
 /// too large, so a file with one huge building is cut too:
 ///
 ///     <CityModel> <member> <Building> ... | ... </Building> </member> <member> ... | ... </CityModel>
 ///                 `------- open ---------'     open tags of the second chunk: <member> <Building>
 struct Chunk {
     Range content;
-    std::vector<Range> open;  ///< start tags of the elements that are open where the content begins, outermost first
-    std::string closing;      ///< end tags of the elements that are open where the content ends
+    std::vector<Range> open;  ///< start tags of the elements that are open at the start of the content, outermost first
+    std::string closing;      ///< end tags of the elements that are open at the end of the content
 };
 
-/// Threads: none shared. Cost: O(bytes), about 2 GB/s.
+/// Threads: not thread-safe. Cost: O(bytes), about 2 GB/s.
 class Scanner {
 public:
-    /// \param text      the document, UTF-8, without byte order mark; outlives the scanner
-    /// \param fileName  for the places of errors
+    /// \param text      the document, UTF-8, without byte order mark; must outlive the scanner
+    /// \param fileName  used in error locations
     Scanner(std::string_view text, std::string fileName, std::uint32_t maxDepth);
 
-    /// Reads the prolog and the root's start tag.
-    /// \return the root's tag, or BadXml, DtdRefused
+    /// Reads the prolog and the start tag of the root.
+    /// \return the tag of the root, or BadXml, DtdRefused
     Result<Range> begin();
 
     /// Finds the next chunk.
-    /// \return false at the end of the document; BadXml, DtdRefused, or InputTooBig where nested too deep
+    /// \return false at the end of the document; BadXml, DtdRefused, or InputTooBig if nested too deeply
     Result<bool> next(Chunk& chunk);
 
     [[nodiscard]] std::uint64_t position() const noexcept { return position_; }
@@ -78,16 +78,16 @@ private:
     std::optional<Error> error_;
 };
 
-/// What stands before the root element.
+/// The part of a document before the root element.
 struct Prolog {
     bool hasRoot = false;
     bool hasDoctype = false;
     std::string_view rootName;  ///< qualified, as written
-    std::string_view rootTag;   ///< from '<', as far as the text goes
+    std::string_view rootTag;   ///< from '<' to the end of the text
     std::string_view encoding;  ///< of the XML declaration, or empty
 };
 
-/// Looks at the prolog of what may be XML, without judging it; `text` may be cut off anywhere.
+/// Reads the prolog of possible XML without validating it; `text` may be truncated anywhere.
 [[nodiscard]] Prolog readProlog(std::string_view text) noexcept;
 
 /// 1-based line and column (in bytes) of an offset.

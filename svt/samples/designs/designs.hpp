@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The three designs. Plans are resolved: faces, volumes and neighbours are there.
+/// The three designs. The returned plans are resolved: faces, volumes and neighbours are filled in.
 
 #include <svt/samples/parts/plan.hpp>
 
@@ -11,7 +11,7 @@ namespace svt::samples {
 /// The furnished house: 11 x 9 m, two storeys and an attic under a gable roof of pitch 4/5. z = 0 is the ground floor.
 [[nodiscard]] Plan housePlan();
 
-/// What may differ between the houses of a district.
+/// Parameters that vary between the houses of a district.
 struct VillageHouse {
     int widthStep = 0;  ///< 0..3: 9, 10, 11, 12 m along the ridge
     int depthStep = 0;  ///< 0..1: 8, 9 m
@@ -21,14 +21,14 @@ struct VillageHouse {
 };
 
 /// A house of the district: walls, slabs, roof, rooms, windows and a door, without furniture. z = 0 is the ground
-/// floor. Walls are Material::PlasterWhite and roofs Material::RoofTiles; a building may be written in other colors.
+/// floor. Walls are Material::PlasterWhite and roofs Material::RoofTiles; a document may replace these colors.
 [[nodiscard]] Plan villageHousePlan(const VillageHouse& house);
 
-/// Which slabs a storey of the tower has.
+/// Parameters of one storey of the tower.
 struct TowerStorey {
     int flats = 4;           ///< 2..8
-    bool isLowest = false;   ///< stands on the closed base slab
-    bool isHighest = false;  ///< carries the roof
+    bool isLowest = false;   ///< has the closed base slab
+    bool isHighest = false;  ///< has the roof
 };
 inline constexpr Length kTowerStoreyHeight = 3060;
 

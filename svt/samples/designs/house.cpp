@@ -29,12 +29,12 @@ constexpr Length kEaves = 4160, kRidge = kDepth / 2;
 constexpr Length kRoofThickness = 250, kRafterDepth = 200;  // vertical
 constexpr Length kSpine0 = 4620, kSpine1 = 4860;            // load-bearing wall along the house
 
-// Below the roof's underside lifted by `lift`: 5 z - 4 y <= 5 (eaves + lift) on the south side.
+// Below the underside of the roof raised by `lift`: 5 z - 4 y <= 5 (eaves + lift) on the south side.
 HalfPlane southBelow(Length lift) { return {-4, 5, 5 * (kEaves + lift)}; }
 HalfPlane northBelow(Length lift) { return {4, 5, 5 * (kEaves + lift) + 4 * kDepth}; }
 HalfPlane above(HalfPlane below) { return {-below.across, -below.up, -below.limit}; }
 
-// A box that ends below the roof.
+// A box cut off by the underside of the roof.
 Piece roofedBox(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1) {
     Piece piece = box(x0, x1, y0, y1, z0, z1);
     piece.sides.push_back(southBelow(0));
@@ -42,7 +42,7 @@ Piece roofedBox(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1
     return piece;
 }
 
-// A prism between two parallels of one roof side.
+// A prism between two planes parallel to one side of the roof.
 Piece roofPiece(bool isSouth, Length x0, Length x1, Length y0, Length y1, Length low, Length high) {
     const HalfPlane top = isSouth ? southBelow(high) : northBelow(high);
     const HalfPlane bottom = above(isSouth ? southBelow(low) : northBelow(low));
@@ -133,7 +133,7 @@ private:
         body(slab_).cut(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
         for (const int bearing : {southWall_, spine0_}) body(bearing).cut(body(beam_).pieces.front());
 
-        const Length high = 8000;  // the roof ends these earlier
+        const Length high = 8000;  // upper bound; the roof cuts these off earlier
         southKnee_ = wall(upper_, "wall_south_1", "Exterior wall south, upper floor", Material::Brick,
                           roofedBox(kWall, kEast, 0, kWall, kUpper, high));
         northKnee_ = wall(upper_, "wall_north_1", "Exterior wall north, upper floor", Material::Brick,
@@ -164,7 +164,7 @@ private:
             (isSouth ? southRoof_ : northRoof_) =
                 element(attic_, "roof_" + side, "Roof slab " + side, "roof", Material::RoofTiles,
                         roofPiece(isSouth, -400, kWidth + 400, -600, kRidge, 0, kRoofThickness), HullPart::Roof, true);
-            // One rafter outside of each gable, thirteen between them.
+            // One rafter outside each gable, thirteen between them.
             for (int k = 0; k < 15; ++k) {
                 const Length center = k == 0 ? -300 : k == 14 ? kWidth + 300 : 760 + 790 * (k - 1);
                 rafters_.push_back(element(attic_, "rafter_" + side + "_" + std::to_string(k + 1),
@@ -202,7 +202,7 @@ private:
         body(ceilingVoid_).cut(body(beam_).pieces.front());
     }
 
-    // Rafters, ridge beam and chimney pass through what else would fill their place.
+    // Cuts rafters, ridge beam and chimney out of the parts they pass through.
     void fitRoofAndChimney() {
         for (const int rafter : rafters_) {
             const Piece& piece = body(rafter).pieces.front();
@@ -285,7 +285,7 @@ private:
                 "door_dressing", "Door dressing room");
     }
 
-    // A window between two rafters; its frame stands 40 mm above the tiles.
+    // A window between two rafters; its frame rises 40 mm above the tiles.
     void roofWindow(bool isSouth, int room, Length x0, std::string id, std::string name) {
         const int roof = isSouth ? southRoof_ : northRoof_;
         const Length x1 = x0 + 710, y0 = 650, y1 = 1400, rim = 60;
@@ -315,7 +315,7 @@ private:
             {Axis::X, Material::Timber, {box(8100, 8800, 5100, 6300, kUpperCeiling, kUpperCeiling + 40)}}};
     }
 
-    // 16 risers of 185 mm, 15 treads of 270 mm; the soffit runs parallel, one riser lower.
+    // 16 risers of 185 mm, 15 treads of 270 mm; the soffit is parallel, one riser lower.
     void stair() {
         constexpr Length start = 3800, tread = 270, riser = 185;
         Body steps{Axis::Y, Material::Concrete, {}};

@@ -13,7 +13,7 @@ namespace {
 constexpr Length kLotWidth = 22000, kLotDepth = 20000;
 constexpr Length kGroundLevel = -200, kHighestPoint = 16000;
 
-// splitmix64 (Steele, Lea, Flood 2014): every house draws from a state of its own.
+// splitmix64 (Steele, Lea, Flood 2014): every house uses its own state.
 class Random {
 public:
     explicit Random(std::uint64_t state) : state_(state) {}
@@ -57,7 +57,7 @@ constexpr std::array<std::string_view, 12> kOwners{"A. Becker",   "B. Yilmaz", "
                                                    "E. Rossi",    "F. Weber",  "G. Nguyen", "H. Hoffmann",
                                                    "I. Kowalski", "J. Braun",  "K. Okafor", "L. Wagner"};
 
-// Small turns with rational sine and cosine, so that they are the same everywhere.
+// Small rotations with rational sine and cosine, identical on every machine.
 struct Ratio {
     double cosine, sine;
 };
@@ -75,7 +75,7 @@ std::vector<Attribute> unitAttributes(const Component& unit, int storey, int num
             {"owner", std::string(kOwners[std::size_t(random.below(int(kOwners.size())))]), ""}};
 }
 
-// Floor area of a flat in dm2, 0 for what is common.
+// Floor area of a flat in dm2; 0 for common areas.
 std::int64_t areaOf(const Component& unit) {
     if (unit.kind != Kind::Unit || unit.function == "common") return 0;
     for (const Attribute& a : unit.attributes)
@@ -224,7 +224,7 @@ Document SampleSource::villageHouse(std::int64_t index) {
     random.next();
     VillageHouse variant{random.below(4), random.below(2), random.below(3), 1 + random.below(2)};
     const Length width = 9000 + 1000 * variant.widthStep, depth = 8000 + 1000 * variant.depthStep;
-    // A quarter turn for every house; two of five stand askew.
+    // A multiple of a quarter turn for every house; two of five are rotated further.
     Turn turn = Turn::byDegrees(90.0 * random.below(4), double(width) / 2, double(depth) / 2);
     if (random.below(5) < 2) {
         const Ratio ratio = kSmallTurns[std::size_t(random.below(int(kSmallTurns.size())))];

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the writers write: buildings made of plans in their places, one after the other.
+/// Input of the writers: buildings composed of placed plans, one after the other.
 
 #include <svt/samples/designs/designs.hpp>
 #include <svt/samples/parts/placement.hpp>
@@ -13,13 +13,13 @@
 
 namespace svt::samples {
 
-/// A plan in its place: a whole house, or one storey of the tower.
+/// A placed plan: a whole house, or one storey of the tower.
 struct Level {
     const Plan* plan = nullptr;
-    std::string prefix;      ///< stands before the component ids
-    std::string namePrefix;  ///< stands before the component names
+    std::string prefix;      ///< prefix of component ids
+    std::string namePrefix;  ///< prefix of component names
     Placement placement;
-    std::vector<std::vector<Attribute>> unitAttributes;  ///< by order of Kind::Unit in the plan
+    std::vector<std::vector<Attribute>> unitAttributes;  ///< in the order of Kind::Unit components in the plan
 };
 
 /// One top-level feature.
@@ -29,37 +29,37 @@ struct Document {
     std::string function;
     std::string roofType;
     int storeys = 0;
-    Material wallMaterial = Material::PlasterWhite;  ///< in place of PlasterWhite
-    Material roofMaterial = Material::RoofTiles;     ///< in place of RoofTiles
+    Material wallMaterial = Material::PlasterWhite;  ///< replaces PlasterWhite
+    Material roofMaterial = Material::RoofTiles;     ///< replaces RoofTiles
     std::vector<Level> levels;
 
     [[nodiscard]] Material shown(Material designed) const;
     [[nodiscard]] std::string idOf(const Level& level, int component) const;
     [[nodiscard]] std::string nameOf(const Level& level, int component) const;
-    /// Owner as in CityGML 3.0: the component's parent, the storey of a unit, else the building.
+    /// Parent as in CityGML 3.0: the component's parent, the storey of a unit, else the building.
     [[nodiscard]] std::string parentIdOf(const Level& level, int component) const;
-    /// Attributes as written, the material included.
+    /// Attributes as written, including the material.
     [[nodiscard]] std::vector<Attribute> attributesOf(const Level& level, int component) const;
 };
 
-/// The buildings of a sample, made on demand.
+/// The buildings of a sample, generated on demand.
 class SampleSource {
 public:
-    /// Code::BadArgument where an option is out of range.
+    /// Code::BadArgument if an option is out of range.
     [[nodiscard]] static Result<SampleSource> make(SampleKind kind, const SampleOptions& options);
 
     [[nodiscard]] std::int64_t buildingCount() const;
-    /// Its plans live as long as this source.
+    /// The plans of the result are valid as long as this source.
     [[nodiscard]] Document building(std::int64_t index);
 
     [[nodiscard]] std::string title() const;
-    /// Decimals that hold every coordinate of the file.
+    /// Number of decimals sufficient for every coordinate of the file.
     [[nodiscard]] int decimals() const;
     /// Corners of a box around everything, in units of 10^-decimals().
     [[nodiscard]] std::array<WorldPoint, 2> envelope();
     [[nodiscard]] Point origin() const { return origin_; }
 
-    /// The ground of a district, counter-clockwise from above; empty for the others.
+    /// The ground of a district, counter-clockwise from above; empty for the other samples.
     [[nodiscard]] std::vector<WorldPoint> ground() const;
 
 private:

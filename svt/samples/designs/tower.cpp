@@ -1,4 +1,4 @@
-// One storey of the tower, z = 0 on its floor. Flats lie on both sides of a corridor, the core stands in the north row:
+// One storey of the tower, floor at z = 0. Flats lie on both sides of a corridor, the core is in the north row:
 //
 //   16880 +----------+-----------+----------+
 //         |  flat 3  | stair     |  flat 4  |      every flat:   facade
@@ -30,7 +30,7 @@ constexpr Length kCoreWidth = kStairWidth + kCoreWall + kLiftWidth;
 constexpr Length kLiftDepth = 1660;
 constexpr Length kFlight0 = 12940, kFlight1 = kFlight0 + 8 * 280;  // y range of the flights
 constexpr Length kRiser = 170, kTread = 280;
-constexpr Length kReach = 100;  // thickness of what stands for the storeys above and below
+constexpr Length kReach = 100;  // thickness of the stand-ins for the storeys above and below
 
 int southFlats(int flats) { return (flats + 1) / 2; }
 
@@ -130,7 +130,7 @@ private:
         const int utility =
             room(common_, "utility", "Utility room", "utility", box(lift0, lift1, lift + kHeavy, kNorth1, 0, kClear));
         // The flight up from this storey begins in the western half of the opening, the one from below ends in the
-        // other.
+        // eastern half.
         risingHole_ = box(stair0_, stair0_ + 1600, kFlight0, kNorth1, -kSlab, 0);
         arrivingHole_ = box(stair0_ + 1600, stair1, kFlight0, kNorth1, -kSlab, 0);
         liftHole_ = box(lift0, lift1, kNorth0, lift, -kSlab, 0);
@@ -155,19 +155,19 @@ private:
         if (!storey_.isHighest) stair();
         Body space{Axis::X, Material::Air, body(corridor_).pieces};
         space.add(box(stair0_, lift1, kNorth0, kNorth1, 0, kClear));
-        // The doorways join the core to the corridor.
+        // The doorways connect the core to the corridor.
         space.add(stairDoor.piece(0, kHeavy)).add(liftDoor.piece(0, kHeavy));
         for (const int part : {stairwell_, lift_, utility}) addReveals(space, part);
         at(common_).bodies.push_back(std::move(space));
     }
 
-    // What doors and windows gave to a room beyond its box.
+    // Reveals of doors and windows, which extend a room beyond its box.
     void addReveals(Body& space, int room) {
         const std::vector<Piece>& pieces = body(room).pieces;
         for (std::size_t i = 1; i < pieces.size(); ++i) space.add(pieces[i]);
     }
 
-    // Two flights of 9 risers and 8 treads with a landing between; the flights bear on slab edges and landing.
+    // Two flights of 9 risers and 8 treads with a landing between; the flights rest on slab edges and landing.
     void stair() {
         const int stair =
             addInstallation(plan_, feature_, stairwell_, "stair", "Stair", "stair", {Axis::X, Material::Concrete, {}});
@@ -228,7 +228,7 @@ private:
              box(x, x + kHeavy, y0, y1, 0, kClear));
     }
 
-    // A flat between x = a and b. Inside it is laid out by (s, v): s from one side wall to the other (mirrored for
+    // A flat between x = a and b. Its interior uses coordinates (s, v): s from one side wall to the other (mirrored for
     // every second flat), v from the corridor to the facade.
     struct Layout {
         Length a = 0, b = 0;
@@ -253,7 +253,7 @@ private:
                     0,
                     z1};
         }
-        // Through a wall across, from `s` on.
+        // Through a cross wall, starting at `s`.
         [[nodiscard]] Opening across(Length s, Length thickness, Length v0, Length v1, Length z1) const {
             return {isMirrored ? Opening::Normal::MinusX : Opening::Normal::PlusX,
                     isMirrored ? b - s : a + s,
@@ -328,7 +328,7 @@ private:
                   id + "_window_balcony", name + " balcony window");
         addWindow(plan_, outer, sleeping, layout.facade(bedroom + 400, width - 400, 900, 2400),
                   panes(bedroom + 400, width - 400), 1, id + "_window_bedroom", name + " bedroom window");
-        // v of the balcony's parts, beyond the facade
+        // v of the balcony, beyond the facade
         const Length v0 = kFlatDepth + kExterior, v1 = v0 + 1500, s0 = livingEnd - 3200, s1 = livingEnd - 100;
         Body balcony{Axis::X, Material::Concrete, {layout.box(s0, s1, v0, v1, -180, 0)}};
         balcony.add(layout.box(s0, s1, v1 - 100, v1, 0, 1000));
@@ -352,7 +352,7 @@ private:
         return piece;
     }
 
-    // The storeys above and below, as far as faces of this one depend on them.
+    // Stand-ins for the storeys above and below, as far as faces of this one depend on them.
     void neighbors() {
         if (!storey_.isHighest) {
             const Length top = kTowerStoreyHeight;

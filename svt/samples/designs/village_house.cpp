@@ -1,4 +1,4 @@
-// A house of the district: one or two storeys of two rooms each, and a loft under a gable roof that stands on the
+// A house of the district: one or two storeys of two rooms each, and a loft under a gable roof that rests on the
 // uppermost slab. The section along y (pitch n / d):
 //
 //            /\ .           roof slabs 250 thick (vertical)
@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    // Below the roof's underside lifted by `lift`: 5 z - rise * y <= 5 (top + lift) on the south side.
+    // Below the underside of the roof raised by `lift`: 5 z - rise * y <= 5 (top + lift) on the south side.
     [[nodiscard]] HalfPlane below(bool isSouth, Length lift) const {
         if (isSouth) return {-rise_, 5, 5 * (top_ + lift)};
         return {rise_, 5, 5 * (top_ + lift) + rise_ * depth_};

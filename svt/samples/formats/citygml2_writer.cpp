@@ -1,10 +1,10 @@
-// CityGML 2.0, LoD4. It knows no constructive elements, storeys or units:
+// CityGML 2.0, LoD4. It has no constructive elements, storeys or units:
 //   full      walls, slabs, beams and roof members are (Int)BuildingInstallation with a solid and the attribute
-//             svtClass; doors and windows are openings whose surfaces close around their bodies
+//             svtClass; doors and windows are openings whose surfaces enclose their bodies
 //   thematic  the classical model: boundary surfaces, an outer hull made of them, rooms
 //   both      storeys are CityObjectGroups, units BuildingParts that contain their rooms
 //             and inner walls
-// A face between a room and what bounds it is written once; the room uses it reversed (gml:OrientableSurface).
+// A face shared by a room and an adjacent part is written once; the room uses it reversed (gml:OrientableSurface).
 #include <svt/samples/formats/writers.hpp>
 
 #include <algorithm>
@@ -122,7 +122,7 @@ private:
         if (!component.function.empty()) out_ << "<bldg:function>" << component.function << "</bldg:function>";
     }
 
-    // gml:Solid, or gml:CompositeSolid of bodies that touch; every polygon has an id.
+    // gml:Solid, or gml:CompositeSolid for touching bodies; every polygon has an id.
     void solid(const Level& level, int component) {
         const Component& c = level.plan->components[std::size_t(component)];
         const std::string id = document_.idOf(level, component);
@@ -181,7 +181,7 @@ private:
         out_ << "</bldg:lod4Geometry></" << tag << ">";
     }
 
-    // The outer faces of all elements and fillings close around the building: together they are its solid.
+    // The outer faces of all elements and fillings enclose the building: together they form its solid.
     void hull() {
         std::vector<std::string> members;
         for (const Level& level : document_.levels)
@@ -198,7 +198,7 @@ private:
         out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod4Solid>\n";
     }
 
-    // Outer faces of the component that have the type, as (polygon number, face).
+    // Outer faces of the component with that type, as (polygon number, face).
     static std::vector<std::pair<std::size_t, const Face*>> outerFaces(const Plan& plan, const Component& component,
                                                                        std::string_view type) {
         std::vector<std::pair<std::size_t, const Face*>> faces;
@@ -286,7 +286,7 @@ private:
         out_ << "</bldg:Room>";
     }
 
-    // A face that an element or an earlier room has written already is used reversed.
+    // A face already written by an element or an earlier room is referenced and reversed.
     bool isWrittenElsewhere(const Level& level, int room, const Face& face) const {
         if (face.neighbor < 0 || face.neighborFace < 0) return false;
         const Component& neighbor = level.plan->components[std::size_t(face.neighbor)];
@@ -310,7 +310,8 @@ private:
         out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
     }
 
-    // Full: the closed body of the filling, in the first room that touches it. Thematic: the side towards this room.
+    // Full: the closed body of the filling, in the first room that touches it. Thematic: only the side facing this
+    // room.
     void openingOfRoom(const Level& level, int room, const BoundaryGroup& opening, int number) {
         const int filling = opening.neighbor;
         const std::string_view tag = opening.type == "DoorSurface" ? "bldg:Door" : "bldg:Window";
@@ -372,7 +373,7 @@ private:
         out_ << "</bldg:BuildingFurniture>";
     }
 
-    // The first one holds the shape, the others point at it.
+    // The first instance contains the shape, the others reference it.
     void implicitGeometry(const Level& level, int component, const Instance& instance) {
         out_ << "<bldg:lod4ImplicitRepresentation><core:ImplicitGeometry><core:transformationMatrix>";
         gml_.matrix(level, instance);

@@ -1,5 +1,5 @@
-// CityGML 3.0. One lod3Solid for each component; a room's solid points by XLink at the polygons of its boundary
-// surfaces. The order of the properties is that of the schema.
+// CityGML 3.0. One lod3Solid per component; a room's solid references the polygons of its boundary
+// surfaces by XLink. Properties are in schema order.
 #include <svt/samples/formats/writers.hpp>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ private:
         out_ << "</bldg:Building>\n</core:cityObjectMember>\n";
     }
 
-    // Every component of the kind that the building itself owns, inside of the property.
+    // Writes every component of the kind that belongs directly to the building, inside the property.
     void eachTop(Kind kind, std::string_view property, void (Writer::*writeOne)(const Level&, int)) {
         for (const Level& level : document_.levels)
             for (std::size_t c = 0; c < level.plan->components.size() && !out_.hasFailed(); ++c) {
@@ -128,7 +128,7 @@ private:
         if (!text.empty()) out_ << "<bldg:function>" << text << "</bldg:function>";
     }
 
-    // One gml:Solid, or a gml:CompositeSolid of bodies that touch.
+    // One gml:Solid, or a gml:CompositeSolid for touching bodies.
     void solid(const Level& level, int component) {
         const Component& c = level.plan->components[std::size_t(component)];
         const std::string id = document_.idOf(level, component);

@@ -1,5 +1,5 @@
-// CityJSON 2.0. The vertices of a document follow its objects, so the buildings are made twice: once for the objects,
-// once for the vertices; nothing is kept in between. Doors and windows are objects of the extension "SVT".
+// CityJSON 2.0. The vertices of a document follow its objects, so the buildings are generated twice: once for the
+// objects, once for the vertices; nothing is kept in between. Doors and windows are objects of the extension "SVT".
 #include <svt/samples/formats/writers.hpp>
 
 #include <array>
@@ -20,7 +20,7 @@ std::string_view typeOf(Kind kind) {
     }
 }
 
-// Semantic surfaces of a room have no "Surface" at the end of doors and windows.
+// Semantic surfaces of rooms are named "Door" and "Window", without the suffix "Surface".
 std::string_view surfaceTypeOf(std::string_view type) {
     if (type == "DoorSurface") return "Door";
     if (type == "WindowSurface") return "Window";
@@ -82,7 +82,7 @@ private:
         isFirst_ = true;
     }
 
-    // Between the members of the object or array that is open; a sequence has one line for each feature.
+    // Separator between members of the open object or array; a sequence has one line per feature.
     void separate() {
         if (!isFirst_) out_ << (isSequence_ ? "," : ",\n");
         isFirst_ = false;
@@ -126,7 +126,7 @@ private:
         out_ << "]}";
     }
 
-    // The shape that GeometryInstances use: all instances of a sample have the same.
+    // The shape used by GeometryInstances: all instances of a sample share one.
     void templates() {
         const Document document = source_.building(0);
         for (const Level& level : document.levels)
@@ -248,7 +248,7 @@ private:
         out_ << "}";
     }
 
-    // The owner stands first; storey and unit are further groupings.
+    // The parent comes first; storey and unit are additional groups.
     void parents(const Level& level, int component) {
         const Component& c = level.plan->components[std::size_t(component)];
         out_ << "\"parents\":[\"" << document_.parentIdOf(level, component) << "\"";

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Reads the generated files back with means of its own, so that the tests do not trust the writers: shells of
-/// polygons by feature id, XLinks and reversed surfaces followed.
+/// Reads the generated files with an independent parser, so that the tests do not depend on the writers: shells of
+/// polygons by feature id, with XLinks and reversed surfaces resolved.
 
 #include <svt/core/vec.hpp>
 
@@ -29,7 +29,7 @@ struct ReadBack {
     std::vector<std::string> dangling;  ///< references without target
 };
 
-/// Edges without an opposite one.
+/// Number of edges without an opposite edge.
 inline std::size_t openEdges(const Polygons& shell) {
     std::map<std::pair<Vec3d, Vec3d>, int> edges;
     for (const Rings& polygon : shell)
@@ -71,7 +71,7 @@ inline double unevenness(const Polygons& shell) {
     return worst;
 }
 
-/// A scanner for the GML that the samples consist of; no general XML reader.
+/// A scanner for the GML of the samples; not a general XML reader.
 class GmlScanner {
 public:
     explicit GmlScanner(std::string_view text) : text_(text) { scan(); }
@@ -121,7 +121,7 @@ private:
         return false;
     }
 
-    // The feature whose body the geometry is, and which of its solids.
+    // The feature that the geometry belongs to, and the index of the solid.
     [[nodiscard]] std::pair<std::string, int> owner() const {
         static const std::set<std::string> features{"bldg:Building",
                                                     "bldg:BuildingPart",
@@ -149,7 +149,7 @@ private:
             read_.dangling.push_back("twice: " + element.id);
         if (!href.empty()) hrefs_.push_back(href.substr(1));
         if (element.name == "gml:Solid") ++solid_;
-        // In CityGML 2.0 the surfaces of a door or window close around its body.
+        // In CityGML 2.0 the surfaces of a door or window enclose its body.
         const bool isOpening =
             stack_.size() > 1 && element.name == "gml:MultiSurface" &&
             (stack_[stack_.size() - 2].name == "bldg:Door" || stack_[stack_.size() - 2].name == "bldg:Window");

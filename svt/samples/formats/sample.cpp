@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kMostDescribed = 10000;  // houses
 
-// n . local <= c with local = inverse(world), in millimetres, becomes a half-space of the world in metres.
+// n . local <= c with local = inverse(world), in millimetres, as a half-space in world metres.
 HalfSpace worldHalfSpace(const Placement& placement, Vec3d normal, double limit) {
     const double size = length(normal);
     const Vec3d anchor = normal * (limit / dot(normal, normal));

@@ -67,8 +67,8 @@ void forLattice(Vec3d low, Vec3d high, Vec3d step, const Visit& visit) {
             for (double x = low.x + 0.0113; x < high.x; x += step.x) visit(Vec3d{x, y, z});
 }
 
-// Whole millimetres are exact but for the double's resolution at 5,400 km; micrometres after a free turn tilt thin
-// faces.
+// Whole millimetres are exact up to the resolution of double at 5,400 km; micrometre rounding after an arbitrary
+// rotation tilts thin faces.
 enum class Coordinates { Millimetres, Micrometres };
 
 void expectSolidsAsDescribed(const ReadBack& read, const std::vector<SampleComponent>& components,
@@ -95,12 +95,12 @@ void expectSolidsAsDescribed(const ReadBack& read, const std::vector<SampleCompo
     }
 }
 
-// Some houses of a district stand askew.
+// Some houses of a district are rotated by arbitrary angles.
 Coordinates coordinatesOf(SampleKind kind) {
     return kind == SampleKind::District ? Coordinates::Micrometres : Coordinates::Millimetres;
 }
 
-// The second chair of the implicit pair holds no shape of its own in CityGML 2.0.
+// The second chair of the implicit pair contains no shape of its own in CityGML 2.0.
 std::vector<SampleComponent> withoutImplicit(std::vector<SampleComponent> components) {
     std::erase_if(components, [](const SampleComponent& c) { return c.id == "house_chair_3"; });
     return components;
@@ -306,7 +306,7 @@ TEST(House, WindowsAndDoorsStandInTheWallThatOwnsThem) {
 
 TEST(House, NeighborsShareTheirFacesByXLinkInCityGml2) {
     const std::string gml = text(SampleKind::House, SampleFormat::CityGml2, {});
-    // The passage between living room and kitchen is one polygon that the kitchen uses reversed.
+    // The passage between living room and kitchen is one polygon; the kitchen uses it reversed.
     const std::size_t kitchen = gml.find("<bldg:Room gml:id=\"house_kitchen\"");
     const std::size_t end = gml.find("</bldg:Room>", kitchen);
     const std::string room = gml.substr(kitchen, end - kitchen);
@@ -315,7 +315,7 @@ TEST(House, NeighborsShareTheirFacesByXLinkInCityGml2) {
     EXPECT_NE(room.find("orientation=\"-\"><gml:baseSurface xlink:href=\"#house_living_p", closure), std::string::npos);
     EXPECT_NE(room.find("orientation=\"-\"><gml:baseSurface xlink:href=\"#house_wall_spine_0_p"), std::string::npos);
     EXPECT_NE(room.find("orientation=\"-\"><gml:baseSurface xlink:href=\"#house_door_kitchen_p"), std::string::npos);
-    // No face of a room is written twice: rooms own polygons only towards each other.
+    // No face of a room is written twice: rooms contain polygons only where they face each other.
     EXPECT_EQ(room.find("<gml:Polygon gml:id=\"house_kitchen_p"), std::string::npos);
 }
 
@@ -410,7 +410,7 @@ TEST(District, HousesDifferAndStandApart) {
     for (const SampleComponent& component : components)
         if (component.name == "Roof slab south") volumes.insert(std::round(component.volume * 1e6));
     EXPECT_GE(volumes.size(), 6u);
-    // Every house stays within its lot: no point within 1 m of a lot's border lies in a house.
+    // Every house stays within its lot: no point within 1 m of the border of a lot is inside a house.
     for (const SampleComponent& component : components) {
         if (component.name != "Roof slab south" && component.name != "Roof slab north") continue;
         for (double t = 0.01; t < 8 * 22; t += 0.37)
@@ -535,7 +535,7 @@ TEST(Sample, ValueOutOfRangeIsNamed) {
     EXPECT_FALSE(describeSample(SampleKind::District, large));
 }
 
-// FNV-1a, 64 bits. A change of a design or writer changes these on purpose.
+// FNV-1a, 64 bits. These values must be updated when a design or writer changes.
 std::uint64_t hashOf(const std::string& bytes) {
     std::uint64_t hash = 14695981039346656037u;
     for (const char c : bytes) hash = (hash ^ std::uint8_t(c)) * 1099511628211u;

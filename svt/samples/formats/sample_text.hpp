@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Text that is the same on every machine: integers only, no locale.
+/// Text output that is identical on every machine: integers only, no locale.
 
 #include <svt/samples/sample.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace svt::samples {
 
-/// Collects text and hands it on in parts of about 64 KB. After the sink has refused a part, text is dropped.
+/// Buffers text and passes it on in parts of about 64 KB. After the sink has refused a part, text is discarded.
 class TextSink {
 public:
     explicit TextSink(const SampleSink& sink) : sink_(sink) {}

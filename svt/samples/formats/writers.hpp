@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The writers of the three formats. Each writes one building after the other and keeps nothing of it.
+/// The writers of the three formats. Each writes one building at a time and keeps nothing of it.
 
 #include <svt/samples/designs/source.hpp>
 #include <svt/samples/formats/sample_text.hpp>
@@ -15,22 +15,22 @@ void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out);
 void writeCityJson(SampleSource& source, TextSink& out);
 void writeCityJsonSeq(SampleSource& source, TextSink& out);
 
-/// Pieces of GML that both versions share. Ids and names of samples need no escapes.
+/// GML elements common to both versions. Ids and names of samples need no escaping.
 class GmlText {
 public:
     explicit GmlText(TextSink& out) : out_(out) {}
 
     /// Coordinates of `point`, separated by blanks.
     void position(const WorldPoint& point, int decimals);
-    /// A gml:Polygon; no id where `id` is empty.
+    /// A gml:Polygon; without id if `id` is empty.
     void polygon(const Level& level, const Face& face, std::string_view id);
-    /// A gml:Polygon of a shape in its own axes.
+    /// A gml:Polygon of a shape in its local coordinates.
     void localPolygon(const Instance& instance, const Face& face);
     /// gml:boundedBy of the whole model.
     void envelope(SampleSource& source);
     /// The 16 numbers of a transformation matrix: quarter turns, then the turn of the placement.
     void matrix(const Level& level, const Instance& instance);
-    /// app:X3DMaterial of a material without its targets and without the closing tag.
+    /// app:X3DMaterial of a material, without its targets and closing tag.
     void material(Material material, std::string_view id);
 
 private:
@@ -40,7 +40,7 @@ private:
     TextSink& out_;
 };
 
-/// Polygon ids of a component: its id, "_p", and the number over all its shells.
+/// Polygon id of a component: its id, "_p", and the number counted over all its shells.
 [[nodiscard]] std::string polygonId(const std::string& componentId, std::size_t number);
 
 /// Colored materials of a building with the polygons that have them.
@@ -48,7 +48,7 @@ struct MaterialTargets {
     Material material = Material::Brick;
     std::vector<std::string> polygons;
 };
-/// \param isThematic  only outer faces: those of the elements that stand in the hull
+/// \param isThematic  only outer faces: those of the elements that are part of the hull
 [[nodiscard]] std::vector<MaterialTargets> materialTargets(const Document& document, bool isThematic);
 
 /// A number with up to six decimals and no trailing zeros.

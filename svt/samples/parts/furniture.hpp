@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Furniture as unions of boxes, in its own axes: the footprint starts at (0, 0), the back is at greater y.
+/// Furniture as unions of boxes in local coordinates: the footprint starts at (0, 0), the back is at greater y.
 
 #include <svt/samples/parts/plan.hpp>
 
@@ -31,11 +31,11 @@ enum class Item : std::uint8_t {
 /// \return the item's body, standing on z = 0
 [[nodiscard]] Body furnitureBody(Item item);
 
-/// `body` turned counter-clockwise about z by quarter turns and shifted. Boxes only.
+/// `body` rotated counter-clockwise about z by quarter turns and translated. Boxes only.
 [[nodiscard]] Body placed(const Body& body, int quarterTurns, Point shift);
 
-/// Sets an item into a room, its turned footprint starting at (x, y), standing on z.
-/// \param isInstance  formats that have templates write it as a use of one
+/// Places an item in a room, its rotated footprint starting at (x, y), standing on z.
+/// \param isInstance  formats with templates write it as an instance of one
 /// \return the component
 int addFurniture(Plan& plan, int room, Item item, Length x, Length y, Length z, int quarterTurns, std::string id,
                  std::string name, bool isInstance = false);

@@ -40,7 +40,7 @@ int addWindow(Plan& plan, int wall, int room, const Opening& opening, int column
     const Length height = opening.z1 - opening.z0 - 2 * kFrameWidth - (rows - 1) * kBarWidth;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
-            // The panes share what the frame leaves; whole millimetres, the last one takes the remainder.
+            // The panes share the space inside the frame; in whole millimetres, the last one takes the remainder.
             const Length a0 = opening.along0 + kFrameWidth + column * (width / columns + kBarWidth);
             const Length a1 = column + 1 == columns ? opening.along1 - kFrameWidth : a0 + width / columns;
             const Length b0 = opening.z0 + kFrameWidth + row * (height / rows + kBarWidth);

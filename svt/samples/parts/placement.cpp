@@ -29,7 +29,7 @@ Turn Turn::byDegrees(double degrees, double centerX, double centerY) {
                                : 0.0,
                 centerX, centerY};
     }
-    // Mathematical libraries differ in the last bits of sine and cosine.
+    // Math libraries differ in the last bits of sine and cosine.
     return {std::round(std::cos(degrees * kRadians) * 1e12) / 1e12,
             std::round(std::sin(degrees * kRadians) * 1e12) / 1e12, centerX, centerY};
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Where a plan stands in the world: a turn of the building about its centre, a shift onto its lot, a turn of the whole
-/// model about its centre, and the origin.
+/// Placement of a plan in the world: rotation of the building about its centre, translation onto its lot, rotation of
+/// the whole model about its centre, and the origin.
 
 #include <svt/samples/parts/solid.hpp>
 
@@ -9,14 +9,15 @@
 
 namespace svt::samples {
 
-/// A turn in plan about a centre, counter-clockwise.
+/// A rotation in plan about a centre, counter-clockwise.
 struct Turn {
     double cosine = 1, sine = 0;
     double centerX = 0, centerY = 0;  ///< millimetres
 
-    /// By any angle; quarter turns are exact, the others rounded to 1e-12 so that no machine differs.
+    /// By any angle; quarter turns are exact, others rounded to 1e-12 so that all machines agree.
     [[nodiscard]] static Turn byDegrees(double degrees, double centerX, double centerY);
-    /// True for multiples of a quarter turn about whole or half millimetres that keep whole millimetres whole.
+    /// True for multiples of a quarter turn about whole or half millimetres that map whole millimetres to whole
+    /// millimetres.
     [[nodiscard]] bool isExact() const;
 };
 
@@ -32,11 +33,11 @@ public:
     Placement(const Turn& buildingTurn, Point shift, const Turn& modelTurn, Point origin)
         : buildingTurn_(buildingTurn), shift_(shift), modelTurn_(modelTurn), origin_(origin) {}
 
-    /// 3 where every point falls on a whole millimetre, else 6.
+    /// 3 if every point is a whole millimetre, else 6.
     [[nodiscard]] int decimals() const { return buildingTurn_.isExact() && modelTurn_.isExact() ? 3 : 6; }
     /// Rounded to decimals().
     [[nodiscard]] WorldPoint at(Point p) const;
-    /// Not rounded; metres.
+    /// Unrounded; metres.
     [[nodiscard]] Vec3d worldPosition(Vec3d millimetres) const;
     [[nodiscard]] Vec3d worldDirection(Vec3d direction) const;
 

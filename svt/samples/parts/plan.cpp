@@ -32,7 +32,7 @@ constexpr std::array<MaterialInfo, kMaterialCount> kMaterials{{
 
 using Key = std::vector<Point>;
 
-// The same for the same rings whatever vertex they start at; holes in order.
+// The same key for equal rings, whatever vertex they start at; holes in order.
 Key canonicalKey(const std::vector<Point>& vertices, const Face& face, bool isReversed) {
     std::vector<Key> rings;
     for (const auto& ring : face.rings) {
@@ -49,7 +49,7 @@ Key canonicalKey(const std::vector<Point>& vertices, const Face& face, bool isRe
 }
 
 Point toMillimetres(Point p) {
-    // Every corner of a design lies on whole millimetres.
+    // Every vertex of a design is on whole millimetres.
     SVT_CHECK(p.x % kUnitsPerMillimetre == 0 && p.y % kUnitsPerMillimetre == 0 && p.z % kUnitsPerMillimetre == 0);
     return {p.x / kUnitsPerMillimetre, p.y / kUnitsPerMillimetre, p.z / kUnitsPerMillimetre};
 }
@@ -98,7 +98,7 @@ void resolveInstance(Instance& instance) {
     instance.shell = toShell(shape.faces, instance.body.material, corners, table);
 }
 
-// Pairs every face with the same face of the neighbour, which runs the other way round.
+// Pairs every face with the identical, reversed face of its neighbour.
 void pairFaces(Plan& plan) {
     std::map<Key, std::pair<int, int>> owners;
     const auto forEach = [&](const auto& visit) {
@@ -202,7 +202,7 @@ int addInstallation(Plan& plan, int storey, int parent, std::string id, std::str
 }
 
 void resolve(Plan& plan) {
-    // Every body is a neighbour of its own, so that a frame and its leaf or pane get faces of their own.
+    // Each body is a separate neighbour, so that a frame and its leaf or pane get separate faces.
     std::vector<Neighbor> fillers;
     std::vector<int> owners;
     for (std::size_t c = 0; c < plan.components.size(); ++c) {

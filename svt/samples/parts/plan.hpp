@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The neutral model behind every generated file: components with bodies, whose faces know what lies on
-/// their other side. A plan is a whole house, or one storey of a tower that is used again and again.
+/// The format-independent model of every generated file: components with bodies, whose faces know their
+/// neighbours. A plan is a whole house, or one storey of a tower that is used repeatedly.
 
 #include <svt/core/attribute.hpp>
 #include <svt/samples/parts/solid.hpp>
@@ -29,15 +29,15 @@ enum class Kind : std::uint8_t { Element, Room, Furniture, Installation, Window,
 /// CityGML 3.0 class name, such as "BuildingRoom".
 [[nodiscard]] std::string_view className(Kind kind);
 
-/// What an element is to the rooms and to the outer hull: all faces of a Wall towards a room are interior wall
+/// Role of an element for rooms and outer hull: all faces of a Wall towards a room are interior wall
 /// surfaces, those of the others also floors and ceilings; outside, slabs count as walls.
 enum class HullPart : std::uint8_t { Wall, Slab, Roof, Ground };
 
 /// A planar face with holes; rings index into Plan::vertices, counter-clockwise seen from outside, not closed.
 struct Face {
     std::vector<std::vector<std::uint32_t>> rings;
-    int neighbor = -1;      ///< component on the other side, -1: the outside (or a component that may overlap)
-    int neighborFace = -1;  ///< face of `neighbor` that is this one reversed, counted over all its bodies; -1: none
+    int neighbor = -1;      ///< component on the other side, -1: outside (or a component that may overlap)
+    int neighborFace = -1;  ///< the reversed face in `neighbor`, counted over all its bodies; -1: none
 };
 
 /// One closed shell.
@@ -46,18 +46,18 @@ struct Shell {
     Material material = Material::Air;
 };
 
-/// A shape in its own axes, put in place by quarter turns about z and a shift: world = turned(p) + shift.
+/// A shape in local coordinates, placed by quarter turns about z and a translation: world = turned(p) + shift.
 struct Instance {
     Body body;
     int quarterTurns = 0;
     Point shift;
     Shell shell;                  ///< of `body`, indices into `vertices`
-    std::vector<Point> vertices;  ///< millimetres, own axes
+    std::vector<Point> vertices;  ///< millimetres, local
 };
 
 struct Component {
     Kind kind = Kind::Element;
-    std::string id;  ///< unique in the plan; the building's prefix stands before it in files
+    std::string id;  ///< unique in the plan; files prepend the prefix of the building
     std::string name;
     std::string function;
     std::vector<Attribute> attributes;
@@ -65,23 +65,23 @@ struct Component {
     int storey = -1;  ///< component of Kind::Storey
     int unit = -1;    ///< component of Kind::Unit
     HullPart hullPart = HullPart::Wall;
-    bool isOutside = false;            ///< an installation outside of the building
-    bool isGhost = false;              ///< stands for a component of the storey above or below; is not written
-    std::vector<Body> bodies;          ///< disjoint, may touch
+    bool isOutside = false;            ///< an installation outside the building
+    bool isGhost = false;              ///< stand-in for a component of the storey above or below; not written
+    std::vector<Body> bodies;          ///< disjoint; may touch
     std::optional<Instance> instance;  ///< same shape as bodies[0]; CityGML 2.0 and CityJSON write it as a template
     std::vector<Shell> shells;         ///< of `bodies`, filled by resolve()
     double volume = 0;                 ///< m3, filled by resolve()
 };
 
-/// True for components that share the space of the building without overlap: elements, rooms, fillings.
-/// Furniture and installations stand inside rooms, units enclose them.
+/// True for components that fill the space of the building without overlap: elements, rooms, fillings.
+/// Furniture and installations are inside rooms; units contain rooms.
 [[nodiscard]] bool fillsSpace(const Component& component);
 
-/// True for components that storeys and units list as members: what the building owns, and installations in rooms.
+/// True for components that storeys and units list as members: those owned by the building, and installations in rooms.
 [[nodiscard]] bool isGrouped(const Component& component);
 
 struct Plan {
-    std::vector<Component> components;       ///< a parent stands before its children
+    std::vector<Component> components;       ///< parents precede their children
     std::vector<Point> vertices;             ///< millimetres, filled by resolve()
     std::vector<std::vector<int>> children;  ///< by component; filled by resolve()
 };
@@ -89,27 +89,27 @@ struct Plan {
 /// Adds a component and returns its index.
 int addComponent(Plan& plan, Kind kind, std::string id, std::string name, int parent = -1);
 
-/// Adds an element of one piece; more is added or cut at its body.
+/// Adds an element of one piece; its body can be extended or cut later.
 int addElement(Plan& plan, int storey, std::string id, std::string name, std::string function, Material material,
                Piece piece, HullPart part, bool isLoadBearing);
 
 /// Adds a room of one piece.
 int addRoom(Plan& plan, int storey, std::string id, std::string name, std::string function, Piece piece);
 
-/// Adds something built in; `parent` is its room, or -1 for the building.
+/// Adds an installation; `parent` is its room, or -1 for the building.
 int addInstallation(Plan& plan, int storey, int parent, std::string id, std::string name, std::string function,
                     Body body);
 
-/// Fills shells, volumes, vertices and children from the bodies. Once per plan.
+/// Computes shells, volumes, vertices and children from the bodies. Once per plan.
 void resolve(Plan& plan);
 
 /// Box around all vertices.
 [[nodiscard]] Bounds boundsOf(const Plan& plan);
 
-/// Sum of coordinates' cross products: twice the area along the outward normal, mm2.
+/// Sum of cross products of the coordinates: twice the area along the outward normal, mm2.
 [[nodiscard]] Vec3d normalOf(const Plan& plan, const Face& face);
 
-/// The faces of a room towards one neighbour, as one boundary surface; openings stand in the surface of their wall.
+/// The faces of a room towards one neighbour, as one boundary surface; openings are part of the surface of their wall.
 struct BoundaryGroup {
     std::string_view
         type;  ///< FloorSurface, CeilingSurface, InteriorWallSurface, ClosureSurface; DoorSurface, WindowSurface
@@ -118,7 +118,7 @@ struct BoundaryGroup {
     std::vector<BoundaryGroup> openings;
 };
 
-/// Boundary surfaces of a room, in order of type and neighbour.
+/// Boundary surfaces of a room, ordered by type and neighbour.
 [[nodiscard]] std::vector<BoundaryGroup> boundaryGroups(const Plan& plan, int room);
 
 }  // namespace svt::samples

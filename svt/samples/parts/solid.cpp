@@ -16,7 +16,7 @@ namespace svt::samples {
 namespace {
 
 constexpr Length kUnits = kUnitsPerMillimetre;
-// Cells of this width around a body tell what lies on the other side of its faces.
+// Cells of this width around a body identify what is on the other side of its faces.
 constexpr Length kMargin = 10;
 
 struct Vertex2 {
@@ -29,7 +29,7 @@ bool inProfile(const Piece& piece, double v, double z) {
     return true;
 }
 
-// The piece's profile clipped from a square much larger than any model.
+// The profile of the piece, clipped from a square much larger than any model.
 std::vector<std::array<double, 2>> profileOf(const Piece& piece) {
     constexpr double kFar = 1e8;
     std::vector<std::array<double, 2>> polygon{{-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {-kFar, kFar}};
@@ -61,7 +61,7 @@ Box3d boxAround(Axis axis, const Piece& piece) {
     return result;
 }
 
-// Outwards to whole millimetres.
+// Rounds outwards to whole millimetres.
 Bounds rounded(const Box3d& box) {
     const auto down = [](double value) { return Length(std::floor(value + 1e-6)); };
     const auto up = [](double value) { return Length(std::ceil(value - 1e-6)); };
@@ -73,7 +73,7 @@ bool touch(const Bounds& a, const Bounds& b) {
            b.min.z <= a.max.z;
 }
 
-// A rectangle cut by whole lines into convex faces that meet edge to edge.
+// A rectangle divided by whole lines into convex faces that meet edge to edge.
 //
 //     +------+---+----+
 //     |      |  /|    |     every line runs through, so no vertex lies inside an edge
@@ -104,7 +104,7 @@ public:
         for (std::size_t f = 0; f < count; ++f) splitFace(f, distance, cuts);
     }
 
-    // Call once after the last split().
+    // Must be called once after the last split().
     void connect() {
         for (std::size_t f = 0; f < faces_.size(); ++f)
             for (std::size_t i = 0; i < faces_[f].size(); ++i)
@@ -130,7 +130,7 @@ public:
         return {v * scale, z * scale};
     }
 
-    // Twice the area, in squares of the unit.
+    // Twice the area, in squared units.
     [[nodiscard]] Length doubleArea(int face) const {
         Length sum = 0;
         const auto& ring = faces_[std::size_t(face)];
@@ -153,7 +153,7 @@ private:
             const Vertex2 a = vertex(p), b = vertex(q);
             const Length dp = distance[std::size_t(p)], dq = distance[std::size_t(q)];
             const Length v = (b.v - a.v) * dp, z = (b.z - a.z) * dp;
-            // The designs keep to pitches whose crossings lie on the grid of 1/120 mm.
+            // The designs use only pitches whose line intersections lie on the grid of 1/120 mm.
             SVT_CHECK(v % (dp - dq) == 0 && z % (dp - dq) == 0);
             vertices_.push_back({a.v + v / (dp - dq), a.z + z / (dp - dq)});
         }
@@ -199,7 +199,7 @@ HalfPlane normalizedLine(HalfPlane side) {
 using Edge = std::pair<Point, Point>;
 using Quad = std::vector<Point>;
 
-// One cell face of the boundary, with the plane it lies in and what is on its other side.
+// One cell face of the boundary, with its plane and the neighbour on its other side.
 struct Fragment {
     std::tuple<int, HalfPlane, Length, bool, int> group;
     Quad ring;
@@ -221,8 +221,8 @@ std::size_t findRoot(std::vector<std::size_t>& parents, std::size_t i) {
     return i;
 }
 
-// Closed loops of directed edges. Where several leave a vertex the sharpest turn to the right is taken, so that a
-// hole that touches the outer ring stays a ring of its own.
+// Closed loops of directed edges. If several edges leave a vertex, the sharpest right turn is taken, so that a
+// hole that touches the outer ring remains a separate ring.
 std::vector<std::vector<Point>> traceLoops(const std::set<Edge>& edges, Vec3d normal) {
     std::multimap<Point, Point> next(edges.begin(), edges.end());
     std::vector<std::vector<Point>> loops;
@@ -255,7 +255,7 @@ std::vector<std::vector<Point>> traceLoops(const std::set<Edge>& edges, Vec3d no
     return loops;
 }
 
-// Joins the fragments of one plane and one neighbour into maximal faces with holes.
+// Joins the fragments with the same plane and neighbour into maximal faces with holes.
 void joinFragments(const std::vector<Quad>& fragments, int neighbor, std::vector<RawFace>& faces) {
     const Vec3d normal = normalOf(fragments.front());
     std::map<Edge, std::size_t> owners;
@@ -287,7 +287,7 @@ void joinFragments(const std::vector<Quad>& fragments, int neighbor, std::vector
     }
 }
 
-// The cell complex of one body and what touches it.
+// The cell complex of one body and its touching neighbours.
 class CellComplex {
 public:
     CellComplex(const Body& body, std::span<const Neighbor> neighbors) : body_(body), bounds_(boundsOf(body)) {
@@ -300,7 +300,7 @@ public:
 
     [[nodiscard]] Boundary extract() {
         Boundary result;
-        Length doubleVolume = 0;  // mm times squares of the unit
+        Length doubleVolume = 0;  // mm times squared units
         std::map<decltype(Fragment::group), std::vector<Quad>> groups;
         for (std::size_t slice = 0; slice + 1 < stops_.size(); ++slice)
             for (std::size_t f = 0; f < faceCount(); ++f) {
@@ -331,7 +331,7 @@ private:
             for (const HalfPlane& side : piece.sides) lines.insert(normalizedLine(side));
         };
         for (const Piece& piece : body_.pieces) take(piece);
-        // Pieces of a neighbour that stay away from this body divide nothing.
+        // Pieces of a neighbour that do not reach this body divide nothing.
         Bounds reach = bounds_;
         reach.min = {reach.min.x - margin_, reach.min.y - margin_, reach.min.z - margin_};
         reach.max = {reach.max.x + margin_, reach.max.y + margin_, reach.max.z + margin_};

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Bodies of the generated models: ordered unions and differences of convex prisms, in whole
-/// millimetres, and their exact boundary. Everything is integer arithmetic, so that the faces of
-/// two bodies that touch are the same polygons, vertex by vertex.
+/// Bodies of the generated models: ordered unions and differences of convex prisms in whole
+/// millimetres, and their exact boundary. All arithmetic is on integers, so that touching
+/// bodies share identical polygons, vertex by vertex.
 
 #include <svt/core/vec.hpp>
 
@@ -35,10 +35,10 @@ enum class Axis : std::uint8_t { X, Y };
 struct Piece {
     Length from = 0, to = 0;
     std::vector<HalfPlane> sides;
-    bool adds = true;  ///< false: taken away from the pieces before it
+    bool adds = true;  ///< false: subtracted from the pieces before it
 };
 
-/// What a body is made of; index into materials().
+/// Material of a body; index into materials().
 enum class Material : std::uint8_t {
     Brick,
     Concrete,
@@ -59,7 +59,7 @@ enum class Material : std::uint8_t {
     RoofSlate
 };
 
-/// A solid: the pieces are applied in order, each one adds to or takes from what is there.
+/// A solid: the pieces are applied in order; each is added to or subtracted from the result so far.
 struct Body {
     Axis axis = Axis::X;
     Material material = Material::Air;
@@ -69,22 +69,22 @@ struct Body {
     Body& cut(Piece piece);
 };
 
-/// An axis-parallel box as a piece of a body with Axis::X.
+/// An axis-aligned box as a piece of a body with Axis::X.
 [[nodiscard]] Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1);
 
-/// True where `point` (millimetres) lies in the body; undefined on its boundary.
+/// True if `point` (millimetres) lies in the body; undefined on its boundary.
 [[nodiscard]] bool contains(const Body& body, Vec3d point);
 
 struct Bounds {
     Point min, max;
 };
 
-/// Box around all pieces that add; rounded outwards to whole millimetres.
+/// Box around all added pieces; rounded outwards to whole millimetres.
 [[nodiscard]] Bounds boundsOf(const Body& body);
 
-/// A body that may touch another one.
+/// A body that may touch another body.
 struct Neighbor {
-    /// `tag` is any number >= 0 that names the body, which must outlive this.
+    /// `tag` is any number >= 0 that identifies the body, which must outlive this.
     Neighbor(const Body& body, int tag);
 
     const Body* body;
@@ -93,8 +93,8 @@ struct Neighbor {
     std::vector<Bounds> pieces;  ///< boxes around the body's pieces
 };
 
-/// Points in boundary() are in 1/120 mm: the lines of a roof with a pitch of 3/5, 4/5 or 1 cross each other,
-/// and every whole millimetre, in such a grid. What remains after simplify() is whole millimetres.
+/// Points in boundary() are in 1/120 mm: with roof pitches of 3/5, 4/5 or 1, roof lines intersect each other
+/// and all whole millimetres on this grid. The vertices left by simplify() are whole millimetres.
 inline constexpr Length kUnitsPerMillimetre = 120;
 
 /// A planar face, counter-clockwise seen from outside; further rings are holes.
@@ -109,16 +109,16 @@ struct Boundary {
 };
 
 /// The closed boundary of `body` as maximal planar faces, split where the neighbour changes.
-/// Rings carry every vertex of the cell complex they lie in; simplify() thins them.
+/// Rings contain every vertex of the cell complex on them; simplify() removes the redundant ones.
 /// \param neighbors  bodies with Axis::X that do not overlap `body`; those that do not touch it are ignored
 /// Cost: O(planes^3) of the body and what touches it.
 [[nodiscard]] Boundary boundary(const Body& body, std::span<const Neighbor> neighbors);
 
-/// Adds the vertices of `face` at which its rings turn to `corners`.
+/// Adds the vertices at which rings of `face` change direction to `corners`.
 void collectCorners(const RawFace& face, std::vector<Point>& corners);
 
-/// Drops from `face` the vertices that are no corner of any face, so that no edge of one face ends inside an
-/// edge of another. `corners` is sorted.
+/// Removes from `face` the vertices that are not a corner of any face, so that no edge of one face ends inside an
+/// edge of another. `corners` must be sorted.
 void simplify(RawFace& face, std::span<const Point> corners);
 
 }  // namespace svt::samples

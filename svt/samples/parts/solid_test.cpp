@@ -10,7 +10,7 @@
 namespace svt::samples {
 namespace {
 
-// Faces of a body alone, thinned to its own corners.
+// Faces of an isolated body, simplified to its own corners.
 std::vector<RawFace> facesOf(const Body& body) {
     Boundary shape = boundary(body, {});
     std::vector<Point> corners;
@@ -54,7 +54,7 @@ TEST(Boundary, PiecesThatTouchHaveNoFaceBetweenThem) {
 }
 
 TEST(Boundary, StepHasNoVertexInsideAnEdge) {
-    // The side faces of an L have six corners; the bottom takes up none of the step's.
+    // The side faces of an L have six corners; the bottom gets none from the step.
     const Body body{Axis::X, Material::Brick, {box(0, 2000, 0, 1000, 0, 1000), box(0, 1000, 0, 1000, 1000, 2000)}};
     const std::vector<RawFace> faces = facesOf(body);
     EXPECT_EQ(faces.size(), 8u);

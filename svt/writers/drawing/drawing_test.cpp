@@ -1,4 +1,4 @@
-/// The writers of section drawings, on a drawing with names that are hard to write.
+/// Tests of the writers of section drawings, with names that need escaping.
 
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/dxf_drawing.hpp>
@@ -95,7 +95,7 @@ TEST(SvgDrawing, IsToScaleInMillimetres) {
     const auto svg = svgOf(drawing, volume, options);
     ASSERT_TRUE(svg);
     EXPECT_NE(svg->find("width=\"220mm\" height=\"194mm\" viewBox=\"0 0 220 194\""), std::string::npos);
-    // The wall from corner to corner, then the room's place as a hole.
+    // The wall from corner to corner, with the room as a hole.
     EXPECT_NE(svg->find("d=\"M10 160L210 160 210 10 10 10ZM35 135L35 35 185 35 185 135Z\""), std::string::npos) << *svg;
     EXPECT_NE(svg->find(">6.00 m\u00B2</text>"), std::string::npos);
     EXPECT_EQ(*svgOf(drawing, volume, options), *svg);
@@ -109,7 +109,7 @@ TEST(SvgDrawing, NamesAreEscapedAndClassesPlain) {
     EXPECT_NE(svg.find("Haus &lt;1&gt; &amp; &quot;Söhne&quot;"), std::string::npos);
     EXPECT_NE(svg.find("Außenwand &quot;Nord&quot;\xEF\xBF\xBD"), std::string::npos);
     EXPECT_EQ(svg.find('\xFF'), std::string::npos);
-    EXPECT_EQ(countOf(svg, "<pattern "), 1u);  // only hatches that are used
+    EXPECT_EQ(countOf(svg, "<pattern "), 1u);  // only hatches in use
 }
 
 TEST(SvgDrawing, RefusesScalesAndEmptyDrawings) {

@@ -55,7 +55,7 @@ std::uint32_t epsgCodeOf(std::string_view crsName) noexcept {
         std::size_t n = 0;
         while (n < kName.size() && std::toupper(static_cast<unsigned char>(crsName[at + n])) == kName[n]) ++n;
         if (n < kName.size()) continue;
-        // Behind a separator a version may stand, and a further separator: the last number of the name is the code.
+        // A version and another separator may follow the separator: the last number of the name is the code.
         std::size_t next = at + kName.size();
         std::uint32_t code = 0;
         while (next < crsName.size() && (crsName[next] == ':' || crsName[next] == '/' || crsName[next] == '#')) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the writers of drawings share: numbers, names and the plane in words. Internal to writers.
+/// Text helpers shared by the drawing writers: numbers, names and a description of the plane.
 
 #include <svt/illustrate/section_drawing.hpp>
 
@@ -13,16 +13,16 @@ namespace svt::writers {
 /// `value` with at most `decimals` decimals, without trailing zeros; never "-0".
 [[nodiscard]] std::string shortNumber(double value, int decimals);
 
-/// `name` with every character outside of A-Z, a-z, 0-9, '_' and '-' replaced by '_'; `fallback` if empty.
+/// `name` with every character outside A-Z, a-z, 0-9, '_' and '-' replaced by '_'; `fallback` if empty.
 [[nodiscard]] std::string plainName(std::string_view name, std::string_view fallback = "none");
 
-/// Name of a component as people read it: its name, else its id.
+/// Display name of a component: its name, else its id.
 [[nodiscard]] const std::string& shownName(const volume::Label& label) noexcept;
 
 /// "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the grid's lower corner.
 [[nodiscard]] std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid);
 
-/// Whether the drawing is a plan: cut by a horizontal plane.
+/// True if the section plane is horizontal.
 [[nodiscard]] bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
 /// The number in the first "EPSG" of a CRS name ("urn:ogc:def:crs:EPSG::25832", "EPSG:25832",

@@ -13,7 +13,7 @@ namespace {
 
 using illustrate::PlanePoint;
 
-// Colors of the AutoCAD color index, by the kind of class.
+// AutoCAD color index by class.
 int colorOf(const std::string& className) noexcept {
     if (model::isSpace(className)) return 8;
     switch (model::classRank(className)) {
@@ -28,8 +28,8 @@ int colorOf(const std::string& className) noexcept {
     return 7;
 }
 
-// Windows code page 1252 as far as it is Latin-1; the rest as \U+XXXX, beyond the 16 bits that it has a question mark.
-// Line ends would end the value.
+// Windows code page 1252 for its Latin-1 part; other characters as \U+XXXX, those beyond 16 bits as a question mark.
+// Line breaks would end the value and are replaced.
 std::string dxfText(std::string_view text) {
     std::string safe;
     for (std::size_t at = 0; at < text.size();) {
@@ -96,7 +96,7 @@ private:
     void tag(int code, std::string_view value) { dxf_ += fmt::format("{:>3}\n{}\n", code, value); }
     void tag(int code, int value) { dxf_ += fmt::format("{:>3}\n{}\n", code, value); }
     void number(int code, double value) { tag(code, shortNumber(value, 6)); }
-    // Handles below 0x100 are those of the fixed parts.
+    // Handles below 0x100 are reserved for the fixed parts.
     std::string newHandle() { return fmt::format("{:X}", nextHandle_++); }
 
     void header() {

@@ -19,17 +19,17 @@ using illustrate::SectionComponent;
 using render::Hatch;
 using volume::kNoLabel;
 
-// Millimetres of paper.
+// Millimetres on paper.
 constexpr double kMargin = 10, kTitleHeight = 24, kLeastWidth = 90;
 constexpr double kSlim = 0.7;
 constexpr double kTextSize = 2.5, kLeastTextSize = 1.2;
-constexpr double kTextWidth = 0.56;  // of a character, by the size: sans serif
+constexpr double kTextWidth = 0.56;  // width of a character relative to the font size, sans serif
 
 struct HatchStyle {
     Hatch hatch;
     const char* size;    // of the tile
     const char* turn;    // patternTransform
-    const char* tint;    // under the lines
+    const char* tint;    // background color below the lines
     const char* lines;   // path
     const char* filled;  // path, or none
 };
@@ -53,7 +53,7 @@ constexpr HatchStyle kHatches[] = {
     {Hatch::General, "width=\"2.8\" height=\"2.8\"", "rotate(-45)", "#f2f2f2", "M0 1.4H2.8", ""},
 };
 
-// Text for XML 1.0: markup escaped, what it cannot hold replaced.
+// Text for XML 1.0: markup escaped, forbidden characters replaced.
 std::string xmlText(std::string_view text) {
     std::string safe;
     const auto byteAt = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0u; };
@@ -95,7 +95,7 @@ std::size_t characterCount(std::string_view text) noexcept {
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-// The largest of 1, 2 and 5 times a power of ten that is not over `value`.
+// The largest of 1, 2 and 5 times a power of ten that does not exceed `value`.
 double roundLength(double value) {
     const double power = std::pow(10.0, std::floor(std::log10(value)));
     return value >= 5 * power ? 5 * power : value >= 2 * power ? 2 * power : power;
@@ -141,13 +141,14 @@ private:
     [[nodiscard]] bool isSpace(std::uint32_t label) const noexcept {
         return label == kNoLabel || model::isSpace(labelOf(label).className);
     }
-    // What carries or encloses is cut with bold lines. What is put in, or thinner than a line or two, has thin ones.
+    // Cut load-bearing or enclosing parts have bold outlines. Fillings, furniture and parts only a line or two thick
+    // have thin ones.
     [[nodiscard]] bool isBold(std::uint32_t label) const {
         if (isSpace(label) || hatches_[label] == Hatch::Glass || isSlim_[label] != 0) return false;
         return model::classRank(labelOf(label).className) >= model::ClassRank::Installation;
     }
 
-    // Sheets are as thick as a voxel, whatever they stand for: towards rooms they have the line of what lies behind.
+    // Sheets are one voxel thick whatever they represent: towards rooms they take the line of the part behind them.
     [[nodiscard]] bool isSheet(std::uint32_t label) const noexcept {
         return label != kNoLabel && labelOf(label).filling == volume::Filling::Surface;
     }
@@ -255,7 +256,7 @@ private:
         for (const bool bold : {false, true}) {
             svg_ += fmt::format("<g class=\"{}\">\n", bold ? "bold" : "thin");
             for (const SectionBorder& border : drawing_.borders) {
-                // Between two that are cut, and around what is put in, the line is thin; rooms have none of their own.
+                // Thin between two cut parts and around fillings and furniture; no line between two rooms.
                 if (isSpace(border.left) && isSpace(border.right)) continue;
                 if (bold != isBoldBetween(border.left, border.right)) continue;
                 svg_ += "<path d=\"";
@@ -301,7 +302,7 @@ private:
         addText(kMargin, top + 6, 3.5, modelName(), " font-weight=\"bold\"");
         addText(kMargin, top + 11, 2.5,
                 fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(scale_, 2)));
-        // Four fields of a round length, 5 to 12.5 mm each.
+        // Four fields of a rounded length, 5 to 12.5 mm each.
         const double field = roundLength(12.5 / millimetres_), size = field * millimetres_;
         const double y = top + 17;
         for (int n = 0; n < 4; ++n)
@@ -318,7 +319,7 @@ private:
 
     const illustrate::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
-    double scale_, millimetres_;        // of paper, per metre
+    double scale_, millimetres_;        // millimetres on paper per metre
     std::vector<Hatch> hatches_;        // by label
     std::vector<std::uint8_t> isSlim_;  // by label
     PlanePoint low_, high_;

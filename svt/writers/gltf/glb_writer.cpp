@@ -24,14 +24,14 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 using Json = nlohmann::ordered_json;
 using volume::kNoLabel;
 
-// Numbers that glTF takes over from OpenGL.
+// Numbers that glTF takes from OpenGL.
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126, kArrayBuffer = 34962,
               kElementArrayBuffer = 34963;
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
 bool isShort(const LabelSurface& surface) { return surface.vertices.size() <= 65535; }
 
-// Bytes of the indices, padded to whole words.
+// Bytes of the indices, padded to whole 4-byte words.
 std::uint64_t indexBytes(const LabelSurface& surface) {
     const std::uint64_t bytes = std::uint64_t(surface.triangles.size()) * 3 * (isShort(surface) ? 2 : 4);
     return (bytes + 3) / 4 * 4;
@@ -64,7 +64,7 @@ Positions positionsOf(const LabelSurface& surface, Vec3d spacing, const SlopeVer
     return positions;
 }
 
-// sRGB to linear, to four digits, so that libraries which differ in the last bit give the same file.
+// sRGB to linear, rounded to four digits, so that math libraries that differ in the last bit give the same file.
 double linear(float value) {
     const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
     return std::round(v * 1e4) / 1e4;
@@ -101,7 +101,7 @@ Json rootNode(const volume::SemanticVolume& volume) {
     return root;
 }
 
-// Node 0 is the root; the labels follow in tree order, those without a mesh in or below them left out.
+// Node 0 is the root; the labels follow in tree order, except those without a mesh in or below them.
 Json nodesOf(const volume::SemanticVolume& volume, std::span<const LabelSurface> surfaces) {
     const auto& labels = volume.labels.labels;
     std::vector<std::int64_t> meshOf(labels.size(), -1);

@@ -22,7 +22,7 @@ using volume::Scalar;
 using volume::SemanticVolume;
 using Json = nlohmann::json;
 
-// Each edge of a surface as often in one direction as in the other.
+// Each edge of a surface is used equally often in both directions.
 template <class Triangles>
 ::testing::AssertionResult isClosed(const Triangles& triangles) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
@@ -37,8 +37,8 @@ template <class Triangles>
     return ::testing::AssertionSuccess();
 }
 
-// Six times the enclosed volume in half voxels cubed, and twice the area of what looks along each axis, signed sides
-// added up.
+// Six times the enclosed volume in cubed half voxels, and twice the area perpendicular to each axis, summed over
+// both directions.
 struct Measure {
     std::int64_t volume = 0;
     std::array<std::int64_t, 3> area{};
@@ -150,7 +150,7 @@ TEST(LabelSurface, TooManyTrianglesAreRefused) {
     EXPECT_EQ(surfaces.error().code(), Code::GridTooLarge);
 }
 
-// A .glb read back by the letter of the standard.
+// A .glb read back strictly by the standard.
 struct Glb {
     Json json;
     std::string bin;
@@ -180,7 +180,7 @@ struct Glb {
         return glb;
     }
 
-    // Numbers of an accessor; checks that it lies within its view, the view within the buffer, and all are aligned.
+    // Numbers of an accessor; checks that it lies within its view, that the view lies within the buffer, and alignment.
     template <class T>
     std::vector<T> numbers(std::size_t accessor, const char* type, int componentType, int target) const {
         const Json& a = json["accessors"][accessor];
@@ -232,7 +232,7 @@ TEST_F(GlbWriter, FileFollowsTheStandard) {
     EXPECT_EQ(json["asset"]["extras"]["origin"], Json({corner.x, corner.y, corner.z}));
     EXPECT_EQ(json["buffers"].size(), 1u);
     EXPECT_EQ(json["buffers"][0]["byteLength"], glb.bin.size());
-    // Every node hangs once below the root, and meshes, materials and accessors are all used.
+    // Every node occurs once below the root, and all meshes, materials and accessors are used.
     std::vector<int> uses(json["nodes"].size(), 0);
     std::size_t meshes = 0;
     for (const Json& node : json["nodes"]) {
@@ -282,7 +282,7 @@ TEST_F(GlbWriter, NodesAreTheSemanticTree) {
     EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][3], 0.25);
 }
 
-// The place of a voxel in the world: through the root's matrix, back to z up, plus the origin.
+// World position of a voxel: through the root's matrix, back to z up, plus the origin.
 TEST_F(GlbWriter, CoordinatesLeadBackToTheWorld) {
     SemanticVolume volume = volume::test::sampleVolume({8, 8, 8});
     std::vector<Scalar> dense(512, 0);
@@ -303,7 +303,7 @@ TEST_F(GlbWriter, CoordinatesLeadBackToTheWorld) {
     EXPECT_EQ(glb.indices(1).size(), 36u);
 }
 
-// A slab under a slope: its oblique faces get flat, and its area that of the slope; stairs have that of two sides.
+// A slab under a slope: its oblique faces become flat and have the area of the slope; stairs have that of two sides.
 TEST_F(GlbWriter, SlopesAreFlat) {
     const Vec3i n{40, 64, 60};
     SemanticVolume volume;
@@ -312,7 +312,7 @@ TEST_F(GlbWriter, SlopesAreFlat) {
     volume.labels.labels.resize(1);
     volume.labels.labels[0].id = "slab";
     volume.labels.labels[0].first = volume.labels.labels[0].count = 1;
-    // Between two planes that rise by 0.6 along y and 0.1 along x, cut off at the sides.
+    // Between two planes that rise by 0.6 along y and 0.1 along x, bounded at the sides.
     std::vector<Scalar> dense;
     for (std::int32_t k = 0; k < n.z; ++k)
         for (std::int32_t j = 0; j < n.y; ++j)
@@ -341,14 +341,14 @@ TEST_F(GlbWriter, SlopesAreFlat) {
         }
         EXPECT_TRUE(isClosed(triangles));
     }
-    // Two slopes of 3.2 x 5.6 m in plan, and four upright sides 0.9 m high.
+    // Two slopes of 3.2 x 5.6 m in plan, and four vertical sides 0.9 m high.
     const double exact = 2 * 3.2 * 5.6 * std::sqrt(1 + 0.36 + 0.01) + 0.9 * 2 * (3.2 + 5.6);
     EXPECT_GT(area[0], 1.25 * exact);
     EXPECT_NEAR(area[1], exact, 0.02 * exact);
     EXPECT_NEAR(cubic[1], 3.2 * 5.6 * 0.9, 0.01 * 3.2 * 5.6 * 0.9);
 }
 
-// A thin layer of a volume has the volume's planes: its corners are where those of the volume are.
+// A thin layer extracted from a volume uses the volume's planes: its vertices are those of the volume.
 TEST_F(GlbWriter, PlanesOfAnotherVolume) {
     const Vec3i n{24, 24, 24};
     SemanticVolume whole = volume::test::sampleVolume(n), layer = whole;
@@ -370,7 +370,7 @@ TEST_F(GlbWriter, PlanesOfAnotherVolume) {
     const Vec3d spacing = layer.grid.spacing();
     std::size_t onPlane = 0, between = 0;
     for (std::size_t v = 0; v < p.size(); v += 3) {
-        // From the plane through the upper side, in voxels.
+        // Distance from the plane of the upper side, in voxels.
         const double height = p[v + 2] / spacing.z - 0.5 - 0.7 * (p[v + 1] / spacing.y - 0.5) - 0.2;
         onPlane += std::abs(height) < 0.2 ? 1 : 0;
         between += height > 0.25 ? 1 : 0;
@@ -382,7 +382,7 @@ TEST_F(GlbWriter, PlanesOfAnotherVolume) {
 }
 
 TEST_F(GlbWriter, ManyVerticesGetWideIndices) {
-    // A chequered block: every second voxel by itself.
+    // A 3D checkerboard: voxels share edges only.
     const Vec3i n{40, 40, 40};
     SemanticVolume volume = volume::test::sampleVolume(n);
     std::vector<Scalar> dense;

@@ -15,21 +15,21 @@ using volume::ColumnVolume;
 using volume::kNoLabel;
 using volume::Run;
 
-// A rectangle of voxel faces of one label across `axis` at `plane` (in voxels), from `from` to `to` along the two other
-// axes in the order (axis + 1) % 3, (axis + 2) % 3.
+// A rectangle of voxel faces of one label perpendicular to `axis` at `plane` (in voxels), from `from` to `to` along the
+// two other axes in the order (axis + 1) % 3, (axis + 2) % 3.
 struct Rectangle {
     std::uint32_t label = 0;
     std::uint8_t axis = 0;
-    bool isUpper = false;  // looks along +axis
+    bool isUpper = false;  // faces +axis
     std::int32_t plane = 0;
     std::array<std::int32_t, 2> from{}, to{};
 };
 
-// A stretch of faces in a line: from `begin` to `end` along the line. `key` tells lines apart that may not be merged.
+// A strip of faces in a line: from `begin` to `end` along the line. Strips with different `key` are never merged.
 struct Strip {
     std::uint64_t key = 0;
     std::uint32_t begin = 0, end = 0;
-    std::int32_t since = 0;  // line where the rectangle began
+    std::int32_t since = 0;  // line at which the rectangle began
     [[nodiscard]] bool isSame(const Strip& other) const {
         return key == other.key && begin == other.begin && end == other.end;
     }
@@ -38,7 +38,7 @@ struct Strip {
     }
 };
 
-// Merges equal strips of lines one after the other; both in order. `emit(strip, line)` gets what ends before `line`.
+// Merges equal strips of consecutive lines; both in order. `emit(strip, line)` receives strips that end before `line`.
 template <class Emit>
 void nextLine(std::vector<Strip>& open, std::vector<Strip>& strips, std::int32_t line, Emit emit) {
     std::size_t o = 0;
@@ -58,7 +58,7 @@ public:
     Faces(const ColumnVolume& columns, std::span<const std::uint32_t> labelOfScalar)
         : columns_(columns), labelOfScalar_(labelOfScalar) {}
 
-    // Faces across x (axis 0) or y (axis 1) at one plane, 0..n: strips along z, merged along the other axis.
+    // Faces perpendicular to x (axis 0) or y (axis 1) at one plane, 0..n: strips along z, merged along the other axis.
     void addPlane(int axis, std::int32_t plane, std::vector<Rectangle>& out) {
         const int other = 1 - axis;
         open_.clear();
@@ -93,10 +93,10 @@ public:
         nextLine(open_, strips_, columns_.dimension()[other], emit);
     }
 
-    // Faces across z of all columns: strips along x, merged along y. Ends early where there are more than `limit`.
+    // Faces perpendicular to z of all columns: strips along x, merged along y. Stops early at more than `limit`.
     void addLayers(std::vector<Rectangle>& out, std::size_t limit) {
         open_.clear();
-        // The key holds plane, label and side; 16, 32 and 1 bits.
+        // The key packs plane, label and side; 16, 32 and 1 bits.
         const auto emit = [&](const Strip& strip, std::int32_t line) {
             out.push_back({static_cast<std::uint32_t>(strip.key >> 1),
                            2,
@@ -124,7 +124,7 @@ private:
         return axis == 0 ? columns_.column(at, line) : columns_.column(line, at);
     }
 
-    // Appends [begin, end) of `key` to the strips, joined with the strip `last` of this side.
+    // Appends [begin, end) of `key` to the strips, or extends the last strip `last` of this side.
     void extend(std::size_t& last, std::uint64_t key, std::uint32_t begin, std::uint32_t end) {
         if (last != kNone && strips_[last].key == key && strips_[last].end == begin) {
             strips_[last].end = end;
@@ -134,7 +134,7 @@ private:
         strips_.push_back({key, begin, end, 0});
     }
 
-    // Where the labels of two columns differ; an empty column has none.
+    // Faces where the labels of two columns differ; an empty column has no labels.
     void addStrips(std::span<const Run> before, std::span<const Run> after) {
         std::size_t lastUpper = kNone, lastLower = kNone;
         const auto nz = static_cast<std::uint32_t>(columns_.dimension().z);
@@ -214,10 +214,10 @@ private:
     std::span<const std::uint32_t> labelOfScalar_;
     std::vector<Strip> open_, strips_;
     std::vector<std::uint64_t> ends_;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> active_, next_;  // key, where it began
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> active_, next_;  // key, position where it began
 };
 
-// Places as one number, ordered by the axes `first`, `second`, `third`. 17 bits each.
+// Packs a vertex position into one number, ordered by the axes `first`, `second`, `third`. 17 bits each.
 struct PackedOrder {
     std::array<int, 3> axes;
     [[nodiscard]] std::uint64_t pack(Vec3i p) const {
@@ -233,7 +233,7 @@ struct PackedOrder {
     }
 };
 
-// Entry a: corners on one line along axis a follow one another.
+// Entry a: vertices on one line along axis a are consecutive.
 constexpr std::array<PackedOrder, 3> kOrders{{{{1, 2, 0}}, {{0, 2, 1}}, {{0, 1, 2}}}};
 
 // Corners of a rectangle, counter-clockwise from outside.
@@ -293,7 +293,7 @@ private:
         return static_cast<std::uint32_t>(found - corners_[2].begin());
     }
 
-    // The corners from `from` to before `to`, all that lie on the way included.
+    // Adds the vertices from `from` up to but excluding `to`, including all that lie between.
     void addSide(Vec3i from, Vec3i to) {
         const std::size_t axis = from.x != to.x ? 0 : from.y != to.y ? 1 : 2;
         const auto& sorted = corners_[axis];
@@ -316,12 +316,12 @@ Error tooMany(std::uint64_t limit) {
                  fmt::format("the surface has more than {} triangles; use a coarser volume or fewer features", limit));
 }
 
-// All rectangles, ordered by label and else as they were found.
+// All rectangles, ordered by label and then by discovery.
 Result<std::vector<Rectangle>> findRectangles(const ColumnVolume& columns, std::span<const std::uint32_t> labelOfScalar,
                                               const SurfaceOptions& options) {
     const Vec3i n = columns.dimension();
     const auto planesX = static_cast<std::size_t>(n.x) + 1, planesY = static_cast<std::size_t>(n.y) + 1;
-    // Some planes at once; the first piece are the layers, which take longest.
+    // Several planes per task; the first task is the layers, which take longest.
     constexpr std::size_t kPlanes = 16;
     const std::size_t piecesX = (planesX + kPlanes - 1) / kPlanes, piecesY = (planesY + kPlanes - 1) / kPlanes;
     std::vector<std::vector<Rectangle>> pieces(1 + piecesX + piecesY);

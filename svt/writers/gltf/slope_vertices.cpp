@@ -22,10 +22,10 @@ bool isInside(Vec3i voxel, Vec3i dimension) {
            voxel.z < dimension.z;
 }
 
-// On which sides of a code's cuts and planes a voxel lies; see BrickVolume::BoxCoding::cells.
+// Sides of a code's cuts and planes on which a voxel lies; see BrickVolume::BoxCoding::cells.
 struct Sides {
     std::uint32_t cell = 0;
-    std::uint32_t cutBits = 0;  // how many of the bits are cuts'
+    std::uint32_t cutBits = 0;  // number of bits that belong to cuts
 };
 
 Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec3i voxel) {
@@ -45,7 +45,7 @@ Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec
     return sides;
 }
 
-// The smallest step, along free axes alone, from `point` onto all planes; nothing where they do not meet nearby.
+// The smallest step, along unconstrained axes only, from `point` onto all planes; nothing if they do not meet nearby.
 std::optional<Vec3d> stepOnto(std::span<const BrickPlane> planes, Vec3d point, std::uint32_t fixedAxes) {
     std::array<Vec3d, kMostPlanes> normal;
     std::array<double, kMostPlanes> distance{};
@@ -75,7 +75,7 @@ std::optional<Vec3d> stepOnto(std::span<const BrickPlane> planes, Vec3d point, s
 std::uint32_t SlopeVertices::separatingPlane(Vec3i a, Vec3i b) const {
     const volume::Scalar scalarA = bricks_.scalarAt(a.x, a.y, a.z), scalarB = bricks_.scalarAt(b.x, b.y, b.z);
     const Vec3i brick{a.x >> 3, a.y >> 3, a.z >> 3};
-    // The brick itself, then those around it.
+    // The brick itself, then its neighbours.
     for (std::int32_t n = -1; n < 27; ++n) {
         const Vec3i at = n < 0 ? brick : brick + Vec3i{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
         if (!isInside(at, bricks_.brickCount())) continue;
@@ -123,7 +123,7 @@ Vec3d SlopeVertices::place(Vec3i corner) const {
                 fixedAxes |= 1u << axis;
                 continue;
             }
-            // Bricks side by side often have the same plane, but each as a plane of its own.
+            // Adjacent bricks often store the same plane separately.
             const BrickPlane& plane = bricks_.oblique()[number];
             bool isKnown = false;
             for (std::size_t p = 0; p < count; ++p)

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// Corners of voxel surfaces put back onto the oblique planes that the voxels came from, so that slopes are slopes and
-/// not stairs.
+/// Moves vertices of voxel surfaces back onto the oblique planes of the original geometry, so that slopes are smooth
+/// instead of stairs.
 ///
-///     stairs of voxels           corners on the plane
+///     stairs of voxels           vertices on the plane
 ///          +--+                        __/
 ///       +--+           ->           __/
 ///     --+                         _/
@@ -15,8 +15,8 @@
 
 namespace svt::writers {
 
-/// Where the corners of a volume's voxels belong. A place depends on the volume and the corner alone, so surfaces that
-/// are closed stay closed, and labels that touch still do. Threads: reads only.
+/// Final positions of voxel corners. A position depends only on the volume and the corner, so closed surfaces stay
+/// closed and touching labels stay in contact. Threads: reads only.
 class SlopeVertices {
 public:
     /// \param bricks         of the volume, with BrickFaces::Planes; must outlive this
@@ -24,11 +24,11 @@ public:
     SlopeVertices(const volume::BrickVolume& bricks, std::span<const std::uint32_t> labelOfScalar)
         : bricks_(bricks), labelOfScalar_(labelOfScalar) {}
 
-    /// The place of the corner (i, j, k) of voxel (i, j, k), in voxels from the volume's lower corner. Of the voxels
-    /// around it, those with different labels are looked at two by two: where a plane parts them, of their brick or of
-    /// one beside it, if that has a code which says of both what they are, the corner goes to that plane, or to the
-    /// edge of two; what else parts them keeps it at its place along that axis. A corner that would move by more than a
-    /// voxel, or that more planes part, stays.
+    /// Position of the corner (i, j, k) of voxel (i, j, k), in voxels from the volume's lower corner. The voxels around
+    /// the corner with different labels are examined in pairs. If a plane of their brick or of an adjacent brick
+    /// separates a pair, and the code of that brick classifies both voxels correctly, the corner moves to that plane,
+    /// or to the line where two such planes meet; any other separation fixes the corner along that axis. A corner that
+    /// would move by more than a voxel, or that more than two planes separate, does not move.
     [[nodiscard]] Vec3d place(Vec3i corner) const;
 
 private:

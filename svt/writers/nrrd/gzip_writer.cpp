@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 constexpr std::size_t kPiecesAtOnce = 16;
 constexpr int kLevel = 5;
-/// What Z_SYNC_FLUSH adds at most, beyond deflateBound().
+/// Maximum bytes that Z_SYNC_FLUSH adds beyond deflateBound().
 constexpr std::size_t kFlushBytes = 64;
 
 struct Piece {
@@ -49,7 +49,7 @@ std::array<std::byte, 4> littleEndian(std::uint32_t value) noexcept {
 
 Result<void> GzipWriter::compress(std::span<const std::byte> bytes) {
     if (!isBegun_) {
-        // Deflate, no name, no time (equal input gives equal bytes), unknown system.
+        // Deflate, no name, no time stamp (equal input gives equal bytes), unknown system.
         constexpr std::array<unsigned char, 10> kHeader{0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF};
         if (auto written = file_.write(std::as_bytes(std::span(kHeader))); !written) return written;
         isBegun_ = true;
@@ -92,7 +92,7 @@ Result<void> GzipWriter::write(std::span<const std::byte> bytes) {
 
 Result<void> GzipWriter::finish() {
     if (auto done = compress(pending_); !done) return done;
-    // An empty last block in the fixed code: the bits 1, 01, 0000000.
+    // An empty last block with fixed Huffman codes: the bits 1, 01, 0000000.
     constexpr std::array<unsigned char, 2> kLastBlock{0x03, 0x00};
     if (auto written = file_.write(std::as_bytes(std::span(kLastBlock))); !written) return written;
     if (auto written = file_.write(littleEndian(crc_)); !written) return written;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: one gzip member written as a stream, compressed on all cores. Pieces of fixed size are compressed
+/// Writes one gzip member as a stream, compressed on all cores. Pieces of fixed size are compressed
 /// independently and joined at byte boundaries, so the bytes do not depend on the number of threads.
 
 #include <svt/core/file.hpp>
@@ -14,11 +14,12 @@ namespace svt::writers {
 
 class GzipWriter {
 public:
-    /// \param file     where the member goes; must outlive the writer
-    /// \param threads  at most this many; 0: all cores
+    /// \param file     output file; must outlive the writer
+    /// \param threads  maximum; 0: all cores
     explicit GzipWriter(AtomicFile& file, int threads = 0) : file_(file), threads_(threads) {}
 
-    /// Appends bytes. \return what AtomicFile::write returns
+    /// Appends bytes.
+    /// \return the result of AtomicFile::write
     Result<void> write(std::span<const std::byte> bytes);
     /// Ends the member. Nothing may be written after it.
     Result<void> finish();

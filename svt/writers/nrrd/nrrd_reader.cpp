@@ -15,7 +15,7 @@ namespace svt::writers {
 namespace {
 
 constexpr std::uint64_t kMaxSamplesPerAxis = 1u << 30;
-/// Deflate cannot shrink more than this; a header that claims more lies.
+/// Maximum compression ratio of deflate; a header that claims more is invalid.
 constexpr std::uint64_t kMaxGzipRatio = 1032;
 
 Error bad(std::string message) { return Error(Code::BadNrrd, std::move(message)); }
@@ -27,7 +27,7 @@ std::string_view trimmed(std::string_view text) noexcept {
     return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-/// What of the header decides how the data are read.
+/// Header fields that determine how the data are read.
 struct Header {
     NrrdImage image;
     std::string encoding;
@@ -56,7 +56,7 @@ int bitsOfType(std::string_view type) noexcept {
     return 0;
 }
 
-/// Takes the next number off `text`; separators are blanks, commas and parentheses.
+/// Removes and returns the next number of `text`; separators are blanks, commas and parentheses.
 template <class T>
 bool takeNumber(std::string_view& text, T& number) noexcept {
     const std::size_t begin = text.find_first_not_of(" \t,()");
@@ -71,7 +71,7 @@ bool takeVector(std::string_view& text, Vec3d& v) noexcept {
     return takeNumber(text, v.x) && takeNumber(text, v.y) && takeNumber(text, v.z) && isFinite(v);
 }
 
-/// One `field: value`. Fields that do not matter here are passed over.
+/// Reads one `field: value`. Irrelevant fields are skipped.
 Result<void> readField(Header& header, std::string_view field, std::string_view value) {
     if (field == "type") {
         header.image.bits = bitsOfType(value);
@@ -152,7 +152,7 @@ Result<Header> readHeader(std::string_view text) {
     return header;
 }
 
-/// Inflates gzip members one after the other into exactly `out`.
+/// Inflates consecutive gzip members into exactly `out`.
 Result<void> inflateInto(std::span<const std::byte> in, std::span<std::byte> out) {
     z_stream stream{};
     if (inflateInit2(&stream, MAX_WBITS + 16) != Z_OK) throw std::bad_alloc();
@@ -162,7 +162,7 @@ Result<void> inflateInto(std::span<const std::byte> in, std::span<std::byte> out
     while (state == Z_OK || (state == Z_STREAM_END && !in.empty())) {
         if (state == Z_STREAM_END && inflateReset(&stream) != Z_OK) break;
         const std::size_t given = std::min(in.size(), kPiece);
-        // One byte more than expected is asked for, so that data that are too long are seen.
+        // Ask for one byte more than expected, to detect data that are too long.
         const std::span<std::byte> target =
             out.empty() ? std::span(&beyond, 1) : out.first(std::min(out.size(), kPiece));
         stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(in.data()));
@@ -190,7 +190,7 @@ Result<NrrdImage> readImage(std::span<const std::byte> bytes, std::string_view t
     if (!header) return header.error();
     NrrdImage& image = header->image;
     const std::span<const std::byte> stored = bytes.subspan(header->dataOffset);
-    // Two sizes of 2^30 and a sample of 4 bytes fit into 64 bits; the third is compared before it is multiplied.
+    // Two sizes of 2^30 and a sample of 4 bytes fit into 64 bits; the third is checked before multiplication.
     const std::uint64_t slice = std::uint64_t(image.dimension.x) * std::uint64_t(image.dimension.y) *
                                 (static_cast<std::uint64_t>(image.bits) / 8);
     const auto slices = static_cast<std::uint64_t>(image.dimension.z);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Reads an attached NRRD of three axes and unsigned samples, as writeNrrd makes them and as other tools give them
-/// back.
+/// Reads an attached NRRD with three axes and unsigned samples, as written by writeNrrd and rewritten by other
+/// tools.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -21,8 +21,8 @@ namespace svt::writers {
 struct NrrdImage {
     Vec3i dimension{};
     int bits = 0;                       ///< 8, 16 or 32 per sample
-    Vec3d origin{};                     ///< first sample; zero where the file does not say
-    std::array<Vec3d, 3> directions{};  ///< step to the next sample along each axis; zero where not said
+    Vec3d origin{};                     ///< first sample; zero if not stated
+    std::array<Vec3d, 3> directions{};  ///< step to the next sample along each axis; zero if not stated
     std::vector<std::pair<std::string, std::string>> keyValues;  ///< in file order, unescaped
     std::vector<std::byte> data;                                 ///< samples in the byte order of this machine
 
@@ -33,12 +33,12 @@ struct NrrdImage {
 };
 
 struct NrrdReadOptions {
-    std::uint64_t maxDataBytes = std::uint64_t{8} << 30;  ///< refuses larger images
+    std::uint64_t maxDataBytes = std::uint64_t{8} << 30;  ///< limit on the image size
 };
 
-/// Reads types uint8, uint16 and uint32 under all their names, encodings raw and gzip, both byte orders.
-/// Does not follow `data file`: a file never makes the library open another one.
-/// \return the image, or CannotOpen; BadNrrd that says what cannot be read; InputTooBig
+/// Reads the types uint8, uint16 and uint32 under all their names, encodings raw and gzip, both byte orders.
+/// Ignores `data file`: a file never makes the library open another one.
+/// \return the image, or CannotOpen; BadNrrd with the reason; InputTooBig
 [[nodiscard]] Result<NrrdImage> readNrrd(const std::filesystem::path& path, const NrrdReadOptions& options = {});
 
 }  // namespace svt::writers

@@ -20,7 +20,7 @@ constexpr std::uint64_t kSlabBytes = std::uint64_t{16} << 20;
 
 std::string vectorText(Vec3d v) { return fmt::format("({},{},{})", v.x, v.y, v.z); }
 
-/// A value of `key:=value`: backslash and line end are escaped, as the format wants.
+/// A value of `key:=value`: backslashes and line breaks are escaped, as the format requires.
 void appendKeyValue(std::string& header, std::string_view key, std::string_view value) {
     header += key;
     header += ":=";
@@ -67,13 +67,13 @@ std::string headerOf(const volume::SemanticVolume& volume, int bits, NrrdEncodin
     return header + "\n";
 }
 
-/// Unrolls the columns box by box in the order of the file and hands each box to `sink`.
+/// Expands the columns box by box in file order and passes each box to `sink`.
 template <class T, class Sink>
 Result<void> writeSamples(const volume::ColumnVolume& columns, const NrrdOptions& options, Sink sink) {
     const Vec3i dimension = columns.dimension();
     const std::uint64_t rowBytes = std::uint64_t(dimension.x) * sizeof(T);
     const std::uint64_t sliceBytes = rowBytes * std::uint64_t(dimension.y);
-    // Several slices at once; where even one is too much, one slice in bands of whole tiles.
+    // Several slices at once; if one slice is too large, bands of whole tiles of one slice.
     const auto slices = static_cast<std::int32_t>(
         std::clamp<std::uint64_t>(kSlabBytes / sliceBytes, 1, static_cast<std::uint64_t>(dimension.z)));
     constexpr std::int32_t kTile = volume::ColumnVolume::kTileSize;

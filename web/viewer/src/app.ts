@@ -1,4 +1,4 @@
-/** The page: bar, panels, picture, tools; and the keys that work everywhere. */
+/** The page: bar, panels, picture, tools, and global keyboard shortcuts. */
 
 import { html, nothing, type PropertyValues } from "lit";
 import { appStyles } from "./app_styles";
@@ -55,7 +55,7 @@ export class App extends Part {
   declare isSelectionShown: boolean;
   declare isDropping: boolean;
   declare spoken: string;
-  /** What the page does with a file, and with a model of the list. */
+  /** Handlers for a file, and for a model of the list. */
   onFile: (file: File) => void = () => {};
   onModel: (name: string) => void = () => {};
   private seenSelection: unknown = null;
@@ -181,7 +181,7 @@ export class App extends Part {
   private wide() {
     const properties = html`<svt-properties .session=${this.session}></svt-properties>`;
     const hasColumn = !this.isSmall && this.isSelectionShown;
-    // Where there is no room for a third column, the selection stands below the parts.
+    // Without room for a third column, the selection is shown below the parts.
     const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && this.hasSelection;
     const middle = hasColumn
       ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 300} primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
@@ -299,7 +299,7 @@ export class App extends Part {
     const { session } = this;
     const now = toggleTheme();
     const { look } = session.state;
-    // Light and dark looks go with the page's; paper and blueprint are meant.
+    // Light and dark looks follow the theme of the page; paper and blueprint are explicit choices.
     if (look === "plain" || look === "dark") session.set({ look: now === "dark" ? "dark" : "plain" });
     this.requestUpdate();
   }

@@ -1,4 +1,4 @@
-/** Where the parts of the page stand, on large and small screens. */
+/** Layout of the page on large and small screens. */
 
 import { css } from "lit";
 

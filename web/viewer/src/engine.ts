@@ -1,7 +1,7 @@
 /**
- * What the page asks of the library. The library runs as WebAssembly in a worker (`web/wasm`); the page holds no
- * geometry, no query and no drawing code of its own. Lengths are metres; points are metres from the grid's lower
- * corner in world axes, as in scenes; pixels count from the top left.
+ * The interface of the library as used by the page. The library runs as WebAssembly in a worker (`web/wasm`); the page
+ * has no geometry, query or drawing code of its own. Lengths are metres; points are metres from the grid's lower
+ * corner in world axes, as in scenes; pixel coordinates start at the top left.
  */
 
 /** A `*.scene.json`: docs/formats/scene.schema.json. The page edits it, the library draws it. */
@@ -40,9 +40,9 @@ export interface ScenePass {
   join?: "over" | "replace" | "depth";
   lines?: { select?: string; width?: number; color?: string; hidden?: string }[];
   meshes?: string[];
-  /** Only the hulls of groups at this level of the tree, as `svt shell` makes them. */
+  /** Only the hulls of groups at this level of the tree, as made by `svt shell`. */
   shell?: ShellLevel;
-  /** Level of detail, 0 (finest) to 6; by default as fine as the pixels show. */
+  /** Level of detail, 0 (finest) to 6; by default chosen by pixel size. */
   level?: number;
 }
 export type ShellLevel = "component" | "room" | "unit" | "storey" | "building";
@@ -57,7 +57,7 @@ export interface SceneStyle {
 
 export type Point = [number, number, number];
 
-/** What turns a scene of one pass into a lens, a highlight or a cutaway; each as `svt render` does it. */
+/** Turns a scene of one pass into a lens, a highlight or a cutaway, as `svt render` does. */
 export interface Effects {
   lens?: { region: string; cut: string; context: Context };
   highlight?: { queries: string[]; context: Context };
@@ -72,12 +72,12 @@ export interface Feature {
   class: string;
   name: string;
   parent: string;
-  /** How far below the root. */
+  /** Depth below the root. */
   depth: number;
   /** Own scalars [first, first + count); count 0: no voxels of its own. */
   first: number;
   count: number;
-  /** sRGB as the volume's style has it, `#rrggbb`; opacity as in styles. */
+  /** sRGB from the volume's style, `#rrggbb`; opacity as in styles. */
   color: string;
   opacity: number;
 }
@@ -90,7 +90,7 @@ export interface VolumeInfo {
   spacing: Point;
   /** Edge lengths of the grid's box in world axes. */
   size: Point;
-  /** The grid's axes in world axes; without them they are the same. Sections along x, y and z follow the grid. */
+  /** The grid's axes in world axes; absent if they coincide. Sections along x, y and z follow the grid. */
   axes?: [Point, Point, Point];
   storeys: { id: string; name: string; floor: number; top: number }[];
   features: Feature[];
@@ -101,13 +101,13 @@ export interface VolumeInfo {
   findings: string[];
 }
 
-/** All that is known of a feature. */
+/** All properties of a feature. */
 export interface FeatureProperties {
   id: string;
   class: string;
   name: string;
   attributes: Record<string, string>;
-  /** By voxels, m3; the model's own volume where its solid is closed. */
+  /** From voxels, m3; the model's own volume if its solid is closed. */
   voxelVolume: number;
   modelVolume: number | null;
   /** m2. */
@@ -116,17 +116,17 @@ export interface FeatureProperties {
   neighbours: { id: string; class: string; name: string; area: number }[];
 }
 
-/** What lies under a pixel of the last picture; null: nothing. */
+/** The hit at a pixel of the last picture; null: nothing. */
 export interface Pick {
   scalar: number;
   id: string;
   class: string;
   name: string;
-  /** Where the ray meets it. */
+  /** Where the ray hits it. */
   point: Point;
 }
 
-/** A stretch of a ray through one object. */
+/** An interval of a ray inside one object. */
 export interface Stretch {
   id: string;
   class: string;
@@ -139,14 +139,14 @@ export type DrawingFormat = "svg" | "dxf" | "geojson" | "csv";
 export type EngineKind = "webgl2" | "cpu";
 
 export interface FrameReport {
-  /** Pixels drawn, which may be fewer than asked for while moving. */
+  /** Size in pixels, which may be smaller than requested while moving. */
   width: number;
   height: number;
   milliseconds: number;
   engine: EngineKind;
 }
 
-/** An error of the library: `code` as in docs/errors, `message` names place and remedy. */
+/** An error of the library: `code` as in docs/errors; `message` states location and remedy. */
 export interface EngineError {
   code: string;
   message: string;
@@ -156,19 +156,19 @@ export interface EngineError {
 export interface Engine {
   readonly kind: EngineKind;
 
-  /** Opens a `.svt` or a model file by its bytes, which are given away. */
+  /** Opens a `.svt` or a model file from its bytes, whose ownership is transferred. */
   open(bytes: ArrayBuffer, fileName: string, onProgress: (step: string, done: number) => void): Promise<VolumeInfo>;
 
   /**
-   * Draws into the canvas that the engine was made with, at `width` x `height` pixels (the canvas is scaled by CSS).
-   * Only the newest request waits: one that is overtaken resolves to null.
+   * Draws into the engine's canvas at `width` x `height` pixels (the canvas is scaled by CSS).
+   * Only the newest request is queued: a superseded one resolves to null.
    */
   draw(scene: Scene, width: number, height: number): Promise<FrameReport | null>;
 
   /** The scene with effects, as `svt render --lens/--highlight/--cutaway` make it. */
   compose(scene: Scene, effects: Effects): Promise<Scene>;
 
-  /** x and y in 0..1 of the picture that was drawn last. */
+  /** x and y in 0..1 of the last picture. */
   pick(x: number, y: number): Promise<Pick | null>;
   /** Everything along the ray through a pixel, nearest first, hidden or not. */
   along(x: number, y: number): Promise<Stretch[]>;
@@ -176,11 +176,14 @@ export interface Engine {
   /** Ids of the features that a query selects. */
   select(query: string): Promise<string[]>;
   properties(id: string): Promise<FeatureProperties>;
-  /** Eye and target that show what a query selects (empty: all) from a named view or, without one, from where the camera looks now. */
+  /**
+   * Eye and target that show the features selected by a query (empty: all), from a named view or else from the
+   * current view direction.
+   */
   view(query: string, preset: string | null, camera: SceneCamera): Promise<SceneCamera>;
 
-  /** A picture as PNG, drawn by the CPU caster as `svt render` does, bit for bit. */
+  /** A picture as PNG, drawn by the CPU caster, bit-identical to `svt render`. */
   picture(scene: Scene): Promise<ArrayBuffer>;
-  /** The cut through the volume as `svt section` draws it. */
+  /** The section through the volume as drawn by `svt section`. */
   drawing(plane: string, format: DrawingFormat): Promise<ArrayBuffer>;
 }

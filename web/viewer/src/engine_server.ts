@@ -1,15 +1,15 @@
 /**
- * Where the library cannot run in the browser and a server draws (`svt serve`, POST /api/picture): pictures alone.
- * What needs the volume in the page is refused with a clear error.
+ * Engine for browsers that cannot run the library, with a server that draws (`svt serve`, POST /api/picture): pictures
+ * only. Functions that need the volume in the page are rejected with a clear error.
  */
 
 import type { Engine, EngineError, Scene } from "./engine";
 
 const kNotHere: EngineError = { code: "E904", message: "only pictures come from the server" };
 
-/** null: there is no such server. */
+/** null: no such server. */
 export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Engine | null> {
-  // The kind that the engine in the worker uses: a canvas has but one.
+  // The context type used by the engine in the worker: a canvas can have only one.
   const screen = canvas.getContext("bitmaprenderer");
   if (!screen) return null;
   let model = "";

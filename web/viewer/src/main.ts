@@ -1,4 +1,4 @@
-/** Start: engine and model are fetched at once, the page is built while they come. */
+/** Start: engine and model are fetched at once, while the page is built. */
 
 import "./ui/theme.css";
 import "./app";
@@ -33,7 +33,7 @@ addEventListener("hashchange", () => void follow());
 void start();
 loadComponents();
 
-/** Splitters, sliders and such come after the first picture, which they would delay. */
+/** Splitters, sliders etc. are loaded after the first picture, which they would delay. */
 function loadComponents(): void {
   const load = () => {
     clearTimeout(timer);
@@ -45,13 +45,13 @@ function loadComponents(): void {
   session.addEventListener("change", look);
 }
 
-/** `?engine=cpu` or `webgl2` asks for one kind; without it the faster one is found. */
+/** `?engine=cpu` or `webgl2` selects one renderer; without it the faster one is determined. */
 function wantedEngine(): EngineKind | null {
   const wanted = new URLSearchParams(location.search).get("engine");
   return wanted === "cpu" || wanted === "webgl2" ? wanted : null;
 }
 
-/** The library in the browser; else pictures by the server. */
+/** The library in the browser; else pictures from the server. */
 async function startEngine(): Promise<Engine> {
   try {
     return await createEngine(canvas, wantedEngine());
@@ -94,7 +94,7 @@ async function linkedState(): Promise<ViewState | null> {
   }
 }
 
-/** A link pasted into the open page. */
+/** Opens a link pasted into the open page. */
 async function follow(): Promise<void> {
   const state = await linkedState();
   if (state && session.info) session.set(state);

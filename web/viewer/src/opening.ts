@@ -1,4 +1,4 @@
-/** Models of the list beside the page, and files of the user. */
+/** Opens listed models and user files. */
 
 import type { ListedModel, Session } from "./session";
 import type { ViewState } from "./state/view_state";
@@ -7,12 +7,12 @@ import { bytes as bytesText, t } from "./texts";
 export interface ModelList {
   models: ListedModel[];
   chosen: ListedModel | null;
-  /** The chosen one on its way. */
+  /** Pending download of the chosen model. */
   bytes: Promise<Response> | null;
   note: string | null;
 }
 
-/** What `models.json` beside the page lists; the data of the chosen one is asked for at once. */
+/** The models listed in `models.json` next to the page; the download of the chosen one starts at once. */
 export async function readModels(wanted: string | null): Promise<ModelList> {
   const models = await listed();
   const chosen = models.find((model) => model.name === wanted) ?? models[0] ?? null;
@@ -58,7 +58,7 @@ export async function openModel(session: Session, name: string, state: ViewState
   session.changed();
 }
 
-/** The bytes of an answer, with progress for what takes longer. */
+/** The bytes of a response, with progress for slow downloads. */
 async function received(response: Response, expected: number, progress: (done: number) => void): Promise<ArrayBuffer> {
   if (!response.body || !(expected > 1e6)) return response.arrayBuffer();
   const reader = response.body.getReader();

@@ -1,4 +1,4 @@
-/** What the page is at: the engine, the open model, the state, and what is told to the user. Parts watch it. */
+/** State of the page: the engine, the open model, the view state, and messages to the user. Parts observe it. */
 
 import { boxOf, withProjection, between, type Box } from "./camera/camera";
 import { PictureLoop, type Quality } from "./canvas/picture_loop";
@@ -23,11 +23,11 @@ export interface ListedModel {
 
 export interface Progress {
   text: string;
-  /** 0 to 1; negative: not known. */
+  /** 0 to 1; negative: unknown. */
   share: number;
 }
 
-/** What the page tells at its lower border. */
+/** A message at the lower border of the page. */
 export interface Message {
   title?: string;
   text: string;
@@ -42,17 +42,17 @@ export interface AlongList {
 
 const kUnitBox: Box = { low: [0, 0, 0], high: [1, 1, 1], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] };
 
-/** Events: "change" when anything changed, "said" when a live region is to speak. */
+/** Events: "change" when anything changed, "said" when a live region should be read out. */
 export class Session extends EventTarget {
   engine: Engine | null = null;
-  /** Pictures alone, by the server. */
+  /** Pictures only, from the server. */
   isServerOnly = false;
   status: Status = "starting";
   progress: Progress | null = null;
   message: Message | null = null;
   models: ListedModel[] = [];
   modelName = "";
-  /** As commands would name it. */
+  /** File name for generated commands. */
   modelFile = "model.svt";
   info: VolumeInfo | null = null;
   index: FeatureIndex = indexFeatures([]);
@@ -66,9 +66,9 @@ export class Session extends EventTarget {
   properties: FeatureProperties | null = null;
   report: FrameReport | null = null;
   quality: Quality | null = null;
-  /** Of the picture that is seen, which follows the state by a frame. */
+  /** Camera of the visible picture, which lags the state by a frame. */
   shownCamera: Camera | null = null;
-  /** Device pixels of the picture's place in the page. */
+  /** Size of the picture area in device pixels. */
   pictureSize: [number, number] = [640, 360];
   isLegendShown = false;
   language: Language = "en";
@@ -145,7 +145,7 @@ export class Session extends EventTarget {
     this.changed();
   }
 
-  /** The view that was found for the whole building, and for which picture; a picture of another shape needs another. */
+  /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
   private fitted: { camera: Camera; aspect: number } | null = null;
 
   private refit(aspect: number): void {
@@ -177,11 +177,11 @@ export class Session extends EventTarget {
     this.dispatchEvent(new CustomEvent("said", { detail: text }));
   }
 
-  /** How the bytes of what is open are had again, for a library that had to be started anew. */
+  /** Fetches the bytes of the open model again, for a restarted library. */
   private source: (() => Promise<ArrayBuffer>) | null = null;
   private restartedAt = -Infinity;
 
-  /** The library has died and with it its volume: opens that again, unless that just failed. */
+  /** The library has crashed and lost the volume: reopens it, unless that just failed. */
   private async reopen(error: EngineError): Promise<void> {
     if (!this.source || !this.engine || performance.now() - this.restartedAt < 20_000) return;
     this.restartedAt = performance.now();
@@ -195,8 +195,8 @@ export class Session extends EventTarget {
   }
 
   /**
-   * Opens a model; what was open stays where that fails.
-   * @param source  gives the bytes once more
+   * Opens a model; on failure the previous one stays open.
+   * @param source  fetches the bytes again
    */
   async open(bytes: ArrayBuffer, fileName: string, source: () => Promise<ArrayBuffer>, state: ViewState | null = null): Promise<boolean> {
     if (!this.engine) return false;
@@ -242,7 +242,7 @@ export class Session extends EventTarget {
     if (!this.state.camera) void this.fit(0);
   }
 
-  /** To where a query's features fill the picture; from a named view, or from where the camera looks now. */
+  /** Moves to where the features of a query fill the picture; from a named view, or from the current direction. */
   async goTo(query: string, preset: string | null, isFollowed = true): Promise<void> {
     if (!this.engine || !this.info) return;
     if (this.isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
@@ -259,7 +259,7 @@ export class Session extends EventTarget {
     }
   }
 
-  /** Flies where people like motion. */
+  /** Animated, unless the user prefers reduced motion. */
   moveTo(camera: Camera, isFollowed = true): void {
     cancelAnimationFrame(this.move);
     const from = this.state.camera;
@@ -274,7 +274,7 @@ export class Session extends EventTarget {
     step();
   }
 
-  /** By hand: ends a flight. */
+  /** Camera movement by the user: ends an animation. */
   turn(camera: Camera): void {
     cancelAnimationFrame(this.move);
     this.set({ camera });
@@ -290,7 +290,7 @@ export class Session extends EventTarget {
     else this.say(ids.length ? t("severalSelected", { n: this.state.selection.length }) : t("nothingSelected"));
   }
 
-  /** The only one selected. */
+  /** The selected feature, if there is exactly one. */
   selected() {
     const [id, second] = this.state.selection;
     if (id === undefined || second !== undefined) return null;
@@ -333,14 +333,14 @@ export class Session extends EventTarget {
     }
   }
 
-  /** The scene as `svt render --scene` takes it, with effects. */
+  /** The scene as taken by `svt render --scene`, with effects. */
   async composed(size: [number, number], samples: 1 | 4 | 9 | 16 = 4) {
     const described = this.describe(size, samples);
     if (!this.engine || Object.keys(described.effects).length === 0) return described.scene;
     return this.engine.compose(described.scene, described.effects);
   }
 
-  /** The page with the model that is open, where there is a choice; a file of the user's has no address. */
+  /** The address of the page with the open model, if there are several; a local file has no address. */
   private address(): string {
     const url = new URL(location.href);
     if (this.modelName && this.models.length > 1) url.searchParams.set("model", this.modelName);
@@ -348,7 +348,7 @@ export class Session extends EventTarget {
     return url.pathname + url.search;
   }
 
-  /** The page's address shows what the page shows. */
+  /** Updates the page's address to the current view. */
   async writeLink(): Promise<void> {
     if (!this.info || !this.state.camera) return;
     const state = this.state;
@@ -356,11 +356,11 @@ export class Session extends EventTarget {
       const hash = await hashOf(await this.composed(this.pictureSize), state);
       if (this.state === state) history.replaceState(null, "", `${this.address()}${hash}`);
     } catch {
-      // What cannot be drawn has no link; the picture told why.
+      // A view that cannot be drawn has no link; the picture already reported why.
     }
   }
 
-  /** Selection as queries of the language. */
+  /** Selection as a query. */
   get selectionQuery(): string {
     return this.state.selection.map(ofId).join(" or ");
   }
@@ -370,7 +370,7 @@ export class Session extends EventTarget {
   }
 }
 
-/** After these the worker is a new one, without a volume. */
+/** Errors after which the worker is replaced and has no volume. */
 function isDeadly(error: unknown): boolean {
   return (error as EngineError).code === "E999";
 }

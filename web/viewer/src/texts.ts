@@ -1,4 +1,4 @@
-/** All that the page says, English and German side by side. `{x}` stands for a value. */
+/** All texts of the page, English and German side by side. `{x}` is a placeholder. */
 
 const kTexts = {
   appName: ["Viewer", "Betrachter"],
@@ -279,7 +279,7 @@ export function t(key: TextKey, values: Record<string, string | number> = {}): s
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
 }
 
-/** Numbers as the language writes them. */
+/** Formats numbers in the chosen language. */
 export function number(value: number, digits: number): string {
   return value.toLocaleString(current, { minimumFractionDigits: digits, maximumFractionDigits: digits });
 }

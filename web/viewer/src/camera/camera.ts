@@ -1,5 +1,5 @@
 /**
- * The camera's mathematics: the same conventions as svt/render (CameraRays, camera presets). Points are metres from the
+ * Camera mathematics, with the same conventions as svt/render (CameraRays, camera presets). Points are metres from the
  * grid's lower corner in world axes; u and v run from -1 to 1, left to right and bottom to top.
  */
 
@@ -14,7 +14,7 @@ export interface Box {
   axes: [Point, Point, Point];
 }
 
-/** The lower corner is the middle of the first voxel, so the box begins half a voxel before it. */
+/** The lower corner is the centre of the first voxel, so the box begins half a voxel before it. */
 export function boxOf(info: VolumeInfo): Box {
   const { dimension: n, spacing: s } = info;
   return {
@@ -30,7 +30,7 @@ export const kWorldAxes: [Point, Point, Point] = [
   [0, 0, 1],
 ];
 
-/** From the grid's axes to world axes. */
+/** From grid axes to world axes. */
 export function toWorld(box: Box, p: Point): Point {
   return add(add(scale(box.axes[0], p[0]), scale(box.axes[1], p[1])), scale(box.axes[2], p[2]));
 }
@@ -59,7 +59,7 @@ export function halfHeight(camera: Camera): number {
   return camera.parallel ? camera.height / 2 : Math.tan((camera.fieldOfView * Math.PI) / 360);
 }
 
-/** Where a point is seen: shares of the picture from its upper left corner, and depth; null behind the viewer. */
+/** Position of a point in the picture: fractions from the upper left corner, and depth; null behind the viewer. */
 export function project(camera: Camera, aspect: number, p: Point, axes = kWorldAxes): { x: number; y: number; depth: number } | null {
   const { forward, right, up } = basisOf(camera, axes);
   const fromEye = sub(p, camera.eye);
@@ -71,7 +71,7 @@ export function project(camera: Camera, aspect: number, p: Point, axes = kWorldA
   return { x: (u + 1) / 2, y: (1 - v) / 2, depth };
 }
 
-/** The ray through a place of the picture. */
+/** The ray through a position in the picture. */
 export function rayAt(camera: Camera, aspect: number, x: number, y: number, axes = kWorldAxes): { from: Point; along: Point } {
   const { forward, right, up } = basisOf(camera, axes);
   const half = halfHeight(camera);
@@ -80,7 +80,7 @@ export function rayAt(camera: Camera, aspect: number, x: number, y: number, axes
   return { from: camera.eye, along: normalized(add(forward, aside)) };
 }
 
-/** The point in depth `depth` along the view direction that is seen at a place of the picture. */
+/** The point at `depth` along the view direction that appears at a position in the picture. */
 export function pointAt(camera: Camera, aspect: number, x: number, y: number, depth: number, axes = kWorldAxes): Point {
   const { forward, right, up } = basisOf(camera, axes);
   const half = halfHeight(camera) * (camera.parallel ? 1 : depth);
@@ -90,7 +90,7 @@ export function pointAt(camera: Camera, aspect: number, x: number, y: number, de
 
 const kMargin = 0.06;
 
-/** Metres from bottom to top of a parallel view by the name `preset` that shows the whole box. */
+/** Metres from bottom to top of the parallel view `preset` that shows the whole box. */
 export function parallelHeight(preset: "iso" | "top" | "bottom", box: Box, aspect: number): number {
   const forward = preset === "iso" ? normalized([-1, 1, -1]) : ([0, 0, preset === "top" ? -1 : 1] as Point);
   const right = normalized(cross(forward, preset === "iso" ? [0, 0, 1] : [0, 1, 0]));
@@ -106,7 +106,7 @@ export function parallelZoom(preset: "iso" | "top" | "bottom", box: Box, aspect:
 
 const kSteepest = (89 * Math.PI) / 180;
 
-/** Turns around `pivot`, which stays where it is in the picture; angles in radians. */
+/** Orbits around `pivot`, which keeps its position in the picture; angles in radians. */
 export function orbit(camera: Camera, pivot: Point, turn: number, rise: number): Camera {
   const { forward, right } = basisOf(camera);
   const pitch = Math.asin(Math.max(-1, Math.min(1, -forward[2])));
@@ -115,7 +115,7 @@ export function orbit(camera: Camera, pivot: Point, turn: number, rise: number):
   return { ...camera, eye: moved(camera.eye), target: moved(camera.target) };
 }
 
-/** Looks around from where the viewer stands. */
+/** Looks around from a fixed eye position. */
 export function lookAround(camera: Camera, turn: number, rise: number): Camera {
   return { ...orbit(camera, camera.eye, turn, rise), eye: camera.eye };
 }
@@ -130,7 +130,7 @@ function turnedAbout(p: Point, axis: Point, angle: number): Point {
   return add(add(scale(p, c), scale(cross(axis, p), s)), scale(axis, dot(axis, p) * (1 - c)));
 }
 
-/** Moves along the picture so that what is seen in `depth` follows by shares of the picture's height. */
+/** Moves parallel to the picture so that points at `depth` move by fractions of the picture's height. */
 export function pan(camera: Camera, dx: number, dy: number, depth: number): Camera {
   const { right, up } = basisOf(camera);
   const metres = 2 * halfHeight(camera) * (camera.parallel ? 1 : depth);
@@ -138,7 +138,7 @@ export function pan(camera: Camera, dx: number, dy: number, depth: number): Came
   return { ...camera, eye: add(camera.eye, step), target: add(camera.target, step) };
 }
 
-/** Nearer (factor below 1) to `towards`, which stays where it is in the picture. */
+/** Zooms in (factor below 1) towards `towards`, which keeps its position in the picture. */
 export function zoom(camera: Camera, towards: Point, factor: number): Camera {
   const moved = (p: Point) => add(towards, scale(sub(p, towards), factor));
   if (!camera.parallel) return { ...camera, eye: moved(camera.eye), target: moved(camera.target) };
@@ -148,7 +148,7 @@ export function zoom(camera: Camera, towards: Point, factor: number): Camera {
   return { ...camera, eye: add(camera.eye, across), target: add(camera.target, across), height: camera.height * factor };
 }
 
-/** Steps of a walker: ahead and aside on the ground, and up; metres. */
+/** Walking: metres forwards, sideways (on the ground) and up. */
 export function walk(camera: Camera, ahead: number, aside: number, rise: number): Camera {
   const { forward, right, up } = basisOf(camera);
   const level = Math.hypot(forward[0], forward[1]) < 1e-3 ? up : forward;
@@ -157,7 +157,7 @@ export function walk(camera: Camera, ahead: number, aside: number, rise: number)
   return { ...camera, eye: add(camera.eye, step), target: add(camera.target, step) };
 }
 
-/** The same view as the other projection: what is seen where the camera looks keeps its size. */
+/** The same view in the other projection: the target keeps its size in the picture. */
 export function withProjection(camera: Camera, parallel: boolean): Camera {
   if (camera.parallel === parallel) return camera;
   const tan = Math.tan((camera.fieldOfView * Math.PI) / 360);
@@ -166,7 +166,7 @@ export function withProjection(camera: Camera, parallel: boolean): Camera {
   return { ...camera, parallel, eye: sub(camera.target, scale(forward, camera.height / 2 / tan)) };
 }
 
-/** Between two cameras, for moves that can be followed; share 0 to 1. */
+/** Interpolates between two cameras for animation; share 0 to 1. */
 export function between(a: Camera, b: Camera, share: number): Camera {
   const mix = (p: number, q: number) => p + (q - p) * share;
   const mixed = (p: Point, q: Point) => [0, 1, 2].map((i) => mix(p[i]!, q[i]!)) as Point;

@@ -1,4 +1,4 @@
-/** Mouse, touch and keys over the picture: what they do to the camera, and what was clicked. */
+/** Mouse, touch and keys over the picture: moves the camera and reports clicks. */
 
 import type { Pick, Point } from "../engine";
 import type { Session } from "../session";
@@ -6,7 +6,7 @@ import type { Camera } from "../state/view_state";
 import { basisOf, lookAround, orbit, pan, pointAt, walk, zoom } from "./camera";
 import { distance, dot, sub } from "./vec";
 
-/** Radians for a drag over the whole height of the picture. */
+/** Rotation in radians for a drag over the whole height of the picture. */
 const kTurnPerHeight = Math.PI;
 const kClickSlop = 5;
 const kLongPress = 550;
@@ -14,13 +14,13 @@ const kLongPress = 550;
 export interface ControlsHost {
   session: Session;
   element: HTMLElement;
-  /** Shares of the picture. */
+  /** Fractions of the picture. */
   clicked(x: number, y: number, event: PointerEvent): void;
   listed(x: number, y: number): void;
   framed(x: number, y: number): void;
   /** The pointer hovers, or has left (null). */
   hovered(at: { x: number; y: number; isDown: boolean } | null): void;
-  /** True: the wheel is used up. */
+  /** Returns true if the wheel event was handled. */
   wheeled(event: WheelEvent): boolean;
 }
 
@@ -33,7 +33,7 @@ export class Controls {
   private readonly fingers = new Map<number, Finger>();
   private down: { x: number; y: number; time: number; button: number; isMoved: boolean } | null = null;
   private longPress = 0;
-  /** What the wheel zooms to, as long as the pointer stays. */
+  /** Zoom target of the wheel, valid until the pointer moves. */
   private zoomTarget: { x: number; y: number; point: Point | null; time: number } | null = null;
   private readonly keys = new Set<string>();
   private walking = 0;
@@ -68,7 +68,7 @@ export class Controls {
   private pressed(event: PointerEvent): void {
     if (event.target !== this.host.element && !(event.target as Element).hasAttribute("data-picture")) return;
     this.host.element.focus({ preventScroll: true });
-    // A pointer that is gone already, or a made one, cannot be captured.
+    // A pointer that is already gone, or a synthetic one, cannot be captured.
     try {
       this.host.element.setPointerCapture(event.pointerId);
     } catch {}
@@ -154,7 +154,7 @@ export class Controls {
     this.zoomTo(x, y, Math.exp(Math.min(240, Math.max(-240, pixels)) * 0.0018));
   }
 
-  /** What is seen there stays there. */
+  /** Zooms towards a position; the point there stays in place. */
   private zoomTo(x: number, y: number, factor: number): void {
     const camera = this.camera;
     if (!camera) return;
@@ -176,7 +176,7 @@ export class Controls {
     );
   }
 
-  /** Of what the camera looks at. */
+  /** Depth of the camera target. */
   private depth(): number {
     const camera = this.camera!;
     return Math.max(1e-3, dot(sub(camera.target, camera.eye), basisOf(camera).forward));
@@ -226,7 +226,7 @@ export class Controls {
   }
 }
 
-/** Stands in front of what was looked at, at eye height when it is above the ground. */
+/** Stands in front of the previous target, at eye height if above the ground. */
 export function stepInside(camera: Camera, floor: number): Camera {
   const eyeHeight = floor + 1.65;
   const { forward } = basisOf(camera);

@@ -1,4 +1,4 @@
-/** What is drawn over the picture: section planes with their handles, the box of the selection, measured points. */
+/** Drawn over the picture: section planes with their handles, the box of the selection, measured points. */
 
 import { svg, nothing, type SVGTemplateResult } from "lit";
 import { project } from "../camera/camera";
@@ -38,7 +38,7 @@ export function planes(view: View): SVGTemplateResult[] {
   });
 }
 
-/** Where the handle of a plane is: in the middle of its outline, or to the right of it where a tool's card is at the left. */
+/** Position of the handle of a plane: at the centre of its outline, or right of it if a tool card covers the left. */
 export function handleOf(session: Session, n: number): { at: Point; normal: Point } | null {
   const section = session.state.sections[n];
   if (!section) return null;
@@ -77,7 +77,7 @@ function label(view: View, of: Point[], text: string): SVGTemplateResult {
   return at ? svg`<text x=${at.x} y=${at.y - 7} text-anchor="middle">${text}</text>` : svg``;
 }
 
-/** Arms of the grid's axes in the corner. */
+/** The grid's axes as arrows in the corner. */
 export function compass(view: View): SVGTemplateResult | typeof nothing {
   const camera = view.session.shownCamera;
   if (!camera) return nothing;

@@ -1,4 +1,4 @@
-/** The picture: the engine's canvas, what lies over it, and what hands and keys do there. */
+/** The picture: the engine's canvas, its overlays, and mouse, touch and key input. */
 
 import { css, html, nothing, svg } from "lit";
 import { Controls } from "../camera/controls";
@@ -138,7 +138,7 @@ export class PictureView extends Part {
     if (!this.hoverTimer && this.hoverAt) this.hoverTimer = window.setTimeout(() => void this.readHover(), kHoverEvery);
   }
 
-  /** One question at a time, for where the pointer rests by then. */
+  /** One request at a time, for the pointer position at that moment. */
   private async readHover(): Promise<void> {
     const at = this.hoverAt;
     const { session } = this;

@@ -3,7 +3,7 @@ import type { Engine, FrameReport } from "../engine";
 import type { Described } from "../state/scene_of";
 import { PictureLoop, type Quality } from "./picture_loop";
 
-/** A loop whose pictures are finished by hand. */
+/** A loop whose pictures are completed manually. */
 function start() {
   const shown: Quality[] = [];
   const finish: (() => void)[] = [];

@@ -1,28 +1,28 @@
 /**
- * Draws what the session describes, again whenever it changes: coarse while it moves, then all pixels, then four rays a
- * pixel. One frame is asked for at a time, always the newest.
+ * Draws the session whenever it changes: coarse while it moves, then at full resolution, then with four rays per
+ * pixel. Only one frame is requested at a time, always the newest.
  */
 
 import type { Engine, EngineError, FrameReport } from "../engine";
 import type { Described } from "../state/scene_of";
 import { pixelsAt, Resolution } from "./resolution";
 
-/** Coarse while moving, then full, then fine. */
+/** Coarse while moving, then full resolution, then antialiased. */
 export type Quality = "moving" | "full" | "fine";
 
 export interface PictureHost {
   engine: Engine;
-  /** Of the canvas, device pixels. */
+  /** Size of the canvas, device pixels. */
   size(): [number, number];
   describe(size: [number, number], samples: 1 | 4): Described | null;
-  /** Called when a frame stands in the canvas; `token` is what take() gave when it was described. */
+  /** Called when a frame is on the canvas; `token` is the result of take() when it was requested. */
   shown(report: FrameReport, quality: Quality, token: unknown): void;
   take(): unknown;
   failed(error: EngineError): void;
 }
 
 const kStillAfter = 140;
-/** A picture cannot be stopped, so a slow one waits until the hand has come to rest. */
+/** A picture cannot be cancelled, so a slow one waits until the input has stopped. */
 const kFineAfter = 350, kFineAfterSlow = 2500;
 
 export class PictureLoop {
@@ -31,7 +31,7 @@ export class PictureLoop {
   private isRunning = false;
   private changedAt = 0;
   private timer = 0;
-  /** What the last picture with all pixels took. */
+  /** Time of the last picture at full resolution. */
   private fullMilliseconds = 0;
 
   constructor(private readonly host: PictureHost) {}
@@ -65,7 +65,7 @@ export class PictureLoop {
     }
   }
 
-  /** What to draw now, or after how many milliseconds to ask again; null: nothing more. */
+  /** The quality to draw now, or milliseconds until the next check; null: nothing to do. */
   private next(): Quality | number | null {
     const still = performance.now() - this.changedAt;
     if (this.quality === null) return "moving";
@@ -95,10 +95,10 @@ export class PictureLoop {
       if (!report) return;
       if (quality === "full") this.fullMilliseconds = report.milliseconds;
       if (quality === "moving") this.resolution.learn(report.milliseconds);
-      // What changed meanwhile is not in this picture.
+      // Later changes are not in this picture.
       this.host.shown(report, this.quality === quality ? quality : "moving", token);
     } catch (error) {
-      // As it is now it cannot be drawn; the next change tries again.
+      // Drawing failed in this state; the next change tries again.
       if (this.quality === quality) this.quality = "fine";
       this.host.failed(error as EngineError);
     }

@@ -1,16 +1,16 @@
-/** How many pixels a moving picture may have, so that frames come every 30 to 60 ms. */
+/** Pixel budget of a moving picture, so that frames take 30 to 60 ms. */
 
 const kAim = 45, kFast = 36, kSlow = 54;
-/** So far off that one frame is enough to tell. */
+/** So far off that one frame is sufficient evidence. */
 const kMuchTooFast = 15, kMuchTooSlow = 120;
 const kCoarsest = 0.2;
 
-/** Share of the picture's width and height; starts small, so that the first image comes soon. */
+/** Fraction of the picture's width and height; starts small, so that the first image appears quickly. */
 export class Resolution {
   share = 0.3;
   private recent: number[] = [];
 
-  /** Learns from a moving frame that took so long. One slow frame may be chance: the middle one of three decides. */
+  /** Adapts to the time of a moving frame. A single slow frame may be an outlier: the median of three decides. */
   learn(milliseconds: number): void {
     this.recent.push(milliseconds);
     const isPlain = milliseconds < kMuchTooFast || milliseconds > kMuchTooSlow;
@@ -23,7 +23,7 @@ export class Resolution {
   }
 }
 
-/** Pixels of a picture at a share of its size; even a coarse one has some. */
+/** Pixels of a picture at a fraction of its size; even a coarse one has a minimum. */
 export function pixelsAt(full: [number, number], share: number): [number, number] {
   return [Math.max(16, Math.round(full[0] * share)), Math.max(16, Math.round(full[1] * share))];
 }

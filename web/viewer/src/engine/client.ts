@@ -1,4 +1,4 @@
-/** The engine on the page's side: passes requests to the worker and puts its pictures on the canvas. */
+/** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import type {
   DrawingFormat, Effects, Engine, EngineError, EngineKind, FeatureProperties, FrameReport, Pick, Scene, SceneCamera,
   Stretch, VolumeInfo,
@@ -7,14 +7,14 @@ import type { Answer, Calls, Request } from "./protocol";
 
 type Name = keyof Calls;
 
-/** A request that waits for its answer. */
+/** A request waiting for its answer. */
 interface Waiting {
   resolve: (result: never) => void;
   reject: (error: EngineError) => void;
   onProgress?: (step: string, done: number) => void;
 }
 
-/** A picture that is asked for while another is drawn. */
+/** A picture requested while another is being drawn. */
 interface WaitingDraw {
   args: Calls["draw"]["args"];
   resolve: (report: FrameReport | null) => void;
@@ -26,7 +26,7 @@ class WorkerEngine implements Engine {
   private worker: Worker;
   private readonly waiting = new Map<number, Waiting>();
   private lastId = 0;
-  /** Whether the worker that runs now has ever answered: one that never did would fail again. */
+  /** Whether the current worker has ever answered: one that never did would fail again. */
   private isAlive = false;
   private isDrawing = false;
   private nextDraw: WaitingDraw | null = null;
@@ -42,7 +42,7 @@ class WorkerEngine implements Engine {
     this.worker = this.startWorker();
   }
 
-  /** Resolves when the library is there. */
+  /** Resolves when the library is loaded. */
   async start(): Promise<void> {
     this.kind = await this.ask("start", [this.wanted]);
   }
@@ -133,7 +133,7 @@ class WorkerEngine implements Engine {
     if (answer.isDead) this.restart(answer.error);
   }
 
-  /** A worker that has failed is given up with all that it was asked; a new one knows no volume. */
+  /** Discards a failed worker with all its requests; the new one has no volume. */
   private restart(error: EngineError): void {
     this.worker.terminate();
     const lost = [...this.waiting.values()];
@@ -147,8 +147,8 @@ class WorkerEngine implements Engine {
 }
 
 /**
- * The library in a worker of its own, drawing into `canvas`. Rejects with an EngineError where it cannot run.
- * @param wanted  the kind of drawing, for tests and measurements; else the faster one is found out, see drawer.ts
+ * The library in its own worker, drawing into `canvas`. Rejects with an EngineError if it cannot run.
+ * @param wanted  the renderer, for tests and measurements; else the faster one is determined, see drawer.ts
  */
 export async function createEngine(canvas: HTMLCanvasElement, wanted: EngineKind | null = null): Promise<Engine> {
   const engine = new WorkerEngine(canvas, wanted);

@@ -1,18 +1,19 @@
 /**
- * Pictures of the volume that is open, by the CPU caster or by WebGL2. Both draw the same; the faster one is found by
- * a trial, once, when the page has been still for a moment after its first picture: the last scene, small, is drawn twice
- * by WebGL2, since the first time makes the shaders, and once by the CPU; the later times are compared. Where WebGL2 runs
- * in software, which is slower (see web/wasm/README.md) and makes shaders for seconds, there is no trial.
+ * Draws the open volume with the CPU caster or with WebGL2. Both give the same picture; the faster one is found by one
+ * trial, when the page has been idle for a moment after its first picture: the last scene is drawn at a small size,
+ * twice with WebGL2, since the first time compiles the shaders, and once with the CPU; the later times are compared. If
+ * WebGL2 runs in software, which is slower (see web/wasm/README.md) and compiles shaders for seconds, there is no
+ * trial.
  */
 import type { SvtModule } from "../../../../build/web/svt.js";
 import type { EngineKind, Scene } from "../engine";
 import { isEngineError } from "./errors";
 import type { Drawn } from "./protocol";
 
-/** What a driver without a graphics card calls itself. */
+/** Names of drivers without a graphics card. */
 const softwareNames = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** Pixels of a trial along x, at most. */
+/** Maximum width of a trial in pixels. */
 const trialWidth = 320;
 
 interface Last {
@@ -28,7 +29,7 @@ export class Drawer {
   private last: Last | null = null;
   private hasFont = false;
 
-  /** @param wanted  this kind alone, as far as it can; else the faster one */
+  /** @param wanted  use only this renderer, where possible; else the faster one */
   constructor(
     private readonly svt: SvtModule,
     private readonly wanted: EngineKind | null,
@@ -36,7 +37,7 @@ export class Drawer {
     if (wanted === "webgl2" && this.startGl()) this.kind = "webgl2";
   }
 
-  /** Whether there is something to do when the page is still. */
+  /** Whether there is work to do while the page is idle. */
   get isWaiting(): boolean {
     return this.draft !== null || this.isTrialDue;
   }
@@ -44,13 +45,13 @@ export class Drawer {
     return this.wanted === null && !this.isDecided && this.last !== null;
   }
   private isDecided = false;
-  /** The first picture of the volume: what a moving picture of its size needs is not made yet. */
+  /** The first picture of the volume; data needed for a moving picture of its size does not exist yet. */
   private draft: Last | null = null;
 
   async draw(scene: Scene, width: number, height: number): Promise<Drawn> {
     await this.prepare(scene);
     const byGl = this.kind === "webgl2" ? this.drawGl(scene, width, height) : null;
-    // The first picture of a volume shall come soon; what later ones need is made after it.
+    // The first picture of a volume should appear quickly; data for later ones is prepared after it.
     const isDraft = this.last === null;
     this.last = { scene, width, height };
     if (isDraft && !byGl) this.draft = this.last;
@@ -66,13 +67,13 @@ export class Drawer {
     this.hasFont = true;
   }
 
-  /** Another volume is open. */
+  /** Called when another volume is opened. */
   forgetPicture(): void {
     this.last = null;
     this.draft = null;
   }
 
-  /** The page is still: decides which kind draws from now on, and makes what the first movement would wait for. */
+  /** Called when the page is idle: chooses the renderer, and prepares what the first movement would wait for. */
   useStillness(): void {
     if (this.isTrialDue) this.decide();
     const draft = this.draft;
@@ -86,12 +87,12 @@ export class Drawer {
     else this.stopGl();
   }
 
-  /** The labels of a picture, as a file: drawn as a picture is, and no picture that could be picked. */
+  /** Draws the label image of a picture as a file, without affecting picking. */
   private drawUnseen(scene: Scene): void {
     try {
       this.svt.call("labels", [scene]);
     } catch (error) {
-      if (!isEngineError(error)) throw error;  // else whoever asks for such a picture is told
+      if (!isEngineError(error)) throw error;  // other errors are reported when such a picture is requested
     }
   }
 
@@ -136,7 +137,7 @@ export class Drawer {
     return { bitmap, report: { width, height, milliseconds: performance.now() - start, engine: "cpu" } };
   }
 
-  /** Null where the CPU has to draw: a scene that WebGL2 cannot, or a context that is gone. */
+  /** Null if the CPU must draw: for a scene that WebGL2 does not support, or after context loss. */
   private drawGl(scene: Scene, width: number, height: number, isTrial = false): Drawn | null {
     if (!this.gl || !this.canvas) return null;
     const start = performance.now();
@@ -148,7 +149,7 @@ export class Drawer {
       if (!isEngineError(error)) throw error;
       return null;
     }
-    // Reading waits for the picture, so that the time is that of drawing it.
+    // Reading back waits for the GPU, so that the time includes drawing.
     const pixel = new Uint8Array(4);
     this.gl.readPixels(0, 0, 1, 1, this.gl.RGBA, this.gl.UNSIGNED_BYTE, pixel);
     if (this.gl.isContextLost()) {

@@ -1,4 +1,4 @@
-/** What the page and the worker tell each other. A request has one answer, by its id; open() is told progress before. */
+/** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
 import type { Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
 import type { DrawingFormat, FeatureProperties, FrameReport, VolumeInfo } from "../engine";
 

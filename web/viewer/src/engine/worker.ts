@@ -1,20 +1,20 @@
-/** The worker: holds the library and the volume that is open, and answers the page's requests one after the other. */
+/** The worker: owns the library and the open volume, and answers the page's requests in order. */
 import createSvt, { type SvtModule } from "../../../../build/web/svt.js";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
 import type { Answer, Request } from "./protocol";
 
-/** How long the page must have been still before what takes longer is done. */
+/** Idle time of the page before longer work starts. */
 const stillMilliseconds = 700;
 
 const loaded = createSvt({ onProgress: (step, done) => post({ id: current, step, done }) });
-// Kept for whoever awaits it; alone it must not end the worker.
+// Handled where it is awaited; an unhandled rejection must not end the worker.
 loaded.catch(() => undefined);
 
 let drawer: Drawer | null = null;
-/** The request that is being answered. */
+/** Id of the current request. */
 let current = 0;
-/** What stopped the library while nobody waited for it; whoever asks next is told. */
+/** Failure of the library outside any request; reported to the next request. */
 let stopped: unknown = null;
 
 function post(answer: Answer, transfer: Transferable[] = []): void {
@@ -25,7 +25,7 @@ function json<T>(reply: Uint8Array): T {
   return JSON.parse(new TextDecoder().decode(reply)) as T;
 }
 
-/** The bytes by themselves; the reply lies in the module's memory. */
+/** Copies the bytes, since the reply is in the module's memory. */
 function copied(reply: Uint8Array): ArrayBuffer {
   return reply.slice().buffer as ArrayBuffer;
 }
@@ -64,14 +64,14 @@ async function answer(request: Request): Promise<void> {
   }
 }
 
-/** Anything but an error of the library leaves the module in a state that nobody knows. */
+/** Any error that is not an error of the library leaves the module in an undefined state. */
 function fail(id: number, error: unknown): void {
   if (isEngineError(error)) return post({ id, error: { code: error.code, message: error.message }, isDead: false });
   const message = error instanceof Error ? error.message : String(error);
   post({ id, error: { code: "E999", message: `the library has stopped (${message}); open the model again` }, isDead: true });
 }
 
-// One after the other, in order, though some answers take more than one turn.
+// Requests are processed one by one in order, though some answers take several turns of the event loop.
 let queue = Promise.resolve();
 let stillTimer: ReturnType<typeof setTimeout> | undefined;
 self.onmessage = (event: MessageEvent<Request>) => {

@@ -1,4 +1,4 @@
-/** The classes that the picture shows, with their colours. */
+/** The classes in the picture, with their colours. */
 
 import { css, html } from "lit";
 import { ofClass } from "../state/queries";
@@ -39,7 +39,7 @@ export class Legend extends Part {
 }
 customElements.define("svt-legend", Legend);
 
-/** The commonest first, as many as fit. */
+/** The most frequent first, as many as fit. */
 function mostUsed(colors: string[]): string[] {
   const uses = new Map<string, number>();
   for (const color of colors) uses.set(color, (uses.get(color) ?? 0) + 1);

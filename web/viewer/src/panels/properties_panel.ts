@@ -1,4 +1,4 @@
-/** What is selected: its properties, its neighbours, and what can be done with it; or what lies along a ray. */
+/** The selection: its properties, neighbours and actions; or the objects along a ray. */
 
 import { css, html, nothing } from "lit";
 import type { FeatureProperties } from "../engine";

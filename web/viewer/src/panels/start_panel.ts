@@ -1,4 +1,4 @@
-/** Before anything is open: what this is, and where to drop a building. */
+/** Shown before anything is open: an introduction, and a drop area for building files. */
 
 import { css, html } from "lit";
 import { t } from "../texts";

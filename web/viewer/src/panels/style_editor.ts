@@ -1,4 +1,4 @@
-/** Colour and opacity of what a query selects. */
+/** Edits colour and opacity of the features selected by a query. */
 
 import { css, html, nothing } from "lit";
 import { t } from "../texts";
@@ -12,7 +12,7 @@ export class StyleEditor extends Part {
   };
   declare query: string;
   declare label: string;
-  /** As the model has them. */
+  /** Values from the model. */
   declare color: string;
   declare opacity: number;
 
@@ -49,7 +49,7 @@ export class StyleEditor extends Part {
   }
 }
 
-/** Pickers may answer in capitals, scenes are written small. */
+/** Pickers may return upper case; scenes use lower case. */
 function toHex(value: string | null): string {
   return /^#[0-9a-f]{6}/i.exec(value ?? "")?.[0].toLowerCase() ?? "#808080";
 }

@@ -1,6 +1,6 @@
 /**
- * The parts of the building: as a tree and by class, with search and query. Only the rows that are seen are in the page,
- * so that 100,000 features are no more work than 30.
+ * The parts of the building: as a tree and by class, with search and query. Only visible rows are in the DOM,
+ * so that 100,000 features cost no more than 30.
  */
 
 import { css, html, nothing } from "lit";
@@ -27,7 +27,7 @@ export class TreePanel extends Part {
   declare query: string;
   declare answer: string;
   declare error: string;
-  /** Feature that the keyboard is at. */
+  /** Feature with keyboard focus. */
   declare active: number;
   /** Query whose style is edited below the list. */
   declare edited: { query: string; label: string; color: string; opacity: number } | null;

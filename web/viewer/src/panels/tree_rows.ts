@@ -1,16 +1,16 @@
-/** Which rows of the tree are open or found: indices into the feature index, in tree order. */
+/** Expanded or matching rows of the tree: indices into the feature index, in tree order. */
 
 import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
 
 export interface Rows {
   /** Indices of features, top to bottom. */
   shown: number[];
-  /** How many matched; null: no search. */
+  /** Number of matches; null: no search. */
   matches: number | null;
   isOpen(i: number): boolean;
 }
 
-/** Opens the top until there is something to see, but no more than fits. */
+/** Expands the top levels until there is something to see, but no more rows than fit. */
 export function firstOpen(index: FeatureIndex, atMost = 60): Set<number> {
   const open = new Set<number>();
   let rows = index.parent.reduce((n, parent) => n + (parent < 0 ? 1 : 0), 0);
@@ -38,7 +38,7 @@ export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: s
   return { shown, matches: null, isOpen: (i) => open.has(i) };
 }
 
-/** What has all the words in its name, class or id, with what it is part of. */
+/** Features whose name, class or id contains all the words, with their ancestors. */
 function found(index: FeatureIndex, words: string[]): Rows {
   const kept = new Set<number>();
   let matches = 0;

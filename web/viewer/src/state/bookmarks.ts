@@ -1,4 +1,4 @@
-/** Kept views, in the browser's own store; each model has its own list. */
+/** Saved views, in the browser's local storage; each model has its own list. */
 
 import { restored } from "./link";
 import type { ViewState } from "./view_state";
@@ -22,7 +22,7 @@ export function loadBookmarks(model: string, store: Storage = localStorage): Boo
   }
 }
 
-/** False where the browser keeps nothing. */
+/** False if the browser stores nothing. */
 export function saveBookmarks(model: string, bookmarks: Bookmark[], store: Storage = localStorage): boolean {
   try {
     store.setItem(keyOf(model), JSON.stringify(bookmarks));

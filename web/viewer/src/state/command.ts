@@ -1,15 +1,15 @@
-/** A view as a command for the shell: `svt render` with options where they can say it, else with a scene file. */
+/** A view as a shell command: `svt render` with options if they suffice, else with a scene file. */
 
 import type { Scene } from "../engine";
 import { focusQueries, regionOf, type Described } from "./scene_of";
 import type { ViewState } from "./view_state";
 
-/** One word of a POSIX shell. */
+/** Quotes one word for a POSIX shell. */
 export function shellWord(text: string): string {
   return /^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replace(/'/g, "'\\''")}'`;
 }
 
-/** Whether options of `svt render` say all of it. */
+/** Whether options of `svt render` can express the whole view. */
 function isSayable(state: ViewState): boolean {
   if (state.custom || state.hatches === false) return false;
   if (state.effect === "cutaway" && (state.focus.margin !== 0.15 || focusQueries(state).length !== 1)) return false;
@@ -49,7 +49,7 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   const context = effects.lens?.context ?? effects.highlight?.context;
   if (context && context !== "ghost") add("--context", context);
   add("--names", ...(scene.names ?? []));
-  // Last, since its query may be left out.
+  // Last, since its query is optional.
   if (state.wireframe) {
     if (state.wireframe !== "faint") add("--hidden-lines", state.wireframe);
     words.push("--wireframe");

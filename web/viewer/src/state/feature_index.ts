@@ -1,4 +1,4 @@
-/** The features of a volume as a tree, in an order in which everything below a feature follows it at once. */
+/** The features of a volume as a tree, ordered so that all descendants directly follow their ancestor. */
 
 import type { Feature } from "../engine";
 
@@ -8,7 +8,7 @@ export interface FeatureIndex {
   end: Int32Array;
   parent: Int32Array;
   depth: Int32Array;
-  /** Features with voxels in the subtree, itself included. */
+  /** Number of features with voxels in the subtree, including itself. */
   solids: Int32Array;
   byId: Map<string, number>;
   /** Classes by name, with the features of each. */
@@ -24,7 +24,7 @@ export function indexFeatures(given: Feature[]): FeatureIndex {
   const roots: number[] = [];
   given.forEach((feature, i) => {
     const parent = position.get(feature.parent);
-    // Each follows its parent; what does not is a root, so that no ring can arise.
+    // Children must follow their parent; others become roots, so that no cycle can arise.
     if (parent !== undefined && parent < i) children[parent]!.push(i);
     else roots.push(i);
   });
@@ -83,7 +83,7 @@ export function ownerOf(index: FeatureIndex, scalar: number): number {
   return scalar < feature.first + feature.count ? owner : -1;
 }
 
-/** What people call it. */
+/** Display name. */
 export function labelOf(feature: { name: string; id: string }): string {
   return feature.name || feature.id;
 }

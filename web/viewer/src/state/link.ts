@@ -1,6 +1,6 @@
 /**
- * A view as a link: `#scene=...&view=...`, each JSON, deflated, base64url. `scene` is what is drawn, as a scene file has
- * it; `view` is the page's state, so that its tools come back as they were. A link with a scene alone opens as well.
+ * A view as a link: `#scene=...&view=...`, each JSON, deflated, base64url. `scene` is the drawn scene as in a scene
+ * file; `view` is the page's state, which restores the tools. A link with only a scene works as well.
  */
 
 import type { Scene } from "../engine";
@@ -35,7 +35,7 @@ export async function packed(value: unknown): Promise<string> {
   return btoa(text).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 }
 
-/** Rejects where the text is not what packed() made. */
+/** Rejects text that was not made by packed(). */
 export async function unpacked(text: string): Promise<unknown> {
   const binary = atob(text.replace(/-/g, "+").replace(/_/g, "/"));
   const bytes = Uint8Array.from(binary, (c) => c.charCodeAt(0));
@@ -46,7 +46,7 @@ export async function hashOf(scene: Scene, state: ViewState): Promise<string> {
   return `#scene=${await packed(scene)}&view=${await packed(changes(state))}`;
 }
 
-/** The state of a link; null where it carries none. Rejects where it is damaged. */
+/** The state of a link; null if it has none. Rejects if it is damaged. */
 export async function stateOfHash(hash: string, base: ViewState): Promise<ViewState | null> {
   const parts = new URLSearchParams(hash.replace(/^#/, ""));
   const view = parts.get("view"), scene = parts.get("scene");
@@ -55,14 +55,14 @@ export async function stateOfHash(hash: string, base: ViewState): Promise<ViewSt
   return null;
 }
 
-/** What differs from the initial state. */
+/** Differences from the initial state. */
 function changes(state: ViewState): Partial<ViewState> {
   const initial = initialState();
   const entries = Object.entries(state).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(initial[key as keyof ViewState]));
   return Object.fromEntries(entries) as Partial<ViewState>;
 }
 
-/** Members of the wrong kind are as initially, so that no link can break the page. */
+/** Members of the wrong type get their initial value, so that no link can break the page. */
 export function restored(value: unknown): ViewState {
   const initial = initialState();
   if (typeof value !== "object" || value === null) return initial;
@@ -88,7 +88,7 @@ function isCamera(given: unknown): boolean {
   return isPoint(eye) && isPoint(target) && Number(height) > 0 && Number(fieldOfView) > 0 && Number(fieldOfView) < 180;
 }
 
-/** A scene file as state: its passes are drawn as they are; camera, look and hatches become the page's own. */
+/** A scene file as state: its passes are drawn unchanged; camera, look and hatches become the page's own. */
 export function ofScene(scene: Scene, base: ViewState): ViewState {
   const { eye, target, parallel, fieldOfView } = scene.camera ?? {};
   const camera = eye && target && !parallel ? { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? 30 } : base.camera;

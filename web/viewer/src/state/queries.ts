@@ -1,6 +1,6 @@
-/** Texts of the query language (docs/user/query-language.md) made from ids, names and classes. */
+/** Builds queries (docs/user/query-language.md) from ids, names and classes. */
 
-/** A value in quotes, whatever stands in it. */
+/** A quoted value with any content. */
 export function quoted(value: string): string {
   return `"${value.replace(/[\\"]/g, (c) => `\\${c}`)}"`;
 }
@@ -9,7 +9,7 @@ export const ofId = (id: string): string => `id=${quoted(id)}`;
 export const ofClass = (className: string): string => `class=${className}`;
 export const ofSubtree = (id: string): string => `under ${quoted(id)}`;
 
-/** What the page itself wrote by the functions above; null for any other query. */
+/** Queries written by the functions above; null for any other query. */
 export type OwnQuery = { kind: "id" | "class" | "under"; value: string } | { kind: "all" };
 
 export function parseOwn(query: string): OwnQuery | null {

@@ -1,4 +1,4 @@
-/** State to scene: a pure function, the only place where the page says what is drawn. */
+/** State to scene: a pure function, the only place that determines what is drawn. */
 
 import type { Effects, Point, Scene, SceneCamera, ScenePass } from "../engine";
 import { parallelZoom, type Box } from "../camera/camera";
@@ -6,7 +6,7 @@ import { add, distance, normalized, scale, sub } from "../camera/vec";
 import { ofId } from "./queries";
 import type { Camera, Section, ViewState } from "./view_state";
 
-/** A scene of one pass, and what `Engine.compose()` makes more of it by. */
+/** A scene of one pass, and the effects to apply with `Engine.compose()`. */
 export interface Described {
   scene: Scene;
   effects: Effects;
@@ -19,14 +19,14 @@ function round(value: number, digits = 4): number {
 }
 const roundPoint = (p: Point): Point => [round(p[0]), round(p[1]), round(p[2])];
 
-/** The unit vector that points to what a free plane takes away. */
+/** The unit vector towards the side that a free plane removes. */
 export function freeNormal(section: Section): Point {
   const turn = (section.turn * Math.PI) / 180;
   const tilt = (section.tilt * Math.PI) / 180;
   return [Math.cos(turn) * Math.cos(tilt), Math.sin(turn) * Math.cos(tilt), Math.sin(tilt)];
 }
 
-/** The region that a plane takes away (docs/user/regions.md); also what `svt section --plane` takes. */
+/** The region that a plane removes (docs/user/regions.md); also the argument of `svt section --plane`. */
 export function regionOf(section: Section): string {
   if (section.axis !== "free") return `${section.axis}${section.flip ? "<" : ">"}${round(section.at)}`;
   const sign = section.flip ? -1 : 1;
@@ -38,7 +38,7 @@ export function cutOf(sections: Section[]): string {
   return sections.map(regionOf).join(" or ");
 }
 
-/** The queries that highlight or cutaway are for; none: nothing to show. */
+/** The queries for highlight or cutaway; none: nothing to show. */
 export function focusQueries(state: ViewState): string[] {
   return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
 }
@@ -53,8 +53,8 @@ export function sceneCamera(camera: Camera | null, box: Box, aspect: number, nam
       target: roundPoint(camera.target),
       fieldOfView: round(camera.fieldOfView, 3),
     };
-  // Scenes give the height of a parallel view as a zoom of the named one, and the zoom draws the eye nearer.
-  // Its rays begin at the eye, so that stands beyond all there is.
+  // Scenes express the height of a parallel view as zoom relative to the named view, and zooming moves the eye closer.
+  // Rays begin at the eye, so it is placed outside of the whole scene.
   const zoom = Number(parallelZoom(preset, box, aspect, camera.height).toPrecision(6));
   const away = normalized(sub(camera.eye, camera.target));
   const reach = 2 * distance(box.low, box.high) + distance(camera.target, box.low);
@@ -79,7 +79,7 @@ function passOf(state: ViewState): ScenePass {
   return pass;
 }
 
-/** Where the lens cuts when no plane is set: the nearer half of the building goes. */
+/** Default section of the lens if no plane is set: removes the nearer half of the building. */
 export function lensCut(state: ViewState, box: Box): string {
   if (state.sections.length) return cutOf(state.sections);
   return `y<${round((box.low[1] + box.high[1]) / 2, 2)}`;

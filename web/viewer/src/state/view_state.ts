@@ -1,11 +1,11 @@
-/** All that the page shows, as one plain object. `sceneOf()` makes a scene of it; tools change it and nothing else. */
+/** The complete view as one plain object. `sceneOf()` makes a scene from it; tools modify only this object. */
 
 import type { Context, Point, Scene, SceneStyle, ShellLevel } from "../engine";
 
 export type Look = "plain" | "paper" | "blueprint" | "dark";
 export type HiddenLines = "none" | "faint" | "dashed";
 
-/** z is up, except where the view is straight down or up: then the grid's y axis is. */
+/** z is up, except in views straight down or up: there it is the grid's y axis. */
 export interface Camera {
   eye: Point;
   target: Point;
@@ -18,24 +18,24 @@ export interface Camera {
 
 export type SectionAxis = "x" | "y" | "z" | "free";
 
-/** A plane that takes away what is beyond it. */
+/** A plane that removes what is beyond it. */
 export interface Section {
   axis: SectionAxis;
   /** Metres from the grid's lower corner along the plane's normal. */
   at: number;
-  /** Takes away the other side. */
+  /** Removes the other side instead. */
   flip: boolean;
-  /** Free planes: direction of the normal in world axes, degrees: from x towards y, and above the ground. */
+  /** Free planes: direction of the normal in world axes, degrees: from x towards y, and above the horizon. */
   turn: number;
   tilt: number;
 }
 
 export interface Lens {
-  /** Middle as shares of the picture's width and height, radius as a share of its height. */
+  /** Centre as fractions of the picture's width and height, radius as a fraction of its height. */
   x: number;
   y: number;
   radius: number;
-  /** Stays where it is; else it follows the mouse. */
+  /** Fixed in place; else it follows the mouse. */
   pinned: boolean;
   context: Context;
 }
@@ -44,26 +44,26 @@ export interface Focus {
   /** Queries; empty: the selection. */
   query: string;
   context: Context;
-  /** Cutaway: metres to spare. */
+  /** Cutaway: margin in metres. */
   margin: number;
 }
 
-/** What turns the one pass into more; at most one at a time. */
+/** Effect that turns the single pass into several; at most one at a time. */
 export type Effect = "none" | "lens" | "highlight" | "cutaway";
 
 export interface ViewState {
-  /** null: not known (yet); `preset` is shown. */
+  /** null: not yet known; `preset` is shown. */
   camera: Camera | null;
   /** Named view, see render::cameraPresetNames(). */
   preset: string;
   look: Look;
-  /** Queries; what the page writes is short even where much is hidden (visibility.ts). */
+  /** Queries; the page keeps its own short even if much is hidden (visibility.ts). */
   hide: string[];
-  /** Queries; where there are any, all else is hidden. */
+  /** Queries; if there are any, everything else is hidden. */
   show: string[];
   styles: SceneStyle[];
   sections: Section[];
-  /** null: as the look has it. */
+  /** null: according to the look. */
   hatches: boolean | null;
   effect: Effect;
   lens: Lens;
@@ -71,11 +71,11 @@ export interface ViewState {
   shell: ShellLevel | null;
   /** null: no lines. */
   wireframe: HiddenLines | null;
-  /** Names of the selected beside the picture. */
+  /** Names of selected features beside the picture. */
   names: boolean;
   /** Ids. */
   selection: string[];
-  /** A scene given as JSON: its passes are drawn as they are, and the tools change the rest alone. */
+  /** A scene given as JSON: its passes are drawn unchanged, and the tools change only the rest. */
   custom: Scene | null;
 }
 
@@ -100,7 +100,7 @@ export function initialState(look: Look = "plain"): ViewState {
   };
 }
 
-/** The style of exactly this query changed; a style that says nothing any more is dropped. */
+/** Changes the style of exactly this query; a style without any setting is removed. */
 export function withStyle(styles: SceneStyle[], select: string, change: Partial<SceneStyle>): SceneStyle[] {
   const before = styles.find((style) => style.select === select) ?? { select };
   const after: SceneStyle = { ...before, ...change };

@@ -1,12 +1,12 @@
 /**
- * Which features are hidden: kept as short queries, so that a link stays short and holds for other volumes of the
- * model, and read back as a flag per feature for the tree.
+ * Hidden features: stored as short queries, so that links stay short and apply to other volumes of the
+ * model, and converted to a flag per feature for the tree.
  */
 
 import type { FeatureIndex } from "./feature_index";
 import { ofClass, ofId, ofSubtree, parseOwn } from "./queries";
 
-/** 1 for each feature that the queries hide. Queries that the page did not write are left out. */
+/** 1 for each feature hidden by the queries. Queries not written by the page are ignored. */
 export function hiddenFlags(index: FeatureIndex, queries: string[]): Uint8Array {
   const flags = new Uint8Array(index.features.length);
   for (const query of queries) {
@@ -22,7 +22,7 @@ export function hiddenFlags(index: FeatureIndex, queries: string[]): Uint8Array 
   return flags;
 }
 
-/** The fewest queries, of those the page knows, that hide what is flagged and has voxels; foreign ones are kept. */
+/** A minimal set of the page's own queries that hides all flagged features with voxels; other queries are kept. */
 export function hideQueries(index: FeatureIndex, flags: Uint8Array, before: string[] = []): string[] {
   const foreign = before.filter((query) => parseOwn(query) === null);
   const solid = (i: number) => index.features[i]!.count > 0;
@@ -41,7 +41,7 @@ export function hideQueries(index: FeatureIndex, flags: Uint8Array, before: stri
 }
 
 function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array): string[] {
-  // Of each subtree: what must still be said, and whether anything in it stays visible.
+  // For each subtree: the features still to be covered, and whether anything in it stays visible.
   const n = flags.length;
   const open = new Int32Array(n), visible = new Int32Array(n);
   for (let i = n - 1; i >= 0; --i) {
@@ -69,7 +69,7 @@ function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array
   return queries;
 }
 
-/** Flags with a subtree or a class switched. */
+/** Flags with a subtree or class shown or hidden. */
 export function switched(flags: Uint8Array, members: Iterable<number>, hidden: boolean): Uint8Array {
   const after = flags.slice();
   for (const i of members) after[i] = hidden ? 1 : 0;
@@ -80,10 +80,10 @@ export function* subtree(index: FeatureIndex, i: number): Iterable<number> {
   for (let at = i; at < index.end[i]!; ++at) yield at;
 }
 
-/** How much of a subtree or class is seen. */
+/** Visible portion of a subtree or class. */
 export type Seen = "all" | "some" | "none";
 
-/** Sums over the features in tree order, so that asking for a subtree costs nothing. */
+/** Prefix sums over the features in tree order, so that queries of a subtree take constant time. */
 export class SeenCounts {
   private readonly solids: Int32Array;
   private readonly hidden: Int32Array;
@@ -99,7 +99,7 @@ export class SeenCounts {
     }
   }
 
-  /** Features with voxels that are hidden. */
+  /** Number of hidden features with voxels. */
   get hiddenSolids(): number {
     return this.hidden[this.hidden.length - 1]!;
   }

@@ -1,4 +1,4 @@
-/** What stands around a lens or a highlight. */
+/** Choice of the context around a lens or a highlight. */
 
 import { html } from "lit";
 import type { Context } from "../engine";

@@ -1,4 +1,4 @@
-/** S-Lens: a round window in which the sections cut, and around which they do not. */
+/** S-Lens: a round window; sections cut only inside it. */
 
 import { html, nothing, css } from "lit";
 import type { Context } from "../engine";

@@ -3,7 +3,7 @@
 import type { Point } from "../engine";
 import { add, cross, distance, length, scale, sub } from "../camera/vec";
 
-/** Of the line through all points, metres; closed: back to the first as well. */
+/** Length of the polyline through all points, metres; closed: including the segment back to the first. */
 export function pathLength(points: Point[], isClosed: boolean): number {
   let sum = 0;
   for (let i = 1; i < points.length; ++i) sum += distance(points[i - 1]!, points[i]!);
@@ -11,7 +11,7 @@ export function pathLength(points: Point[], isClosed: boolean): number {
   return sum;
 }
 
-/** Of the polygon, m2: its vector area, which is exact where the points lie in a plane (Newell). */
+/** Area of the polygon, m2: its vector area, which is exact for coplanar points (Newell). */
 export function polygonArea(points: Point[]): number {
   if (points.length < 3) return 0;
   const from = points[0]!;

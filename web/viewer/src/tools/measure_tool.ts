@@ -1,4 +1,4 @@
-/** Lengths and areas between points that are clicked in the picture. */
+/** Lengths and areas between points clicked in the picture. */
 
 import { css, html, nothing } from "lit";
 import { distance } from "../camera/vec";

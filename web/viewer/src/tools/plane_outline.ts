@@ -1,4 +1,4 @@
-/** A section plane where it meets the building's box: what the picture shows of it, and how it is dragged. */
+/** Intersection of a section plane with the building's box: its outline in the picture, and dragging. */
 
 import type { Point } from "../engine";
 import { corners, kWorldAxes, project, type Box } from "../camera/camera";
@@ -6,13 +6,13 @@ import { add, cross, dot, scale, sub } from "../camera/vec";
 import { freeNormal } from "../state/scene_of";
 import type { Camera, Section } from "../state/view_state";
 
-/** Of a plane dot(normal, p) = at, world axes. */
+/** Normal of a plane dot(normal, p) = at, world axes. */
 export function normalOf(section: Section, box: Box): Point {
   if (section.axis === "free") return freeNormal(section);
   return box.axes[{ x: 0, y: 1, z: 2 }[section.axis]] as Point;
 }
 
-/** How far the plane can go without leaving the box. */
+/** Range of plane positions that intersect the box. */
 export function rangeOf(section: Section, box: Box): [number, number] {
   const along = corners(box).map((corner) => dot(corner, normalOf(section, box)));
   return [Math.min(...along), Math.max(...along)];
@@ -22,7 +22,7 @@ const kEdges: [number, number][] = [
   [0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7],
 ];
 
-/** The polygon in which a plane cuts the box, around its middle; empty: it does not. */
+/** The polygon in which a plane cuts the box, around its centre; empty if it does not. */
 export function planeOutline(section: Section, box: Box): Point[] {
   const normal = normalOf(section, box);
   const points = corners(box);
@@ -44,7 +44,7 @@ export function middleOf(points: Point[]): Point {
   return scale(points.reduce(add, [0, 0, 0] as Point), 1 / Math.max(1, points.length));
 }
 
-/** Where a plane at the border of the box would be gone, it is drawn there all the same. */
+/** Moves a plane at the border of the box slightly inside, so that it stays visible. */
 export function keptInside(section: Section, box: Box): Section {
   const [low, high] = rangeOf(section, box);
   const inset = (high - low) * 1e-4;
@@ -62,7 +62,7 @@ export function dragged(camera: Camera, size: [number, number], handle: Point, n
   if (!a || !b) return 0;
   const along: [number, number] = [((b.x - a.x) * size[0]) / step, ((b.y - a.y) * size[1]) / step];
   const square = along[0] ** 2 + along[1] ** 2;
-  // Seen nearly end on, a pixel would mean metres.
+  // Seen nearly end on, one pixel would correspond to metres.
   if (square < 4) return (-dy * 2 * camera.height) / size[1];
   return (dx * along[0] + dy * along[1]) / square;
 }

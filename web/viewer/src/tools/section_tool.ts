@@ -1,4 +1,4 @@
-/** Planes that cut: where they are, and their drawings. */
+/** Section planes: their positions and drawings. */
 
 import { css, html, nothing } from "lit";
 import type { DrawingFormat } from "../engine";
@@ -12,7 +12,7 @@ import { rangeOf } from "./plane_outline";
 
 const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
 const kFormats: DrawingFormat[] = ["svg", "dxf", "geojson", "csv"];
-/** Where plans are cut: above the floor, over window sills. */
+/** Height at which plans are cut: above the floor, over window sills. */
 const kPlanHeight = 1.1;
 
 export class SectionTool extends Part {
@@ -92,7 +92,7 @@ export class SectionTool extends Part {
     this.session.set({ sections: [...sections, this.middle({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 })] });
   }
 
-  /** What is before the middle goes. */
+  /** Removes everything in front of the centre. */
   private middle(section: Section): Section {
     const [low, high] = rangeOf(section, this.session.box);
     return { ...section, at: Number(((low + high) / 2).toFixed(2)) };

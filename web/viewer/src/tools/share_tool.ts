@@ -1,4 +1,4 @@
-/** Keeping a view: bookmarks, link, command, scene file, picture. */
+/** Saving a view: bookmarks, link, command, scene file, picture. */
 
 import { css, html, nothing } from "lit";
 import type { Scene } from "../engine";
@@ -21,7 +21,7 @@ export class ShareTool extends Part {
   };
   declare size: [number, number];
   declare isDrawing: boolean;
-  /** null: not shown. */
+  /** null: hidden. */
   declare sceneText: string | null;
   declare error: string;
   private bookmarks: Bookmark[] = [];
@@ -165,7 +165,7 @@ export class ShareTool extends Part {
       return;
     }
     try {
-      // The library says what is wrong with it, by drawing a small one.
+      // The library validates it by drawing a small picture.
       await session.engine!.picture({ ...scene, size: [16, 9], samples: 1 });
       session.set({ ...ofScene(scene, session.state), selection: session.state.selection });
     } catch (error) {
@@ -186,10 +186,10 @@ export class ShareTool extends Part {
 }
 customElements.define("svt-share-tool", ShareTool);
 
-/** Points on one line, the rest as usual. */
+/** Points on one line, everything else in the usual layout. */
 const pretty = (scene: Scene) => `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;
 
-/** Out of a scene that was written by hand. */
+/** Leaves a scene that was written by hand. */
 export function leaveCustom(state: ViewState): Partial<ViewState> {
   const { camera, look, selection } = state;
   return { ...initialState(look), camera, selection };

@@ -1,4 +1,4 @@
-/** The kept components that the page uses; loaded after the first picture. */
+/** The Web Awesome components used by the page; loaded after the first picture. */
 
 import "@awesome.me/webawesome/dist/components/color-picker/color-picker.js";
 import "@awesome.me/webawesome/dist/components/dialog/dialog.js";
@@ -7,6 +7,6 @@ import "@awesome.me/webawesome/dist/components/split-panel/split-panel.js";
 import "@awesome.me/webawesome/dist/translations/de.js";
 import { registerIconLibrary } from "@awesome.me/webawesome/dist/components/icon/library.js";
 
-// Icons come from the page's own folder, never from elsewhere.
+// Icons come from the page's own folder, never from other origins.
 for (const library of ["default", "system"])
   registerIconLibrary(library, { resolver: (name: string) => new URL(`icons/${name}.svg`, document.baseURI).href });

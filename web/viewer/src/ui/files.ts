@@ -1,4 +1,4 @@
-/** Files that leave the page, and texts for the clipboard. */
+/** File downloads, and text for the clipboard. */
 
 const kKinds: Record<string, string> = {
   svg: "image/svg+xml", png: "image/png", csv: "text/csv", json: "application/json", geojson: "application/geo+json",
@@ -14,7 +14,7 @@ export function save(data: ArrayBuffer | string, name: string): void {
   setTimeout(() => URL.revokeObjectURL(url), 30_000);
 }
 
-/** False where the browser does not allow it. */
+/** False if the browser does not allow it. */
 export async function copy(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

@@ -1,4 +1,4 @@
-/** The page's own icons: lines on a 24 x 24 grid, in the colour of the text. */
+/** The page's icons: lines on a 24 x 24 grid, in the text colour. */
 
 import { html, svg, type SVGTemplateResult, type TemplateResult } from "lit";
 

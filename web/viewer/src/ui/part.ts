@@ -1,4 +1,4 @@
-/** A part of the page that follows the session. */
+/** A part of the page that observes the session. */
 
 import { css, LitElement } from "lit";
 import type { Session } from "../session";
@@ -16,7 +16,7 @@ export abstract class Part extends LitElement {
   };
   private language = "";
 
-  /** What of the session it shows; null: anything. A part that says it is left alone while the camera moves. */
+  /** The session data it shows; null: anything. With this, a part is not updated while the camera moves. */
   protected uses(): unknown[] | null {
     return null;
   }
@@ -31,7 +31,7 @@ export abstract class Part extends LitElement {
   }
 }
 
-/** Controls look alike in all parts. */
+/** Common styles of controls in all parts. */
 export const controls = css`
   :host { box-sizing: border-box; color: var(--text); }
   *, *::before, *::after { box-sizing: border-box; }

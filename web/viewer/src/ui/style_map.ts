@@ -1,6 +1,6 @@
 /**
- * Lit's `styleMap` for pages with a strict content security policy: the original writes a `style` attribute when it first
- * renders, which such a policy forbids; this one sets the properties, always. vite.config.ts puts it in its place.
+ * Lit's `styleMap` for pages with a strict content security policy: the original writes a `style` attribute on first
+ * render, which such a policy forbids; this one always sets the properties. vite.config.ts substitutes it.
  */
 
 import { noChange } from "lit";

@@ -1,4 +1,4 @@
-/** Dark or light: as the system has it, until the user says otherwise. */
+/** Dark or light: follows the system until the user chooses. */
 
 export type Theme = "dark" | "light";
 const kKey = "svt-theme";
@@ -27,7 +27,7 @@ function apply(now: Theme): void {
   document.documentElement.classList.toggle("wa-light", now === "light");
 }
 
-/** @param changed  called when the system changes its mind and the user has none */
+/** @param changed  called when the system theme changes and the user has not chosen one */
 export function startTheme(changed: () => void): void {
   apply(wanted());
   system.addEventListener("change", () => {
@@ -42,7 +42,7 @@ export function toggleTheme(): Theme {
   try {
     localStorage.setItem(kKey, now);
   } catch {
-    // It holds for this page then.
+    // The choice then applies to this page only.
   }
   return now;
 }

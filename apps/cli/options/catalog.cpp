@@ -1,0 +1,576 @@
+#include <apps/cli/options/catalog.hpp>
+
+#include <svt/illustrate/scene_members.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace svt::cli {
+namespace {
+
+using enum OptionKind;
+
+// Options that several commands have.
+
+constexpr Option kModelInput[] = {
+    {.name = "input", .value = "FILE", .help = "a .svt or a model file", .isRequired = true}};
+constexpr Option kSiteInputs[] = {{.name = "input",
+                                   .value = "FILE",
+                                   .help = "what the page opens: .svt or model files",
+                                   .isRequired = true,
+                                   .mayRepeat = true}};
+
+constexpr Option kGrid[] = {
+    {.name = "--dimension",
+     .value = "X,Y,Z",
+     .help = "samples along x, y and z, such as 800,700,400 (2 to 65535)",
+     .group = "Grid"},
+    {.name = "--spacing",
+     .value = "M",
+     .otherwise = "400 samples along the longest side",
+     .help = "distance of samples in metres, one number or three",
+     .group = "Grid"},
+    {.name = "--frame",
+     .choices = "world|building",
+     .byDefault = "world",
+     .help = "axes of the grid: world, or building (turned to its dominant edge)",
+     .group = "Grid"},
+};
+constexpr Option kModel[] = {
+    {.name = "--lod",
+     .kind = Number,
+     .least = 0,
+     .most = 4,
+     .otherwise = "the finest that each feature has",
+     .help = "use no finer level of detail than this",
+     .group = "Model"},
+    {.name = "--no-bodies",
+     .kind = Flag,
+     .help = "leave the material between hull and rooms to the building, not to its walls and slabs",
+     .group = "Model"},
+};
+constexpr Option kStyle[] = {
+    {.name = "--style",
+     .value = "FILE",
+     .help = "style file (JSON): colours, opacities and patterns by query",
+     .group = "Style"},
+    {.name = "--patterns",
+     .kind = Flag,
+     .help = "embed the built-in patterns: brick, concrete, timber, ...",
+     .group = "Style"},
+};
+constexpr Option kVoxels[] = {
+    {.name = "--sheets",
+     .choices = "thin|conservative",
+     .byDefault = "thin",
+     .help = "open surfaces: thin (6-separating) or conservative (every voxel touched)",
+     .group = "Voxels"},
+    {.name = "--no-thin",
+     .kind = Flag,
+     .help = "drop parts of solids that are thinner than a voxel",
+     .group = "Voxels"},
+    {.name = "--threads",
+     .kind = Whole,
+     .least = 0,
+     .most = 1024,
+     .otherwise = "all cores",
+     .help = "number of threads; the result does not depend on it",
+     .group = "Voxels"},
+};
+constexpr Option kVerbose[] = {
+    {.name = "-v,--verbose", .kind = Flag, .help = "show all findings", .group = "Output"},
+};
+
+// sample
+
+constexpr Option kSample[] = {
+    {.name = "kind", .choices = "house|tower|district", .help = "house, tower or district", .isRequired = true},
+    {.name = "-o,--output",
+     .value = "FILE",
+     .help = "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq)",
+     .isRequired = true},
+    {.name = "--format",
+     .choices = "citygml3|citygml2|cityjson|cityjsonseq",
+     .otherwise = "by extension",
+     .help = "format of the model"},
+    {.name = "--seed",
+     .kind = Whole,
+     .least = 0,
+     .byDefault = "1",
+     .help = "decides owners and the houses of a district"},
+    {.name = "--storeys", .kind = Whole, .least = 1, .most = 200, .byDefault = "8", .help = "tower: number of storeys"},
+    {.name = "--flats", .kind = Whole, .least = 2, .most = 8, .byDefault = "4", .help = "tower: flats on each storey"},
+    {.name = "--columns",
+     .kind = Whole,
+     .least = 1,
+     .most = 1000,
+     .byDefault = "4",
+     .help = "district: houses from west to east"},
+    {.name = "--rows",
+     .kind = Whole,
+     .least = 1,
+     .most = 1000,
+     .byDefault = "3",
+     .help = "district: houses from south to north"},
+    {.name = "--turn",
+     .kind = Number,
+     .unit = "degrees counter-clockwise",
+     .least = -360,
+     .most = 360,
+     .byDefault = "0",
+     .help = "turn in plan"},
+    {.name = "--thematic", .kind = Flag, .help = "CityGML 2.0: walls only as surfaces, as LoD4 has them"},
+};
+
+// build
+
+constexpr Option kBuild[] = {
+    {.name = "input",
+     .value = "FILE",
+     .help = "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq",
+     .isRequired = true,
+     .mayRepeat = true},
+    {.name = "-o,--output", .value = "F.svt", .help = "the volume to write", .isRequired = true},
+};
+constexpr Option kGridOf[] = {
+    {.name = "--grid-of",
+     .value = "F.svt",
+     .help = "samples where this volume has them, so that the two can be compared voxel by voxel",
+     .group = "Grid"},
+};
+constexpr Option kBuildOutput[] = {
+    {.name = "--vectors",
+     .choices = "edges|meshes",
+     .help = "also keep edges, or meshes, or both (edges,meshes), to be drawn inside the volume",
+     .group = "Output",
+     .count = 2},
+    {.name = "--json", .kind = Flag, .help = "print figures as JSON on stdout", .group = "Output"},
+    {.name = "--strict",
+     .kind = Flag,
+     .help = "exit 4 where the model has defects; the volume is written all the same",
+     .group = "Output"},
+};
+
+// info, check
+
+constexpr Option kInfoOutput[] = {
+    {.name = "--json", .kind = Flag, .help = "print everything as JSON on stdout", .group = "Output"},
+    {.name = "--tree", .kind = Flag, .help = "print the tree of features", .group = "Output"},
+};
+constexpr Option kCheck[] = {
+    {.name = "input", .value = "FILE", .help = "model files", .isRequired = true, .mayRepeat = true},
+    kModel[0],
+    kInfoOutput[0],
+};
+
+// render
+
+constexpr Option kRender[] = {
+    kModelInput[0],
+    {.name = "-o,--output", .value = "P.png", .help = "the picture to write", .isRequired = true},
+    {.name = "--camera", .help = "where the picture is taken from", .group = "View", .member = "/camera/preset"},
+    {.name = "--around", .group = "View", .member = "/camera/around"},
+    {.name = "--ortho", .kind = Flag, .group = "View", .member = "/camera/parallel"},
+    {.name = "--eye", .value = "X,Y,Z", .group = "View", .member = "/camera/eye"},
+    {.name = "--target", .value = "X,Y,Z", .group = "View", .member = "/camera/target"},
+    {.name = "--fov", .group = "View", .member = "/camera/fieldOfView"},
+    {.name = "--zoom", .group = "View", .member = "/camera/zoom"},
+    {.name = "--size",
+     .value = "WxH",
+     .byDefault = "1280x720",
+     .help = "width x height in pixels, or such as 160x90mm",
+     .group = "View"},
+    {.name = "--dpi",
+     .kind = Whole,
+     .least = 1,
+     .most = 4800,
+     .byDefault = "300",
+     .help = "pixels per inch, for sizes in mm; stored in the picture",
+     .group = "View"},
+    {.name = "--samples", .group = "View", .member = "/samples"},
+    {.name = "--section",
+     .value = "PLANE",
+     .help =
+         "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=NAME+1.1, or A,B,C,D; metres from the lower corner; "
+         "z=0..6 moves with --frames",
+     .group = "Cut",
+     .mayRepeat = true},
+    {.name = "--cut", .group = "Cut", .member = "/passes/*/cut"},
+    {.name = "--keep", .group = "Cut", .member = "/passes/*/keep"},
+    {.name = "--lens",
+     .value = "REGION",
+     .help = "S-Lens: in this region the model is cut by --section, the rest is the context",
+     .group = "Illustrate",
+     .excludes = "--highlight|--cutaway"},
+    {.name = "--highlight",
+     .value = "QUERY",
+     .help = "light the selected, whatever stands in front; the rest is the context",
+     .group = "Illustrate",
+     .excludes = "--lens|--cutaway",
+     .mayRepeat = true},
+    {.name = "--cutaway",
+     .value = "QUERY",
+     .help = "take away what hides the selected, and no more than that",
+     .group = "Illustrate",
+     .excludes = "--lens|--highlight"},
+    {.name = "--context",
+     .choices = "ghost|solid|shell|none",
+     .byDefault = "ghost",
+     .help = "what is around a lens or highlight",
+     .group = "Illustrate"},
+    {.name = "--context-level",
+     .help = "level of detail of what is around a lens, highlight or cutaway, 0 is the finest",
+     .group = "Illustrate",
+     .member = "/passes/*/level"},
+    {.name = "--shell", .group = "Illustrate", .member = "/passes/*/shell"},
+    {.name = "--names", .group = "Illustrate", .member = "/names"},
+    {.name = "--wireframe",
+     .value = "QUERY",
+     .help =
+         "draw the edges of what the query selects, at their depth inside the volume; without a query: of all that is "
+         "visible",
+     .group = "Lines",
+     .leastCount = 0},
+    {.name = "--hidden-lines", .group = "Lines", .member = "/passes/*/lines/*/hidden"},
+    {.name = "--wire-width", .help = "width of the edges", .group = "Lines", .member = "/passes/*/lines/*/width"},
+    {.name = "--wire-color", .group = "Lines", .member = "/passes/*/lines/*/color"},
+    {.name = "--vectors", .group = "Lines", .member = "/passes/*/meshes"},
+    {.name = "--hide", .group = "Style", .member = "/passes/*/hide"},
+    {.name = "--show", .group = "Style", .member = "/passes/*/show"},
+    {.name = "--color",
+     .value = "QUERY:COLOR",
+     .help = "colour by query, such as 'name=\"Unterzug-1\":red'",
+     .group = "Style",
+     .mayRepeat = true},
+    {.name = "--opacity",
+     .value = "QUERY:VALUE",
+     .help = "share of light stopped by 1 m, 0 to 1, by query",
+     .group = "Style",
+     .mayRepeat = true},
+    {.name = "--look",
+     .help = "plain, paper (for print), blueprint or dark (for slides)",
+     .group = "Style",
+     .member = "/look"},
+    {.name = "--hatch", .kind = Flag, .group = "Style", .member = "/hatches/show"},
+    {.name = "--hatch-of",
+     .value = "QUERY:HATCH",
+     .help =
+         "hatch by query: masonry, concrete, reinforced-concrete, timber, insulation, earth, steel, glass, general or "
+         "none",
+     .group = "Style",
+     .mayRepeat = true},
+    {.name = "--hatch-spacing", .group = "Style", .member = "/hatches/spacing"},
+    {.name = "--edges", .group = "Style", .member = "/lines/strength"},
+    {.name = "--line-width", .group = "Style", .member = "/lines/width"},
+    {.name = "--cut-width", .group = "Style", .member = "/lines/cutWidth"},
+    {.name = "--level", .group = "Style", .member = "/passes/*/level", .excludes = "--gl"},
+    {.name = "--background", .group = "Style", .member = "/background"},
+    {.name = "--transparent", .kind = Flag, .group = "Style", .member = "/transparent"},
+    {.name = "--scene", .value = "S.scene.json", .help = "scene file; the other options change it", .group = "Scene"},
+    {.name = "--write-scene",
+     .value = "S.scene.json",
+     .help = "also write the scene that these options make",
+     .group = "Scene"},
+    {.name = "--frames",
+     .kind = Whole,
+     .least = 1,
+     .most = 10000,
+     .byDefault = "1",
+     .help = "number of pictures P_0000.png, ... of a section that moves",
+     .group = "Scene"},
+    {.name = "--gl",
+     .kind = Flag,
+     .help = "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display",
+     .group = "Output",
+     .excludes = "--level"},
+    {.name = "--labels",
+     .value = "L.png",
+     .help = "also write the scalar of each pixel, 16-bit gray",
+     .group = "Output"},
+    {.name = "--depth",
+     .value = "D.png",
+     .help = "also write the depth of each pixel in millimetres, 16-bit gray",
+     .group = "Output"},
+};
+
+// section
+
+constexpr Option kSection[] = {
+    kModelInput[0],
+    {.name = "-o,--output",
+     .value = "D.svg",
+     .help = "the drawing to write: .svg, .dxf or .geojson",
+     .mayRepeat = true},
+    {.name = "--plane",
+     .value = "PLANE",
+     .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
+     .help = "z=1.2, y<3, x>4, storey=NAME+1.1, or A,B,C,D; metres from the lower corner",
+     .group = "Drawing"},
+    {.name = "--scale",
+     .value = "1:N",
+     .byDefault = "1:100",
+     .help = "of the SVG: 1:50 draws 1 m as 20 mm",
+     .group = "Drawing"},
+    {.name = "--hide",
+     .value = "QUERY",
+     .help = "leave out what the query selects",
+     .group = "Drawing",
+     .mayRepeat = true},
+    {.name = "--show",
+     .value = "QUERY",
+     .help = "draw only what the query selects",
+     .group = "Drawing",
+     .mayRepeat = true},
+    {.name = "--no-rooms", .kind = Flag, .help = "leave out rooms, units and storeys", .group = "Drawing"},
+    {.name = "--min-area",
+     .kind = Number,
+     .unit = "m2",
+     .least = 0,
+     .most = 1e9,
+     .byDefault = "0.0001",
+     .help = "leave out polygons smaller than this",
+     .group = "Drawing"},
+    {.name = "--table",
+     .value = "T.csv",
+     .help = "areas per component and class: .json or .csv",
+     .group = "Output",
+     .mayRepeat = true},
+    {.name = "--json", .kind = Flag, .help = "print the areas as JSON on stdout", .group = "Output"},
+};
+
+// query
+
+constexpr Option kQuery[] = {
+    kModelInput[0],
+    {.name = "query", .value = "QUERY", .help = "such as 'class=BuildingRoom and volume>20'", .isRequired = true},
+    {.name = "--with",
+     .value = "LIST",
+     .help = "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface",
+     .group = "Report"},
+    {.name = "--neighbours",
+     .kind = Flag,
+     .help = "what each feature touches, with the shared area",
+     .group = "Report"},
+    {.name = "--along",
+     .value = "X,Y,Z:DX,DY,DZ",
+     .help = "what lies along a ray: a point in metres from the lower corner, and a direction",
+     .group = "Report"},
+    {.name = "--overlaps", .kind = Flag, .help = "space that two features claim", .group = "Report"},
+    {.name = "--gaps", .kind = Flag, .help = "enclosed air beside the features", .group = "Report"},
+    {.name = "--owners",
+     .value = "T.csv",
+     .help = "who owns what: a table of feature and owner; walls between owners are divided",
+     .group = "Report"},
+    {.name = "--parcels",
+     .value = "FILE",
+     .help = "how much of each feature lies in which parcel: a volume on the same grid, or a model",
+     .group = "Report"},
+    {.name = "--json", .kind = Flag, .help = "print rows as JSON on stdout", .group = "Output"},
+    {.name = "--csv", .kind = Flag, .help = "print rows as CSV on stdout", .group = "Output"},
+};
+
+// shell, convert
+
+constexpr Option kFaces = {
+    .name = "--faces",
+    .choices = "planes|voxels",
+    .byDefault = "planes",
+    .help = "slopes of a .glb: planes (flat, as far as the volume knows them) or voxels (stairs)",
+    .group = "Output"};
+constexpr Option kShell[] = {
+    kModelInput[0],
+    {.name = "-o,--output",
+     .value = "FILE",
+     .help = "what to write; the extension selects the format: .svt (volume) or .glb (triangles)"},
+    {.name = "--level",
+     .choices = "component|room|unit|storey|building",
+     .byDefault = "building",
+     .help = "whose hull stays",
+     .group = "Shell"},
+    {.name = "--of",
+     .value = "QUERY",
+     .help = "only the groups that have something of what the query selects",
+     .group = "Shell"},
+    {.name = "--thickness",
+     .kind = Number,
+     .value = "M",
+     .otherwise = "two voxels",
+     .help = "thickness of the hull in metres, rounded up to voxels",
+     .group = "Shell"},
+    {.name = "--labels",
+     .choices = "components|groups",
+     .byDefault = "components",
+     .help = "whose label the voxels keep: that of their component, or one per group",
+     .group = "Shell"},
+    kFaces,
+    {.name = "--levels", .kind = Flag, .help = "list the levels of the model and write nothing", .group = "Output"},
+    kBuildOutput[1],
+};
+constexpr Option kConvert[] = {
+    kModelInput[0],
+    {.name = "output",
+     .value = "FILE",
+     .help = "file to write; the extension selects the format: .nrrd or .glb",
+     .isRequired = true},
+    {.name = "--encoding",
+     .choices = "gzip|raw",
+     .byDefault = "gzip",
+     .help = "NRRD samples: gzip or raw",
+     .group = "Output"},
+    kFaces,
+};
+
+// serve, view, publish
+
+constexpr Option kServe[] = {
+    {.name = "input", .value = "FILE", .help = "what the page opens: .svt or model files", .mayRepeat = true},
+    {.name = "--port",
+     .kind = Whole,
+     .least = 0,
+     .most = 65535,
+     .otherwise = "8080, or the next free one",
+     .help = "port to listen at; 0: any that is free",
+     .group = "Server"},
+    {.name = "--host",
+     .value = "ADDRESS",
+     .byDefault = "127.0.0.1",
+     .help = "address to listen at; others than 127.0.0.1 let other machines in, without password",
+     .group = "Server"},
+    {.name = "--allow-host",
+     .value = "NAME",
+     .help = "a further name by which browsers may call this server",
+     .group = "Server",
+     .mayRepeat = true},
+    {.name = "--allow-uploads", .kind = Flag, .help = "convert models that the page sends", .group = "Uploads"},
+    {.name = "--max-upload",
+     .kind = Whole,
+     .unit = "MB",
+     .least = 1,
+     .most = 1048576,
+     .byDefault = "200",
+     .help = "largest model that may be sent",
+     .group = "Uploads"},
+    {.name = "--convert-memory",
+     .kind = Whole,
+     .unit = "MB",
+     .least = 64,
+     .most = 1048576,
+     .byDefault = "2048",
+     .help = "memory that a conversion may use",
+     .group = "Uploads"},
+    {.name = "--convert-seconds",
+     .kind = Number,
+     .unit = "seconds",
+     .least = 0.1,
+     .most = 86400,
+     .byDefault = "120",
+     .help = "time that a conversion may take",
+     .group = "Uploads"},
+};
+constexpr Option kView[] = {
+    kSiteInputs[0],
+    {.name = "--no-browser", .kind = Flag, .help = "print the address, start no browser", .group = "Page"},
+};
+constexpr Option kPublish[] = {
+    kSiteInputs[0],
+    {.name = "-o,--output", .value = "DIR", .help = "the folder to write", .isRequired = true},
+    {.name = "--force", .kind = Flag, .help = "write into a folder that is not empty; what is not of the page stays"},
+};
+constexpr Option kPage[] = {
+    {.name = "--viewer",
+     .value = "DIR",
+     .otherwise = "share/svt/viewer beside the program's folder",
+     .help = "folder of the page",
+     .group = "Page"},
+    {.name = "-v,--verbose", .kind = Flag, .help = "show all findings", .group = "Page"},
+};
+
+// describe
+
+constexpr Option kDescribe[] = {
+    {.name = "what",
+     .choices = "json|man|bash|zsh|fish",
+     .help = "json: all commands and options; man: a manual page; bash, zsh, fish: completions for that shell",
+     .isRequired = true},
+    {.name = "command", .help = "of man: the command whose page is printed", .otherwise = "the page of svt itself"},
+};
+
+}  // namespace
+
+std::span<const CommandText> commandTexts() {
+    static const CommandText kCommands[] = {
+        {"sample", "Write a generated model: a house, a tower of flats, a district", {kSample}},
+        {"build",
+         "Make a volume (.svt) of one or more model files",
+         {kBuild, kGrid, kGridOf, kModel, kStyle, kVoxels, kBuildOutput, kVerbose}},
+        {"info", "Show what is inside a volume or model", {kModelInput, kGrid, kModel, kStyle, kVoxels, kInfoOutput}},
+        {"check",
+         "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong",
+         {kCheck, kVerbose}},
+        {"render", "Draw a picture (PNG) of a volume or model", {kRender, kVerbose, kStyle, kGrid, kModel, kVoxels}},
+        {"section", "Draw what a plane cuts (SVG, DXF, GeoJSON)", {kSection, kVerbose, kGrid, kModel, kStyle, kVoxels}},
+        {"query",
+         "List the features that a query selects, and what is around them",
+         {kQuery, kGrid, kModel, kStyle, kVoxels}},
+        {"shell",
+         "Leave only the hull of rooms, flats, storeys or buildings",
+         {kShell, kGrid, kModel, kStyle, kVoxels}},
+        {"convert", "Write a volume in another format", {kConvert, kGrid, kModel, kStyle, kVoxels}},
+        {"serve", "Show models in the browser, from this machine", {kServe, kPage, kGrid, kModel, kStyle, kVoxels}},
+        {"view", "Open models in the browser", {kView, kPage, kGrid, kModel, kStyle, kVoxels}},
+        {"publish",
+         "Write the viewer with models as a folder for any web server",
+         {kPublish, kPage, kGrid, kModel, kStyle, kVoxels}},
+        {"describe", "Print what the command offers, for other programs", {kDescribe}},
+    };
+    return kCommands;
+}
+
+std::vector<Option> optionsOf(const CommandText& command) {
+    std::vector<Option> options;
+    for (const auto set : command.sets)
+        for (Option option : set) {
+            if (!option.member.empty()) {
+                const Option& member = illustrate::sceneMember(option.member);
+                const auto fill = [](auto& own, const auto& other, bool isOwn) {
+                    if (!isOwn) own = other;
+                };
+                fill(option.kind, member.kind, option.kind != Text);
+                fill(option.value, member.value, !option.value.empty());
+                fill(option.help, member.help, !option.help.empty());
+                fill(option.choices, member.choices, !option.choices.empty());
+                if (option.kind != Flag) fill(option.byDefault, member.byDefault, !option.byDefault.empty());
+                fill(option.otherwise, member.otherwise, !option.otherwise.empty());
+                option.unit = member.unit;
+                option.least = member.least;
+                option.most = member.most;
+                option.count = member.count;
+                option.leastCount = member.leastCount;
+                option.mayRepeat = member.mayRepeat;
+            }
+            options.push_back(option);
+        }
+    return options;
+}
+
+std::string valueText(const Option& option) {
+    if (option.kind == Flag) return {};
+    if (!option.choices.empty()) return std::string(option.choices);
+    if (!option.value.empty()) return std::string(option.value);
+    return option.kind == Whole ? "N" : option.kind == Number ? "NUMBER" : "TEXT";
+}
+
+std::string descriptionOf(const Option& option) {
+    std::string text(option.help);
+    if (!option.unit.empty()) text += fmt::format(", {}", option.unit);
+    // A range that is there only to keep out what no computer could draw tells people nothing.
+    if (const std::string range = rangeText(option); option.choices.empty() && !range.empty() && option.most < 1e9)
+        text += fmt::format(", {}", range);
+    if (!option.byDefault.empty()) text += fmt::format("; default: {}", option.byDefault);
+    if (!option.otherwise.empty()) text += fmt::format("; default: {}", option.otherwise);
+    if (option.mayRepeat && option.name.starts_with("-")) text += "; may be repeated";
+    return text;
+}
+
+}  // namespace svt::cli
