@@ -22,7 +22,7 @@ std::uint64_t pairOf(std::uint32_t a, std::uint32_t b) noexcept {
     return std::uint64_t(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-// Contacts by pair, in order of first mention.
+// Sums of contacts by pair, in order of first occurrence.
 class ContactSum {
 public:
     Contact& of(std::uint64_t pair) {
@@ -42,19 +42,19 @@ private:
     std::vector<Contact> list_;
 };
 
-// Faces of one pair in a cell that look the same way.
+// The faces of one pair of labels in a cell that have the same direction.
 struct Side {
     std::uint32_t count = 0;
-    std::array<std::uint8_t, 3> low{255, 255, 255}, high{};  // of the voxels above the faces, in the cell
+    std::array<std::uint8_t, 3> low{255, 255, 255}, high{};  // bounds of the voxels above the faces, in the cell
 };
 
 struct CellPair {
     std::uint64_t pair = 0;
     std::int32_t cell = 0;
-    std::array<Side, 6> sides{};  // 2 axis + (the label of lower number is below the face)
+    std::array<Side, 6> sides{};  // index 2 axis + (1 if the label with the lower number is below the face)
 };
 
-// What a cell's faces of one pair say of its surface: across each axis their area, and how they lie.
+// The surface between two labels in a cell, from its faces: their area across each axis, and their arrangement.
 class CellShape {
 public:
     CellShape(const CellPair& pair, const std::array<double, 3>& faceArea) noexcept {
@@ -88,7 +88,8 @@ public:
     }
 
 private:
-    // Each side in a plane of its own, and no corner that a digital plane may have: there, one arm is one voxel long.
+    // Whether the faces across each axis are in one plane, and no step is that of a digital plane, one side of which is
+    // a single voxel.
     [[nodiscard]] bool isBox(std::span<const std::size_t> axes) const noexcept {
         for (const std::size_t a : axes) {
             if (!isFlat_[a]) return false;
@@ -98,7 +99,8 @@ private:
         }
         return true;
     }
-    // A plane along the grid that meets a slanted one: the steps of a digital plane are either narrow or low.
+    // Whether the faces across an axis are an axis-aligned plane that meets an oblique one. Steps of a digital plane
+    // are either narrow or low.
     [[nodiscard]] bool isApart(std::size_t axis) const noexcept {
         if (!isFlat_[axis] || count_[axis] <= 2 * kCell) return false;
         for (std::size_t other = 0; other < 3; ++other)
@@ -109,11 +111,11 @@ private:
     std::array<std::uint32_t, 3> count_{};
     std::array<double, 3> area_{};
     std::array<bool, 3> isFlat_{true, true, true};
-    std::array<std::array<int, 3>, 3> reach_{};    // of faces across the first axis along the second, voxels
-    std::array<std::array<bool, 3>, 3> goesOn_{};  // they meet the cell's side there
+    std::array<std::array<int, 3>, 3> reach_{};    // extent of faces across the first axis along the second, voxels
+    std::array<std::array<bool, 3>, 3> goesOn_{};  // whether they reach a side of the cell there
 };
 
-// Measures one footprint after the other: 8 x 8 columns with those to their west and south.
+// Measures footprints: 8 x 8 columns, with those to their west and south.
 class FootprintMeter {
 public:
     FootprintMeter(const volume::Grid& grid, std::span<const std::uint32_t> labelOf) : labelOf_(labelOf) {
@@ -143,7 +145,7 @@ public:
     }
 
 private:
-    // Faces between the runs of a column, those at its ends included.
+    // Adds the faces between the runs of a column, including those at its ends.
     void addLevels(std::span<const volume::Run> runs, std::array<std::int32_t, 2> at) {
         std::uint32_t below = volume::kNoLabel, end = 0;
         for (const volume::Run& run : runs) {
@@ -169,7 +171,7 @@ private:
         }
     }
 
-    // Faces below (along `axis`) the voxels [begin, end) of column `at`.
+    // Adds the lower faces (along `axis`) of voxels [begin, end) of column `at`.
     void add(std::uint32_t low, std::uint32_t high, int axis, std::array<std::int32_t, 2> at, std::uint32_t begin,
              std::uint32_t end) {
         const std::size_t s = std::size_t(2 * axis) + (low < high ? 1 : 0);
@@ -203,7 +205,7 @@ private:
     std::vector<CellPair> pairs_;
 };
 
-// One region of 64 x 64 columns. Regions reach one column beyond the volume, where there is background.
+// Contacts of one region of 64 x 64 columns. Regions extend one column beyond the volume, where there is background.
 std::vector<Contact> contactsOfRegion(const volume::ColumnVolume& columns, Vec3i corner, FootprintMeter& meter) {
     const Vec3i dimension = columns.dimension();
     const std::array<volume::Run, 1> nothing{volume::Run{static_cast<std::uint32_t>(dimension.z), 0}};
@@ -211,7 +213,7 @@ std::vector<Contact> contactsOfRegion(const volume::ColumnVolume& columns, Vec3i
         if (i < 0 || j < 0 || i >= dimension.x || j >= dimension.y) return nothing;
         return columns.column(i, j);
     };
-    // Equal footprints are measured once. Columns are shared in a tile, so their places say which are equal.
+    // Equal footprints are measured once. Columns are shared in a tile, so equal addresses mean equal columns.
     std::vector<FootprintMeter::Columns> footprints;
     std::vector<std::uint64_t> times;
     HashIndex index;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kOutside = 0;
 
-// Union-find; the smaller number is the root, so what is joined with the outside is kOutside.
+// Union-find; the smaller number becomes the root, so all that is joined with the outside is kOutside.
 class Pieces {
 public:
     [[nodiscard]] std::uint32_t rootOf(std::uint32_t piece) noexcept {
@@ -39,16 +39,16 @@ struct AirRun {
     std::uint32_t begin = 0, end = 0, piece = 0;
 };
 
-// The air of a row of columns.
+// The background of a row of columns.
 struct AirRow {
     std::vector<AirRun> runs;
-    std::vector<std::size_t> start;  // of each column, and the end
+    std::vector<std::size_t> start;  // first run of each column, and the end
     [[nodiscard]] std::span<AirRun> column(std::size_t i) {
         return std::span(runs).subspan(start[i], start[i + 1] - start[i]);
     }
 };
 
-// Joins what shares a face; `of` gets the piece of a neighbour.
+// Joins runs of adjacent columns that share a face; runs of `own` without a piece get that of a neighbour.
 void joinWith(std::span<AirRun> own, std::span<const AirRun> neighbors, Pieces& pieces) {
     for (std::size_t a = 0, b = 0; a < own.size() && b < neighbors.size();) {
         if (own[a].begin < neighbors[b].end && neighbors[b].begin < own[a].end) {
@@ -64,8 +64,8 @@ void joinWith(std::span<AirRun> own, std::span<const AirRun> neighbors, Pieces& 
     }
 }
 
-// Goes through the columns row by row and tells visit(i, j, run) of all air, with a number of its piece. Two sweeps
-// give the same numbers.
+// Connected component labelling, row by row: calls visit(i, j, run) for each run of background, with a provisional
+// number of its piece. Two sweeps give the same numbers.
 template <class Visit>
 Pieces sweep(const volume::ColumnVolume& columns, std::span<const std::uint32_t> labelOf, const Visit& visit) {
     const Vec3i n = columns.dimension();
@@ -106,7 +106,7 @@ Pieces sweep(const volume::ColumnVolume& columns, std::span<const std::uint32_t>
     return pieces;
 }
 
-// Labels of the column's runs that reach into [begin, end).
+// Adds the labels of the column's runs that overlap [begin, end).
 void addLabels(std::span<const volume::Run> runs, std::uint32_t begin, std::uint32_t end,
                std::span<const std::uint32_t> labelOf, std::set<std::uint32_t>& labels) {
     auto run = std::upper_bound(runs.begin(), runs.end(), begin,
@@ -121,9 +121,9 @@ std::vector<Gap> findGaps(const volume::ColumnVolume& columns, const volume::Lab
     const std::vector<std::uint32_t> labelOf = labels.labelOfScalar();
     Pieces pieces = sweep(columns, labelOf, [](std::int32_t, std::int32_t, const AirRun&) {});
     std::vector<Gap> gaps;
-    std::unordered_map<std::uint32_t, std::size_t> gapOf;  // of a root
+    std::unordered_map<std::uint32_t, std::size_t> gapOf;  // by root
     std::vector<std::set<std::uint32_t>> around;
-    // Who is around can only be asked once it is known what is shut in.
+    // A second sweep, since the neighbours of a gap can only be collected once it is known to be enclosed.
     (void)sweep(columns, labelOf, [&](std::int32_t i, std::int32_t j, const AirRun& run) {
         const std::uint32_t root = pieces.rootOf(run.piece);
         if (root == kOutside) return;
@@ -135,7 +135,7 @@ std::vector<Gap> findGaps(const volume::ColumnVolume& columns, const volume::Lab
         Gap& gap = gaps[found->second];
         gap.voxels += run.end - run.begin;
         gap.box.add({{i, j, std::int32_t(run.begin)}, {i, j, std::int32_t(run.end) - 1}});
-        // A run that is shut in touches no border, so it has neighbours on all sides.
+        // An enclosed run touches no border, so it has neighbours on all sides.
         addLabels(columns.column(i, j), run.begin - 1, run.end + 1, labelOf, around[found->second]);
         for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}})
             addLabels(columns.column(x, y), run.begin, run.end, labelOf, around[found->second]);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Air that is shut in: background that no label claims and that has no way out.
+/// Gaps: enclosed background, which belongs to no label and is not connected to the outside.
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -11,7 +11,7 @@
 
 namespace svt::analyze {
 
-/// A connected piece of background (voxels that share a face) that does not reach the border of the grid.
+/// A connected component of background (voxels connected by faces) that does not reach the border of the grid.
 struct Gap {
     std::uint64_t voxels = 0;
     SampleBox box;
@@ -19,9 +19,9 @@ struct Gap {
     friend bool operator==(const Gap&, const Gap&) = default;
 };
 
-/// All gaps, the largest first, then by place (z, y, x of the box's lower corner).
-/// Cost: O(runs of all columns, not of the distinct ones). Memory: two rows of columns, and a few words per piece of
-/// background that a row begins.
+/// All gaps, largest first, then by position (z, y, x of the box's lower corner).
+/// Cost: O(runs of all columns, not only of distinct ones). Memory: two rows of columns, and a few words per
+/// provisional component of background.
 [[nodiscard]] std::vector<Gap> findGaps(const volume::ColumnVolume& columns, const volume::LabelTable& labels);
 
 }  // namespace svt::analyze

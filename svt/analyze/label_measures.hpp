@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a volume says of each label: where it is and how large its surface is.
+/// Measures of each label: bounding box, surface area, volume.
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/scalar_boxes.hpp>
@@ -10,26 +10,26 @@
 
 namespace svt::analyze {
 
-/// Of a label's own voxels; those of features below it do not count.
+/// Measures of a label's own voxels, without those of features below it in the tree.
 struct LabelMeasure {
-    SampleBox box;           ///< empty where it has no voxels
+    SampleBox box;           ///< empty if it has no voxels
     double area = 0;         ///< m2: the sum over its contacts
-    double outsideArea = 0;  ///< m2 of it that meet background
+    double outsideArea = 0;  ///< m2: the part of `area` in contact with background
     friend bool operator==(const LabelMeasure&, const LabelMeasure&) = default;
 };
 
-/// Entry l is label l.
-/// \param contacts  those of the whole volume
-/// Cost: that of scalarBoxes.
+/// Measures all labels; entry l is label l.
+/// \param contacts  of the whole volume, see contactsOf()
+/// Cost: that of scalarBoxes().
 [[nodiscard]] std::vector<LabelMeasure> measureLabels(const volume::SemanticVolume& volume,
                                                       const std::vector<Contact>& contacts);
 
-/// m3 that each label has for itself; entry l is label l. That of its solid, which is exact, where it lost no voxels to
-/// others (see LabelTable::overlaps); else by its voxels: a room without its furniture, a flat without its rooms. None
-/// for sheets.
+/// Volume of each label, m3; entry l is label l. If the label lost no voxels to others (see LabelTable::overlaps), it
+/// is that of its solid, which is exact; else that of its own voxels: a room without its furniture, a flat without its
+/// rooms. 0 for sheets.
 [[nodiscard]] std::vector<double> ownVolumes(const volume::LabelTable& labels, const volume::Grid& grid);
 
-/// The world-axis box around the voxels of `box`, metres; empty where it is.
+/// The box around the voxels of `box`, along world axes, metres; empty if `box` is.
 [[nodiscard]] Box3d worldBox(const SampleBox& box, const volume::Grid& grid) noexcept;
 
 }  // namespace svt::analyze

@@ -15,7 +15,7 @@ namespace svt::analyze {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
-// Features that all rows together may look at: a minute's work.
+// Maximum number of features that all rows together may test: about a minute of work.
 constexpr std::uint64_t kMaxVisits = std::uint64_t{1} << 30;
 
 struct TableRow {
@@ -23,7 +23,7 @@ struct TableRow {
     std::uint64_t line = 0;
 };
 
-// Takes a table apart row by row; a field in quotes may have line breaks.
+// Parses a table row by row; a quoted field may contain line breaks.
 class TableReader {
 public:
     TableReader(std::string_view text, std::string_view file) : text_(text), file_(file) {
@@ -42,7 +42,7 @@ public:
 
     [[nodiscard]] bool isAtEnd() const noexcept { return at_ == text_.size(); }
 
-    /// The next row; without fields where its line is empty.
+    /// The next row; without fields if its line is empty.
     [[nodiscard]] Result<TableRow> next() {
         TableRow row;
         row.line = line_;
@@ -65,7 +65,7 @@ private:
         return Error(Code::BadValue, fmt::format("owners table: {}", reason), {std::string(file_), line_, 0, {}});
     }
 
-    // Up to a separator, the end of the line or of the text.
+    // Reads a field, up to a separator, or the end of the line or text.
     Result<std::string> nextField() {
         const auto isEnd = [&] { return isAtEnd() || text_[at_] == separator_ || text_[at_] == '\n'; };
         std::string field;
@@ -105,7 +105,7 @@ private:
     char separator_ = ',';
 };
 
-// Features by id, with what is below them and their members.
+// Look-up of features by id, and of all that they include.
 class Features {
 public:
     explicit Features(const volume::LabelTable& table) : table_(table), members_(table.labels.size()) {
@@ -119,7 +119,7 @@ public:
 
     [[nodiscard]] std::uint32_t byId(const std::string& id) const { return byId_.at(id); }
 
-    // The features with all that is below them and their members, ascending.
+    // The features, all below them in the tree, and their members, ascending.
     [[nodiscard]] std::vector<std::uint32_t> under(std::vector<std::uint32_t> open) const {
         std::vector<std::uint32_t> found;
         std::vector<bool> isKnown(table_.labels.size(), false);
@@ -137,7 +137,7 @@ public:
         return found;
     }
 
-    // "; did you mean 'x'?" or nothing.
+    // "; did you mean 'x'?", or empty.
     [[nodiscard]] std::string nearest(std::string_view id) const {
         const std::size_t limit = std::max<std::size_t>(2, id.size() / 4);
         std::string_view best;
@@ -169,7 +169,7 @@ Result<std::vector<std::uint32_t>> resolve(const std::string& feature, const vol
     return features.under(std::move(*selected));
 }
 
-// Spaces, with the surfaces that bound them: those stand between a room and its walls.
+// Entry per label: whether it is a space, or a surface that bounds one, which is between a room and its walls.
 std::vector<bool> findSpaces(const std::vector<volume::Label>& labels) {
     std::vector<bool> isSpace(labels.size());
     for (std::size_t l = 0; l < labels.size(); ++l) {

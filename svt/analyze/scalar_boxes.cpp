@@ -6,7 +6,7 @@ namespace svt::analyze {
 
 std::vector<SampleBox> scalarBoxes(const volume::ColumnVolume& columns, volume::Scalar scalarCount) {
     std::vector<SampleBox> boxes(scalarCount);
-    std::vector<SampleBox> ofColumn;  // where a tile's distinct columns stand, without k
+    std::vector<SampleBox> ofColumn;  // by distinct column of a tile: where it occurs, without k
     for (std::size_t t = 0; t < columns.tiles().size(); ++t) {
         const volume::ColumnTile& tile = columns.tiles()[t];
         const auto tileX = static_cast<std::int32_t>(t % static_cast<std::size_t>(columns.tilesX()));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the voxels of each scalar are.
+/// Bounding boxes of the voxels of each scalar and label.
 
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -12,7 +12,7 @@
 
 namespace svt::analyze {
 
-/// Samples [min, max]; empty until one is added.
+/// A box of samples, [min, max] inclusive; empty by default.
 struct SampleBox {
     Vec3i min{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max(),
               std::numeric_limits<std::int32_t>::max()};
@@ -28,11 +28,11 @@ struct SampleBox {
     friend bool operator==(const SampleBox&, const SampleBox&) = default;
 };
 
-/// The box of each scalar's samples; entry s of `scalarCount`, empty where there is no such sample.
-/// Cost: O(distinct rows and columns' runs of all tiles).
+/// The box of each scalar's samples; entry s is scalar s < scalarCount, empty if it has no samples.
+/// Cost: O(distinct rows + runs of distinct columns of all tiles).
 [[nodiscard]] std::vector<SampleBox> scalarBoxes(const volume::ColumnVolume& columns, volume::Scalar scalarCount);
 
-/// The same of each label's own samples; entry l is label l. Cost: that of scalarBoxes, and O(scalars).
+/// The box of each label's own samples; entry l is label l. Cost: that of scalarBoxes(), and O(scalars).
 [[nodiscard]] std::vector<SampleBox> labelBoxes(const volume::ColumnVolume& columns, const volume::LabelTable& labels);
 
 }  // namespace svt::analyze

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Labels of a volume as rows of a query; what is selected, and where it is.
+/// Queries on the labels of a volume: the rows that they read, the labels that they select, and the box around these.
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/model/query.hpp>
@@ -13,15 +13,16 @@
 
 namespace svt::analyze {
 
-/// Row i is label i. Views into `labels`, which must outlive the rows.
+/// The labels as rows for model::Query; row i is label i. The rows refer to `labels`, which must outlive them.
 [[nodiscard]] std::vector<model::QueryRow> rowsOf(const volume::LabelTable& labels);
 
-/// Labels that `text` selects, or BadQuery, or NothingSelected with the nearest existing value.
+/// Labels that the query `text` selects.
+/// \return the labels, or BadQuery, or NothingSelected; the latter names the nearest existing value
 [[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& labels, std::string_view text);
 
 /// The box around all voxels of `labels`.
-/// \param what  names them in the message
-/// \return the box, or NothingSelected where they have none
+/// \param what  describes them in the message
+/// \return the box, or NothingSelected if they have no voxels
 [[nodiscard]] Result<SampleBox> boxAround(const std::vector<std::uint32_t>& labels,
                                           const volume::SemanticVolume& volume, std::string_view what);
 

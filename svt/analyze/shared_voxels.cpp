@@ -11,7 +11,7 @@
 namespace svt::analyze {
 namespace {
 
-// Same samples at the same places: all corners agree.
+// Whether the grids have the same samples at the same positions: dimensions and all corners are equal.
 bool isSameGrid(const volume::Grid& a, const volume::Grid& b) noexcept {
     if (a.dimension() != b.dimension()) return false;
     const Vec3i n = a.dimension();

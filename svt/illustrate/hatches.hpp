@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which component gets which hatch where it is cut.
+/// Hatches of components, for their caps (cut faces).
 
 #include <svt/render/hatch.hpp>
 #include <svt/volume/label_table.hpp>
@@ -9,8 +9,9 @@
 
 namespace svt::illustrate {
 
-/// Entry per label, by material where the model tells one, else by class, kind and name: walls are masonry, slabs and
-/// beams reinforced concrete, rafters timber, ground earth. Spaces have none.
+/// Hatch of each label, by its material if the model has one, else by class, kind and name: walls are masonry, slabs
+/// and beams reinforced concrete, rafters timber, ground earth. Spaces have none.
+/// \return entry l is label l
 [[nodiscard]] std::vector<render::Hatch> hatchesOf(const volume::LabelTable& labels);
 
 }  // namespace svt::illustrate

@@ -11,7 +11,7 @@
 namespace svt::illustrate {
 namespace {
 
-// Whether a ray from `from` along `along`, in index space, meets the voxels.
+// Whether a ray from `from` along `along`, in index space, hits the voxels.
 bool meetsVoxels(Vec3d from, Vec3d along, Vec3i dimension) {
     double enter = 0, leave = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Rays through a volume, as people write them.
+/// Rays through a volume, parsed from text.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -16,9 +16,9 @@ struct PickRay {
     Vec3d direction{0, 0, 1};  ///< length 1
 };
 
-/// A ray from `x,y,z:dx,dy,dz`: where it begins, metres from the grid's lower corner, and where it goes; world axes.
-/// \return the ray, or BadArgument where the text is none, a number is not finite, the direction is zero, or the ray
-///         passes the whole grid by
+/// Parses `x,y,z:dx,dy,dz`: the origin, metres from the grid's lower corner, and the direction, both along world axes.
+/// \return the ray, or BadArgument if the syntax is wrong, a number is not finite, the direction is zero, or the ray
+///         misses the grid
 [[nodiscard]] Result<PickRay> parsePickRay(std::string_view text, const volume::Grid& grid);
 
 }  // namespace svt::illustrate

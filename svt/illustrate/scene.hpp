@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// A scene: what a picture shows, in queries and regions, so that it holds for any volume of the model. Plain data with
-/// a JSON form (`*.scene.json`, docs/formats/scene.schema.json); the command line makes one, a link may carry one.
+/// A scene: what a picture shows, described by queries and regions, so that it applies to any volume of the model.
+/// Plain data with a JSON form (`*.scene.json`, docs/formats/scene.schema.json); made by the command line, or by a link
+/// to the viewer.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -16,69 +17,69 @@
 
 namespace svt::illustrate {
 
-/// Where a picture is taken from: a named view, changed by what is given. Points are metres from the grid's lower
-/// corner, in world axes.
+/// The camera of a scene: a named view, and members that override it. Points are in metres from the grid's lower
+/// corner, along world axes.
 struct SceneCamera {
     std::string preset = "iso";  ///< see render::cameraPresetNames()
-    std::string around;          ///< query: the view shows what it selects; empty: all
+    std::string around;          ///< query: the view is fitted to what it selects; empty: to all
     bool isParallel = false;
-    double fieldOfView = 30;  ///< degrees, vertical, perspective alone
+    double fieldOfView = 30;  ///< degrees, vertical, perspective only
     double zoom = 1;          ///< > 0; above 1 is nearer
     std::optional<Vec3d> eye, target;
     friend bool operator==(const SceneCamera&, const SceneCamera&) = default;
 };
 
-/// What a query's labels look like; what is set overrides what styles before it set.
+/// Style of the labels that a query selects; members that are set override earlier styles.
 struct SceneStyle {
     std::string select;
     std::optional<Vec3f> color;    ///< sRGB, 0..1
     std::optional<float> opacity;  ///< see render::Style
     std::optional<render::Hatch> hatch;
-    bool isGhost = false;  ///< coloured air where it was solid, gone where it was air; before color and opacity
+    bool isGhost = false;  ///< solid becomes translucent, air is hidden; applied before color and opacity
     friend bool operator==(const SceneStyle&, const SceneStyle&) = default;
 };
 
-/// Feature edges of the model's meshes, drawn at their depth inside the volume.
+/// Feature edges of the model's meshes, composited with the volume by depth.
 struct SceneLines {
-    std::string select;  ///< query: whose, visible or not; empty: of all that is visible
+    std::string select;  ///< query: of these labels, visible or not; empty: of all visible ones
     float width = 1;     ///< pixels, 0.1 to 64
     std::optional<Vec3f> color;
-    render::HiddenLines hidden = render::HiddenLines::Faint;  ///< behind something opaque
+    render::HiddenLines hidden = render::HiddenLines::Faint;  ///< style of parts behind something opaque
     friend bool operator==(const SceneLines&, const SceneLines&) = default;
 };
 
-/// A form of the volume that passes draw.
+/// The form of the volume that a pass draws.
 struct VolumeForm {
-    std::optional<ShellLevel> shell;  ///< the hulls of groups of this level, two voxels thick; nothing: the volume
-    std::optional<int> level;         ///< level of detail, 0 (finest) to 6; nothing: as fine as the pixels show
+    std::optional<ShellLevel> shell;  ///< the shells of groups of this level, two voxels thick; unset: the volume
+    std::optional<int> level;         ///< level of detail, 0 (finest) to 6; unset: chosen by the pixel size
     friend bool operator==(const VolumeForm&, const VolumeForm&) = default;
 };
 
-/// Part of the volume, and how it is drawn.
+/// A pass: part of the volume, and how it is drawn.
 struct ScenePass {
-    std::vector<std::string> show;  ///< queries; where there are any, all else is hidden
+    std::vector<std::string> show;  ///< queries; if there are any, all else is hidden
     std::vector<std::string> hide;  ///< queries
     std::vector<SceneStyle> styles;
     std::string cut;   ///< region that is cut away; empty: none
-    std::string keep;  ///< region outside of which nothing is drawn; empty: no limit
+    std::string keep;  ///< region to which drawing is limited; empty: no limit
     render::Pass::Join join = render::Pass::Join::Over;
     std::vector<SceneLines> lines;
     VolumeForm form{};
-    std::vector<std::string> meshes;  ///< queries, or size<M: what is drawn as the model's meshes, not as voxels
+    std::vector<std::string> meshes;  ///< queries, or size<M: drawn as the model's meshes instead of voxels
     friend bool operator==(const ScenePass&, const ScenePass&) = default;
 };
 
 /// Colours, lines and hatches of the whole picture.
 enum class Look : std::uint8_t {
     Plain,      ///< colours on white, thin lines
-    Paper,      ///< for print: white paper, muted colours, hatches, bold lines around what is cut
+    Paper,      ///< for print: white paper, muted colours, hatches, bold lines around caps
     Blueprint,  ///< white lines on blue
     Dark        ///< for slides: colours on near black
 };
 
 struct Scene {
     std::int32_t width = 1280, height = 720;  ///< pixels
-    int samples = 4;                          ///< rays a pixel
+    int samples = 4;                          ///< rays per pixel
     Look look = Look::Plain;
     SceneCamera camera;
     std::optional<Vec3f> background;  ///< overrides the look's
@@ -87,43 +88,45 @@ struct Scene {
     std::optional<float> lineStrength, lineWidth, cutWidth;
     std::optional<Vec3f> lineColor;
     std::optional<bool> hasHatches;
-    std::optional<double> hatchSpacing;  ///< metres; else about 9 pixels
+    std::optional<double> hatchSpacing;  ///< metres; unset: the largest 1, 2 or 5 * 10^n m below 11 pixels (4.4 to 11)
     std::optional<float> ambientOcclusion;
-    std::vector<std::string> names;  ///< queries: what is named beside the picture, see name_tags.hpp
+    std::vector<std::string> names;  ///< queries: labels with name tags beside the picture, see name_tags.hpp
     std::vector<ScenePass> passes{ScenePass{}};
 
     friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-/// What is around a lens or a highlight.
+/// How the context of a lens or a highlight is drawn.
 enum class Context : std::uint8_t {
-    Ghost,  ///< coloured air
-    Solid,  ///< as it is
-    Shell,  ///< glass: the outer hull of the building
+    Ghost,  ///< translucent
+    Solid,  ///< unchanged
+    Shell,  ///< the outer hull of the building, as glass
     None
 };
 
-/// The scene's only pass becomes an S-Lens: within `region` the model is seen without what `cut` takes away, and covers
-/// the context (Ropinski and Hinrichs 2005; section 5.1 of the paper).
+/// Turns the scene's only pass into an S-Lens: inside `region` the model is drawn without what `cut` cuts away, in
+/// front of the context (Ropinski and Hinrichs 2005; section 5.1 of the paper).
 void addLens(Scene& scene, const std::string& region, const std::string& cut, Context context);
-/// The scene's only pass becomes a highlight of what the queries select, in its context; light reaches it whatever
-/// stands in front (section 5.2 of the paper).
+/// Turns the scene's only pass into a highlight of what the queries select, drawn over its context, whatever is in
+/// front (section 5.2 of the paper).
 void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context context);
-/// Takes away what hides the selected, which is drawn whole.
+/// Cuts away what hides the selected labels, which are drawn in full.
+/// \param margin  metres left free around them
 void addCutaway(Scene& scene, const std::string& query, double margin);
 
-/// What the passes of a scene draw, each once, in the order of their first use. At least one.
+/// The forms that the passes of a scene draw, each once, in the order of first use. At least one.
 [[nodiscard]] std::vector<VolumeForm> formsOf(const Scene& scene);
-/// The frame that shows `scene` on `volume`. Pass::volume counts formsOf(scene).
+/// The frame that shows `scene` on `volume`. Pass::volume is an index into formsOf(scene).
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
-///         BadArgument where lines or meshes are asked for and the volume was built without
+///         BadArgument if lines or meshes are requested and the volume was built without them
 [[nodiscard]] Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume);
 
-/// \param name  stands for the file in messages
-/// \return the scene, or BadJson, or BadScene that names the member (as a JSON path), what was found and what is
-/// expected
+/// Reads the JSON form.
+/// \param name  of the file, for messages
+/// \return the scene, or BadJson, or BadScene; the latter names the member (as a JSON path), what was found and what is
+///         expected
 [[nodiscard]] Result<Scene> parseScene(std::string_view json, const std::string& name = "scene");
-/// Equal scenes give equal bytes; members that are as by default are left out.
+/// Writes the JSON form. Equal scenes give equal bytes; members with default values are left out.
 [[nodiscard]] std::string writeScene(const Scene& scene);
 
 [[nodiscard]] std::string_view lookName(Look look) noexcept;

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Scenes of one volume as pictures. Keeps the forms of the volume that pictures need, each made when first needed.
+/// Draws scenes of one volume. Keeps the forms of the volume (shells, levels of detail, bricks), each made when first
+/// needed.
 
 #include <svt/illustrate/scene.hpp>
 #include <svt/render/ray_caster.hpp>
@@ -15,41 +16,42 @@
 
 namespace svt::illustrate {
 
-/// A drawn scene, and the frame it was drawn as.
+/// A drawn scene, and the frame description that it was drawn from.
 struct Painting {
     render::Frame frame;
     render::FrameSpec spec;
 };
 
-/// Not for several threads at once.
+/// Not thread-safe.
 class ScenePainter {
 public:
     /// \param volume   must outlive the painter
-    /// \param threads  for the forms; 0: all cores
+    /// \param threads  for making forms; 0: all cores
     explicit ScenePainter(const volume::SemanticVolume& volume, int threads = 0);
     ~ScenePainter();
     ScenePainter(ScenePainter&&) noexcept;
 
-    /// Draws `scene`, with its names.
-    /// \return picture and frame, or what frameOf(), extractShell() or castRays() returns
-    /// Cost: that of castRays(); and once, of each form.
+    /// Draws `scene`, with its name tags.
+    /// \return picture and frame, or an error of frameOf(), extractShell() or castRays()
+    /// Cost: that of castRays(), and once that of each form.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
-    /// A draft of the same, for a first and coarse picture: surfaces are voxels, far views are not smoothed. Keeps no
-    /// bricks and no levels, and comes about three times sooner than a picture for which these must be made.
-    /// \return as paint(), or what BrickVolume::fromColumns() returns
-    /// Cost: that of castRays() and of bricks of voxels, each time.
+    /// Draws a draft of the same, for a quick first picture: surfaces show their voxels, distant parts may alias. Keeps
+    /// no bricks and no levels; about three times faster than a picture for which these must be made first.
+    /// \return as paint(), or an error of BrickVolume::fromColumns()
+    /// Cost: that of castRays() and of bricks of voxels, at each call.
     [[nodiscard]] Result<Painting> paintDraft(const Scene& scene, const render::CastOptions& options = {});
 
-    /// The same as paint() by another renderer: `draw` is given the volumes that the passes draw and the frame.
+    /// Renders a frame: gets the volumes that the passes draw, and the frame description.
     using Draw = std::function<Result<render::Frame>(std::span<const render::DrawnVolume>, const render::FrameSpec&)>;
+    /// As the first paint(), with another renderer.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
-    /// A form of the volume, for a picture that is `spec`. It lives as long as the painter.
+    /// A form of the volume for the frame `spec`. It lives as long as the painter.
     [[nodiscard]] Result<render::DrawnVolume> form(const VolumeForm& form, const render::FrameSpec& spec);
 
 private:
-    // The volume or a shell of it, with what is made of it.
+    // The volume or a shell of it, with its bricks and levels of detail.
     struct Forms;
     Result<Forms*> formsOf(std::optional<ShellLevel> shell);
     Result<Painting> finish(const Scene& scene, render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,

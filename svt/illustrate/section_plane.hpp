@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Planes that cut a volume, as people write them.
+/// Section planes, parsed from text; heights of storeys.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -13,27 +13,27 @@
 
 namespace svt::illustrate {
 
-/// World space; what lies on the side to which `normal` points is cut away.
+/// World space; the side to which `normal` points is cut away.
 struct SectionPlane {
     Vec3d normal{0, 0, 1};  ///< length 1
     Vec3d point{};          ///< on the plane
     friend bool operator==(const SectionPlane&, const SectionPlane&) = default;
 };
 
-/// A plane of `volume` from one of
+/// Parses a plane through `volume`, one of
 ///     z=1.2  z>1.2      cut away above 1.2 m, measured along the grid's z axis from its lower corner; x and y likewise
 ///     z<1.2             cut away below
 ///     storey=EG+1.1     cut away above 1.1 m over the floor of that storey (by name or id; see Query for what is one)
 ///     A,B,C,D           cut away where A x + B y + C z + D > 0; world axes, metres from the grid's lower corner
 /// \return the plane, or
 ///         - BadSection       the text is none of these, a number is not finite, the normal is zero, or the plane
-///                            passes the whole volume by (the message names the possible range)
+///                            misses the volume (the message names the possible range)
 ///         - NothingSelected  no such storey, or none with voxels (names the nearest)
 [[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume);
 
-/// Floor and ceiling of a storey (by name or id), metres over the grid's lower corner: of its rooms, or of what it has
-/// of voxels.
-/// \return NothingSelected where there is no such storey, or none with voxels
+/// Floor and ceiling of a storey (by name or id), metres above the grid's lower corner: of its rooms, or, if it has
+/// none, of its voxels.
+/// \return the heights, or NothingSelected if there is no such storey, or it has no voxels
 [[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
                                                               const volume::SemanticVolume& volume);
 
@@ -43,14 +43,14 @@ struct StoreyHeights {
     double floor = 0, ceiling = 0;
 };
 
-/// All storeys with voxels, the lowest first; of one height in the order of labels.
+/// All storeys with voxels, the lowest first; those of equal height by label.
 [[nodiscard]] std::vector<StoreyHeights> storeysOf(const volume::SemanticVolume& volume);
 
-/// The plane of a plan where none is given: 1.1 m above the floor of the lowest storey, or above half of the volume's
-/// height where there is no storey with voxels, or the volume ends below.
+/// The default plane of a plan: 1.1 m above the floor of the lowest storey; or at half the volume's height, if there is
+/// no storey with voxels, or the volume ends below that.
 [[nodiscard]] SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume);
 
-/// Whether the plane meets the voxels of `grid`.
+/// Whether the plane intersects the voxels of `grid`.
 [[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);
 
 }  // namespace svt::illustrate

@@ -1,14 +1,28 @@
 #pragma once
 /// \file
-/// Hierarchical shell extraction (the paper's section 5 and figure 17): of each group of components only the hull
-/// stays, and the faces between its members vanish. Step by step from the component to the building this leaves less
-/// and less, down to the outer hull: the surroundings of what is to be seen, and a reduction of data.
+/// Hierarchical shell extraction (the paper's section 5 and figure 17): of each group of components only the hull is
+/// kept, and the faces between its members vanish. From the component to the building less and less is left, down to
+/// the outer hull: a context for what is to be seen, and a reduction of data.
 ///
 ///     component              room                   building
 ///     +--+ +--+  two rooms   +-------+ +--+         +--------------+
 ///     |  | |  |  with wall   |       | |  |         |              |
 ///     +--+ +--+  and slab    |       | |  |         |              |
 ///     +-------+              +-------+ +--+         +--------------+
+///
+/// - A shell is a group minus its erosion by a box of +-r voxels. Here for r = 1, with . for what becomes background:
+///
+///         A A A A A A B          A A A A A A B       group A is hollowed; its voxels next to B, to background or to
+///         A A A A A A B    ->    A . . . . A B       the grid's border are kept
+///         A A A A A A B          A A A A A A B
+///
+/// - The erosion is separable: along z the runs of a column are shortened by r at both ends; along x, then y, the
+///   columns of a window are intersected, by blocks with running results from both ends (van Herk 1992), so a window
+///   costs three intersections whatever r is.
+/// - Columns are sets of runs, each stored once, and intersections of two sets are memoized: walls repeat, so most
+///   steps are look-ups (ours; shell/run_sets.hpp).
+/// - Cavities that one group alone encloses are found by union-find over background runs, and count as part of it
+///   before the erosion (ours; shell/enclosed_air.hpp).
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -21,45 +35,46 @@
 
 namespace svt::illustrate {
 
-/// Whose scalars the voxels of a shell have.
+/// The scalars of a shell's voxels.
 enum class ShellLabels : std::uint8_t {
-    Components,  ///< that of the component whose voxel it was: roof and wall keep their colours
-    Groups       ///< one per group, that of the label which stands for it
+    Components,  ///< unchanged, those of the components: roof and wall keep their colours
+    Groups       ///< one per group, that of the label that represents it
 };
 
 struct ShellOptions {
     double thickness = 0;           ///< metres; rounded up to voxels along each axis. 0: two voxels, see extractShell
-    std::vector<std::uint32_t> of;  ///< labels; only the groups that have one of them are kept. Empty: all groups
+    std::vector<std::uint32_t> of;  ///< labels; only groups with one of them are kept. Empty: all groups
     ShellLabels labels = ShellLabels::Components;
     int threads = 0;                     ///< at most this many; 0: all cores. The result does not depend on it
     const Progress* progress = nullptr;  ///< stage "shell"
 };
 
-/// The hulls of groups of labels. A voxel of a group stays where the box of +-r voxels around it, r = thickness /
-/// spacing along each axis, rounded up, reaches something that is not its group: another group, a label without group,
-/// background, or what lies beyond the grid. All else becomes background. So a hull has no holes, not even where voxels
-/// meet by an edge alone, and all voxels of a group that see another one stay. Of a hull of one voxel the two sides of
-/// an oblique face are often too near for the bricks' planes, and its steps show in pictures; two voxels are enough.
+/// The shells of groups of labels. A voxel of a group is kept if the box of +-r voxels around it, r = thickness /
+/// spacing along each axis, rounded up, contains anything but its group: another group, a label without group,
+/// background, or space beyond the grid. All else becomes background. So a shell has no holes, not even where voxels
+/// share only an edge, and all voxels of a group next to another one are kept. With a thickness of one voxel, the two
+/// sides of an oblique face are often too close for the bricks' planes, and voxel steps are visible in pictures; two
+/// voxels are enough.
 ///
-/// Background that a group alone encloses (it touches nothing else and does not reach the volume's border) counts as
+/// Background that one group alone encloses (it touches nothing else and does not reach the volume's border) counts as
 /// part of the group, so the walls of its cavities vanish as well.
 ///
-/// The grid stays. The labels stay, with new counts of voxels, so styles and queries work as before; with
-/// ShellLabels::Groups only the labels that stand for groups have scalars, one each, in tree order.
+/// The grid is unchanged. The labels are unchanged but for their voxel counts, so styles and queries work as before;
+/// with ShellLabels::Groups only the labels that represent groups have scalars, one each, in tree order.
 ///
-/// \param groupOf  entry per label: the label that stands for its group, or kNoLabel for none; see groupLabels
+/// \param groupOf  entry per label: the label that represents its group, or kNoLabel for none; see groupLabels
 /// \return the shell, or
 ///         - BadArgument      a thickness that is negative or not finite; `groupOf` or `of` that do not fit the labels;
 ///                            a scalar that belongs to no label
 ///         - NothingSelected  no voxel is left: the groups of `of` have none
 ///         - Cancelled
-/// Cost: O(distinct rows of columns * (64 + 2 r) / 64) steps on sets of runs that are looked up, not computed, where
-/// they are the same; about 0.1 s for a house at 800 x 700 x 400. Memory: that of the result, and one tile per thread.
+/// Cost: O(distinct rows of columns * (64 + 2 r) / 64) operations on sets of runs, most of them memoized; about 0.1 s
+/// for a house at 800 x 700 x 400. Memory: that of the result, and one tile per thread.
 [[nodiscard]] Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume,
                                                           std::span<const std::uint32_t> groupOf,
                                                           const ShellOptions& options = {});
 
-/// The hulls of the groups of a level. Errors also as groupLabels.
+/// The shells of the groups of a level. Errors also as groupLabels.
 [[nodiscard]] Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume, ShellLevel level,
                                                           const ShellOptions& options = {});
 

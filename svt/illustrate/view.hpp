@@ -1,17 +1,17 @@
 #pragma once
 /// \file
-/// Views that show a part of a volume, as cameras of scenes.
+/// Cameras of scenes that show a part of a volume.
 
 #include <svt/illustrate/scene.hpp>
 
 namespace svt::illustrate {
 
-/// A view of what `query` selects, as large as fits.
+/// A view of what `query` selects, as large as possible.
 /// \param query   empty: the whole volume
-/// \param preset  from where, see render::cameraPresetNames(); empty: from where `now` looks
-/// \param now     the camera to go on from: projection, field of view, and where it looks
+/// \param preset  named view, see render::cameraPresetNames(); empty: the view direction of `now`
+/// \param now     the current camera: projection, field of view and view direction
 /// \param aspect  width / height of the picture, > 0
-/// \return a camera with eye and target, and a zoom of 1 unless it goes on from a parallel `now`; or BadQuery,
+/// \return a camera with eye and target, and a zoom of 1 unless it continues a parallel `now`; or BadQuery,
 ///         NothingSelected, BadCamera
 [[nodiscard]] Result<SceneCamera> viewOf(const std::string& query, const std::string& preset, const SceneCamera& now,
                                          double aspect, const volume::SemanticVolume& volume);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Between sRGB, in which colours are given and stored, and linear light, in which they are lit and blended.
+/// Conversion between sRGB, in which colours are given and stored, and linear light, in which they are lit and blended.
 
 #include <svt/core/vec.hpp>
 
@@ -22,11 +22,11 @@ namespace svt::image {
 /// srgbFromLinear() * 255, rounded, from a table. Within one step of the exact value.
 class SrgbBytes {
 public:
-    /// The one table.
+    /// The shared table.
     [[nodiscard]] static const SrgbBytes& table();
 
     [[nodiscard]] std::uint8_t fromLinear(float channel) const noexcept { return (*this)[place(channel)]; }
-    /// In two steps, for many at once: where in the table a channel stands, and what stands there.
+    /// The same in two steps, for vectorized loops: the index into the table, and the look-up by operator[].
     [[nodiscard]] static std::int32_t place(float channel) noexcept {
         const float c = std::min(std::max(channel, 0.0f), 1.0f);
         return static_cast<std::int32_t>(c * static_cast<float>(kLast) + 0.5f);
@@ -38,7 +38,7 @@ public:
 private:
     SrgbBytes();
 
-    // Fine enough for the steep foot of the curve: 12.92 * 255 / 16384 = 0.2 of a byte's step.
+    // Fine enough for the steep start of the curve: 12.92 * 255 / 16384 = 0.2 steps of a byte.
     static constexpr std::size_t kLast = 16384;
     std::array<std::uint8_t, kLast + 1> bytes_{};
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Colours as people write them.
+/// Colours as text.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -10,10 +10,11 @@
 
 namespace svt::image {
 
-/// "#c8b49b", "#fff" or a basic CSS colour name ("tomato", "steelblue") -> sRGB, or BadStyle that lists the names.
+/// Parses "#c8b49b", "#fff" or a basic CSS colour name ("tomato", "steelblue").
+/// \return sRGB, 0..1, or BadStyle; the message lists the names
 [[nodiscard]] Result<Vec3f> parseColor(std::string_view text);
 
-/// "#c8b49b", of sRGB 0..1.
+/// Formats sRGB, 0..1, as "#c8b49b".
 [[nodiscard]] std::string colorText(Vec3f color);
 
 }  // namespace svt::image

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t kBlock = 8;
 
-// Over white, 0..255 * 255.
+// A pixel composited over white, 0..255 * 255.
 std::array<int, 3> overWhite(Rgba8 pixel) noexcept {
     const auto blend = [&](int channel) { return channel * pixel.a + 255 * (255 - pixel.a); };
     return {blend(pixel.r), blend(pixel.g), blend(pixel.b)};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A picture in memory, and how far two pictures are apart.
+/// Images in memory, and the difference between two images.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +14,12 @@ struct Rgba8 {
     friend bool operator==(const Rgba8&, const Rgba8&) = default;
 };
 
-/// Row 0 is the top; pixel (x, y) is at x + width * y.
+/// Pixels in row-major order; row 0 is the top; pixel (x, y) is element x + width * y.
 template <class T>
 class Image {
 public:
     Image() = default;
-    /// \param width, height  at least 0; the product must fit the memory
+    /// \param width, height  at least 0; the pixels must fit into memory
     Image(std::int32_t width, std::int32_t height, T value = {})
         : width_(width),
           height_(height),
@@ -43,22 +43,23 @@ private:
     std::vector<T> pixels_;
 };
 
-/// How far two pictures are apart. Both are laid over white first, so the colour of what is transparent does not count.
+/// Difference between two images. Both are composited over white first, so the colour of transparent pixels is ignored.
 struct ImageDifference {
-    /// The larger of `mean` and `worstBlock`, so neither a small change everywhere nor that of one small thing is lost:
-    ///     0         the same, but for the colour of transparent pixels
-    ///     < 0.005   not visible: rounding, a step of 255
-    ///     < 0.05    visible only side by side: a border that moved by part of a pixel, a light a little stronger
+    /// The larger of `mean` and `worstBlock`, so that small changes everywhere and changes of a small detail both
+    /// count:
+    ///     0         equal, except for the colour of transparent pixels
+    ///     < 0.005   invisible: rounding, one step of 255
+    ///     < 0.05    visible only side by side: a border moved by part of a pixel, slightly stronger light
     ///     < 0.2     visible: something moved by a pixel or more, or has another colour
-    ///     <= 1      another picture; 1 is black against white in some place, or other sizes
+    ///     <= 1      a different image; 1: black against white in some block, or different sizes
     double error = 0;
     double mean = 0;              ///< mean over pixels of the largest channel difference, 0..1
     double worstBlock = 0;        ///< largest difference of the mean colours of a block of 8 x 8 pixels, 0..1
     int largest = 0;              ///< largest channel difference of any pixel, 0..255
-    std::uint64_t differing = 0;  ///< pixels that differ at all
+    std::uint64_t differing = 0;  ///< number of pixels that differ at all
 };
 
-/// Compares pixel by pixel and block by block. Cost O(pixels). Pictures of other sizes have error 1.
+/// Compares pixel by pixel and block by block. Images of different sizes have error 1. Cost: O(pixels).
 [[nodiscard]] ImageDifference compareImages(const Image<Rgba8>& a, const Image<Rgba8>& b);
 
 }  // namespace svt::image

@@ -14,8 +14,8 @@
 namespace svt::image {
 namespace {
 
-// What libpng's callbacks reach. libpng leaves an error by longjmp, so all that owns memory lives outside of the
-// functions that call it.
+// State of libpng's callbacks. libpng reports errors by longjmp, so owners of memory must live outside the functions
+// that call it.
 struct Stream {
     std::vector<std::byte> written;
     std::span<const std::byte> rest;
@@ -67,7 +67,7 @@ bool write(Stream& stream, const Pixels& pixels) {
         return false;
     }
     png_set_write_fn(png, &stream, onWrite, onFlush);
-    // Pictures of flat colours gain little from the slow levels.
+    // Images with flat colours gain little from the slow levels.
     png_set_compression_level(png, 5);
     png_set_IHDR(png, info, static_cast<png_uint_32>(pixels.width), static_cast<png_uint_32>(pixels.height),
                  pixels.bits, pixels.colorType, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
@@ -95,7 +95,7 @@ Result<std::vector<std::byte>> encode(const Pixels& pixels) {
     return Error(Code::BadImage, fmt::format("the PNG cannot be made: {}", stream.message));
 }
 
-// What kind of pixels a reader wants, and where they go once the size is known.
+// The pixel format that a reader wants, and its images, allocated once the size is known.
 struct Target {
     bool wantsGray16;
     Image<Rgba8> color;
@@ -103,7 +103,7 @@ struct Target {
     std::vector<png_bytep> rows;
 };
 
-// Gives the target's pictures their size; false where memory does not suffice.
+// Allocates the target's image; false if memory runs out.
 bool allocate(Target& target, png_uint_32 width, png_uint_32 height) {
     try {
         const auto w = static_cast<std::int32_t>(width), h = static_cast<std::int32_t>(height);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// PNG files (ISO/IEC 15948). The same picture gives the same bytes: no times, no metadata.
+/// PNG files (ISO/IEC 15948). Equal images give equal bytes: no timestamps, no metadata.
 
 #include <svt/core/result.hpp>
 #include <svt/image/image.hpp>
@@ -13,24 +13,25 @@
 
 namespace svt::image {
 
-/// The file's bytes: 8 bits RGBA, sRGB.
-/// \param dpi  pixels an inch, for print; 0: none is said
-/// \return the bytes, or BadImage where the picture is empty or wider or higher than kMaxPngSize
+/// Encodes an image as RGBA with 8 bits per channel, sRGB.
+/// \param dpi  pixels per inch, for print; 0: not stored
+/// \return the file's bytes, or BadImage if the image is empty, or wider or higher than kMaxPngSize
 [[nodiscard]] Result<std::vector<std::byte>> encodePng(const Image<Rgba8>& image, int dpi = 0);
-/// The file's bytes: 16 bits gray.
+/// Encodes an image as gray with 16 bits.
 [[nodiscard]] Result<std::vector<std::byte>> encodePng(const Image<std::uint16_t>& image);
 
-/// Writes a file, all or nothing: a failure leaves an old file as it was.
+/// Writes a file atomically: on failure an existing file is unchanged.
 /// \return nothing, or BadImage, CannotWrite or DiskFull
 Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image, int dpi = 0);
 Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16_t>& image);
 
-/// Reads a PNG of any kind as 8 bits RGBA; 16 bits keep their upper half, gray becomes three equal channels.
-/// \return the picture, or BadImage where the bytes are no PNG, are damaged, or are over kMaxPngSize
+/// Decodes a PNG of any kind to RGBA with 8 bits per channel; 16 bits are truncated to the upper 8, gray is expanded to
+/// three equal channels.
+/// \return the image, or BadImage if the bytes are not a PNG, are damaged, or the image is larger than kMaxPngSize
 [[nodiscard]] Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes);
-/// The same for a file; CannotOpen where it is missing or unreadable.
+/// The same for a file; CannotOpen if it is missing or unreadable.
 [[nodiscard]] Result<Image<Rgba8>> readPng(const std::filesystem::path& path);
-/// Reads a PNG of 16 bits gray; BadImage for any other kind.
+/// Reads a PNG with 16 bits gray; BadImage for any other kind.
 [[nodiscard]] Result<Image<std::uint16_t>> readGrayPng(const std::filesystem::path& path);
 
 inline constexpr std::int32_t kMaxPngSize = 16384;  ///< pixels along an axis

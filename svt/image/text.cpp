@@ -19,13 +19,13 @@ extern const std::size_t svt_font_size;
 namespace svt::image {
 namespace {
 
-// A face of FreeType belongs to one thread at a time: each text has its own.
+// FreeType faces are not thread-safe, so each text has its own.
 class Font {
 public:
     explicit Font(double height) {
         SVT_CHECK(FT_Init_FreeType(&library_) == 0);
         SVT_CHECK(FT_New_Memory_Face(library_, svt_font, static_cast<FT_Long>(svt_font_size), 0, &face_) == 0);
-        // Of a line's height, about three quarters are letters.
+        // The em size is about three quarters of the line height.
         FT_Set_Pixel_Sizes(face_, 0, static_cast<FT_UInt>(std::clamp(0.78 * height, 3.0, 400.0) + 0.5));
     }
     ~Font() {
@@ -35,12 +35,12 @@ public:
     Font(const Font&) = delete;
     Font& operator=(const Font&) = delete;
 
-    // Null where the letter cannot be drawn.
+    // Renders a glyph; null if it cannot be drawn.
     [[nodiscard]] FT_GlyphSlot glyph(char32_t letter) const {
         return FT_Load_Char(face_, letter, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) == 0 ? face_->glyph : nullptr;
     }
     [[nodiscard]] double advance(FT_GlyphSlot glyph) const { return static_cast<double>(glyph->advance.x) / 64; }
-    // From the middle line to the baseline: half of a capital.
+    // Distance from the vertical centre to the baseline: half the height of capitals.
     [[nodiscard]] double baseline() const { return 0.36 * face_->size->metrics.y_ppem; }
 
 private:
@@ -48,7 +48,7 @@ private:
     FT_Face face_ = nullptr;
 };
 
-// The letters of a text; U+FFFD where bytes are no UTF-8.
+// Decodes UTF-8; each byte that is not valid UTF-8 becomes U+FFFD.
 std::vector<char32_t> lettersOf(std::string_view text) {
     std::vector<char32_t> letters;
     for (std::size_t n = 0; n < text.size();) {
@@ -83,7 +83,7 @@ void blend(Image<Rgba8>& image, std::int32_t x, std::int32_t y, Vec3f color, dou
              static_cast<std::uint8_t>(std::min(255.0, alpha * 255 + 0.5))};
 }
 
-// How much of each pixel letters cover.
+// Coverage of each pixel by letters.
 struct Coverage {
     std::int32_t x = 0, y = 0, width = 0, height = 0;
     std::vector<float> shares;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Named views that show a whole volume: what `--camera` understands.
+/// Named camera views that show a whole volume: the values of `--camera`.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -14,7 +14,7 @@ namespace svt::render {
 
 struct PresetOptions {
     double aspect = 16.0 / 9;  ///< width / height of the picture, > 0
-    double margin = 0.06;      ///< share of the picture's width and height left free on each side, 0 to 0.45
+    double margin = 0.06;      ///< free margin on each side, as a share of the picture's width and height, 0 to 0.45
     Camera::Projection projection = Camera::Projection::Perspective;
     double verticalFovDegrees = 30;  ///< perspective
 };
@@ -23,21 +23,22 @@ struct PresetOptions {
 /// the south), "back", "left" (from the west), "right", "top" (north is up), "bottom".
 [[nodiscard]] std::span<const std::string_view> cameraPresetNames() noexcept;
 
-/// A camera that shows all of `bounds` from the named side, as large as fits.
+/// A camera that shows all of `bounds` from the named side, as large as possible.
 /// \param bounds  world space, x east, y north, z up, metres
-/// \return the camera, or BadCamera where the name is unknown (the message lists all), the box is empty or an option is
-///         out of range
+/// \return the camera, or BadCamera if the name is unknown (the message lists all names), the box is empty or an option
+///         is out of range
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds,
                                           const PresetOptions& options = {});
 
-/// The same for a grid: sides are those of its own axes, so a turned building is seen square on.
+/// The same for a grid: sides are those of the grid's own axes, so a rotated building is seen face on.
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid,
                                           const PresetOptions& options = {});
 
 /// A camera that shows all of `bounds`, looking along `view`.
 /// \param view  world space, any length but zero
-/// \param up    world space; not along `view`
-/// \return the camera, or BadCamera where the directions span no view, the box is empty or an option is out of range
+/// \param up    world space; not parallel to `view`
+/// \return the camera, or BadCamera if `view` and `up` are parallel or zero, the box is empty or an option is out of
+///         range
 [[nodiscard]] Result<Camera> cameraAlong(Vec3d view, Vec3d up, const Box3d& bounds, const PresetOptions& options = {});
 
 }  // namespace svt::render

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The rays of a camera in voxel space. Internal to render.
+/// The rays of a camera in voxel space. For renderers: used by render and render_gl.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/render/voxel_ray.hpp>
@@ -11,11 +11,11 @@
 
 namespace svt::render {
 
-/// A ray, with what the shading needs of it in world space.
+/// A ray in voxel space, and its direction in world space, for shading.
 struct CameraRay {
     VoxelRay index;
-    Vec3d direction;    ///< world space; its share along the view direction is 1, so t is depth
-    double metresPerT;  ///< its length
+    Vec3d direction;    ///< world space; its component along the view direction is 1, so t is depth
+    double metresPerT;  ///< length of `direction`
 };
 
 class CameraRays {
@@ -47,19 +47,19 @@ public:
                 std::sqrt(1 + x * x + y * y)};
     }
 
-    /// The point (world space) seen at (u, v) in a depth.
+    /// The point (world space) seen at (u, v) at a depth, metres along the view direction.
     [[nodiscard]] Vec3d worldAt(double u, double v, double depth) const noexcept {
         const Vec3d aside = right_ * (u * halfWidth_) + up_ * (v * halfHeight_);
         return eye_ + forward_ * depth + (isPerspective_ ? aside * depth : aside);
     }
-    /// Where a point (world space, relative to the eye) is seen: u, v and depth. Only where depth > 0 for perspective.
+    /// Projects a point (world space, relative to the eye): u, v and depth. With perspective, valid only if depth > 0.
     [[nodiscard]] Vec3d seenAt(Vec3d fromEye) const noexcept {
         const double depth = dot(fromEye, forward_), scale = isPerspective_ ? depth : 1;
         return {dot(fromEye, right_) / (halfWidth_ * scale), dot(fromEye, up_) / (halfHeight_ * scale), depth};
     }
     [[nodiscard]] bool isPerspective() const noexcept { return isPerspective_; }
 
-    /// What at() is made of; the index vectors are in voxel space.
+    /// The vectors from which at() makes rays; those named Index are in voxel space.
     struct Basis {
         Vec3d forward, right, up;
         double halfWidth, halfHeight;
@@ -72,7 +72,7 @@ public:
     [[nodiscard]] Vec3d forward() const noexcept { return forward_; }
     [[nodiscard]] Vec3d right() const noexcept { return right_; }
     [[nodiscard]] Vec3d up() const noexcept { return up_; }
-    /// Height of a pixel at a depth, metres.
+    /// Height of a pixel at a depth, both in metres.
     [[nodiscard]] double pixelSize(double depth) const noexcept {
         return isPerspective_ ? metresPerRow_ * depth : metresPerRow_;
     }

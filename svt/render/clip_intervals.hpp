@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Cuts rays by clip regions before any voxel is looked at. Internal to render.
+/// Clips rays against clip regions, before any voxel is read. For renderers: used by render and render_gl.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/render/voxel_ray.hpp>
@@ -13,26 +13,26 @@
 
 namespace svt::render {
 
-/// The plane or round surface that cuts something open; neither: nothing does. CapFace{} is none; nothing is set
-/// without the braces, since rays have room for many.
+/// The clip face, plane or round, on which a cap (cut face) lies; both null: no cap. CapFace{} is no cap. There are no
+/// default initializers, because arrays of many are kept per ray: always write the braces.
 struct CapFace {
     const HalfSpace* plane;
     const RoundBody* round;
 
     [[nodiscard]] explicit operator bool() const noexcept { return plane != nullptr || round != nullptr; }
-    /// At a point of world space, length 1, to either side.
+    /// Normal of the face at a point of world space; unit length, to either side.
     [[nodiscard]] Vec3d normalAt(Vec3d point) const noexcept {
         return plane != nullptr ? normalized(plane->normal) : round->normalAt(point);
     }
 };
 
-/// A stretch of a ray that is drawn.
+/// An interval of a ray that is drawn.
 struct DrawnInterval {
     double from, to;
-    CapFace cap;  ///< at `from`; none where no clip made this start
+    CapFace cap;  ///< the clip face at `from`; none if no clip made this start
 };
 
-/// The intervals of one ray, ascending. Each part of a clip adds one at most.
+/// The drawn intervals of one ray, ascending. Each convex part of a clip adds at most one.
 class DrawnIntervals {
 public:
     DrawnIntervals() = default;
@@ -60,12 +60,12 @@ public:
     Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid);
 
     [[nodiscard]] bool isEmpty() const noexcept { return regions_.empty(); }
-    /// What is left of `span` on a ray of voxel space.
+    /// The intervals that the clips leave of `span`; the ray is in voxel space.
     [[nodiscard]] DrawnIntervals cut(Vec3d origin, Vec3d direction, RaySpan span) const noexcept;
     [[nodiscard]] DrawnIntervals cut(const VoxelRay& ray, RaySpan span) const noexcept {
         return cut(ray.origin, ray.direction, span);
     }
-    /// Is this point (voxel space) drawn?
+    /// Whether a point (voxel space) is drawn.
     [[nodiscard]] bool keeps(Vec3d point) const noexcept;
 
 private:
@@ -86,7 +86,7 @@ private:
         std::vector<Part> parts;
         ClipRegion::Mode mode;
     };
-    // A stretch of a ray within a region, and the faces at its two ends.
+    // The interval of a ray inside a part of a region, and the faces at its ends.
     struct Stretch {
         double enter, exit;
         CapFace enterFace, exitFace;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Parts of space that are cut away or kept, as plain data. World space, metres.
+/// Regions of space that are cut away or kept, as plain data. World space, metres.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -19,11 +19,11 @@ struct HalfSpace {
     friend bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
-/// A convex body bounded by one round surface. With d[i] = dot(axes[i], p - center), 1 / metres, it holds the points p
-/// with
-///     Ball      d0^2 + d1^2 + d2^2 < 1            ellipsoids too
-///     Cylinder  d0^2 + d1^2 < 1                   without ends
-///     Cone      d0^2 + d1^2 < d2^2 and d2 > 0     from its tip at `center` without end
+/// A convex body bounded by one quadric. With d[i] = dot(axes[i], p - center), the axes in 1 / metres, it contains the
+/// points p with
+///     Ball      d0^2 + d1^2 + d2^2 < 1            also ellipsoids
+///     Cylinder  d0^2 + d1^2 < 1                   infinite
+///     Cone      d0^2 + d1^2 < d2^2 and d2 > 0     infinite, with its apex at `center`
 struct RoundBody {
     enum class Kind : std::uint8_t { Ball, Cylinder, Cone };
 
@@ -34,17 +34,17 @@ struct RoundBody {
     [[nodiscard]] static RoundBody ball(Vec3d center, double radius);
     /// \param axis  need not have length 1
     [[nodiscard]] static RoundBody cylinder(Vec3d point, Vec3d axis, double radius);
-    /// With half-axes across the cone's axis: `u` and `v` from the axis to the surface, one metre along `axis` from
-    /// the tip; u, v and axis must be at right angles.
+    /// \param u, v  half-axes of the elliptic cross-section one metre along `axis` from the tip, from the axis to the
+    ///              surface; u, v and axis must be at right angles
     [[nodiscard]] static RoundBody cone(Vec3d tip, Vec3d axis, Vec3d u, Vec3d v);
 
     [[nodiscard]] bool contains(Vec3d p) const noexcept;
-    /// Of its surface at p, outwards, length 1.
+    /// Outward normal of the surface at p, unit length.
     [[nodiscard]] Vec3d normalAt(Vec3d p) const noexcept;
     friend bool operator==(const RoundBody&, const RoundBody&) = default;
 };
 
-/// What lies in all half-spaces and all round bodies; 1 to kMaxFaces of them.
+/// The intersection of half-spaces and round bodies; 1 to kMaxFaces of them.
 struct ConvexPart {
     std::vector<HalfSpace> halfSpaces;
     std::vector<RoundBody> rounds;
@@ -53,17 +53,17 @@ struct ConvexPart {
     friend bool operator==(const ConvexPart&, const ConvexPart&) = default;
 };
 
-/// What lies in any of its parts.
+/// The union of its parts.
 struct ClipRegion {
     enum class Mode : std::uint8_t {
-        CutAway,  ///< what lies in the region is not drawn
-        KeepOnly  ///< only what lies in the region is drawn
+        CutAway,  ///< nothing inside the region is drawn
+        KeepOnly  ///< only what is inside the region is drawn
     };
 
     std::vector<ConvexPart> parts;  ///< at least one
     Mode mode = Mode::CutAway;
 
-    /// Cuts away what lies on the side of the plane to which `normal` points. A section.
+    /// Cuts away the side of the plane to which `normal` points: a section.
     [[nodiscard]] static ClipRegion plane(Vec3d normal, Vec3d point);
     /// Cuts away, or keeps only, an axis-parallel box.
     [[nodiscard]] static ClipRegion box(const Box3d& box, Mode mode);
@@ -74,8 +74,8 @@ struct ClipRegion {
 /// The six half-spaces of a box along `axes` (unit vectors), between `low` and `high` metres from `origin`.
 [[nodiscard]] ConvexPart boxPart(Vec3d origin, const std::array<Vec3d, 3>& axes, Vec3d low, Vec3d high);
 
-/// \return BadFrame where a part has no face or too many, or a face is not finite or without direction; the message
-///         says which, after `place`
+/// \param place  prefix of messages, such as "pass 2"
+/// \return BadFrame if a part has no face or too many, or a face is degenerate or not finite
 [[nodiscard]] Result<void> checkClip(const ClipRegion& clip, const std::string& place);
 
 }  // namespace svt::render

@@ -10,11 +10,11 @@
 
 namespace svt::render {
 
-/// The scalars themselves.
-/// \return the picture, or BadImage where a scalar is over 65535
+/// The label buffer: each pixel is the scalar itself.
+/// \return the picture, or BadImage if a scalar is over 65535
 [[nodiscard]] Result<image::Image<std::uint16_t>> grayFromLabels(const image::Image<volume::Scalar>& labels);
-/// 0 for nothing, else 1 + depth / metresPerStep, rounded, at most 65535.
-/// \param metresPerStep  > 0; 0.001 reaches to 65 m
+/// The depth buffer: 0 for background, else 1 + depth / metresPerStep, rounded, at most 65535.
+/// \param metresPerStep  > 0; with 0.001 the range is 65 m
 [[nodiscard]] image::Image<std::uint16_t> grayFromDepth(const image::Image<float>& depth, double metresPerStep);
 
 }  // namespace svt::render

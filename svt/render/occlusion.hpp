@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Ambient occlusion from coarse coverage: how much of the space before a surface is taken. Internal to render.
+/// Ambient occlusion from a pyramid of coverage: how much of the space in front of a surface is filled. For renderers:
+/// used by render and render_gl.
 
 #include <svt/core/vec.hpp>
 #include <svt/render/clip_intervals.hpp>
@@ -13,36 +14,35 @@
 
 namespace svt::render {
 
-/// Opaque voxels per block of bricks, and per ever larger blocks.
+/// Number of opaque voxels per block of bricks, for kLevels block sizes, each twice as large as the one before.
 class OcclusionField {
 public:
     OcclusionField() = default;
 
-    /// Blocks are bricks, or larger where voxels are small: about 10 to 20 cm, so that corners are as wide and dark
-    /// whatever the voxel size, and a fine volume costs no more.
+    /// The smallest blocks are bricks, or larger if voxels are small: about 10 to 20 cm wide. So the shading of corners
+    /// and the cost do not depend on the voxel size.
     /// \param voxelSize  metres, the largest spacing
     /// \param isOpaque   by scalar
-    /// \param clipper    blocks whose middle is cut away count as empty
-    /// Cost: O(blocks + bricks that hold several labels), a millisecond or two per million; parallel. Memory: 4.6 bytes
-    /// a block.
+    /// \param clipper    blocks whose centre is cut away count as empty
+    /// Cost: O(blocks + mixed bricks), 1 to 2 ms per million; parallel. Memory: 4.6 bytes per block.
     OcclusionField(const volume::BrickVolume& volume, double voxelSize,
                    const std::function<bool(volume::Scalar)>& isOpaque, const Clipper& clipper, int threads);
 
-    /// Share of the surroundings before a surface that is taken, 0..1.
+    /// Occlusion of a point on a surface, 0 (open) to 1.
     /// \param point      on the surface, voxel space
-    /// \param direction  away from the surface: the world normal in voxel space, scaled so that its longest component
-    ///                   is at most 1
+    /// \param direction  outwards: the world normal transformed to voxel space, scaled so that its longest component is
+    ///                   at most 1
     [[nodiscard]] double occlusion(Vec3d point, Vec3d direction) const noexcept;
 
     static constexpr std::size_t kLevels = 4;
     /// One block size.
     struct Level {
         Vec3i count;          ///< blocks
-        double cellSize = 0;  ///< voxels, along each axis
+        double cellSize = 0;  ///< block size in voxels, along each axis
         double gain = 0;      ///< occlusion by one opaque voxel
-        double weight = 0;
-        /// Opaque voxels by block, x fastest, then y, then z, with an empty block all around; one more element behind,
-        /// so that two may be read at once anywhere.
+        double weight = 0;    ///< of this level in the sum
+        /// Opaque voxels by block, x fastest, then y, then z, padded by an empty block on all sides; one more element
+        /// at the end, so that two may be read at once anywhere.
         std::vector<std::uint32_t> voxels;
 
         [[nodiscard]] double sample(Vec3d point) const noexcept;
@@ -53,7 +53,7 @@ public:
                         static_cast<std::size_t>(count.y + 2) * static_cast<std::size_t>(z + 1));
         }
     };
-    /// Empty where there is nothing opaque.
+    /// Empty if nothing is opaque.
     [[nodiscard]] const std::vector<Level>& levels() const noexcept { return levels_; }
 
 private:

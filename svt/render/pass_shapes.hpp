@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The lines and triangles of a pass as the picture shows them, and which of them lie near a place in it. Internal to
-/// render.
+/// The lines and triangles of a pass in picture space, sorted into squares of the picture, so that a ray finds those
+/// near it. For renderers: used by render and render_gl.
 
 #include <svt/core/result.hpp>
 #include <svt/render/camera_rays.hpp>
@@ -17,60 +17,60 @@
 
 namespace svt::render {
 
-/// A line in the picture: cut by the clips and the eye plane.
+/// A line projected into the picture, after clipping by the clips and the eye plane.
 struct PictureLine {
-    double x, y, dx, dy;        ///< pixels from the picture's upper left corner: begin, and way to the end
+    double x, y, dx, dy;        ///< pixels from the picture's upper left corner: start point, and vector to the end
     double perSquaredLength;    ///< 1 / (dx^2 + dy^2)
-    double depth, depthChange;  ///< 1 / depth at the begin, and what the end adds; depth itself where orthographic
+    double depth, depthChange;  ///< at the start, and end minus start; of 1 / depth, or of depth if orthographic
     double length;              ///< pixels
-    std::uint32_t look;         ///< of PassShapes::looks()
+    std::uint32_t look;         ///< index into PassShapes::looks()
 };
 
 /// Look of a set of lines.
 struct LineLook {
     Vec3d color;                ///< linear light
-    double halfWidth, darkest;  ///< pixels; coverage at most
+    double halfWidth, darkest;  ///< pixels; largest coverage
     double hiddenOpacity, dash, period;
     HiddenLines hidden;
 };
 
-/// A triangle as rays meet it. World space from the eye, metres.
+/// A triangle, prepared for intersection. World space relative to the eye, metres.
 struct PictureTriangle {
     std::array<Vec3d, 3> corners;
     Vec3d normal;                     ///< unit length, outwards
-    double left, top, right, bottom;  ///< where it lies in the picture, pixels
+    double left, top, right, bottom;  ///< its bounds in the picture, pixels
     LinearStyle style;
     double opacity;
 };
 
-/// Shapes of one pass in small squares of the picture.
+/// Shapes of one pass, binned into small squares of the picture.
 class PassShapes {
 public:
     PassShapes() = default;
 
     /// \param clipper          of the pass
     /// \param samplesPerPixel  along a side, see PreparedFrame::lineSamples
-    /// \param margin           pixels before the picture's left and upper edge where blocks of rays begin: squares that
-    ///                         begin there have whole blocks in them
-    /// \return the shapes, or BadFrame where they cover the picture too often
-    /// Cost: O(shapes + squares that they touch), mostly parallel. Memory: at most about 1 GB, where the picture is
-    /// full of shapes.
+    /// \param margin           pixels outside the picture's left and upper edge at which blocks of rays start; squares
+    ///                         start there too, so that no block of rays straddles two squares
+    /// \return the shapes, or BadFrame if they cover the picture too often
+    /// Cost: O(shapes + squares that they touch), mostly parallel. Memory: at most about 1 GB, for a picture full of
+    /// shapes.
     [[nodiscard]] static Result<PassShapes> make(const Pass& pass, const FrameSpec& spec, const CameraRays& rays,
                                                  const volume::Grid& grid, const Clipper& clipper,
                                                  double samplesPerPixel, double margin, int threads);
 
     [[nodiscard]] bool isEmpty() const noexcept { return tiles_.empty(); }
-    /// Farthest that a line reaches from its middle, pixels.
+    /// Largest distance from a line's axis that the line covers, pixels.
     [[nodiscard]] double reach() const noexcept { return reach_; }
 
     /// Shapes that a ray through (u, v), see CameraRays::at(), may meet, ascending: lines, then triangles, whose
-    /// numbers have kTriangle added. Rays up to 2 pixels outside of the picture are answered, too.
+    /// numbers have kTriangle added. (u, v) may be up to 2 pixels outside the picture.
     [[nodiscard]] std::span<const std::uint32_t> near(double u, double v) const noexcept {
         return inCell(cellX((u + 1) / 2 * width_), cellY((1 - v) / 2 * height_));
     }
     static constexpr std::uint32_t kTriangle = 0x80000000u;
-    /// Lines that any of a few rays through (x[n], y[n]), pixels, may meet; each once, in any order.
-    /// \param buffer  may hold them
+    /// Lines that any of the rays through (x[n], y[n]), pixels, may meet; each once, in any order.
+    /// \param buffer  storage that the result may point into
     template <std::size_t kCount>
     [[nodiscard]] std::span<const std::uint32_t> linesNear(const double (&x)[kCount], const double (&y)[kCount],
                                                            std::vector<std::uint32_t>& buffer) const {
@@ -78,7 +78,7 @@ public:
         const auto [top, bottom] = rangeOf(y, kCount);
         return linesIn(cellX(left), cellY(top), cellX(right), cellY(bottom), buffer);
     }
-    /// False where none of the rays through (u[n], v[n]), n < count, meets any shape; true where one may.
+    /// Whether any of the rays through (u[n], v[n]), n < count, may meet a shape. False is certain.
     [[nodiscard]] bool hasAnyNear(const double* u, const double* v, std::size_t count) const noexcept {
         const auto [left, right] = rangeOf(u, count);
         const auto [bottom, top] = rangeOf(v, count);
@@ -101,7 +101,7 @@ private:
     // Squares of 4 x 4 pixels, 8 x 8 of them in a tile.
     static constexpr std::int32_t kCellPixels = 4, kTileCells = 8, kTilePixels = kCellPixels * kTileCells;
     struct Tile {
-        std::vector<std::uint32_t> starts;  // by square, x fastest, and the end; empty: all have all shapes
+        std::vector<std::uint32_t> starts;  // by square, x fastest, and the end; empty: each square has all shapes
         std::vector<std::uint32_t> shapes;
     };
     struct Square {
@@ -112,7 +112,7 @@ private:
     }
     [[nodiscard]] std::int32_t cellX(double pixel) const noexcept { return cellOf(pixel, cellsX_); }
     [[nodiscard]] std::int32_t cellY(double pixel) const noexcept { return cellOf(pixel, cellsY_); }
-    /// Where a square or tile begins, pixels.
+    /// First pixel of square or tile `number`, each `pixels` wide.
     [[nodiscard]] double beginOf(std::int32_t number, std::int32_t pixels) const noexcept {
         return double(number) * pixels - margin_;
     }
@@ -151,12 +151,12 @@ private:
     std::vector<LineLook> looks_;
     std::vector<PictureLine> lines_;
     std::vector<PictureTriangle> triangles_;
-    // Corners in the picture, x and y each; all zero where a corner lies behind the eye plane: anywhere.
+    // Projected corners, x and y each; all zero if a corner is behind the eye plane: the triangle may be anywhere.
     std::vector<std::array<double, 6>> outlines_;
     std::vector<Tile> tiles_;
 };
 
-/// Styles of the pass for its voxels: what triangles stand for is hidden.
+/// The pass with styles for its voxels: objects that are drawn as triangles are hidden.
 [[nodiscard]] Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar);
 
 }  // namespace svt::render

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The styles of a pass, ready for the inner loop. Internal to render.
+/// The styles of a pass, prepared for the inner loop. For renderers: used by render and render_gl.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/lod_pyramid.hpp>
@@ -11,31 +11,32 @@
 
 namespace svt::render {
 
-/// Look of a scalar in linear light.
+/// Style of a scalar in linear light.
 struct LinearStyle {
     enum class Kind : std::uint8_t { Hidden, Translucent, Opaque };
 
     Vec3f color{};
     float density = 0;  ///< extinction per metre: -ln(1 - opacity)
-    float surface = 0;  ///< how much of its colour is lit by the normal where it begins, 0..1
+    float surface = 0;  ///< how much its colour depends on the light at the start of a run, 0..1
     Kind kind = Kind::Hidden;
-    bool isBody = false;  ///< its surface is found among all bodies, not among its own object's voxels
+    bool isBody = false;  ///< opaque, or on a coarse level partly: counts for occlusion and fitted normals
     std::uint32_t object = 0;
-    volume::Scalar label = 0;  ///< what Frame::label shows
+    volume::Scalar label = 0;  ///< value for Frame::label
 };
 
-/// By scalar; scalars beyond the end are hidden.
+/// Styles by scalar; scalars beyond the end are hidden.
 class PassTable {
 public:
-    /// Table of the styles as they are. `scalarCount`: entries beyond it are left out.
+    /// Table of a full-resolution volume.
+    /// \param scalarCount  styles from this scalar on are left out
     PassTable(const Pass& pass, std::span<const std::uint32_t> objectOfScalar, std::uint64_t scalarCount);
-    /// Table by mixture number: each mixture's look under the pass' styles.
+    /// Table of a coarse level, by mixture number: each mixture's style under the pass's styles.
     PassTable(const Pass& pass, std::span<const std::uint32_t> objectOfScalar, const volume::LodLevel& level);
 
     [[nodiscard]] const LinearStyle& operator[](volume::Scalar scalar) const noexcept {
         return scalar < styles_.size() ? styles_[scalar] : kHidden;
     }
-    /// All of them, by scalar.
+    /// All styles, by scalar.
     [[nodiscard]] std::span<const LinearStyle> styles() const noexcept { return styles_; }
     [[nodiscard]] bool hasOpaque() const noexcept { return hasOpaque_; }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Ray caster on the CPU. Exact: a ray is a list of runs (scalar, from, to), found by stepping from label to label,
-/// with no step size and no filtering of labels. The reference for every other renderer.
+/// with no sampling distance and no filtering of labels. The reference for every other renderer.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -17,40 +17,40 @@ namespace svt::render {
 
 struct CastOptions {
     int threads = 0;          ///< 0: all cores; the picture does not depend on it
-    float opaqueAt = 0.999f;  ///< a ray ends at this opacity, in (0, 1]
-    float labelAt = 0;        ///< label and depth are of the first run after which the ray's opacity is above this, in
-                              ///< [0, 1): 0 = the first visible label, 0.5 = looks through ghosts
-    /// With several samples per pixel: whether a pixel gets them only where it differs from one of its eight neighbours
-    /// in label, depth, normal or colour. Not where voxels of the far side are smaller than a pixel: what is thin would
-    /// be missed between the middles of pixels that see the same. So only the tips of what is seen edge-on may be.
+    float opaqueAt = 0.999f;  ///< early ray termination at this opacity, in (0, 1]
+    float labelAt = 0;        ///< label and depth are those of the first run after which the ray's opacity exceeds
+                              ///< this, in [0, 1): 0: the first visible label; 0.5: looks through ghosts
+    /// Adaptive sampling: with several samples per pixel, a pixel gets all of them only if it differs from one of its
+    /// eight neighbours in label, depth, normal or colour. Ignored if the farthest voxels are smaller than a pixel,
+    /// since thin parts between equal pixel centres would be missed. So at most the tips of what is seen edge-on are.
     bool isAdaptive = false;
-    const Progress* progress = nullptr;  ///< may cancel; told nothing
+    const Progress* progress = nullptr;  ///< for cancelling only; no progress is reported
 };
 
-/// One picture. Row 0 is the top; all three have spec.width x spec.height pixels.
+/// One frame: three buffers of spec.width x spec.height pixels; row 0 is the top.
 struct Frame {
     image::Image<image::Rgba8> color;    ///< sRGB, alpha not premultiplied
-    image::Image<volume::Scalar> label;  ///< by the ray through the pixel's centre; 0 where it met nothing
-    image::Image<float> depth;  ///< metres along the view direction to where that label begins; +inf where nothing
+    image::Image<volume::Scalar> label;  ///< of the ray through the pixel's centre; 0: background
+    image::Image<float> depth;  ///< metres along the view direction to the start of that label; +inf: background
 };
 
-/// A form of a semantic volume that passes may draw: the volume itself, a level of it, or its shell. All forms have the
-/// scalars of the volume, so one table of styles holds for each. What it is made of must outlive it.
+/// A form of a semantic volume that passes may draw: the volume itself, a level of detail, or its shell. All forms have
+/// the scalars of the volume, so one table of styles holds for each. The arguments must outlive it.
 class DrawnVolume {
 public:
     /// \param grid  where the samples of `bricks` lie; its dimension must be that of `bricks`
     DrawnVolume(const volume::BrickVolume& bricks, const volume::Grid& grid) : bricks_(&bricks), grid_(&grid) {}
     /// A coarse level.
     ///
-    /// A cell has the extinction and colour of its labels, each weighted by coverage (Al-Thelaya 2020); an opaque label
-    /// stops 99 % of the light on the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each
+    /// A cell has the extinction and colour of its labels, weighted by coverage (Al-Thelaya 2020); an opaque label
+    /// stops 99 % of the light over the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each
     /// level. A cell that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible
     /// label of the cell.
     DrawnVolume(const volume::LodLevel& level) : bricks_(&level.bricks), grid_(&level.grid), level_(&level) {}
 
     [[nodiscard]] const volume::BrickVolume& bricks() const noexcept { return *bricks_; }
     [[nodiscard]] const volume::Grid& grid() const noexcept { return *grid_; }
-    [[nodiscard]] const volume::LodLevel* level() const noexcept { return level_; }  ///< null: as fine as it is
+    [[nodiscard]] const volume::LodLevel* level() const noexcept { return level_; }  ///< null: full resolution
 
 private:
     const volume::BrickVolume* bricks_;
@@ -58,24 +58,25 @@ private:
     const volume::LodLevel* level_ = nullptr;
 };
 
-/// Draws `volumes` as `spec` says; Pass::volume tells which of them a pass draws.
+/// Draws `volumes` as described by `spec`; Pass::volume tells which of them a pass draws.
 ///
-/// A voxel is the box of half a spacing around its sample. Per pass, the ray is cut to the volume's voxels and by the
-/// clips, then taken apart into runs of one scalar:
-///   - opacity 1: an opaque surface where the run begins, lit by its normal;
-///   - opacity o in (0, 1): stops 1 - (1 - o)^length of the light on its length in metres (Beer-Lambert), whatever the
-///     voxel size. Its colour is lit half as strongly as a surface where it begins, so bodies of glass have a shape;
+/// A voxel is the box of half a spacing around its sample. Per pass, the ray is clipped to the volume's voxels and by
+/// the clips, then split into runs of one scalar, blended front to back:
+///   - opacity 1: an opaque surface at the start of the run, lit by its normal;
+///   - opacity o in (0, 1): over a length in metres it stops 1 - (1 - o)^length of the light (Beer-Lambert), whatever
+///     the voxel size. Its colour is lit half as strongly as a surface, at the start of the run, so that the shape of
+///     glass is seen;
 ///   - opacity 0: nothing.
-/// Normals come from the voxels around (opaque ones for a surface, the same object's for glass), on a cut face from its
-/// plane; a cut face shows the label that it cuts. Lit and blended in linear light; passes are joined as Pass::Join
-/// says, all over the background.
+/// A surface has the normal of the plane or voxel face where the run starts; an opaque one in a brick of voxels has one
+/// fitted to the opaque voxels around. A cap (cut face) has the normal of the clip face, and shows the label that is
+/// cut. Lighting and blending are in linear light; passes are composited by Pass::Join, all over the background.
 ///
 /// \return the frame, or
-///         - BadFrame, BadCamera   see checkFrameSpec(); a pass draws a volume that is not there
+///         - BadFrame, BadCamera   see checkFrameSpec(); a pass draws a volume that does not exist
 ///         - BadArgument           no volume, a grid that is not the volume's, or an option out of range
 ///         - Cancelled
-/// Cost: O(pixels * samples * passes * same-label stretches crossed), and per pass with ambient occlusion O(bricks).
-/// Threads: reads only; several frames may be cast at once. The same bytes for any number of threads.
+/// Cost: O(pixels * samples * passes * same-label boxes crossed), and O(bricks) per pass with ambient occlusion.
+/// Threads: reads only; several frames may be cast at once. The result does not depend on the number of threads.
 [[nodiscard]] Result<Frame> castRays(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
                                      const CastOptions& options = {});
 [[nodiscard]] inline Result<Frame> castRays(const DrawnVolume& volume, const FrameSpec& spec,
@@ -87,7 +88,7 @@ private:
     return castRays(DrawnVolume(volume, grid), spec, options);
 }
 
-/// The same from voxel to voxel, with no skipping. Slow; what castRays() is tested against.
+/// The same by stepping from voxel to voxel, without skipping. Slow; castRays() is tested against it.
 [[nodiscard]] Result<Frame> castRaysReference(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
                                               const CastOptions& options = {});
 [[nodiscard]] inline Result<Frame> castRaysReference(const volume::BrickVolume& volume, const volume::Grid& grid,
@@ -96,9 +97,9 @@ private:
     return castRaysReference(std::span(&drawn, 1), spec, options);
 }
 
-/// Level of detail for a picture of a volume on `grid`: the coarsest whose cells are at most half a pixel wide wherever
-/// the volume is seen, so that what is far away does not alias; 0 = the volume itself, where pixels are finer than 4
-/// voxels or the eye is in it. At most `coarsest`.
+/// Level of detail for a frame of a volume on `grid`: the coarsest one whose cells are at most half a pixel wide
+/// wherever the volume is seen, so that distant parts do not alias. 0, the volume itself, if a pixel is narrower than 4
+/// voxels or the eye is inside. At most `coarsest`.
 [[nodiscard]] int levelForView(const FrameSpec& spec, const volume::Grid& grid, int coarsest = 6);
 
 }  // namespace svt::render

@@ -16,7 +16,7 @@ namespace svt::render::test {
 
 using LabelAt = std::function<volume::Scalar(std::int32_t, std::int32_t, std::int32_t)>;
 
-/// A volume and where it lies.
+/// A volume and its grid.
 struct TestVolume {
     volume::ColumnVolume columns;
     volume::BrickVolume bricks;
@@ -36,7 +36,7 @@ inline TestVolume makeVolume(Vec3i n, Vec3d spacing, const LabelAt& labelAt) {
     return volume;
 }
 
-/// Label 1 where the middle of the voxel, in metres, `isInside`; 0 elsewhere.
+/// Label 1 where isInside(centre of the voxel, metres); 0 elsewhere.
 inline TestVolume makeBody(Vec3i n, Vec3d spacing, const std::function<bool(Vec3d)>& isInside) {
     return makeVolume(n, spacing, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
         return isInside({(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z}) ? 1u : 0u;
@@ -45,7 +45,7 @@ inline TestVolume makeBody(Vec3i n, Vec3d spacing, const std::function<bool(Vec3
 
 inline constexpr double kTurn = 0.52;
 
-/// A house turned in plan, with walls, slab, roof and two rooms. Voxels are no cubes.
+/// A house rotated in plan, with walls, slab, roof and two rooms. Voxels are not cubes.
 inline volume::Scalar turnedHouse(double i, double j, double k) {
     const double c = std::cos(kTurn), s = std::sin(kTurn);
     const double x = c * (i - 48) + s * (j - 48), y = c * (j - 48) - s * (i - 48);

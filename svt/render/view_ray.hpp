@@ -1,20 +1,21 @@
 #pragma once
 /// \file
-/// The ray behind a place of a picture: what a click points at.
+/// The ray through a point of a picture, as for picking.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/grid.hpp>
 
 namespace svt::render {
 
-/// World space. `origin + direction * depth` is what is seen in that depth.
+/// World space. `origin + direction * depth` is the point seen at that depth.
 struct ViewRay {
     Vec3d origin{};     ///< in the eye plane
-    Vec3d direction{};  ///< its share along the view direction has length 1
+    Vec3d direction{};  ///< its component along the view direction has length 1
 };
 
-/// \param spec  one that passed checkFrameSpec()
-/// \param x, y  share of the picture's width and height, 0..1 from its upper left corner
+/// The ray through (x, y).
+/// \param spec  must have passed checkFrameSpec()
+/// \param x, y  shares of the picture's width and height, 0..1 from its upper left corner
 [[nodiscard]] ViewRay viewRay(const FrameSpec& spec, const volume::Grid& grid, double x, double y);
 
 }  // namespace svt::render

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Holds pictures drawn by OpenGL against those of the CPU caster.
+/// Compares frames drawn by OpenGL with those of the CPU caster.
 
 #include <svt/render/ray_caster.hpp>
 #include <svt/render_gl/egl_context.hpp>
@@ -16,8 +16,8 @@
 
 namespace svt::render_gl::test {
 
-/// The one context of the test program; the reason where there is none, or not that of the renderer that
-/// SVT_GL_RENDERER names.
+/// The context that all tests share; an error if none can be made, or if SVT_GL_RENDERER is set and names another
+/// renderer.
 inline const Result<EglContext>& context() {
     static const Result<EglContext> made = []() -> Result<EglContext> {
         auto context = EglContext::make();
@@ -28,19 +28,19 @@ inline const Result<EglContext>& context() {
     return made;
 }
 
-/// Ends the test as skipped where no context can be made.
+/// Skips the test if no context can be made.
 #define SVT_NEEDS_GL() \
     if (!::svt::render_gl::test::context()) GTEST_SKIP() << ::svt::render_gl::test::context().error().message()
 
-/// How far two frames are apart.
+/// Differences between two frames.
 struct FrameDifference {
     std::size_t labels = 0;  ///< pixels with another label that are not at an edge
     std::size_t edges = 0;   ///< pixels with another label whose ray passes an edge within 1e-3 voxel
     std::size_t depths =
-        0;  ///< pixels of the same label whose depth is more than 1e-3 voxel further, but for those at an edge
+        0;  ///< pixels of the same label, not at an edge, whose depth differs by more than 0.05 of the largest spacing
     std::size_t colors = 0;       ///< pixels of the same label whose colour differs by more than the bound
-    std::size_t colorEdges = 0;   ///< those whose colour a camera 1e-3 voxel aside changes, too
-    int largestColor = 0;         ///< of the others, 0..255
+    std::size_t colorEdges = 0;   ///< such pixels whose colour changes, too, if the camera moves by 1e-3 voxel
+    int largestColor = 0;         ///< largest difference of a channel, without these, 0..255
     std::int32_t x = -1, y = -1;  ///< the first bad pixel
 };
 
@@ -48,8 +48,8 @@ inline int apart(image::Rgba8 a, image::Rgba8 b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
 }
 
-/// Where the picture of the CPU changes when the camera moves aside by 1e-3 voxel: 1 the label, 2 the color by more
-/// than the bound, 4 the depth by more than a voxel.
+/// Edges: pixels of the CPU's frame that change when the camera moves sideways by 1e-3 voxel. Bits: 1 the label, 2 the
+/// color by more than the bound, 4 the depth by more than a voxel.
 inline image::Image<std::uint8_t> edgesOf(const volume::BrickVolume& volume, const volume::Grid& grid,
                                           const render::FrameSpec& spec, const render::Frame& frame, int colorBound) {
     image::Image<std::uint8_t> edges(spec.width, spec.height);
@@ -75,7 +75,9 @@ inline image::Image<std::uint8_t> edgesOf(const volume::BrickVolume& volume, con
     return edges;
 }
 
-/// \param colorBound  largest difference of a channel that is allowed, 0..255
+/// Compares two frames.
+/// \param drawn, cast  by OpenGL, and by the CPU
+/// \param colorBound   largest allowed difference of a channel, 0..255
 inline FrameDifference compare(const volume::BrickVolume& volume, const volume::Grid& grid,
                                const render::FrameSpec& spec, const render::Frame& drawn, const render::Frame& cast,
                                int colorBound) {

@@ -12,13 +12,13 @@
 namespace svt::render_gl {
 namespace {
 
-// Values of EGL_ANGLE_platform_angle and its relatives, which not every eglext.h has.
+// Values of EGL_ANGLE_platform_angle and related extensions, which are missing from some eglext.h.
 constexpr EGLenum kPlatformAngle = 0x3202;
 constexpr EGLint kAngleType = 0x3203, kAngleVulkan = 0x3450, kAngleDeviceType = 0x3209, kAngleSwiftShader = 0x3487;
 
 struct Way {
     const char* name;
-    const char* extension;  // of the client; empty: none
+    const char* extension;  // required client extension; empty: none
     EGLenum platform;
     std::vector<EGLint> attributes;
 };
@@ -63,7 +63,7 @@ struct EglContext::Parts {
         if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
     }
 
-    // What failed; empty where nothing did.
+    // Returns what failed; empty on success.
     std::string open(const Way& way) {
         display = displayOf(way);
         if (display == EGL_NO_DISPLAY) return "no such display";

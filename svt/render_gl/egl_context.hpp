@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// An OpenGL ES 3.0 context without a window, from whatever driver there is. Not part of the web build.
+/// An OpenGL ES 3.0 context without a window, from any available driver. Not part of the web build.
 
 #include <svt/core/result.hpp>
 
@@ -9,19 +9,18 @@
 
 namespace svt::render_gl {
 
-/// A context and, where the driver asks for one, a surface of one pixel.
+/// A context and, if the driver requires one, a surface of one pixel.
 class EglContext {
 public:
-    /// Makes a context and makes it current for the calling thread. Tried are, in this order: a display without
-    /// surfaces (Mesa), a software rasterizer that the driver brings along (ANGLE with SwiftShader), the default
-    /// display.
-    /// \return the context, or NoGraphics with what was tried
+    /// Makes a context and makes it current in the calling thread. Tries, in this order, a surfaceless display (Mesa),
+    /// ANGLE with its software rasterizer SwiftShader, and the default display.
+    /// \return the context, or NoGraphics; the message lists what was tried
     [[nodiscard]] static Result<EglContext> make();
     EglContext(EglContext&&) noexcept;
     EglContext& operator=(EglContext&&) noexcept;
     ~EglContext();
 
-    /// Name of the renderer as the driver gives it, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+    /// GL_RENDERER of the driver, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
     [[nodiscard]] std::string renderer() const;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Draws frames on OpenGL ES 3.0 or WebGL2, as render::castRays() does on the CPU.
+/// Draws frames with OpenGL ES 3.0 or WebGL2, like render::castRays() on the CPU.
 
 #include <svt/core/result.hpp>
 #include <svt/render/frame_spec.hpp>
@@ -15,59 +15,60 @@
 namespace svt::render_gl {
 
 struct GlOptions {
-    int threads = 0;          ///< for what the CPU prepares; 0: all cores
-    float opaqueAt = 0.999f;  ///< a ray ends at this opacity, in (0, 1]
+    int threads = 0;          ///< for preparation on the CPU; 0: all cores
+    float opaqueAt = 0.999f;  ///< early ray termination at this opacity, in (0, 1]
     float labelAt = 0;        ///< see render::CastOptions::labelAt, in [0, 1)
 };
 
 /// What one pixel shows.
 struct PickedPixel {
-    volume::Scalar label = 0;  ///< 0 where the ray through the pixel's middle meets nothing
-    float depth = 0;           ///< metres along the view direction; +inf where nothing
+    volume::Scalar label = 0;  ///< of the ray through the pixel's centre; 0: background
+    float depth = 0;           ///< metres along the view direction; +inf: background
 };
 
-/// A volume on the graphics card, and pictures of it.
+/// A volume in graphics memory, and a renderer for it.
 ///
-/// All calls, the destructor too, need the context current in which make() was called. They change the context's
-/// program, textures, vertex array, viewport and scissor, and leave blending, depth and stencil tests switched off;
-/// framebuffer bindings are as before.
+/// All calls, and the destructor, require that the context in which make() was called is current. They change the
+/// context's program, textures, vertex array, viewport and scissor, and leave blending, face culling, depth and stencil
+/// tests disabled; framebuffer bindings are restored.
 ///
-/// The picture is that of render::castRays() with the same options: labels but for pixels whose ray passes within
-/// 1e-3 voxel of an edge (floats against doubles; volumes of up to some 5,000 voxels along a side), colours within 3 of
-/// 255. What a ray meets twice, once in draw() and once in pick(), is the same.
+/// The result is that of render::castRays() with the same options: equal labels, except for pixels whose ray passes
+/// within 1e-3 voxel of an edge (floats instead of doubles; for volumes of up to about 5,000 voxels along a side), and
+/// colours within 3 of 255. draw() and pick() give the same result for the same ray.
 class GlRenderer {
 public:
-    /// Uploads the bricks, as they are.
+    /// Uploads the bricks, without conversion.
     /// \param volume, grid  must outlive the renderer
     /// \return the renderer, or
     ///         - NoGraphics    no context of OpenGL ES 3.0 is current, or its memory is too small
-    ///         - GridTooLarge  an array of the volume is larger than a texture
+    ///         - GridTooLarge  an array of the volume does not fit a texture
     ///         - BadArgument   the grid is not the volume's, or an option is out of range
-    /// Cost: the bytes of the bricks. Shaders are made when a frame first needs them, see README.md.
+    /// Cost: O(bytes of the bricks). Shaders are compiled when a frame first needs them, see README.md.
     [[nodiscard]] static Result<GlRenderer> make(const volume::BrickVolume& volume, const volume::Grid& grid,
                                                  const GlOptions& options = {});
     GlRenderer(GlRenderer&&) noexcept;
     GlRenderer& operator=(GlRenderer&&) noexcept;
     ~GlRenderer();
 
-    /// Draws into the lower left spec.width x spec.height pixels of the current framebuffer: sRGB, alpha not
-    /// premultiplied. What stood there before is overwritten.
-    /// \return nothing; BadFrame or BadCamera as render::checkFrameSpec(), BadFrame where a framebuffer of this driver
-    /// is
-    ///         smaller than the picture, NoGraphics where the driver fails
-    /// Cost: O(pixels * samples * passes * same-label stretches). Uploaded is only what differs from the frame before:
-    /// a camera nothing but numbers, a style or a clip its small table and, with ambient occlusion, coverage by brick.
+    /// Draws into the lower left spec.width x spec.height pixels of the current framebuffer, overwriting them: sRGB,
+    /// alpha not premultiplied.
+    /// \return nothing; BadFrame or BadCamera as render::checkFrameSpec(); BadFrame if the picture is larger than a
+    ///         framebuffer of this driver; NoGraphics if the driver fails
+    /// Cost: O(pixels * samples * passes * same-label boxes crossed). Only what differs from the frame before is
+    /// uploaded: for a camera, uniforms; for a style or a clip, its small table and, with ambient occlusion, coverage
+    /// by brick. Lines and meshes are uploaded with each frame.
     [[nodiscard]] Result<void> draw(const render::FrameSpec& spec);
 
-    /// Draws apart from any framebuffer, and reads color, labels and depths.
+    /// Draws offscreen, and reads back color, labels and depths.
     /// \return as draw()
     [[nodiscard]] Result<render::Frame> read(const render::FrameSpec& spec);
 
-    /// The picture alone. \return as draw()
+    /// Draws offscreen, and reads back the color only.
+    /// \return the picture; errors as draw()
     [[nodiscard]] Result<image::Image<image::Rgba8>> readColor(const render::FrameSpec& spec);
 
-    /// What the picture of `spec` shows at pixel (x, y), y from the top; casts that one ray.
-    /// \return the label and depth; as draw(), and BadArgument where the pixel lies outside
+    /// Label and depth of the frame `spec` at pixel (x, y), y from the top; casts one ray.
+    /// \return the label and depth; errors as draw(), and BadArgument if the pixel is outside
     [[nodiscard]] Result<PickedPixel> pick(const render::FrameSpec& spec, std::int32_t x, std::int32_t y);
 
     /// Bytes of the volume's textures.

@@ -31,7 +31,7 @@ RoundBody viewBody(const Camera& camera, double aspect, double x, double y, doub
                                    2 * radius * half);
     }
     const double half = std::tan(camera.verticalFovDegrees * std::numbers::pi / 360);
-    // Of the lines of sight through the circle's middle and rim; beside the middle of the picture it is a little oval.
+    // Lines of sight through the circle's centre and rim; away from the picture's centre the cone is slightly elliptic.
     const auto lineAt = [&](double du, double dv) {
         return view.forward + view.right * ((u + du) * half) + view.up * ((v + dv) * half);
     };
@@ -60,19 +60,19 @@ RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const anal
     const View view = viewOf(camera);
     const Vec3d away = isPerspective ? normalized(middle - camera.eye) : view.forward;
     const Vec3d right = normalized(view.right - away * dot(view.right, away)), up = cross(right, away);
-    // Half-axes of an ellipse around all corners, as seen.
+    // Half extents of all corners, as seen.
     double across = margin, high = margin;
     for (const Vec3d& corner : corners) {
         across = std::max(across, std::abs(dot(corner - middle, right)) + margin);
         high = std::max(high, std::abs(dot(corner - middle, up)) + margin);
     }
-    // Narrow targets need a cone that is no slit.
+    // For narrow targets, limit the aspect ratio, so that the cone is not a slit.
     const double least = 0.35 * std::max(across, high);
     across = std::max(across, least);
     high = std::max(high, least);
     const double distance = isPerspective ? length(middle - camera.eye) : 0;
-    // The rectangle of these half-axes becomes an ellipse around all corners, the far ones too, where the cone is
-    // narrower.
+    // A cone with these half-axes at the target's centre, times `scale`. The scale is increased until the cone contains
+    // all corners, also the far ones, where it is narrower.
     const auto coneOf = [&](double scale) {
         const double larger = scale * std::max(across, high);
         const double tip = larger / (kCutawaySlope + (distance > 0 ? larger / distance : 0));

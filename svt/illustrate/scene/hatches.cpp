@@ -13,7 +13,7 @@ struct Rule {
     Hatch hatch;
 };
 
-// Later rules win.
+// The last matching rule wins.
 constexpr Rule kRules[] = {
     {"all", Hatch::General},
     {"class=Building or class=BuildingPart or class=CityObjectGroup", Hatch::None},

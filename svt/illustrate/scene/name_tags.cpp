@@ -17,7 +17,7 @@ namespace {
 using image::Image;
 using volume::Label;
 
-// For each label the pixel that is furthest from its border: in the middle of its largest part.
+// For each label, the pixel farthest from the label's outline, and that distance.
 std::vector<std::pair<int, std::int32_t>> innermostPixels(const image::Image<volume::Scalar>& seen,
                                                           const std::vector<std::uint32_t>& labelOf,
                                                           std::size_t labelCount) {
@@ -27,7 +27,8 @@ std::vector<std::pair<int, std::int32_t>> innermostPixels(const image::Image<vol
     };
     const auto labelAt = [&](std::int32_t x, std::int32_t y) { return labelOf[seen.at(x, y)]; };
     std::vector<int> far(seen.pixels().size(), 1);
-    // Distance to another label in city blocks of 2 and 3, forwards and backwards (Borgefors 1986).
+    // Chamfer distance transform to the nearest other label, with weights 2 and 3, forward and backward pass (Borgefors
+    // 1986).
     const auto relax = [&](std::int32_t x, std::int32_t y, std::int32_t dx, std::int32_t dy, int step) {
         const std::int32_t i = x + dx, j = y + dy;
         const bool isInside = i >= 0 && j >= 0 && i < width && j < height && labelAt(i, j) == labelAt(x, y);
@@ -55,7 +56,7 @@ std::vector<std::pair<int, std::int32_t>> innermostPixels(const image::Image<vol
     return best;
 }
 
-// First and last column with anything in it.
+// Range of pixel columns that are not background; the whole width if all are.
 std::pair<double, double> columnsOf(const image::Image<volume::Scalar>& seen) {
     std::int32_t left = seen.width(), right = 0;
     for (std::int32_t y = 0; y < seen.height(); ++y)
@@ -68,7 +69,7 @@ std::pair<double, double> columnsOf(const image::Image<volume::Scalar>& seen) {
     return {0, seen.width()};
 }
 
-// Where a point of world space is seen, pixels; nothing where it is behind the viewer or beside the picture.
+// Projects a point of world space to pixels; nothing if it is behind the viewer or outside the picture.
 std::optional<std::pair<double, double>> seenAt(Vec3d point, const render::FrameSpec& spec) {
     const render::Camera& camera = spec.camera;
     const Vec3d forward = normalized(camera.target - camera.eye);
@@ -85,7 +86,7 @@ std::optional<std::pair<double, double>> seenAt(Vec3d point, const render::Frame
     return std::pair(x, y);
 }
 
-// Texts of one side, top down, each with room of its own as near to its leader's end as there is.
+// Heights of the texts of one side, top down, without overlaps, each as close to its leader's end as possible.
 std::vector<double> heightsOf(const std::vector<NameTag>& tags, double line, double height) {
     std::vector<double> at;
     double least = line;
@@ -159,7 +160,7 @@ std::size_t drawNameTags(const NameTags& tags, double textHeight, Vec3f color, V
                 image::drawLine(image, knee, at[n], tag.x, tag.y, {extra, tone});
                 image::drawDot(image, tag.x, tag.y, 0.17 * height + extra - stroke, tone);
             }
-            // Open where it points at what is not seen.
+            // A ring instead of a dot if the component is hidden.
             if (tag.isHidden) image::drawDot(image, tag.x, tag.y, 0.17 * height - stroke, halo);
             image::drawText(image, left, at[n], tag.text, {height, color, halo, std::max(1.0, 0.14 * height)});
         }

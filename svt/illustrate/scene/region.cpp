@@ -29,10 +29,10 @@ std::string lower(std::string_view text) {
     return result;
 }
 
-// The area of a polygon, positive where it runs counter-clockwise, twice.
+// Twice the signed area of triangle a, b, c; positive if counter-clockwise.
 double turnOf(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-// Ears of a simple polygon, which runs counter-clockwise; empty where it is none.
+// Triangulates a simple, counter-clockwise polygon by ear clipping; empty if an ear is missing: it is not simple.
 std::vector<std::vector<Vec3d>> triangles(std::vector<Vec3d> polygon) {
     std::vector<std::vector<Vec3d>> result;
     while (polygon.size() > 3) {
@@ -163,7 +163,7 @@ private:
         return result;
     }
 
-    // All that lies in none of the parts: in each, beyond some face.
+    // Complement of a union of parts: the intersection over the parts of the union of their inverted half-spaces.
     Result<Parts> inverse(const Parts& parts) const {
         Result<Parts> result = Parts{ConvexPart{}};
         for (const ConvexPart& part : parts) {
@@ -203,7 +203,7 @@ private:
         return wrong("expected a plane such as z>1.2, or box, ball, cylinder, prism, storey, around, view or cutaway");
     }
 
-    // Up to the next blank or closing bracket; a storey's name may stand in quotes.
+    // A plane ends at the next blank or closing bracket; a storey's name may be quoted.
     Result<Parts> parsePlane() {
         const std::size_t begin = at_;
         std::string plane;
@@ -226,7 +226,7 @@ private:
         return Parts{{{{parsed->normal, -dot(parsed->normal, parsed->point)}}, {}}};
     }
 
-    // The text up to the bracket that closes, behind it.
+    // The text up to the matching closing bracket; moves behind it.
     Result<std::string> takeArguments() {
         const std::size_t begin = at_;
         char quote = 0;
@@ -355,7 +355,7 @@ private:
         return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});
     }
 
-    // A query, and a margin in metres behind the last semicolon.
+    // Labels that a query selects, and the margin in metres after the last semicolon.
     Result<std::pair<std::vector<std::uint32_t>, double>> selectionOf(std::string_view name,
                                                                       const std::string& text) const {
         const std::size_t semicolon = text.rfind(';');

@@ -1,25 +1,25 @@
 #pragma once
 /// \file
-/// Parts of space as people write them: planes, boxes, balls, ..., joined by and, or, not (Diepstraten 2003 cuts by
-/// such booleans of half-spaces). Lens, section and cutaway are all regions.
+/// Regions of space, parsed from text: planes, boxes, balls, ..., combined by and, or, not (Diepstraten 2003 cuts by
+/// such Boolean combinations of half-spaces). Lens, section and cutaway are all regions.
 ///
 ///     z>1.2 and not box(2,2,0,4,4,3)         storey(EG)         cutaway(name="Unterzug-1")
 ///
-/// Grammar (keywords without regard to case):
+/// Grammar (keywords are case-insensitive):
 ///     region    := and ('or' and)*
 ///     and       := not ('and' not)*
 ///     not       := 'not' not | '(' region ')' | primitive
-///     primitive := a plane as parseSectionPlane() takes it: the side that it cuts away
+///     primitive := a plane, see parseSectionPlane(): the side that it cuts away
 ///                | box(x0,y0,z0, x1,y1,z1) | ball(x,y,z, r) | cylinder(x,y,z, dx,dy,dz, r)
 ///                | prism(x1,y1, x2,y2, ...; z0,z1)   upright over a simple polygon
 ///                | storey(NAME)                      from its floor to its ceiling
 ///                | around(QUERY[; margin])           box around what the query selects
-///                | view(x,y, r)                      what is seen in a circle of the picture: x and y from its upper
-///                left
-///                                                    corner, as shares of its width and height; r of its height
-///                | cutaway(QUERY[; margin])          what must go so that the selected is seen: a cone that opens
-///                                                    towards the viewer, smooth, and closed behind the target
-/// Lengths are metres, coordinates metres from the grid's lower corner along its axes.
+///                | view(x,y, r)                      all that is seen in a circle of the picture: x and y from its
+///                                                    upper left corner, as shares of its width and height; r as a
+///                                                    share of its height
+///                | cutaway(QUERY[; margin])          all that hides what the query selects: a cone that opens towards
+///                                                    the viewer, with its apex behind the target
+/// Lengths are in metres; coordinates in metres from the grid's lower corner along its axes.
 
 #include <svt/core/result.hpp>
 #include <svt/render/frame_spec.hpp>
@@ -30,19 +30,19 @@
 
 namespace svt::illustrate {
 
-/// What a region may refer to.
+/// What a region may depend on.
 struct RegionContext {
     const volume::SemanticVolume& volume;
     render::Camera camera;
-    double aspect = 1;  ///< width of the picture by its height
+    double aspect = 1;  ///< width / height of the picture
 };
 
-/// A region as a union of convex parts.
+/// Parses a region into a union of convex parts.
 /// \return the parts, or
 ///         - BadSection                 the text cannot be parsed (names column, what was found and expected), a size
-///         is
-///                                      not positive, a plane passes the volume by, `not` of something round, or more
-///                                      than Pass::kMaxClipParts parts or ConvexPart::kMaxFaces faces come out
+///                                      is not positive, a plane misses the volume, `not` of something round, or the
+///                                      result has more than Pass::kMaxClipParts parts, or a part with more than
+///                                      ConvexPart::kMaxFaces faces
 ///         - BadQuery, NothingSelected  of a query in it
 [[nodiscard]] Result<std::vector<render::ConvexPart>> parseRegion(std::string_view text, const RegionContext& context);
 

@@ -22,10 +22,10 @@ using volume::LabelTable;
 
 constexpr std::array<std::string_view, 4> kLookNames{"plain", "paper", "blueprint", "dark"};
 constexpr float kGhostOpacity = 0.22f;
-// What a hull of glass stops, seen at a right angle.
+// Share of light that a shell of glass stops, seen face on.
 constexpr double kShellGhost = 0.10;
 
-// What a label looks like in a pass.
+// Style of a label in a pass.
 struct LabelLook {
     Vec3f color;
     float opacity;
@@ -37,7 +37,7 @@ Vec3f mix(Vec3f a, Vec3f b, float share) { return a * (1 - share) + b * share; }
 
 float brightnessOf(Vec3f color) { return 0.3f * color.x + 0.59f * color.y + 0.11f * color.z; }
 
-// Colours as a look shows them.
+// A colour as modified by a look.
 Vec3f shown(Vec3f color, Look look) {
     const float gray = brightnessOf(color);
     switch (look) {
@@ -78,7 +78,7 @@ void applyLook(const Scene& scene, render::FrameSpec& spec) {
     if (scene.ambientOcclusion) spec.light.ambientOcclusion = *scene.ambientOcclusion;
 }
 
-// The grid of a box of samples, for cameras to look at.
+// The part of a grid in a box of samples, for fitting cameras.
 volume::Grid gridOf(const analyze::SampleBox& box, const volume::Grid& grid) {
     Vec3i dimension;
     Vec3d first;
@@ -124,7 +124,7 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume
     return camera;
 }
 
-// Metres that a pixel shows where the camera looks at.
+// Size of a pixel at the camera's target, metres.
 double pixelOf(const render::FrameSpec& spec) {
     const render::Camera& camera = spec.camera;
     if (camera.projection == render::Camera::Projection::Orthographic) return camera.orthographicHeight / spec.height;
@@ -132,7 +132,7 @@ double pixelOf(const render::FrameSpec& spec) {
            spec.height;
 }
 
-// The nearest of 1, 2, 5, 10, ... hundredths below `metres`.
+// The largest number 1, 2 or 5 * 10^n that is at most `metres`.
 double roundSpacing(double metres) {
     const double power = std::pow(10, std::floor(std::log10(metres)));
     const double share = metres / power;
@@ -148,7 +148,7 @@ Result<void> select(const LabelTable& table, const std::vector<std::string>& que
     return {};
 }
 
-// Per metre. A hull is as thin as voxels are.
+// Opacity per metre of a ghost. For a shell it depends on the voxel size, as its thickness does.
 float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
     if (!pass.form.shell) return kGhostOpacity;
     const double thickness = 2 * std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z});
@@ -196,7 +196,7 @@ std::vector<render::Style> stylesOf(const LabelTable& table, const std::vector<L
             const volume::Scalar scalar = table.labels[l].first + s;
             const bool hasPhase =
                 !looks[l].isRecolored && table.labels[l].count > 1 && scalar < table.phaseColors.size();
-            // A recoloured pattern keeps its joints as a darker shade.
+            // A recoloured pattern keeps its further phases, such as joints, as darker shades.
             styles[scalar].color =
                 hasPhase ? shown(table.phaseColors[scalar], look) : looks[l].color * (1.0f / (1.0f + 0.35f * float(s)));
             styles[scalar].opacity = looks[l].opacity;
@@ -224,7 +224,7 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const R
     return pass;
 }
 
-// Both regions cut away.
+// The union of two regions, each of which may be empty.
 std::string either(const std::string& a, const std::string& b) {
     if (a.empty() || b.empty()) return a + b;
     return fmt::format("({}) or ({})", a, b);
@@ -234,7 +234,7 @@ std::string bothOf(const std::string& a, const std::string& b) {
     return fmt::format("({}) and ({})", a, b);
 }
 
-// The scene's passes become `detail` and what is around it.
+// Replaces the scene's passes by the context and `detail`.
 void setInContext(Scene& scene, const ScenePass& detail, ScenePass around, Context context) {
     if (context == Context::Shell) around.form.shell = ShellLevel::Building;
     if (context == Context::Shell || context == Context::Ghost) around.styles.push_back({"all", {}, {}, {}, true});
@@ -270,7 +270,7 @@ void addLens(Scene& scene, const std::string& region, const std::string& cut, Co
 void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context context) {
     ScenePass target = scene.passes.front(), around = target;
     target.show = queries;
-    // Rooms as a target are solid: it is their shape that is asked for.
+    // Rooms as a target are drawn solid, since their shape is wanted.
     target.styles.insert(target.styles.begin(), {"all", {}, 1.0f, {}, false});
     target.join = render::Pass::Join::Over;
     around.hide.push_back(anyOf(queries));
@@ -299,7 +299,7 @@ Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolu
     spec.width = scene.width;
     spec.height = scene.height;
     spec.samplesPerPixel = scene.samples;
-    // Before anything is divided by them.
+    // Checked here because sizes are divided by them below.
     if (scene.width < 1 || scene.height < 1)
         return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels cannot be drawn; 1 to {} are possible",
                                                  scene.width, scene.height, render::FrameSpec::kMaxSize));

@@ -25,7 +25,7 @@ constexpr std::pair<render::HiddenLines, std::string_view> kHidden[] = {{render:
 constexpr std::pair<Join, std::string_view> kJoins[] = {
     {Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}};
 
-// Reads members one by one; the first error is kept, and nothing is read behind it.
+// Reads members one by one. The first error is kept, and nothing is read after it.
 class Reader {
 public:
     explicit Reader(std::string name) : name_(std::move(name)) {}
@@ -37,7 +37,7 @@ public:
         if (error_.empty()) error_ = fmt::format("{}: {}", path.empty() ? "/" : path, what);
     }
 
-    // Every member must be declared: a typing error must not pass in silence.
+    // Unknown members are errors, so that typing errors do not go unnoticed.
     bool object(const Json& value, const std::string& path) {
         if (!value.is_object()) {
             fail(path, fmt::format("expected an object, found {}", value.type_name()));
@@ -249,7 +249,7 @@ Json jsonOf(const SceneCamera& camera) {
     return json;
 }
 
-// The shortest number that reads back as the same float.
+// The shortest decimal number that reads back as the same float.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
 Json jsonOf(const SceneStyle& style) {

@@ -19,7 +19,7 @@ Error missing(std::string_view what) {
                     what, what));
 }
 
-// Labels whose mesh has no side of its bounding box (world axes) as long as `metres`.
+// Labels whose mesh has a bounding box (world axes) with all sides shorter than `metres`.
 std::vector<std::uint32_t> labelsSmallerThan(double metres, const volume::SemanticVolume& volume) {
     std::vector<Box3d> boxes(volume.labels.labels.size());
     for (const auto& triangle : volume.vectors.triangles)

@@ -1,13 +1,14 @@
 #pragma once
 /// \file
-/// Lines and meshes of a scene's pass, from what a volume keeps of its model.
+/// Lines and meshes of a scene's pass, from the edges and meshes that a volume keeps of its model.
 
 #include <svt/illustrate/scene.hpp>
 
 namespace svt::illustrate {
 
-/// Puts the lines and meshes that `wanted` asks for into `pass`.
-/// \return BadArgument where the volume was built without them or a size is no length; BadQuery, NothingSelected
+/// Adds the lines and meshes of `wanted` to `pass`.
+/// \return nothing, or BadArgument if the volume was built without them or a size is not a length; BadQuery,
+///         NothingSelected
 [[nodiscard]] Result<void> addShapes(const ScenePass& wanted, const volume::SemanticVolume& volume, render::Pass& pass);
 
 }  // namespace svt::illustrate

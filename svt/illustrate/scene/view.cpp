@@ -10,7 +10,7 @@
 namespace svt::illustrate {
 namespace {
 
-// The frame's camera, with no more pixels than its aspect needs.
+// The render camera of a scene's camera, for a picture of any size with this aspect.
 Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, const volume::SemanticVolume& volume) {
     Scene scene;
     scene.camera = camera;
@@ -62,7 +62,7 @@ Result<SceneCamera> viewOf(const std::string& query, const std::string& preset, 
     options.verticalFovDegrees = named->verticalFovDegrees;
     const auto camera = render::cameraAlong(before->target - before->eye, before->up, *box, options);
     if (!camera) return camera.error();
-    // The height of a parallel view is that of its preset, divided by the zoom, which also moves the eye.
+    // A parallel view has its preset's height divided by the zoom, which also moves the eye.
     if (view.isParallel) view.zoom = named->orthographicHeight / camera->orthographicHeight;
     view.target = camera->target - origin;
     view.eye = *view.target + (camera->eye - camera->target) * view.zoom;

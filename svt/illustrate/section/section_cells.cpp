@@ -11,12 +11,12 @@ namespace {
 
 using volume::BrickVolume;
 
-// Corner c of a box has bit a set where it is the upper one along axis a. Edge e = 4 a + 2 y + x runs along axis a; x
-// and y tell where it stands along the next two axes.
+// Bit a of corner number c: the corner is the upper one along axis a. Edge e = 4 a + 2 y + x is parallel to axis a; x
+// and y are its position (0 lower, 1 upper) along the next two axes.
 struct BoxEdge {
     int axis = 0;
     int lower = 0;           // its lower corner
-    std::uint8_t faces = 0;  // bit 2 a + (upper ? 1 : 0): the two faces that it belongs to
+    std::uint8_t faces = 0;  // bit 2 a + (upper ? 1 : 0): the two faces that share it
 };
 
 constexpr std::array<BoxEdge, 12> boxEdges() {
@@ -31,14 +31,14 @@ constexpr std::array<BoxEdge, 12> boxEdges() {
 }
 constexpr std::array<BoxEdge, 12> kEdges = boxEdges();
 
-// The edges that a plane crosses, in order around the box, counter-clockwise as seen from above.
+// The box edges that a plane crosses, counter-clockwise as seen from above the plane.
 struct Outline {
     std::array<std::uint8_t, 6> edges{};
     std::uint8_t count = 0;
 };
 
-// For each set of corners above the plane. Two crossed edges of a face follow each other; which way round is told by
-// the corners, since the outline runs around those that are above.
+// Table of outlines by the set of corners above the plane (as by marching cubes). Two crossed edges of one face follow
+// each other; their order follows from which corners are above.
 std::array<Outline, 256> makeOutlines() {
     std::array<Outline, 256> outlines{};
     const auto place = [](int corner) { return Vec3i{corner & 1, (corner >> 1) & 1, (corner >> 2) & 1}; };
@@ -60,8 +60,8 @@ std::array<Outline, 256> makeOutlines() {
                 isPlane = false;
                 break;
             }
-            // On the face seen from outside, what is above lies on the right of the outline's step when the piece,
-            // seen from above, lies on its left.
+            // On a face seen from outside, the corners above the plane must be on the left of the outline's step; then
+            // the piece, seen from above, is on its left.
             const auto middle = [&](int e) {
                 const BoxEdge& edge = kEdges[static_cast<std::size_t>(e)];
                 return place(edge.lower) * 2 + place(1 << edge.axis);
@@ -72,13 +72,13 @@ std::array<Outline, 256> makeOutlines() {
             const BoxEdge& first = kEdges[static_cast<std::size_t>(crossed[0])];
             const int high = isAbove(first.lower) ? first.lower : first.lower | (1 << first.axis);
             const Vec3i towards = place(high) * 2 - middle(crossed[0]);
-            // step x up points outward for a counter-clockwise outline.
+            // For a counter-clockwise outline, step x towards points outwards.
             const bool isForward = dot(cross(step, towards), outward) > 0;
             const int from = isForward ? crossed[0] : crossed[1], to = isForward ? crossed[1] : crossed[0];
             if (next[static_cast<std::size_t>(from)] != -1) isPlane = false;
             next[static_cast<std::size_t>(from)] = to;
         }
-        if (!isPlane) continue;  // no plane does this
+        if (!isPlane) continue;  // no plane separates the corners like this
         const auto start = std::find_if(next.begin(), next.end(), [](int e) { return e != -1; });
         Outline outline;
         int at = static_cast<int>(start - next.begin());
@@ -98,10 +98,10 @@ std::array<Outline, 256> makeOutlines() {
 
 struct PieceCorner {
     Vec3d voxel;
-    std::uint8_t faces = 0;  // of the brick, that it lies on
+    std::uint8_t faces = 0;  // faces of the brick that it lies on
 };
 
-// A convex piece: at most 6 corners, and one more for each of 5 splits.
+// A convex piece: at most 6 corners, plus one for each of 5 splits.
 struct Piece {
     std::array<PieceCorner, 12> corners;
     std::size_t count = 0;
@@ -110,7 +110,7 @@ struct Piece {
     }
 };
 
-// An edge on a face between two bricks.
+// An edge of a piece on a face between two bricks.
 struct FaceEdge {
     std::uint64_t face = 0;
     CellEdge edge;
@@ -122,7 +122,7 @@ public:
         : bricks_(bricks), plane_(plane), labelOfScalar_(labelOfScalar), outlines_(makeOutlines()) {}
 
     std::vector<CellEdge> run() {
-        // Along the axis that the plane is steepest to, each row of bricks meets it in few.
+        // Rows of bricks run along the axis closest to the plane's normal, so that each row meets it in few bricks.
         const Vec3d slope{std::abs(plane_.gradient().x), std::abs(plane_.gradient().y), std::abs(plane_.gradient().z)};
         const int along = slope.z >= slope.x && slope.z >= slope.y ? 2 : slope.y >= slope.x ? 1 : 0;
         const int b = (along + 1) % 3, c = (along + 2) % 3;
@@ -154,7 +154,7 @@ private:
         return scalar < labelOfScalar_.size() ? labelOfScalar_[scalar] : volume::kNoLabel;
     }
 
-    // Bits of the corners of [min, max] that are above the plane.
+    // Set of the corners of [min, max] that are above the plane, as bits.
     [[nodiscard]] std::size_t cornersAbove(Vec3i min, Vec3i max) const noexcept {
         std::size_t above = 0;
         for (int corner = 0; corner < 8; ++corner)
@@ -164,7 +164,7 @@ private:
         return above;
     }
 
-    // The piece that the plane cuts out of [min, max], a part of the brick [low, high].
+    // The section of [min, max], a part of the current brick.
     [[nodiscard]] Piece pieceOf(std::size_t above, Vec3i min, Vec3i max) const noexcept {
         Piece piece;
         const Outline& outline = outlines_[above];
@@ -172,7 +172,7 @@ private:
             const BoxEdge& edge = kEdges[outline.edges[n]];
             const Vec3i corner{(edge.lower & 1) != 0 ? max.x : min.x, (edge.lower & 2) != 0 ? max.y : min.y,
                                (edge.lower & 4) != 0 ? max.z : min.z};
-            // A part of the brick lies on a face of it where its own face is one.
+            // A face of the part is on a face of the brick if their planes coincide.
             std::uint8_t faces = 0;
             for (int face = 0; face < 6; ++face) {
                 const int axis = face / 2;
@@ -243,7 +243,7 @@ private:
             if (parts[n].piece.count != 0) emit(parts[n].piece, labelOf(bricks_.cellScalar(coding, parts[n].cell)));
     }
 
-    // The parts of a piece on either side. Both get the same new corners, and so do all pieces that share an edge.
+    // Splits a piece by a plane. Both parts get the same new corners, and so do all pieces that share an edge.
     static void splitPiece(const Piece& piece, Vec3d normal, double offset, Piece& rest, Piece& positive) noexcept {
         rest.count = positive.count = 0;
         for (std::size_t n = 0; n < piece.count; ++n) {
@@ -278,7 +278,7 @@ private:
         }
     }
 
-    // One number for the two bricks that share a face.
+    // Number of a face, the same for both bricks that share it.
     [[nodiscard]] std::uint64_t faceNumber(int face) const noexcept {
         Vec3i at = brick_;
         const int axis = face / 2;
@@ -291,7 +291,7 @@ private:
         return 3 * number + static_cast<std::uint64_t>(axis);
     }
 
-    // Bricks know nothing of each other: on a shared face, each edge is cut at the corners of both.
+    // Bricks are cut independently, so on a shared face, edges of each brick are split at the corners of the other.
     void joinFaces() {
         std::ranges::sort(faceEdges_, [](const FaceEdge& a, const FaceEdge& b) {
             return std::tie(a.face, a.edge.from, a.edge.to, a.edge.label) <
@@ -307,7 +307,7 @@ private:
             }
             std::ranges::sort(points);
             points.erase(std::unique(points.begin(), points.end()), points.end());
-            // All lie on one line, give or take a quantum; along it they are in order.
+            // All points are on one line, up to a quantum; sort them along it.
             const std::int64_t du = points.back().u - points.front().u, dv = points.back().v - points.front().v;
             const auto isBefore = [&](QuantumPoint a, QuantumPoint b) {
                 const std::int64_t ta = a.u * du + a.v * dv, tb = b.u * du + b.v * dv;
@@ -333,7 +333,7 @@ private:
     const CutPlane& plane_;
     std::span<const std::uint32_t> labelOfScalar_;
     std::array<Outline, 256> outlines_;
-    Vec3i brick_, low_, high_;  // the brick at hand, and its voxels
+    Vec3i brick_, low_, high_;  // the current brick, and its voxels
     std::vector<CellEdge> edges_;
     std::vector<FaceEdge> faceEdges_;
 };
@@ -350,7 +350,7 @@ CutPlane::CutPlane(const SectionPlane& plane, const PlaneFrame& frame, const vol
     affine(frame.normal, gradient_, offset_);
     affine(frame.u, uOfVoxel_, uOffset_);
     affine(frame.v, vOfVoxel_, vOffset_);
-    // Along the grid's axes the plane is exactly so: what is left of roundings would tilt it.
+    // Remove rounding noise, so that planes parallel to a grid axis are exactly so.
     const double whole = std::abs(gradient_.x) + std::abs(gradient_.y) + std::abs(gradient_.z);
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(gradient_[axis]) < 1e-13 * whole) gradient_[axis] = 0;

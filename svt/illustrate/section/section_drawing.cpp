@@ -42,7 +42,7 @@ public:
     SectionDrawing make(const std::vector<QuantumBorder>& borders) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> shown;  // label and border
         for (const QuantumPolygon& polygon : polygonsOf(borders)) addPolygon(polygon, shown);
-        // What was left out as too small leaves no line.
+        // Borders of polygons that were left out as too small are not drawn.
         for (std::uint32_t b = 0; b < borders.size(); ++b) {
             SectionBorder border;
             border.left = shown.contains({borders[b].left, b}) ? borders[b].left : kNoLabel;
@@ -80,12 +80,12 @@ private:
         component.polygons.push_back(std::move(added));
     }
 
-    // Length of each edge times half the extent of a voxel across it.
+    // Error bound of a ring's area: the sum of each edge's length times half the extent of a voxel across it.
     [[nodiscard]] double boundOf(const Ring& ring) const noexcept {
         double bound = 0;
         for (std::size_t n = 0; n < ring.size(); ++n) {
             const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
-            // Across the edge, times its length.
+            // Normal of the edge in the plane, times the edge's length.
             const Vec3d across = drawing_.frame.u * (b.v - a.v) - drawing_.frame.v * (b.u - a.u);
             for (int axis = 0; axis < 3; ++axis)
                 bound += 0.5 * volume_.grid.spacing()[axis] *
@@ -113,7 +113,7 @@ private:
     double smallestArea_;
 };
 
-// Where the line v = at runs inside of a polygon: from and to, in turn.
+// Intervals of the line v = at inside a polygon: start and end, alternating.
 std::vector<double> crossingsOf(const SectionPolygon& polygon, double at) {
     std::vector<double> crossings;
     const auto add = [&](const Ring& ring) {
@@ -128,7 +128,7 @@ std::vector<double> crossingsOf(const SectionPolygon& polygon, double at) {
     return crossings;
 }
 
-// What of [from, to] is inside on a level as well: the widest part. False where there is none.
+// Narrows [from, to] to its widest intersection with an interval of a level; false if there is none.
 bool narrow(const std::vector<double>& level, double& from, double& to) {
     double bestFrom = 0, bestTo = 0;
     for (std::size_t n = 0; n + 1 < level.size(); n += 2) {
@@ -188,7 +188,7 @@ Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const v
     drawing.quantum = cut.quantum();
     drawing.tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * std::min({spacing.x, spacing.y, spacing.z});
     std::vector<QuantumBorder> borders = joinEdges(cutCells(bricks, cut, *labels));
-    // A point that was rounded may lie a quantum beside its line.
+    // At least 1.5 quanta: rounded points may be off their line by a quantum.
     straighten(borders, std::max(drawing.tolerance / drawing.quantum, 1.5));
     return DrawingMaker(volume, std::move(drawing), options.smallestArea).make(borders);
 }
@@ -206,7 +206,7 @@ LabelPlace labelPlaceOf(const SectionPolygon& polygon) {
             double from = levels[bottom][n], to = levels[bottom][n + 1];
             for (std::size_t top = bottom; top < kLevels && narrow(levels[top], from, to); ++top) {
                 const double height = step * double(top + 1 - bottom);
-                // Texts are wide. Of places that are equal for them, the highest, so that they stand in its middle.
+                // Texts are wide. Of equally good rectangles take the highest, so that the text is centred in it.
                 const double score = std::min((to - from) / 2, height);
                 if (score < bestScore || (score == bestScore && height <= best.height)) continue;
                 bestScore = score;

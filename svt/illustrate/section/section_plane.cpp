@@ -16,7 +16,7 @@
 namespace svt::illustrate {
 namespace {
 
-// All of `text` as `count` finite numbers separated by commas, or nothing.
+// Parses all of `text` as `count` finite numbers separated by commas; nothing if it is not.
 std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::size_t count) {
     std::array<double, 4> numbers{};
     const char* at = text.c_str();
@@ -37,7 +37,7 @@ std::string unquoted(const std::string& text) {
     return isQuoted ? text.substr(1, text.size() - 2) : text;
 }
 
-// Lower and upper end of the volume along `normal`, metres from the grid's lower corner.
+// Extent of the volume along `normal`, metres from the grid's lower corner.
 std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
     std::pair<double, double> extent{0, 0};
     for (int axis = 0; axis < 3; ++axis) {
@@ -129,7 +129,7 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
         const Vec3d axis = grid.axes()[static_cast<std::size_t>(copy[0] - 'x')];
         plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value)[0]};
     } else if (copy.rfind("storey=", 0) == 0) {
-        // The last sign that a number follows; names may have signs too.
+        // Split at the last sign, if a number follows; names may contain signs.
         const std::size_t sign = copy.find_last_of("+-");
         std::optional<std::array<double, 4>> above;
         if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);

@@ -26,7 +26,7 @@ struct BorderEdge {
     std::uint32_t left = kNoLabel, right = kNoLabel;
 };
 
-// Equal labels on both sides cancel.
+// Finds the labels on both sides of each edge; edges between equal labels cancel.
 std::vector<BorderEdge> cancel(std::vector<CellEdge> edges) {
     struct Side {
         QuantumPoint from, to;
@@ -88,7 +88,7 @@ public:
     }
 
     std::vector<QuantumBorder> run() {
-        // From nodes first; what is left are closed lines, which begin at their lowest point: a corner.
+        // Borders that start at nodes first; the rest are closed, and start at their smallest point, which is a corner.
         for (const bool isClosed : {false, true})
             for (std::uint32_t n = 0; n < ends_.size(); ++n)
                 if (isUsed_[ends_[n].edge] == 0 && (isClosed || isNode(n))) follow(n);
@@ -96,10 +96,10 @@ public:
     }
 
 private:
-    // A point where not just one line passes through.
+    // Whether borders end here: not exactly one border passes through the point.
     [[nodiscard]] bool isNode(std::uint32_t n) const noexcept { return partnerOf(n) == kNoEnd; }
 
-    // The other end at the same point if there are just two, and their lines have the same labels beside them.
+    // The other end at the same point, if there are exactly two and their edges have the same labels on each side.
     [[nodiscard]] std::uint32_t partnerOf(std::uint32_t n) const noexcept {
         std::uint32_t first = n, end = n + 1;
         while (first > 0 && ends_[first - 1].point == ends_[n].point) --first;
@@ -111,7 +111,7 @@ private:
         return leftOut == rightIn && rightOut == leftIn ? other : kNoEnd;
     }
 
-    // Labels on the left and right of an edge as one walks away from this end.
+    // Labels to the left and right of an edge, looking away from this end.
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> sidesFrom(std::uint32_t n) const noexcept {
         const BorderEdge& edge = edges_[ends_[n].edge];
         return ends_[n].isStart ? std::pair(edge.left, edge.right) : std::pair(edge.right, edge.left);
@@ -134,11 +134,11 @@ private:
     std::vector<BorderEdge> edges_;
     std::vector<std::uint8_t> isUsed_;
     std::vector<EdgeEnd> ends_;         // by point
-    std::vector<std::uint32_t> endAt_;  // 2 * edge + (start ? 0 : 1) -> place in ends_
+    std::vector<std::uint32_t> endAt_;  // 2 * edge + (start ? 0 : 1) -> index into ends_
     std::vector<QuantumBorder> borders_;
 };
 
-// Square of the distance of p from the line segment, square quanta.
+// Squared distance of p from a line segment, square quanta.
 double squareDistance(QuantumPoint p, QuantumPoint a, QuantumPoint b) noexcept {
     const Step along = b - a, to = p - a;
     const double length2 = static_cast<double>(dot(along, along));
@@ -177,13 +177,13 @@ void straighten(QuantumBorder& border, double tolerance) {
     border.points = std::move(kept);
 }
 
-// A border in one of its directions, with a label on its left.
+// A border in the direction that has a given label on its left.
 struct HalfBorder {
     std::uint32_t border = 0;
     bool isForward = true;
 };
 
-// Tells in which of many outer rings a hole lies. Edges stand in levels of v, so that a question meets few of them.
+// Finds the outer ring that contains a hole. Edges are binned by v, so that a query tests few of them.
 class OuterFinder {
 public:
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -210,9 +210,9 @@ public:
         }
     }
 
-    // The smallest outer ring around the middle of the hole's first edge; no two rings share an edge.
+    // The smallest outer ring around the midpoint of the hole's first edge; rings of one label share no edges.
     [[nodiscard]] std::size_t find(const std::vector<RingPoint>& hole) const {
-        // Twice the coordinates are whole.
+        // Twice the midpoint, which is an integer point.
         const std::int64_t u = std::int64_t{hole[0].point.u} + hole[1].point.u;
         const std::int64_t v = std::int64_t{hole[0].point.v} + hole[1].point.v;
         const std::int64_t level = levelOf((v - (v & 1)) / 2);
@@ -241,7 +241,7 @@ private:
         for (std::int64_t level = levelOf(from); level <= levelOf(to); ++level)
             levels_[static_cast<std::size_t>(level)].push_back(edge);
     }
-    // Does the edge lie to the right of (u, v) / 2?
+    // Whether a ray from (u, v) / 2 in the direction of u crosses the edge.
     static bool isCrossed(const Edge& edge, std::int64_t u, std::int64_t v) noexcept {
         const QuantumPoint a = edge.from, b = edge.to;
         const std::int64_t av = 2 * std::int64_t{a.v}, bv = 2 * std::int64_t{b.v};
@@ -311,7 +311,7 @@ private:
         sortRings(label);
     }
 
-    // Of the borders that begin where h ends, the first one clockwise from where h came: the inside stays connected.
+    // Of the borders that start where h ends, the first one clockwise from h: this keeps the inside connected.
     [[nodiscard]] std::uint32_t nextOf(std::uint32_t h, const std::vector<std::uint32_t>& byStart,
                                        const std::vector<std::uint8_t>& isUsed) const {
         const std::size_t size = sizeOf(halves_[h]);
@@ -332,7 +332,7 @@ private:
         return best;
     }
 
-    // Turning clockwise from `back`, is `a` met before `b`? What lies along `back` comes last.
+    // Whether `a` comes before `b`, turning clockwise from `back`. The direction of `back` itself comes last.
     static bool isClockwiseBefore(Step back, Step a, Step b) noexcept {
         const auto half = [&](Step s) {
             const std::int64_t side = cross(back, s);
@@ -342,7 +342,7 @@ private:
         return halfA != halfB ? halfA < halfB : cross(a, b) < 0;
     }
 
-    // A walk that comes to a point again is several rings that touch there.
+    // Splits a walk at the points that it visits again into rings that touch there.
     void splitWalk(const LabelRing& walk) {
         std::map<QuantumPoint, std::size_t> placeOf;
         LabelRing open;
@@ -366,7 +366,7 @@ private:
         rings_.push_back(std::move(ring));
     }
 
-    // Outer rings with the holes that lie in them.
+    // Makes polygons: outer rings (counter-clockwise) with their holes.
     void sortRings(std::uint32_t label) {
         std::ranges::stable_sort(rings_, {}, [](const LabelRing& ring) { return ring.front().point; });
         const std::size_t first = polygons_.size();
@@ -386,7 +386,7 @@ private:
 
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     const std::vector<QuantumBorder>& borders_;
-    std::vector<HalfBorder> halves_;  // of the label at hand
+    std::vector<HalfBorder> halves_;  // of the current label
     std::vector<LabelRing> rings_;
     std::vector<QuantumPolygon> polygons_;
 };

@@ -1,6 +1,24 @@
 #pragma once
 /// \file
-/// From the edges of pieces to borders between labels, and to closed polygons. Internal to illustrate.
+/// Joins the edges of pieces to borders between labels, and these to closed polygons.
+///
+///     pieces and their edges       borders, nodes (o)           rings, by label
+///
+///     +---+---+---+                +-------o---+                +-------+   +---+
+///     | A | A | B |                |       | B |                |       |   | B |
+///     +---+---+---+                |   A   o---o                |   A   |   +---+
+///     | A | A | C |                |       | C |                |       |   | C |
+///     +---+---+---+                +-------o---+                +-------+   +---+
+///
+/// - Each piece gives its edges counter-clockwise, so an edge between two pieces is there once in each direction. Where
+///   both have the same label the two cancel (ours).
+/// - The rest is joined to borders: polylines with one label on the left and one on the right, from node to node, or
+///   closed. A node is a point where not just one border passes through.
+/// - A border is simplified once, with its nodes fixed (Douglas and Peucker 1973), so both neighbours keep sharing it
+///   point by point: no gaps, no overlaps.
+/// - A ring follows the borders of its label. At a node it takes the first one clockwise from the one that it came by,
+///   which keeps the inside connected; a walk that meets itself is split into rings that touch there.
+/// - A hole belongs to the smallest outer ring around it, by counting crossings exactly, in integers.
 
 #include <svt/illustrate/section/section_cells.hpp>
 
@@ -10,13 +28,13 @@
 
 namespace svt::illustrate {
 
-/// A line of points between two labels. It ends where a third label begins, or closes.
+/// A polyline between two labels, from node to node, or closed.
 struct QuantumBorder {
     std::vector<QuantumPoint> points;  ///< a closed one repeats the first at the end
     std::uint32_t left = 0, right = 0;
 };
 
-/// A step of a ring: its point, and the border along which it goes on.
+/// A point of a ring, and the border that leads to the next point.
 struct RingPoint {
     QuantumPoint point;
     std::uint32_t border = 0;
@@ -28,14 +46,14 @@ struct QuantumPolygon {
     std::vector<std::vector<RingPoint>> rings;
 };
 
-/// What is left of `edges` when those that lie between equal labels go. Cost: O(n log n).
+/// Cancels edges between equal labels, and joins the rest to borders. Cost: O(n log n).
 [[nodiscard]] std::vector<QuantumBorder> joinEdges(std::vector<CellEdge> edges);
 
-/// Drops points that lie within `tolerance` quanta of the line that stands for them, after Douglas and Peucker (1973).
-/// Ends of borders stay. Closed borders that have no area left go.
+/// Simplifies borders (Douglas and Peucker 1973): drops points within `tolerance` quanta of the segment that replaces
+/// them. Ends of borders are kept. Closed borders without area are removed.
 void straighten(std::vector<QuantumBorder>& borders, double tolerance);
 
-/// Polygons of all labels, ordered by label, then by their lowest point.
+/// Polygons of all labels, ordered by label, then by the smallest point of the outer ring.
 [[nodiscard]] std::vector<QuantumPolygon> polygonsOf(const std::vector<QuantumBorder>& borders);
 
 /// Twice the signed area of a ring, square quanta.

@@ -12,12 +12,12 @@ using volume::ColumnTile;
 using volume::ColumnVolume;
 using volume::Run;
 
-// What surrounds a part of the background: nothing yet (0), one group, or more and the outside (kNoGroupValue).
+// Joins two values of what surrounds background: 0 nothing yet, a group, or kNoGroupValue: several, or the outside.
 std::uint32_t joined(std::uint32_t a, std::uint32_t b) noexcept {
     return a == 0 ? b : b == 0 || a == b ? a : kNoGroupValue;
 }
 
-// Disjoint sets with what surrounds them. The smaller number is the root.
+// Union-find; each set knows what surrounds it. The smaller number becomes the root.
 class Parts {
 public:
     explicit Parts(std::size_t count = 0) : parent_(count), around_(count, 0) {
@@ -51,7 +51,7 @@ private:
     std::vector<std::uint32_t> parent_, around_;
 };
 
-// Joins the background of two columns side by side and tells it what is beside it.
+// Joins the background of two adjacent columns, and records what surrounds it.
 template <class PartOfA, class PartOfB>
 void joinColumns(std::span<const Run> a, PartOfA partOfA, std::span<const Run> b, PartOfB partOfB,
                  std::span<const std::uint32_t> valueOfScalar, Parts& parts) {
@@ -78,7 +78,7 @@ void joinColumns(std::span<const Run> a, PartOfA partOfA, std::span<const Run> b
 
 }  // namespace
 
-// Nodes of one tile, joined within the tile to parts that are numbered in order of their first node.
+// The nodes of one tile, joined within the tile to parts, which are numbered in the order of their first nodes.
 class EnclosedAir::TileScan {
 public:
     TileScan(const ColumnVolume& columns, std::size_t t, std::span<const std::uint32_t> valueOfScalar)
@@ -97,7 +97,7 @@ public:
             if (isNew && y != 0) ++stretch;
             out_.stretchOfRow.push_back(stretch);
             if (isNew) addStretch(y);
-            // The rows on the border alone; nodes of a stretch are one anyway.
+            // Only the border row itself needs to be marked: rows of a stretch share their nodes.
             if ((y == 0 && tileY_ == 0) || (y + 1 == tile_.rowOf.size() && isLastY_)) markRowOutside(y);
         }
         number();
@@ -195,7 +195,7 @@ EnclosedAir EnclosedAir::find(const ColumnVolume& columns, std::span<const std::
         for (std::size_t t = begin; t < end; ++t) scans[t].run();
     });
 
-    // Across the borders of tiles.
+    // Join across the borders of tiles.
     std::vector<std::uint32_t> base(tileCount + 1, 0);
     for (std::size_t t = 0; t < tileCount; ++t)
         base[t + 1] = base[t] + static_cast<std::uint32_t>(scans[t].around.size());

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Internal: columns of group values, each kept once, and what two of them have in common.
+/// Columns of group values, each stored once (hash consing), and their memoized intersections.
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -11,7 +11,8 @@
 
 namespace svt::illustrate {
 
-/// Sets are runs up to nz, neighbours differ in value; value 0 is none. Number 0 is the set of none at all.
+/// A set is a column of runs that ends at nz; adjacent runs differ in value, and value 0 means none. Set number 0 is
+/// empty: value 0 all over.
 class RunSets {
 public:
     static constexpr std::uint32_t kNone = 0;
@@ -21,10 +22,10 @@ public:
         (void)add({&none, 1});
     }
 
-    /// Number of the set with these runs, new or known.
+    /// Number of the set with these runs; adds it if it is new.
     [[nodiscard]] std::uint32_t add(std::span<const volume::Run> runs);
 
-    /// Number of the set that has what `a` and `b` have in common: their values where they are equal, else none.
+    /// Number of the intersection of `a` and `b`: their value where it is equal, else 0. Memoized.
     [[nodiscard]] std::uint32_t common(std::uint32_t a, std::uint32_t b);
 
     [[nodiscard]] std::span<const volume::Run> runs(std::uint32_t set) const noexcept {
@@ -42,7 +43,7 @@ private:
     HashIndex setIndex_, pairIndex_;
 };
 
-/// Appends a run, joined with the one before where they have one scalar.
+/// Appends a run, merged with the one before if the scalar is the same.
 inline void appendRun(std::vector<volume::Run>& runs, std::uint32_t end, volume::Scalar scalar) {
     if (!runs.empty() && runs.back().scalar == scalar)
         runs.back().end = end;

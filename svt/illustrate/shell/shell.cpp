@@ -24,8 +24,8 @@ using volume::Scalar;
 constexpr std::int32_t kTile = ColumnVolume::kTileSize;
 constexpr double kDefaultReach = 2;  // voxels
 
-// Voxels of the box around a voxel on each side; nothing where the box is wider than the grid, so that no voxel is
-// deep inside.
+// Half width of the box around a voxel, voxels; nothing if the box is wider than the grid, so that no voxel is deep
+// inside.
 std::optional<Vec3i> reachOf(double thickness, const volume::Grid& grid) {
     Vec3i reach;
     for (int axis = 0; axis < 3; ++axis) {
@@ -37,16 +37,16 @@ std::optional<Vec3i> reachOf(double thickness, const volume::Grid& grid) {
     return reach;
 }
 
-// What the tiles share.
+// Inputs of all tiles.
 struct Task {
     const ColumnVolume& columns;
     std::span<const std::uint32_t> valueOfScalar;  // 0: background, kNoGroupValue: no group, else 1 + group
-    std::span<const Scalar> newScalar;             // 0: does not stay
+    std::span<const Scalar> newScalar;             // 0: is dropped
     const EnclosedAir& air;
     std::optional<Vec3i> reach;
 };
 
-// The shell of one tile after the other; keeps its buffers.
+// Makes the shells of tiles; keeps its buffers between them.
 class TileShell {
 public:
     explicit TileShell(const Task& task)
@@ -98,12 +98,12 @@ private:
         known_.assign(tilesAcross, {});
     }
 
-    // Entry x + width * y: what is deep inside of its group along z, x and y.
+    // Entry x + width * y: the set of the column's voxels that are deep inside their group: the erosion.
     void findDeep(std::vector<std::uint32_t>& deep) {
         const std::size_t rows = height_ + 2 * std::size_t(reach_.y);
         std::vector<std::uint32_t> window(width_ + 2 * std::size_t(reach_.x)), across(rows * width_, RunSets::kNone);
         std::int32_t knownRow = -1;  // tile row of known_
-        bool isKnown = false;        // whether the row before is one of the grid
+        bool isKnown = false;        // whether the row before is inside the grid, in the same tile row
         for (std::size_t r = 0; r < rows; ++r) {
             const std::int32_t j = y0_ - reach_.y + static_cast<std::int32_t>(r);
             std::uint32_t* out = across.data() + r * width_;
@@ -131,7 +131,7 @@ private:
         }
     }
 
-    // Whether row j is equal to row j - 1 of the same tiles, all over the window.
+    // Whether row j equals row j - 1 in all tiles of the window.
     [[nodiscard]] bool isRepeated(std::int32_t j) const {
         if (j % kTile == 0) return false;
         const auto y = static_cast<std::size_t>(j % kTile);
@@ -146,7 +146,7 @@ private:
         return std::size_t(tileX) + std::size_t(columns_.tilesX()) * std::size_t(tileY);
     }
 
-    // The columns of row j over the window, eroded along z; none beyond the grid.
+    // Gets the sets of row j over the window, eroded along z; empty beyond the grid.
     void gather(std::int32_t j, std::vector<std::uint32_t>& window) {
         const auto y = static_cast<std::size_t>(j % kTile);
         std::fill(window.begin(), window.end(), RunSets::kNone);
@@ -164,7 +164,7 @@ private:
                 std::uint32_t& out = window[static_cast<std::size_t>(i - (x0_ - reach_.x))];
                 const std::uint16_t column = tile.rowColumns[tile.rowOf[y] * width + x];
                 if (hasAir) {
-                    // Cells without background have no node of their own, so the column must be the same too.
+                    // Cells without background have no node of their own, so the columns are compared as well.
                     const std::uint32_t node = task_.air.node(t, x, y);
                     const bool isAsBefore =
                         x > 0 && node == lastNode && column == tile.rowColumns[tile.rowOf[y] * width + x - 1];
@@ -178,7 +178,7 @@ private:
         }
     }
 
-    // The runs of groups, background of theirs included, less the reach at both ends.
+    // The runs of groups, including enclosed background, shortened by the reach at both ends.
     std::uint32_t eroded(std::span<const Run> runs, const std::uint32_t* air) {
         groupRuns_.clear();
         for (const Run& run : runs) {
@@ -200,9 +200,9 @@ private:
         return sets_.add(runs_);
     }
 
-    // out[i * stride] = what in[i .. i + 2 reach] have in common, for i below count = in.size() - 2 reach. Blocks of
-    // the window's length, with what they have in common from their start and from their end, so that each window is
-    // two of these (van Herk).
+    // out[i * stride] = intersection of in[i .. i + 2 reach], for i < count = in.size() - 2 reach. The input is split
+    // into blocks of the window's length, with running intersections from the start and from the end of each block;
+    // each window is the intersection of two of these (van Herk 1992).
     void intersect(std::span<const std::uint32_t> in, std::size_t reach, std::uint32_t* out, std::size_t stride,
                    std::size_t count) {
         const std::size_t length = 2 * reach + 1;
@@ -215,7 +215,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) out[i * stride] = sets_.common(fromEnd_[i], fromStart_[i + length - 1]);
     }
 
-    // Number of the column without what is deep inside.
+    // Number of the output column: the column without what is deep inside.
     std::uint16_t shellColumn(std::uint16_t column, std::span<const Run> runs, std::uint32_t deep) {
         const std::uint32_t found = shellIndex_.findOrAdd(
             (std::uint64_t(deep) << 16 | column) * 0x9E3779B97F4A7C15ull,
@@ -277,7 +277,7 @@ Result<void> checkInput(const volume::SemanticVolume& volume, std::span<const st
     return {};
 }
 
-// Entry per label: whether its group stays.
+// Entry per label: whether its group is kept.
 std::vector<bool> keptLabels(std::span<const std::uint32_t> groupOf, std::span<const std::uint32_t> of) {
     std::vector<bool> isKeptGroup(groupOf.size(), of.empty()), isKept(groupOf.size());
     for (const std::uint32_t label : of)
@@ -286,7 +286,7 @@ std::vector<bool> keptLabels(std::span<const std::uint32_t> groupOf, std::span<c
     return isKept;
 }
 
-// The table with a scalar for each label that stands for a group with voxels, in tree order.
+// Gives one scalar to each label that represents a group with voxels, in tree order, and none to the others.
 void numberGroups(volume::LabelTable& table, std::span<const std::uint32_t> groupOf, const std::vector<bool>& isKept) {
     std::vector<bool> isGroup(groupOf.size(), false);
     for (std::size_t l = 0; l < groupOf.size(); ++l)

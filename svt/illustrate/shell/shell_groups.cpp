@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, kShellLevels.size()> kPlurals{"components
                                                                      "buildings"};
 constexpr std::size_t kComponent = 0, kRoom = 1, kUnit = 2, kStorey = 3, kBuilding = 4, kLevels = kShellLevels.size();
 
-// Level of a feature that holds others; kComponent for all others.
+// Level of a feature that can hold others; kComponent for all others.
 std::size_t levelOf(const model::QueryRow& row, std::span<const model::QueryRow> rows) {
     switch (model::classRank(row.className)) {
         case model::ClassRank::Room: return kRoom;
@@ -40,7 +40,8 @@ std::size_t lowest(const Holders& holders) {
     return level;
 }
 
-// Who holds each feature by the tree and the groups. Depth first, parent before groups; a cycle ends where it closes.
+// Finds the holders of each feature by tree and groups. Depth first, parent before groups; cycles are cut where they
+// close.
 class TreeHolders {
 public:
     explicit TreeHolders(std::span<const model::QueryRow> rows)
@@ -54,7 +55,7 @@ public:
 private:
     enum class State : std::uint8_t { New, Open, Done };
 
-    // The parent is number 0, the groups follow.
+    // What is above `l` in the hierarchy: number 0 is the parent, the groups follow.
     [[nodiscard]] std::uint32_t above(std::uint32_t l, std::size_t number) const {
         return number == 0 ? rows_[l].parent : rows_[l].groups[number - 1];
     }
@@ -89,10 +90,10 @@ private:
             if (a >= rows_.size() || state_[a] != State::Done) continue;
             for (std::size_t level = std::max(own, kRoom); level < kLevels; ++level)
                 if (holders[level] == kNoLabel) holders[level] = holders_[a][level];
-            // The outermost building.
+            // Of nested buildings, the outermost.
             if (own == kBuilding && holders_[a][kBuilding] != kNoLabel) holders[kBuilding] = holders_[a][kBuilding];
         }
-        // What holds the lowest holder holds this too.
+        // Holders of the lowest holder hold this one, too.
         const std::size_t low = lowest(holders);
         if (low < kLevels && holders[low] != l && state_[holders[low]] == State::Done)
             for (std::size_t level = low + 1; level < kLevels; ++level)
@@ -145,7 +146,7 @@ ShellHierarchy ShellHierarchy::ofVolume(const volume::SemanticVolume& volume, in
     ShellHierarchy hierarchy;
     const std::vector<Holders> byTree = TreeHolders(rows).find();
 
-    // A component has all below it that is in no room.
+    // A component includes all below it that is not in a room.
     hierarchy.component_.resize(count);
     std::vector<bool> isComponent(count);
     for (std::uint32_t l = 0; l < count; ++l) {

@@ -13,7 +13,7 @@ namespace {
 
 struct Preset {
     std::string_view name;
-    Vec3d view;  // from the eye to the middle, in the box's axes
+    Vec3d view;  // from the eye to the centre, in the box's axes
     Vec3d up;
 };
 
@@ -42,7 +42,7 @@ using Axes = std::array<Vec3d, 3>;
 
 Vec3d along(const Axes& axes, Vec3d v) { return axes[0] * v.x + axes[1] * v.y + axes[2] * v.z; }
 
-// Corner c, 0..7, of a box of `size` around its middle.
+// Corner c, 0..7, of a box of `size`, relative to its centre.
 Vec3d corner(int c, Vec3d size) {
     return {size.x * ((c & 1) - 0.5), size.y * (((c >> 1) & 1) - 0.5), size.z * ((c >> 2) - 0.5)};
 }
@@ -56,8 +56,7 @@ Camera fitted(const Preset& preset, Vec3d middle, Vec3d size, const Axes& axes, 
     camera.up = along(axes, preset.up);
     camera.verticalFovDegrees = options.verticalFovDegrees;
 
-    // Bounds of the corners in the picture's directions, so that the middle of the picture is the middle of what is
-    // seen.
+    // Bounds of the corners along the camera's axes: they are centred in the picture.
     const double tanY = std::tan(options.verticalFovDegrees * std::numbers::pi / 360) * free;
     const double tanX = tanY * options.aspect;
     double minX = 1e300, maxX = -1e300, minY = 1e300, maxY = -1e300;
@@ -69,7 +68,7 @@ Camera fitted(const Preset& preset, Vec3d middle, Vec3d size, const Axes& axes, 
         maxX = std::max(maxX, x);
         minY = std::min(minY, y);
         maxY = std::max(maxY, y);
-        // Perspective: the corner is seen where |x - eyeX| <= tanX * (z - eyeZ); the bounds of x +- tanX * z decide.
+        // Perspective: a corner is in view if |x - eyeX| <= tanX * (z - eyeZ), so the bounds of x +- tanX * z decide.
         lowX = std::min(lowX, x + tanX * z);
         highX = std::max(highX, x - tanX * z);
         lowY = std::min(lowY, y + tanY * z);

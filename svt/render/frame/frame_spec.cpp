@@ -17,7 +17,7 @@ Result<void> checkCamera(const Camera& camera) {
     const Vec3d view = camera.target - camera.eye;
     if (!(length(view) > 0) || !std::isfinite(length(view)))
         return Error(Code::BadCamera, "eye and target of the camera are the same point; move one of them");
-    // Up counts as along the view below a millionth of a turn.
+    // Up counts as parallel to the view if the sine of the angle between them is at most 1e-6.
     if (!(length(cross(normalized(view), normalized(camera.up))) > 1e-6))
         return Error(Code::BadCamera,
                      "up of the camera is zero or along the view; choose another up, such as y for a "

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<std::string_view, 10> kNames{
     "none", "masonry", "concrete", "reinforced-concrete", "timber", "insulation", "earth", "steel", "glass", "general"};
 
-// Ink of a line at `distance` from its middle.
+// Coverage by a line at `distance` from its centre line.
 double lineInk(double distance, const HatchPen& pen) noexcept {
     return std::clamp((pen.lineWidth / 2 + pen.pixel / 2 - distance) / pen.pixel, 0.0, 1.0) *
            std::min(1.0, pen.lineWidth / pen.pixel);
@@ -22,7 +22,7 @@ double toMultiple(double x, double period) noexcept { return std::abs(x - period
 
 double stripes(double x, double period, const HatchPen& pen) noexcept { return lineInk(toMultiple(x, period), pen); }
 
-// 0..1, the same for the same cell.
+// A pseudo-random number, 0..1, by cell.
 double randomOf(double i, double j, int salt) noexcept {
     auto hash = static_cast<std::uint64_t>(static_cast<std::int64_t>(i)) * 0x9E3779B97F4A7C15ull ^
                 static_cast<std::uint64_t>(static_cast<std::int64_t>(j)) * 0xC2B2AE3D27D4EB4Full ^
@@ -38,7 +38,7 @@ double toSegment(double u, double v, double u0, double v0, double u1, double v1)
     return std::hypot(u - u0 - at * du, v - v0 - at * dv);
 }
 
-// A dot in each field, and a triangle in some.
+// A dot in each square field, and a triangle in some.
 double gravel(double u, double v, const HatchPen& pen) noexcept {
     const double field = pen.spacing;
     const double i = std::floor(u / field), j = std::floor(v / field);
@@ -65,7 +65,7 @@ double gravel(double u, double v, const HatchPen& pen) noexcept {
 double zigzag(double u, double v, const HatchPen& pen) noexcept {
     const double band = 3 * pen.spacing, half = 0.75 * pen.spacing;
     const double height = v - band * std::floor(v / band);
-    // Up and down between the lines of the band, as steep as 63 degrees.
+    // A zigzag between the lines of the band, with a slope of 63 degrees.
     const double along = u / half - 2 * std::floor(u / (2 * half));
     const double wave = band * (along < 1 ? along : 2 - along);
     const double slope = band / half;
@@ -83,7 +83,7 @@ double earth(double u, double v, const HatchPen& pen) noexcept {
     return stripes(across, pen.spacing, pen);
 }
 
-// Grain that widens and narrows.
+// Wood grain with varying line distances.
 double grain(double u, double v, const HatchPen& pen) noexcept {
     const double bend = 0.35 * pen.spacing * std::sin(u / (2.1 * pen.spacing) + 0.9 * std::sin(v / (3 * pen.spacing)));
     return stripes(v + bend, 0.8 * pen.spacing, pen);
@@ -100,7 +100,7 @@ double strokes(double u, double v, const HatchPen& pen) noexcept {
 
 double hatchInk(Hatch hatch, double u, double v, const HatchPen& pen) noexcept {
     if (hatch == Hatch::None) return 0;
-    // Too dense to be seen apart.
+    // Too dense to resolve: the mean.
     if (pen.spacing < 2 * pen.pixel) return std::min(0.5, 0.7 * pen.lineWidth / pen.spacing);
     const double across = (u - v) / std::numbers::sqrt2, along = (u + v) / std::numbers::sqrt2;
     switch (hatch) {

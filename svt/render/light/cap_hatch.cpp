@@ -12,7 +12,7 @@ void hatchCap(const PreparedFrame& frame, std::size_t pass, double u, double v, 
     if (hatch == Hatch::None || !(look.strength > 0)) return;
     const Vec3d normal{sample.normal.x, sample.normal.y, sample.normal.z};
     const volume::Grid& grid = frame.volumes.front().grid;
-    // Level with the ground as far as the face allows: up is up, and north is up on faces that lie.
+    // The hatch's vertical axis is the grid's up direction projected onto the face; on nearly horizontal faces, north.
     const Vec3d north = grid.axes()[1], level = grid.axes()[2];
     const Vec3d above = std::abs(dot(normal, level)) < 0.9 ? level : north;
     const Vec3d up = normalized(above - normal * dot(normal, above));
@@ -20,7 +20,7 @@ void hatchCap(const PreparedFrame& frame, std::size_t pass, double u, double v, 
     const double depth = static_cast<double>(sample.depth);
     const Vec3d point = frame.rays().worldAt(u, v, depth) - grid.origin();
     const double pixel = frame.rays().pixelSize(depth);
-    // Seen at a grazing angle a pixel covers more of the face.
+    // At a grazing angle a pixel covers more of the face.
     const double facing = std::max(std::abs(dot(normal, frame.rays().forward())), 0.15);
     const HatchPen pen{look.spacing, static_cast<double>(look.width) * pixel,
                        pixel / (facing * std::sqrt(double(frame.spec.samplesPerPixel)))};

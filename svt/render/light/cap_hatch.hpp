@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Hatches on cut faces. Internal to render.
+/// Hatches on caps (cut faces).
 
 #include <svt/render/light/sample.hpp>
 #include <svt/render/light/surface_normal.hpp>
@@ -8,8 +8,8 @@
 
 namespace svt::render {
 
-/// Draws the hatch of its label on a sample of `pass` that lies on a cut face.
-/// \param u, v  where in the picture, see CameraRays::at()
+/// Draws the hatch of the sample's label over a sample of `pass` that lies on a cap.
+/// \param u, v  place in the picture, see CameraRays::at()
 void hatchCap(const PreparedFrame& frame, std::size_t pass, double u, double v, Sample& sample) noexcept;
 
 }  // namespace svt::render

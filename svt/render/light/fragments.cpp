@@ -11,7 +11,7 @@ namespace {
 using Kind = LinearStyle::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Lines lie so many voxels before what they lie on.
+/// Depth bias of lines towards the viewer, voxels.
 constexpr double kVoxelsBefore = 1.5;
 
 bool isBefore(const Fragment& a, const Fragment& b) noexcept { return a.depth < b.depth; }
@@ -67,12 +67,12 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, double u, double 
     return lineHits_;
 }
 
-// Lines at one depth are one line, as strong as the strongest.
+// Lines within two voxels of depth count as one, as strong as the strongest.
 void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragments& fragments) const {
     if (hits.empty()) return;
     const PassShapes& shapes = frame_.passes[pass].shapes;
     const double voxelSize = frame_.volumeOf(pass).voxelSize;
-    // There are few.
+    // Insertion sort: there are few.
     for (std::size_t n = 1; n < hits.size(); ++n) {
         const auto isNearer = [](const LineHit& a, const LineHit& b) {
             return a.depth < b.depth || (a.depth == b.depth && a.line < b.line);
@@ -99,8 +99,8 @@ void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragmen
     }
 }
 
-// On which side of each edge the ray passes is the same expression, with the other sign, for the triangle beyond: no
-// ray slips through between them.
+// Watertight: for the neighbouring triangle, the side test of a shared edge is the same expression with the opposite
+// sign, so no ray passes between them.
 void FragmentFinder::addHit(const PictureTriangle& triangle, std::uint32_t number, Vec3d origin, Vec3d direction) {
     const Vec3d a = triangle.corners[0] - origin, b = triangle.corners[1] - origin, c = triangle.corners[2] - origin;
     const double sideA = dot(direction, cross(b, c)), sideB = dot(direction, cross(c, a)),
@@ -112,7 +112,7 @@ void FragmentFinder::addHit(const PictureTriangle& triangle, std::uint32_t numbe
     if (depth > 0 && depth < kInfinity) hits_.push_back({depth, number, facing < 0});
 }
 
-// By depth; a ray that meets the edge between two triangles meets one surface.
+// Sorts by depth; hits of two triangles on their shared edge become one.
 void FragmentFinder::sortHits(const PassShapes& shapes) {
     std::sort(hits_.begin(), hits_.end(),
               [](const Hit& a, const Hit& b) { return std::tie(a.depth, a.triangle) < std::tie(b.depth, b.triangle); });
@@ -166,8 +166,8 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
     return end;
 }
 
-// The body that the ray is in at a depth, the one entered last; null if in none. What the ray does not leave as often
-// as it enters it is no body but a sheet.
+// Finds the body that the ray is inside at a depth, the one entered last; null if in none. An object that the ray does
+// not enter as often as it leaves it is an open sheet, not a body.
 const PictureTriangle* FragmentFinder::cutOpen(const PassShapes& shapes, double depth) {
     bodies_.clear();
     for (const Hit& hit : hits_) {

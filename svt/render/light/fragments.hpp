@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// What a ray meets of lines and triangles, and how it joins the light of the volume. Internal to render.
+/// Fragments: the lines and triangles that a ray meets, and how they are blended with the volume.
 ///
-/// Both casters find fragments and blend them by the code here, so that they cannot differ. Where a ray meets a
-/// fragment within a run, the run's light is added up to there, then the fragment's, and the run goes on: it is not lit
-/// anew, and no second walk is made.
+/// Both casters find and blend fragments by this code, so that they cannot differ. Where a ray meets a fragment inside
+/// a run, the run is blended up to there, then the fragment, then the rest of the run: it is not lit again, and the ray
+/// is not walked twice.
 
 #include <svt/render/light/line_kernel.hpp>
 #include <svt/render/light/sample.hpp>
@@ -17,28 +17,28 @@
 
 namespace svt::render {
 
-/// A surface that a ray meets.
+/// A triangle, or the cap of a mesh, that a ray meets.
 struct MetSurface {
     volume::Scalar label;
     std::uint32_t object;
     Vec3d normal;        ///< world space, unit length, towards the viewer
-    bool isCap = false;  ///< on a clip plane
+    bool isCap = false;  ///< on a clip face
 };
 
-/// What a ray meets at one depth: a line or a surface.
+/// A line or a surface that a ray meets.
 struct Fragment {
     double depth;               ///< the ray's parameter
     double opacity;             ///< 0..1
-    double hidden;              ///< opacity behind something opaque; surfaces: 0
+    double hidden;              ///< opacity as a hidden line, behind something opaque; surfaces: 0
     Vec3d color;                ///< linear light, lit
-    std::int32_t surface = -1;  ///< its number; -1: a line, which has no label
+    std::int32_t surface = -1;  ///< index into Fragments::surfaces; -1: a line, which has no label
 
     [[nodiscard]] bool isLine() const noexcept { return surface < 0; }
 };
 
-/// Of a ray, or of all rays of a packet.
+/// The fragments of a ray, or of all rays of a packet.
 struct Fragments {
-    std::vector<Fragment> items;  ///< those of one ray stand together, by ascending depth
+    std::vector<Fragment> items;  ///< those of one ray are contiguous, by ascending depth
     std::vector<MetSurface> surfaces;
     void clear() noexcept {
         items.clear();
@@ -46,9 +46,9 @@ struct Fragments {
     }
 };
 
-/// Adds a fragment to what a ray has gathered.
-/// \param transmittance  of voxels and surfaces \param lines  of lines: apart, so that a line ends no ray and the label
-///                       behind it is found as if there were no line
+/// Blends a fragment behind what a ray has accumulated, front to back.
+/// \param transmittance  of voxels and surfaces
+/// \param lines          transmittance of lines: separate, so that a line ends no ray and does not change the label
 inline void blend(const Fragment& fragment, Vec3d& color, double& transmittance, double& lines) noexcept {
     const double share = transmittance * fragment.opacity;
     color = color + fragment.color * (share * lines);
@@ -58,7 +58,7 @@ inline void blend(const Fragment& fragment, Vec3d& color, double& transmittance,
         transmittance -= share;
 }
 
-/// Hidden lines over the sample of a ray that has ended: of all, the strongest.
+/// Draws the strongest of the hidden lines over the sample of a ray that has ended.
 inline void drawHidden(std::span<const Fragment> fragments, Sample& sample) noexcept {
     const Fragment* strongest = nullptr;
     for (const Fragment& fragment : fragments)
@@ -70,22 +70,24 @@ inline void drawHidden(std::span<const Fragment> fragments, Sample& sample) noex
     sample.hasLine = true;
 }
 
-/// Finds fragments; keeps its buffers. Belongs to one thread.
+/// Finds fragments. Keeps buffers between calls; one per thread.
 class FragmentFinder {
 public:
     explicit FragmentFinder(const PreparedFrame& frame);
 
-    /// What kLineRays rays come upon of the lines of a pass; `u` and `v` as CameraRays::at() takes them.
-    /// \return the hits in the order of rays, `starts[n]` to `starts[n + 1]` those of ray n; valid until the next call
+    /// Finds the lines of a pass that kLineRays rays meet.
+    /// \param u, v    kLineRays places in the picture, see CameraRays::at()
+    /// \param starts  out: the hits of ray n are [starts[n], starts[n + 1])
+    /// \return the hits by ray; valid until the next call
     std::span<LineHit> findLines(std::size_t pass, const double* u, const double* v,
                                  std::array<std::size_t, kLineRays + 1>& starts);
     /// The same for one ray.
     std::span<LineHit> findLines(std::size_t pass, double u, double v);
-    /// Appends what is drawn of one ray's hits to `fragments`, by ascending depth.
+    /// Appends the hits of one ray to `fragments`, by ascending depth; lines at about the same depth become one.
     void addLines(std::size_t pass, std::span<LineHit> hits, Fragments& fragments) const;
 
-    /// Adds the surfaces that the ray through (u, v) meets in `drawn`, up to the first opaque one, to those of its
-    /// fragments that begin at `first`; all are then by ascending depth.
+    /// Appends the surfaces that the ray through (u, v) meets in the intervals `drawn`, up to the first opaque one, and
+    /// sorts the ray's fragments, from index `first` on, by depth.
     /// \return depth of that opaque one, where the ray ends; infinity if there is none
     double addSurfaces(std::size_t pass, double u, double v, const CameraRay& ray, std::span<const DrawnInterval> drawn,
                        std::size_t first, Fragments& fragments);
@@ -111,7 +113,7 @@ private:
     std::vector<LineHit> lineHits_, sortedHits_;
     struct Body {
         std::uint32_t object;
-        int balance = 0, inside = 0;  // how much oftener entered than left: by the whole ray, up to the cut
+        int balance = 0, inside = 0;  // entries minus exits: along the whole ray, and up to the cut
         const PictureTriangle* entered = nullptr;
         std::ptrdiff_t order = 0;
     };

@@ -1,7 +1,7 @@
 #include <svt/core/simd_targets.hpp>
 #include <svt/render/light/line_kernel.hpp>
 
-// This file is compiled once for each set of instructions.
+// This file is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "svt/render/light/line_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -33,7 +33,7 @@ std::size_t find(const LineView& view, const PictureLine* lines, const LineLook*
             const V along = hn::Min(hn::Max(way, zero), one);
             const V offX = hn::Sub(asideX, hn::Mul(along, dx)), offY = hn::Sub(asideY, hn::Mul(along, dy));
             const V squared = hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY));
-            // A root takes longer than all before it.
+            // Early exit: the square root below takes longer than all above.
             const double reach = look.halfWidth + 0.51;
             if (hn::AllTrue(d, hn::Gt(squared, hn::Set(d, reach * reach)))) continue;
             const V distance = hn::Sqrt(squared);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Which rays come near a line of the picture: eight rays at once, compiled for several instruction sets as the packet
-/// kernel is, and the same for one ray, to the last bit. Internal to render.
+/// Tests which rays meet the lines of a picture: eight rays at once, compiled for several instruction sets like the
+/// packet kernel, and for one ray, with the same results to the last bit.
 
 #include <svt/render/pass_shapes.hpp>
 
@@ -13,26 +13,27 @@
 
 namespace svt::render {
 
-/// Where a ray comes upon a line.
+/// A ray meets a line.
 struct LineHit {
-    double depth;    ///< where it is drawn, a little before the line itself
-    double opacity;  ///< how much of the ray's surroundings it covers
-    double hidden;   ///< opacity behind something opaque
+    double depth;    ///< at which it is drawn: that of the line minus the depth bias
+    double opacity;  ///< coverage of the ray's sample
+    double hidden;   ///< opacity as a hidden line, behind something opaque
     std::uint32_t line, ray;
 };
 
-/// What all lines of a picture share.
+/// Parameters of all lines of a picture.
 struct LineView {
     bool isPerspective;
     double samplesPerPixel;  ///< along a side
-    double pixelSize;        ///< metres at depth 1, or at any where orthographic
-    double before;           ///< metres that lines lie before what they lie on
+    double pixelSize;        ///< metres at depth 1; at any depth if orthographic
+    double before;           ///< constant depth bias towards the viewer, metres
 };
 
-/// Lines also lie so many half widths of theirs before what they lie on, which may come nearer aside.
+/// Additional depth bias, in half widths of the line: beside the line, its surface may be nearer to the viewer.
 inline constexpr double kHalfWidthsBefore = 4;
 
-/// Completes a hit with how the line is drawn where it is hidden. \param along  0..1, from the line's begin
+/// Makes a hit, with the line's opacity where it is hidden.
+/// \param along  place on the line, 0..1 from its start
 inline LineHit lineHit(const PictureLine& line, const LineLook& look, std::uint32_t number, std::uint32_t ray,
                        double coverage, double along, double depth) noexcept {
     double hidden = look.hidden == HiddenLines::None ? 0 : coverage * look.hiddenOpacity;
@@ -43,7 +44,7 @@ inline LineHit lineHit(const PictureLine& line, const LineLook& look, std::uint3
     return {depth, coverage, hidden, number, ray};
 }
 
-/// Whether a ray through a place in the picture, pixels, comes upon the line.
+/// Whether the ray through (x, y), pixels, meets the line; if so, sets `hit`.
 inline bool findLine(const LineView& view, const PictureLine& line, const LineLook& look, std::uint32_t number,
                      double x, double y, LineHit& hit) noexcept {
     const double asideX = x - line.x, asideY = y - line.y;
@@ -60,11 +61,12 @@ inline bool findLine(const LineView& view, const PictureLine& line, const LineLo
     return true;
 }
 
-/// Rays that findLines() takes at once.
+/// Rays that findLines() tests at once.
 inline constexpr std::size_t kLineRays = 8;
 
 /// findLine() for the rays through (x[n], y[n]), n < kLineRays, and all lines of `numbers`.
-/// \param hits  has room for kLineRays times as many \return how many there are
+/// \param hits  room for kLineRays * numbers.size() hits
+/// \return number of hits
 std::size_t findLines(const LineView& view, const PictureLine* lines, const LineLook* looks,
                       std::span<const std::uint32_t> numbers, const double* x, const double* y, LineHit* hits) noexcept;
 

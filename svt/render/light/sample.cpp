@@ -9,7 +9,7 @@ void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& j
         joined.lens = static_cast<std::uint8_t>(number);
         return;
     }
-    // One over the other; label and depth are those of the front where it has any.
+    // Front over back; label and depth are those of the front if it has any.
     const bool isInFront = join == Pass::Join::Over || pass.depth <= joined.depth;
     const Sample before = joined;
     const Sample &front = isInFront ? pass : before, &back = isInFront ? before : pass;

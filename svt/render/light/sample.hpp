@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a ray has seen, and how what the passes of a frame have seen is joined.
+/// The result of a ray, and how results of passes are composited.
 
 #include <svt/core/vec.hpp>
 #include <svt/render/frame_spec.hpp>
@@ -12,7 +12,7 @@
 
 namespace svt::render {
 
-/// What one ray has seen.
+/// The result of one ray.
 struct Sample {
     Vec3f color{};  ///< linear light, premultiplied
     float alpha = 0;
@@ -20,9 +20,9 @@ struct Sample {
     std::uint32_t object = 0;
     float depth = std::numeric_limits<float>::infinity();  ///< infinity: nothing met
     Vec3f normal{};                                        ///< world space, unit length, where the label begins
-    bool isCap = false;                                    ///< the label begins on a clip plane
-    bool hasLine = false;                                  ///< a line is part of the color
-    std::uint8_t volume = 0;                               ///< where the label was met, see PreparedFrame::volumes
+    bool isCap = false;                                    ///< the label begins on a clip face
+    bool hasLine = false;                                  ///< a line contributes to the color
+    std::uint8_t volume = 0;                               ///< of the label: index into PreparedFrame::volumes
     std::uint8_t lens = 0;                                 ///< number of the pass that replaced all before it; 0: none
 
     [[nodiscard]] bool hasHit() const noexcept { return depth < std::numeric_limits<float>::infinity(); }
@@ -32,7 +32,7 @@ struct Sample {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Color and opacity of a ray at its end. What is left behind a ray that ended early is not seen.
+/// Sets color and opacity of a ray that has ended. A ray terminated early counts as opaque.
 inline void finishSample(Vec3d color, double transmittance, const CastOptions& options, Sample& sample) noexcept {
     const double alpha = 1 - transmittance;
     const bool isOpaque = alpha >= double(options.opaqueAt) && alpha < 1;
@@ -40,10 +40,10 @@ inline void finishSample(Vec3d color, double transmittance, const CastOptions& o
     sample.alpha = isOpaque ? 1 : static_cast<float>(alpha);
 }
 
-/// Joins what pass `number` has seen to what the passes before it have.
+/// Composites the sample of pass `number` with that of the passes before it, `joined`.
 void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& joined) noexcept;
 
-/// Whether nothing of the passes before is left in joinPass().
+/// Whether joinPass() keeps nothing of the passes before.
 [[nodiscard]] inline bool hidesAllBefore(Pass::Join join, const Sample& pass) noexcept {
     return (join == Pass::Join::Replace && pass.alpha > 0) ||
            (join == Pass::Join::Over && pass.alpha >= 1 && pass.hasHit());

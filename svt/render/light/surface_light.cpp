@@ -56,7 +56,7 @@ Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) co
 }
 
 const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) const {
-    // 17 bits a coordinate, 3 the face, 6 the pass.
+    // 17 bits per coordinate, 3 for the face, 6 for the pass.
     const std::uint64_t key = part(cell.x, 0) | part(cell.y, 17) | part(cell.z, 34) |
                               part(2 * axis + (sign > 0 ? 1 : 0), 51) | part(std::int32_t(passNumber_), 54);
     NormalCache::Slot& slot = cache_.slot(key);
@@ -69,13 +69,13 @@ const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) cons
     return slot.normal;
 }
 
-// 1 in the open, less in corners.
+// 1 where nothing occludes, less in corners.
 double SurfaceLight::openness(Vec3d point, Vec3d away, double crease) const noexcept {
     const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, away) + 0.35 * crease);
     return 1 - double(frame_.spec.light.ambientOcclusion) * occlusion;
 }
 
-// Key light, sky and a little light from the viewer; corners get less of all.
+// Key light, sky and a little light from the viewer, all attenuated by occlusion (`open`).
 double SurfaceLight::lightOn(Vec3d normal, Vec3d view, double open) const noexcept {
     const Light& light = frame_.spec.light;
     const double key = std::max(0.0, dot(normal, frame_.towardsLight));

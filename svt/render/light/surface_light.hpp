@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normal and light where a ray meets a surface. Internal to render.
+/// Normal and lighting of the surfaces that rays meet.
 
 #include <svt/render/light/sample.hpp>
 #include <svt/render/light/surface_normal.hpp>
@@ -8,26 +8,26 @@
 
 namespace svt::render {
 
-/// Where a ray meets a label, and how.
+/// Where a ray enters a label.
 struct SurfaceHit {
-    double from;              ///< the ray's parameter there
+    double from;              ///< t of the ray
     Vec3d origin, direction;  ///< of the ray, voxel space
     Vec3d view;               ///< world space, unit length, towards the viewer
     Vec3i cell;               ///< voxel that the ray enters
-    int axis;                 ///< whose voxel face it crosses there, or -1
+    int axis;                 ///< axis of the voxel face that it crosses there, or -1
     std::uint32_t plane;      ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
-    bool isVoxel;             ///< the label is told by voxels alone
-    CapFace cap;              ///< the clip on which it lies, or none
+    bool isVoxel;             ///< the brick is one of voxels only
+    CapFace cap;              ///< the clip face that it lies on, or none
 };
 
-/// Where a run begins, and how it is lit there.
+/// The surface at the start of a run, and its lighting.
 struct Surface {
     Vec3d normal{};     ///< world space, unit length
-    Vec3d away{};       ///< the same direction in index space, longest component 1
-    double crease = 0;  ///< how deep in a corner of voxels, 0..1
-    double light = 1;
+    Vec3d away{};       ///< the same direction in index space, scaled to a longest component of 1
+    double crease = 0;  ///< how deep in a concave corner of voxels, 0..1
+    double light = 1;   ///< factor of the color
     bool isCap = false;
-    bool isAroundEye = false;  ///< the eye is inside; there is no surface
+    bool isAroundEye = false;  ///< the eye is inside the label; there is no surface
 };
 
 /// Lights the surfaces of one pass.
@@ -36,13 +36,15 @@ public:
     SurfaceLight(const PreparedFrame& frame, std::size_t pass, NormalCache& cache)
         : frame_(frame), pass_(frame.passes[pass]), passNumber_(pass), volume_(frame.volumeOf(pass)), cache_(cache) {}
 
-    /// A surface has the normal of the plane or voxel face that the ray crosses. Where voxels alone tell the label, a
-    /// body's is fitted to those around, which also say how deep in a corner it lies.
+    /// The surface has the normal of the plane or voxel face that the ray crosses. For a body in a brick of voxels
+    /// only, the normal is fitted to the voxels around, from which the crease factor comes as well.
     [[nodiscard]] Surface at(const LinearStyle& style, const SurfaceHit& hit) const;
-    /// The same without light.
+    /// The same without lighting.
     [[nodiscard]] Surface facing(const LinearStyle& style, const SurfaceHit& hit) const;
-    /// Light on a surface that is no voxel's. \param normal  world space, unit length, towards the viewer
-    /// \param view  the same, to the viewer \param point  voxel space
+    /// Light on a surface that is not of voxels.
+    /// \param normal  world space, unit length, towards the viewer
+    /// \param view    direction to the viewer, world space, unit length
+    /// \param point   voxel space
     [[nodiscard]] double on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept;
 
 private:

@@ -17,15 +17,15 @@ constexpr VoxelWindow makeBall() {
 }
 constexpr VoxelWindow kBall = makeBall();
 constexpr std::int32_t kBallVoxels = 179;
-constexpr std::uint64_t kDisc = kBall[3];   // the ball's middle layer: 37 places
+constexpr std::uint64_t kDisc = kBall[3];   // the ball's central layer: 37 cells
 constexpr std::int32_t kDiscSquares = 108;  // sum of (x - 3)^2 over the disc, and of (y - 3)^2
-// Fewer places than this are the edge of a step, not a face; a corner of two edges has 16.
+// Fewer cells than this are the edge of a step, not a face; a corner of two edges has 16.
 constexpr std::int32_t kFacePlaces = 12;
 constexpr std::uint64_t kMiddle = std::uint64_t{1} << (3 + 8 * 3);
 
-// Number of bits, and sums of x - 3 and of y - 3 over them. In a word, all counts side by side: of pairs, then nibbles,
-// then bytes, each with the sum of the x of its bits. Spelled out, as the baseline instruction set has no population
-// count.
+// Population count, and sums of x - 3 and of y - 3 over the set bits. SIMD within a register: counts of pairs, then
+// nibbles, then bytes, each with the sum of x of its bits. Written out because the baseline instruction set has no
+// population count.
 struct BitSums {
     std::int32_t count, x, y;
 
@@ -52,7 +52,7 @@ private:
 };
 constexpr std::int32_t count(std::uint64_t bits) noexcept { return BitSums(bits).count; }
 
-// The sum of seven one-bit numbers per place, as words of ones, twos and fours.
+// Sum of seven one-bit numbers per cell, as bit-sliced digits: words of ones, twos and fours.
 struct PlaceSums {
     std::uint64_t digits[3];
 
@@ -69,7 +69,7 @@ struct PlaceSums {
     }
 };
 
-// Sum of the offsets from the middle of the body's voxels in the ball.
+// First moment: the sum of the offsets of the body's voxels in the ball from the centre.
 Vec3i momentOf(const VoxelWindow& body, const PlaceSums& sums) noexcept {
     Vec3i moment;
     for (std::int32_t z = 0; z < 7; ++z) moment.z += (z - 3) * count(body[static_cast<std::size_t>(z)]);
@@ -87,7 +87,7 @@ VoxelWindow inBall(const VoxelWindow& window) noexcept {
     return body;
 }
 
-// Swaps x and y of a word: the 8 x 8 bit matrix transposed (Warren, Hacker's Delight, 7-3).
+// Transposes an 8 x 8 bit matrix, swapping x and y of a word (Warren, Hacker's Delight, 7-3).
 constexpr std::uint64_t transposed(std::uint64_t a) noexcept {
     std::uint64_t t = (a ^ (a >> 7)) & 0x00AA00AA00AA00AAull;
     a ^= t ^ (t << 7);
@@ -97,8 +97,8 @@ constexpr std::uint64_t transposed(std::uint64_t a) noexcept {
     return a ^ t ^ (t << 28);
 }
 
-// The window as seven layers across `axis`, from inside (0) to outside (6) along `sign`. In a layer, bits run along
-// (x, y), (x, z) or (y, z).
+// The window as seven layers across `axis`, from inside (0) to outside (6) in the direction of `sign`. The bits of a
+// layer run along (y, z), (x, z) or (x, y).
 VoxelWindow layersAlong(const VoxelWindow& window, int axis, int sign) noexcept {
     VoxelWindow layers{};
     if (axis == 2) {
@@ -115,8 +115,8 @@ VoxelWindow layersAlong(const VoxelWindow& window, int axis, int sign) noexcept 
     return layers;
 }
 
-// The body's surface as heights over the plane across an axis: bit (p, q) of tops[h] is set where the body ends, seen
-// from inside, with layer h.
+// The body's surface as a height field over the plane across an axis: bit (p, q) of tops[h] is set if a voxel of layer
+// h is body and that of layer h + 1 is not.
 struct Heights {
     VoxelWindow tops{};
     std::uint64_t places = 0;
@@ -128,11 +128,11 @@ struct Heights {
         }
     }
 
-    // Keeps what is joined with the middle place by steps of one voxel at most, at one height a place.
+    // Keeps one height per cell: those connected to the central cell by height steps of at most one voxel.
     void keepJoined() noexcept {
         VoxelWindow joined{};
         std::uint64_t reached = 0;
-        // From the height of the hit voxel's surface, else the nearest below or above.
+        // Seed: the height of the hit voxel's face, else the nearest one below or above.
         for (const std::size_t h : {2, 1, 3, 0, 4})
             if (reached == 0) reached = joined[h] = tops[h] & kMiddle;
         for (int round = 0; round < 3; ++round) {
@@ -154,19 +154,19 @@ struct Heights {
     }
 };
 
-// Plane of least squares through the heights: slopes along p and q.
+// Least-squares plane through the heights: slopes along p and q.
 struct Slopes {
     double p = 0, q = 0;
-    std::int32_t places = 0;  // heights it rests on
+    std::int32_t places = 0;  // number of heights fitted
     bool isValid = false;
 
-    // Takes the heights in the disc around the middle. All sums are of whole numbers, so they are exact.
+    // Fits the heights in the disc around the centre. All sums are of integers, so they are exact.
     explicit Slopes(const Heights& heights) noexcept {
         const std::uint64_t disc = heights.places & kDisc;
         const BitSums all(disc);
         const std::int32_t n = places = all.count;
         if (n < kFacePlaces) return;
-        // Sums over the places of p, q, p p, q q, p q.
+        // Sums of p, q, p p, q q, p q over the cells.
         const std::int32_t sp = all.x, sq = all.y;
         std::int32_t spp = kDiscSquares, sqq = kDiscSquares, spq = 0;
         if (disc != kDisc) {
@@ -198,7 +198,7 @@ struct Slopes {
         q = static_cast<double>(chq * cpp - chp * cpq) / scale;
     }
 
-    // Is the surface a function over this plane, and most of it in sight? Then no other axis does better.
+    // Whether the slopes are at most 1 and most of the disc has a height: then no other axis gives a better fit.
     [[nodiscard]] bool isGentle() const noexcept {
         return isValid && places >= 24 && std::max(std::abs(p), std::abs(q)) <= 1;
     }
@@ -224,8 +224,8 @@ int longestAxis(Vec3i v, int preferred) noexcept {
     return longest;
 }
 
-// Is all that ends in the window along the axis one face before the middle? Decides most hits, without the layers: the
-// top of the layers along x is found in the bits of a byte, along y in the bytes of a word.
+// Whether all tops along the axis are at the height of the hit face. Decides most hits without transposing the window
+// to layers: tops along x are found by shifting bits within a byte, along y by shifting bytes within a word.
 bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
     std::uint64_t face = 0, other = 0;
     if (axis == 2) {
@@ -236,8 +236,7 @@ bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
     } else {
         const int step = axis == 0 ? 1 : 8;
         const std::uint64_t unit = axis == 0 ? 0x0001010101010101ull : 0x7Full;
-        // Places of layer 2, and of the layers 0, 1, 3, 4, 5; layer h is coordinate h, or 6 - h where the face looks
-        // back.
+        // Cells of layer 2, and of layers 0, 1, 3, 4, 5; layer h is coordinate h, or 6 - h if the sign is negative.
         const int middle = sign > 0 ? 2 : 4;
         std::uint64_t others = 0;
         for (int h = 0; h < 6; ++h)
@@ -285,7 +284,7 @@ SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) no
     const Vec3f fitted = slopes.isValid ? slopes.normal(axis, sign)
                                         : Vec3f{static_cast<float>(-moment.x), static_cast<float>(-moment.y),
                                                 static_cast<float>(-moment.z)};
-    // Smoothing may not turn the surface away from the face that was seen.
+    // The fitted normal must not point away from the side of the face that was hit.
     if (fitted[faceAxis] * static_cast<float>(faceSign) > 0) normal.indexNormal = fitted;
     return normal;
 }

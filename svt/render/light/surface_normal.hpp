@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals of voxel surfaces, from which voxels around belong to the body. Internal to render.
+/// Normals of voxel surfaces, fitted to a window of 7 x 7 x 7 voxels that are body or not.
 
 #include <svt/core/vec.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -11,17 +11,17 @@
 
 namespace svt::render {
 
-/// The 7 x 7 x 7 voxels around one, as bits: bit x + 8 y of word z, x, y and z from 0 (3 before the middle) to 6.
+/// The 7 x 7 x 7 voxels around a centre voxel as bits: bit x + 8 y of word z, with x, y, z = 0..6 and the centre at 3.
 using VoxelWindow = std::array<std::uint64_t, 7>;
 
-/// Window around voxel `middle`, which may lie outside of the volume; voxels outside are no body.
-/// `accepts(scalar)` says which voxels are. Cost: the masks of up to 8 bricks.
+/// Window around voxel `middle`, which may lie outside the volume. Voxels are body if accepts(scalar); those outside
+/// the volume are not. Cost: the masks of up to 8 bricks.
 template <class Accepts>
 [[nodiscard]] VoxelWindow voxelWindow(const volume::BrickVolume& volume, Vec3i middle, const Accepts& accepts) {
     const Vec3i low{middle.x - 3, middle.y - 3, middle.z - 3};
     const Vec3i count = volume.dimension(), bricks = volume.brickCount();
     const int shiftX = low.x & 7, shiftY = low.y & 7;
-    // Bits of a row that come from the first brick, and what of the window lies inside the volume.
+    // Bits of a row that come from the first brick; bits of a layer that are inside the volume.
     const std::uint64_t firstBits = 0x0101010101010101ull * static_cast<std::uint64_t>(0xFF >> shiftX);
     std::uint64_t inside = 0x007F7F7F7F7F7F7Full;
     if (low.x < 0 || low.y < 0 || low.x + 7 > count.x || low.y + 7 > count.y) {
@@ -67,25 +67,26 @@ template <class Accepts>
 
 /// Normal of a body's surface.
 struct SurfaceNormal {
-    Vec3f indexNormal;   ///< index space, across the surface there; not normalized, never zero
-    float coverage = 0;  ///< share of the voxels in a ball before the surface that are body: kPlaneCoverage on a plane,
-                         ///< more in corners
+    Vec3f indexNormal;   ///< index space (a covector); not normalized, never zero
+    float coverage = 0;  ///< share of body voxels in a ball around the voxel in front of the surface: kPlaneCoverage on
+                         ///< a plane, more in concave corners
 
     static constexpr float kPlaneCoverage = 71.0f / 179;
 };
 
-/// Normal at the middle of a window that stands around the voxel before the surface, so that a sheet one voxel thick
-/// has a side, too. \param faceAxis  axis of the voxel face that is looked at, 0..2 \param faceSign  direction of that
-/// face's normal along the axis, 1 or -1
+/// Normal of the surface next to the centre of a window. The window is centred on the voxel in front of the surface, so
+/// that a sheet one voxel thick has two sides.
+/// \param faceAxis  axis of the voxel face that the ray hits, 0..2
+/// \param faceSign  sign of that face's normal along the axis, 1 or -1
 ///
-/// The body's surface is taken as heights over a plane, joined from the face outwards while they rise or fall by a
-/// voxel at most. Where they are all equal the normal is the face's, exactly, right up to the edges of a wall. Else it
-/// is that of the plane of least squares through them, over the axis along which the first moment of the body in a ball
-/// is longest (along which the surface is a function). Where there are too few heights it is that moment, and where
-/// that leads nowhere the face's normal.
+/// The surface is a height field over the face's plane, grown from the face while neighbouring heights differ by at
+/// most one voxel. If all heights are equal, the normal is exactly the face's, up to the edges of a wall. Else it is
+/// that of the least-squares plane through the heights. Where these are steep or few, heights over the axis of the
+/// longest component of the body's first moment in a ball are taken instead. If they are too few as well, the normal is
+/// the moment, reversed; if all else fails, the face's.
 [[nodiscard]] SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
 
-/// Normal of the surface of the voxels that `accepts(scalar)`, where a ray meets voxel `cell` through a face.
+/// Normal of the surface of all voxels with accepts(scalar), where a ray enters voxel `cell` through a face.
 template <class Accepts>
 [[nodiscard]] SurfaceNormal surfaceNormal(const volume::BrickVolume& volume, Vec3i cell, int faceAxis, int faceSign,
                                           const Accepts& accepts) {
@@ -93,7 +94,7 @@ template <class Accepts>
     return normalOf(voxelWindow(volume, cell, accepts), faceAxis, faceSign);
 }
 
-/// Normals of hit voxels, kept per tile: neighbouring rays often hit the same voxel.
+/// Direct-mapped cache of normals of hit voxels: neighbouring rays often hit the same voxel.
 class NormalCache {
 public:
     struct Slot {

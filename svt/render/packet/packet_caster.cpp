@@ -124,7 +124,7 @@ void PacketCaster::setUpRays(std::size_t volume) {
     volume_ = volume;
 }
 
-// From the last pass to the first, since what hides all before it need not be cast twice; joined from the first on.
+// Casts from the last pass to the first: where a pass hides all before it, those need not be cast. Joins first to last.
 void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
     const std::size_t last = frame_.passes.size() - 1;
     ofPasses_.resize(frame_.passes.size() * kPacketRays);
@@ -139,7 +139,7 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
         }
         castPass(pass, withColor ? passes_[pass] : passes_.labelsOnly(pass));
         for (std::size_t n = 0; n < count_; ++n) {
-            if (first[n] != pass + 1) continue;  // hidden
+            if (first[n] != pass + 1) continue;  // hidden by a later pass
             Sample& sample = ofPasses_[pass * kPacketRays + n];
             writeSample(n, sample);
             first[n] = pass;
@@ -151,7 +151,7 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
     }
     for (std::size_t n = 0; n < count_; ++n) {
         const std::size_t begin = first[n] % kPacketRays;
-        // Nothing is left of what is before it.
+        // Passes before `begin` are hidden.
         Sample& joined = samples[places_[n]];
         joined = begin > 0 ? Sample() : ofPasses_[n];
         for (std::size_t pass = std::max<std::size_t>(begin, 1); pass <= last; ++pass)
@@ -165,7 +165,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
     packetPass.surface = &PacketCaster::surfaceOf;
     packetPass.fragment = &PacketCaster::fragmentOf;
     withColor_ = packetPass.withColor;
-    // The other members are read where there is a depth alone.
+    // All other members are read only where depth is finite.
     for (auto& color : seen_.color) color.fill(0);
     seen_.transmittance.fill(1);
     seen_.depth.fill(std::numeric_limits<double>::infinity());
@@ -185,7 +185,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
     walkVisible(packetPass);
 }
 
-// The stretches of all rays, one after the other.
+// Casts the intervals that the clips leave: in round n, interval n of each ray.
 void PacketCaster::castParts(PacketPass& packetPass) {
     parts_.clear();
     std::size_t most = 0;
@@ -231,7 +231,8 @@ void PacketCaster::castParts(PacketPass& packetPass) {
     addLastFragments();
 }
 
-// Walks what the rays may see of their spans. What begins later begins among hidden voxels, and so without a cut face.
+// Walks the spans, cut to the pass's hull. A span that starts later because of the hull starts among hidden voxels, so
+// it has no cap.
 void PacketCaster::walkVisible(const PacketPass& packetPass) {
     const auto [from, to] = visible_[pass_];
     if (!(from < to)) return;
@@ -243,15 +244,14 @@ void PacketCaster::walkVisible(const PacketPass& packetPass) {
     walkPacket(packetPass, rays_, spans_, this, seen_);
 }
 
-// What lies behind all voxels.
+// Blends the fragments behind all voxels.
 void PacketCaster::addLastFragments() {
     if (!hasShapes_ || fragments_.items.empty()) return;
     for (std::size_t n = 0; n < count_; ++n)
         while (seen_.isDone[n] == 0 && rayFragments_[n].next < rayFragments_[n].end) addFragment(n);
 }
 
-// The lines that a few rays come upon, as their first fragments. Rays of the packet beyond the last are those of the
-// first.
+// Finds the lines that kLineRays rays meet; these are their first fragments. Unused places of the packet repeat ray 0.
 void PacketCaster::findLines(std::size_t block) {
     std::array<std::size_t, kLineRays + 1> starts;
     const auto hits = finder_.findLines(pass_, rays_.u.data() + block, rays_.v.data() + block, starts);
@@ -265,7 +265,7 @@ void PacketCaster::findLines(std::size_t block) {
     }
 }
 
-// What the clips leave of a ray, up to the first opaque surface.
+// Finds the intervals that the clips leave of a ray, up to the first opaque triangle.
 void PacketCaster::findParts(std::size_t ray) {
     const RaySpan span{rays_.from[ray], rays_.to[ray]};
     if (!(span.from < span.to)) return;
@@ -281,11 +281,12 @@ void PacketCaster::findParts(std::size_t ray) {
     for (std::size_t part = first; part < parts_.size(); ++part) parts_[part].to = std::min(parts_[part].to, end);
 }
 
-// Puts the surfaces that a ray meets among its fragments. \return where an opaque one ends it
+// Adds the triangles that a ray meets to its fragments.
+// \return depth of the first opaque one, where the ray ends; infinity if there is none
 double PacketCaster::findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn) {
     const double u = rays_.u[ray], v = rays_.v[ray];
     if (!frame_.passes[pass_].shapes.hasTriangles(u, v)) return std::numeric_limits<double>::infinity();
-    // The fragments of a ray stand together.
+    // The fragments of a ray must be contiguous: copy those found so far to the end.
     Range& found = rayFragments_[ray];
     const std::size_t begin = fragments_.items.size();
     for (std::size_t f = found.next; f < found.end; ++f) fragments_.items.push_back(Fragment(fragments_.items[f]));
@@ -297,7 +298,7 @@ double PacketCaster::findSurfaces(std::size_t ray, std::span<const DrawnInterval
 
 void PacketCaster::fragmentOf(void* context, std::size_t ray) { static_cast<PacketCaster*>(context)->addFragment(ray); }
 
-// RunShader::addFragment().
+// As RunShader::addFragment().
 void PacketCaster::addFragment(std::size_t ray) {
     Range& found = rayFragments_[ray];
     const Fragment& fragment = fragments_.items[found.next++];
@@ -321,7 +322,7 @@ void PacketCaster::addFragment(std::size_t ray) {
     if (isDone) seen_.isDone[ray] = -1;
 }
 
-// Written where it stays: a copy right behind the writing would wait for it.
+// Writes the sample in place: copying it right after writing would stall on store forwarding.
 void PacketCaster::writeSample(std::size_t ray, Sample& sample) const noexcept {
     sample = Sample();
     sample.depth = static_cast<float>(seen_.depth[ray]);
@@ -358,7 +359,7 @@ Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
                          static_cast<std::uint32_t>(surface.plane),
                          surface.isVoxel,
                          surface.from == caster.spans_.from[n] ? caster.caps_[n] : CapFace{}};
-    // The kernel lights what is opaque.
+    // Opaque surfaces are lit by the kernel.
     return style.kind == Kind::Opaque ? light.facing(style, hit) : light.at(style, hit);
 }
 

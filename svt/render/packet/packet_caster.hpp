@@ -1,6 +1,11 @@
 #pragma once
 /// \file
-/// Casts rays in packets, with the results of SampleCaster to the last bit. Internal to render.
+/// Casts rays in packets, with the results of SampleCaster to the last bit.
+///
+/// The scalar part around the kernel: it collects up to 64 rays and clips them to the hull of what a pass shows. It
+/// splits them at clips, so that each round walks the n-th interval of all rays at once. It finds the lines and
+/// triangles that they meet, and joins the passes from the last to the first, since what an opaque pass hides need not
+/// be cast.
 
 #include <svt/render/light/fragments.hpp>
 #include <svt/render/light/sample.hpp>
@@ -13,13 +18,13 @@
 
 namespace svt::render {
 
-/// The passes of a picture as the packet kernel reads them; shared by all threads.
+/// The passes of a frame in the form that the packet kernel reads; shared by all threads.
 class PacketPasses {
 public:
     explicit PacketPasses(const PreparedFrame& frame);
 
     [[nodiscard]] const PacketPass& operator[](std::size_t pass) const noexcept { return passes_[pass]; }
-    /// The same, ending at the first label.
+    /// The same for label and depth only: rays end at the first label.
     [[nodiscard]] PacketPass labelsOnly(std::size_t pass) const noexcept;
 
 private:
@@ -28,23 +33,24 @@ private:
     std::vector<PacketPass> passes_;
 };
 
-/// Casts packets of one tile; belongs to one thread.
+/// Casts the packets of one tile. Not thread-safe: one per thread.
 class PacketCaster {
 public:
     PacketCaster(const PreparedFrame& frame, const PacketPasses& passes)
         : frame_(frame), passes_(passes), visible_(frame.passes.size()), finder_(frame) {}
 
-    /// One more ray to cast, through (u, v), see CameraRays::at(); `place` is the sample that it makes. Not if
-    /// isFull().
+    /// Adds a ray through (u, v), see CameraRays::at(), to the packet. Must not be called if isFull().
+    /// \param place  index of its sample in the `samples` of cast()
     void add(double u, double v, std::size_t place) noexcept {
         rays_.u[count_] = u;
         rays_.v[count_] = v;
         places_[count_++] = place;
     }
     [[nodiscard]] bool isFull() const noexcept { return count_ == kPacketRays; }
-    /// Whether rays through `rect` may see anything.
+    /// Whether rays through `rect` may meet anything visible.
     [[nodiscard]] bool isAnyIn(const ViewRect& rect) const noexcept;
-    /// Casts the rays that there are, if any.
+    /// Casts the added rays, if any, and empties the packet.
+    /// \param withColor  false: label and depth only
     void cast(bool withColor, std::span<Sample> samples);
 
 private:
@@ -69,10 +75,10 @@ private:
     std::array<std::size_t, kPacketRays> places_;
     PacketRays rays_;
     PacketSamples seen_;
-    std::vector<Sample> ofPasses_;  // kPacketRays a pass
+    std::vector<Sample> ofPasses_;  // kPacketRays per pass
     std::size_t pass_ = 0;
-    std::size_t volume_ = 0;        // that the rays are set up for
-    std::vector<RaySpan> visible_;  // by pass: outside of it no ray sees anything
+    std::size_t volume_ = 0;        // volume that the rays are set up for
+    std::vector<RaySpan> visible_;  // by pass: outside of this interval no ray meets anything visible
     std::array<CapFace, kPacketRays> caps_{};
     PacketSpans spans_{};
     FragmentFinder finder_;

@@ -96,7 +96,7 @@ TEST(PacketCaster, GivesItWhereFacesMeetByThrees) {
     expectThePictureOfThePlainCaster(volume);
 }
 
-// Passes are cast from the last on, and rays that the last ones hide everything for are left out of the others.
+// Passes are cast from the last to the first; rays for which a later pass hides all before it are skipped.
 TEST(PacketCaster, LightsRaysOfMoreLabelsThanItKeeps) {
     TestVolume volume = makeVolume({96, 40, 40}, {0.1, 0.1, 0.1}, [](std::int32_t i, std::int32_t j, std::int32_t k) {
         return static_cast<volume::Scalar>(1 + (i + (j * j + k) / 7) % 5);
@@ -177,8 +177,8 @@ TEST(PacketCaster, GivesThePictureOfThePlainCasterFromInside) {
     }
 }
 
-// Planes move a face by less than a voxel: the label that a ray hits is that of a sample around the point. Where two
-// planes meet there may be none on a point's sides; then, with rare exceptions, it is that of a sample next to those.
+// Planes move a face by less than a voxel, so the label that a ray hits is that of one of the samples around the point.
+// Where two planes meet, it may be none of these; then, with rare exceptions, it is that of a sample next to them.
 TEST(PacketCaster, HitsALabelThatASampleAroundThePointHas) {
     const TestVolume volume = makeTurnedHouse();
     const FrameSpec spec = view(volume, "iso", 1);
@@ -197,7 +197,7 @@ TEST(PacketCaster, HitsALabelThatASampleAroundThePointHas) {
             const Vec3d world =
                 spec.camera.eye + (forward + right * u + up * v) * static_cast<double>(frame.depth.at(x, y));
             const Vec3d index = volume.grid.indexFromWorld(world);
-            // Around the point, and around those.
+            // Samples around the point, and samples next to those.
             bool isBeside = false, isNear = false;
             for (std::int32_t n = 0; n < 64; ++n) {
                 const Vec3i away{n % 4 - 1, n / 4 % 4 - 1, n / 16 - 1};
@@ -231,7 +231,7 @@ TEST(PacketCaster, AnObliqueWallIsFlatFromNearerThanAVoxel) {
     spec.passes.push_back({styles(1), {}, Pass::Join::Over});
     const Frame frame = cast(volume, spec);
     for (const float depth : frame.depth.pixels()) EXPECT_NEAR(depth, 0.9, 0.1);
-    // One light all over: no steps.
+    // Uniform light: no voxel steps.
     for (const image::Rgba8 pixel : frame.color.pixels()) {
         EXPECT_NEAR(pixel.r, frame.color.at(32, 32).r, 3);
         EXPECT_NEAR(pixel.g, frame.color.at(32, 32).g, 3);

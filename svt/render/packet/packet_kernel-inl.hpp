@@ -31,9 +31,8 @@ HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
 namespace {
 
-// The rays of a packet, together. Neighbors mostly cross the same boxes, so boxes are taken one at a time: that of the
-// ray that is furthest behind, by all rays that are in it. Rays are walked first and lit after: what changes their
-// labels then stands side by side, and most lanes have something to do.
+// Walks and shades a packet: takes the box of the ray with the smallest t, lets all rays inside cross it, and repeats;
+// see packet_kernel.hpp.
 template <bool kWithFragments>
 class Packet {
     using Shader = HWY_NAMESPACE::Shader<kWithFragments>;
@@ -52,7 +51,7 @@ public:
 private:
     static constexpr std::size_t kGroups = kPacketRays / hn::MaxLanes(D());
 
-    // As many rays as one vector takes.
+    // The rays of one vector.
     struct Group {
         RayVectors vectors;
         ChangeRows changes;
@@ -80,7 +79,7 @@ private:
           mostChanges_(pass.withColor ? ChangeRows::kFull : 1),
           groups_{Group(pass, rays, spans, context, samples, goBack_, kNumbers * hn::MaxLanes(D()))...} {}
 
-    // What the group has come to is given to its shader; rays that it ends go no further.
+    // Shades the group's change rows; rays that the shader ends leave the walk.
     HWY_NOINLINE void shade(Group& group) {
         if (!group.isShaded) group.shader.begin(spans_);
         group.isShaded = true;
@@ -95,14 +94,14 @@ private:
         group.shader.finish();
     }
 
-    // The cell of the ray that is furthest behind; false if all have ended.
+    // Finds the voxel of the ray with the smallest t; false if all rays have ended.
     HWY_INLINE bool findLast(Vec3i& cell) const {
         const D d;
         V least = groups_[0].walk.times();
         for (std::size_t n = 1; n < kGroups; ++n) least = hn::Min(least, groups_[n].walk.times());
         least = hn::MinOfLanes(d, least);
         const double t = hn::GetLane(least);
-        // Of infinities, Highway's portable vectors give the largest finite number as the least.
+        // If all are infinite, MinOfLanes() of Highway's portable targets returns the largest finite number.
         if (!(t < std::numeric_limits<double>::max())) return false;
         for (const Group& group : groups_) {
             const M isLast = hn::Eq(group.walk.times(), least);
@@ -136,7 +135,7 @@ private:
         }
         crossVoxels(bounds, volume.bricks[entry - volume.boxes.size()]);
     }
-    // All rays that are in a box cross it.
+    // Lets all rays that are inside a box cross it.
     template <class Cross>
     HWY_INLINE void crossAll(Bounds& bounds, const Cross& cross) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -162,7 +161,7 @@ private:
 
     const PacketPass& pass_;
     const PacketSpans& spans_;
-    bool goBack_[3];  // the first ray along each axis; nearly always all do
+    bool goBack_[3];  // by axis: ray 0 has a negative direction; nearly always all rays agree
     std::size_t mostChanges_;
     std::array<Group, kGroups> groups_;
 };

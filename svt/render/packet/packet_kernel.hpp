@@ -1,10 +1,37 @@
 #pragma once
 /// \file
-/// Rays of neighbouring pixels at once: set up, and walked through a volume. Compiled for several instruction sets, of
-/// which the best that the machine has is taken when the program runs. Internal to render.
+/// Casts a packet of 64 rays: sets them up, walks them through a volume, and shades what they meet. Compiled for
+/// several instruction sets (Highway); the best one that the machine has is chosen at run time.
 ///
-/// The same arithmetic in the same order as VoxelRay, RunWalk and RunShader, in doubles and without fused operations,
-/// so every set of instructions gives the very runs, labels, depths and colors of the plain caster.
+///     samples of the picture, by ray         a group is as many rays as one vector of doubles has lanes
+///
+///      0  1  2  3 |  8  9 10 11              group 0    ray  0  1  2  3  4  5  6  7
+///      4  5  6  7 | 12 13 14 15              group 1    ray  8  9 10 11 12 13 14 15
+///     ------------+------------               ...
+///     16 17 18 19 | 24 25 26 27              group 7    ray 56 57 58 59 60 61 62 63
+///     20 21 22 23 | 28 29 30 31
+///      ...                                   8 lanes with AVX-512 as drawn, 4 with AVX2, 2 with SSE2
+///
+///     change rows of a group (here of 4 lanes): written by the walk, read by the shader
+///
+///                lane 0    lane 1    lane 2    lane 3
+///     row 0      t, a      t, a      t, a      t, a       a lane has at most one change of label in a row, and its
+///     row 1      t, b      t, c      t, b      t, b       rows are in the order of t; lanes that change in the same
+///     row 2      -         t, d      t, d      -          step share a row
+///
+/// - Packet traversal (Wald et al. 2001): neighbouring rays cross mostly the same boxes of bricks. A box is looked up
+///   once and its numbers are broadcast to all lanes, so the walk through boxes needs no gather.
+/// - The next box is the one that the ray with the smallest t is in, and all rays inside that box cross it. So each
+///   ray still meets its own boxes front to back, whatever order the packet takes (ours).
+/// - Whether a ray is inside a box is a slab test on the times at which it crosses the box's planes. Each time is the
+///   same expression for each plane, never a running sum, so crossing a box at once gives the same runs as stepping
+///   through its voxels (after Amanatides and Woo 1987).
+/// - Deferred shading: the walk only writes changes of label into rows; a group is shaded row by row at the end of its
+///   walk, or once it has 24 rows (1 row where only labels are wanted). So most lanes are active in the shader. Rays
+///   that it ends leave the walk (ours).
+/// - The same arithmetic in the same order as VoxelRay, RunWalk and RunShader, in doubles and without fused
+///   multiply-add: runs, labels, depths and colors are those of the plain caster to the last bit, on every instruction
+///   set (ours).
 
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/light/surface_light.hpp>
@@ -17,73 +44,75 @@
 
 namespace svt::render {
 
-/// A packet has the rays of so many pixels, in blocks of 4 x 2 that lie beside each other and are read one by one.
+/// Rays of a packet: samples along x and along y. Where a grid of samples is cast, they are in blocks of 4 x 2, see
+/// above and TileRenderer::castGrid(); otherwise rays may come in any order.
 inline constexpr std::int32_t kPacketWidth = 8, kPacketHeight = 8;
 inline constexpr std::size_t kPacketRays = kPacketWidth * kPacketHeight;
 
+/// One value per ray of a packet.
 template <class T>
 struct alignas(64) Lanes : std::array<T, kPacketRays> {};
 
-/// Rays of a packet, as VoxelRay and CameraRay have them.
+/// Rays of a packet; members as in VoxelRay and CameraRay.
 struct PacketRays {
-    Lanes<double> u, v;  ///< where in the picture, see CameraRays::at(): what setUpPacket() is given
+    Lanes<double> u, v;  ///< place in the picture, see CameraRays::at(); the input of setUpPacket()
     Lanes<double> origin[3], direction[3], inverse[3], planeOrigin[3];
     Lanes<double> slack;
-    Lanes<double> view[3];  ///< world space, unit length, towards the viewer; not set where no ray beside is inside
+    Lanes<double> view[3];  ///< world space, unit length, towards the viewer; unset where a whole vector of rays misses
     Lanes<double> metresPerT;
-    Lanes<double> from, to;  ///< where the ray is in the volume
+    Lanes<double> from, to;  ///< part of the ray inside the volume
 };
 
-/// Bits of PacketStyle::kind; none: hidden.
+/// Bits of PacketStyle::kind; 0: hidden.
 enum PacketKind : std::int64_t { kVisible = 1, kOpaque = 2, kBody = 4 };
 
-/// Look of a scalar, as LinearStyle has it.
+/// Style of a scalar; members as in LinearStyle.
 struct PacketStyle {
     double color[3], density, surface;
     std::int64_t kind, object, label;
 };
 static_assert(sizeof(PacketStyle) == 64);
 
-/// What one packet has seen; the members of Sample.
+/// Results of the rays of a packet; members as in Sample.
 struct PacketSamples {
     Lanes<double> color[3], transmittance, depth, normal[3];
     Lanes<std::int64_t> label, object, isCap;
     Lanes<std::int64_t> isDone;  ///< -1: the ray has ended
-    Lanes<double> lines;         ///< share of the light that lines have let through
-    Lanes<double> nextFragment;  ///< depth of the next fragment that the ray comes to; infinity where there is none
+    Lanes<double> lines;         ///< transmittance of the lines met so far
+    Lanes<double> nextFragment;  ///< depth of the ray's next fragment; infinity if there is none
 };
 
-/// A surface whose normal is not found here: among voxels, on a cut face, or around the eye; and that of a body which
-/// is not opaque.
+/// A surface that the kernel does not shade itself and asks PacketPass::surface for: its normal is fitted to voxels, it
+/// is a cap, the eye is inside, or it belongs to a body that is not opaque.
 struct PacketSurface {
     std::size_t lane;
     std::int64_t scalar, plane;
     double from;
     Vec3i cell;
-    int axis;  ///< whose voxel face the ray crosses there, or -1
+    int axis;  ///< axis of the voxel face that the ray crosses there, or -1
     bool isVoxel;
 };
 
-/// Surface::normal and Surface::away of all that is seen of a plane from one side.
+/// Surface::normal and Surface::away of one side of a plane.
 struct PacketFace {
     double normal[3], away[3], unused[2];
 };
 
-/// OcclusionField::Level, for reading.
+/// View of an OcclusionField::Level.
 struct PacketOcclusion {
     const std::uint32_t* voxels = nullptr;
     double count[3]{}, perVoxel = 0, cellSize = 0, gain = 0, weight = 0;
 };
 
-/// A pass over a volume, as all packets share it.
+/// A pass and its volume, read by all packets.
 struct PacketPass {
     volume::BrickVolume::Arrays volume;
     double bricksX = 0, bricksY = 0;
     double count[3]{};                    ///< voxels
-    const PacketStyle* styles = nullptr;  ///< by scalar; one more, hidden, for all scalars from styleCount on
+    const PacketStyle* styles = nullptr;  ///< by scalar; element styleCount is hidden and stands for all larger scalars
     std::int64_t styleCount = 0;
-    /// 2 a, 2 a + 1: faces of voxels across axis a, seen by rays that go back along it, and on; from 6 on, the same for
-    /// each of volume.oblique: seen from its positive side, and from the other.
+    /// Elements 2 a and 2 a + 1: voxel faces across axis a, for rays in the negative and in the positive direction.
+    /// Elements 6 + 2 p and 7 + 2 p: plane p of volume.oblique, seen from its positive and from its negative side.
     const PacketFace* faces = nullptr;
     std::array<PacketOcclusion, OcclusionField::kLevels> occlusion;
     double ambientOcclusion = 0;
@@ -91,23 +120,25 @@ struct PacketPass {
     double ambient = 0, key = 0;
     double opaqueAt = 1, labelAt = 0;
     bool hasOpaque = false;  ///< whether any style is opaque
-    bool withColor = true;   ///< false: ends at the first label, without light
+    bool withColor = true;   ///< false: label and depth only; rays end at the first label
+    /// Normal and light of a surface that the kernel does not shade.
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
-    bool hasFragments = false;  ///< rays may come to lines or meshes; else samples.lines and nextFragment are not read
-    /// Adds the next fragment of a ray to its samples.
+    bool hasFragments = false;  ///< rays may meet lines or meshes; else samples.lines and nextFragment are not read
+    /// Blends the next fragment of a ray into its sample.
     void (*fragment)(void* context, std::size_t ray) = nullptr;
 };
 
-/// Rays through the places `rays.u`, `rays.v`, and where they are in a volume of `count` voxels.
+/// Sets up the rays through (rays.u, rays.v), and clips them to a volume of `count` voxels.
 void setUpPacket(const CameraRays& camera, Vec3i count, PacketRays& rays);
 
-/// Where the rays of a packet are cast: on [from, to) each, which must lie in PacketRays::from and to.
+/// The interval [from, to) of each ray that is cast; must lie within [PacketRays::from, PacketRays::to).
 struct PacketSpans {
     Lanes<double> from, to;
-    Lanes<std::int64_t> capped{};  ///< not 0 where a clip made the start
+    Lanes<std::int64_t> capped{};  ///< not 0 if the ray starts on a cap, the cut face of a clip
 };
 
-/// Walks the rays over their spans and adds to `samples`. \param context  handed to pass.surface
+/// Walks the rays over their spans, and blends what they meet into `samples`, front to back.
+/// \param context  passed to pass.surface and pass.fragment
 void walkPacket(const PacketPass& pass, const PacketRays& rays, const PacketSpans& spans, void* context,
                 PacketSamples& samples);
 

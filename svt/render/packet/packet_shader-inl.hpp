@@ -1,6 +1,12 @@
 #pragma once
 /// \file
-/// The light of the labels that rays go through, many rays at once: RunShader of the plain caster. Internal to render.
+/// Shades the runs of the rays of a group: the vector version of RunShader.
+///
+/// Takes the change rows of a walk. At each change, the run before is blended front to back: extinction over its length
+/// (Beer-Lambert) attenuates the transmittance. The new run gets a normal from a table of planes and voxel faces; if it
+/// is opaque its ray ends, and all opaque runs of the group are lit together at the end. What is rare (a fitted normal,
+/// a cap, a translucent body, a fragment) is handed to the caster by PacketPass::surface and PacketPass::fragment, ray
+/// by ray.
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
@@ -9,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
 namespace {
 
-// See expOfMinus() of the plain caster.
+// As expOfMinus() of the plain caster.
 HWY_INLINE V expOfMinus(V x) {
     const D d;
     const DI di;
@@ -27,8 +33,7 @@ HWY_INLINE V expOfMinus(V x) {
     return hn::IfThenElseZero(isSmall, hn::Mul(hn::Mul(sum, sum), power));
 }
 
-// Takes the changes of label of as many rays as one vector takes. What lines and meshes need is left out where there
-// are none: it would cost 4 %.
+// Shades the rays of one group. Without kWithFragments the code for lines and meshes is left out, which would cost 4 %.
 template <bool kWithFragments>
 class Shader {
 public:
@@ -42,7 +47,7 @@ public:
           context_(context),
           samples_(samples) {}
 
-    // Before anything else.
+    // Loads the state of the rays; must be called first.
     HWY_INLINE void begin(const PacketSpans& spans) {
         const D d;
         const DI di;
@@ -66,7 +71,7 @@ public:
         isRunTranslucent_ = isOpaque_ = isUnlit_ = isOnCap_ = isAroundEye_ = hn::Lt(zero, zero);
     }
 
-    // Takes what the rows have.
+    // Shades all changes of the rows.
     HWY_NOINLINE void shade(const ChangeRows& rows) {
         for (std::size_t n = 0; n < rows.count(); ++n) {
             const ChangeRows::Row row = rows[n];
@@ -85,6 +90,7 @@ public:
     // The rays that have ended.
     [[nodiscard]] HWY_INLINE M isDone() const { return isDone_; }
 
+    // Ends the last runs, lights opaque surfaces, and stores the state of the rays.
     HWY_INLINE void finish() {
         if (any(isOpaque_)) addOpaque();
         if (kWithFragments && hasFragments_) addFragments(started_, end_);
@@ -110,7 +116,7 @@ private:
         return styles_.template integer<kMember>(looks);
     }
 
-    // RunShader::add(); `share` of the light is stopped.
+    // As RunShader::add(); `share`: how much of the light is stopped.
     HWY_INLINE void add(M lanes, V share, V from, const Looks& looks) {
         const D d;
         const V one = hn::Set(d, 1.0);
@@ -150,7 +156,7 @@ private:
 
     HWY_INLINE void markDone(M lanes) { isDone_ = hn::Or(isDone_, lanes); }
 
-    // RunShader::leave() of translucent runs.
+    // As RunShader::leave(), for translucent runs.
     HWY_INLINE void leave(M lanes, V to) {
         const D d;
         const V one = hn::Set(d, 1.0);
@@ -166,7 +172,7 @@ private:
         }
     }
 
-    // Fragments that the rays meet up to `t`. A run is left where there is one and goes on behind it.
+    // Blends the fragments up to `t`. At a fragment the run is blended up to there, and goes on behind it.
     HWY_NOINLINE void addFragments(M lanes, V t) {
         const D d;
         const DI di;
@@ -195,7 +201,7 @@ private:
         }
     }
 
-    // RunShader::enter().
+    // As RunShader::enter().
     HWY_INLINE void enter(M lanes, VI scalar, M isVoxel) {
         const DI di;
         const Looks looks = looksOf(scalar, lanes);
@@ -215,14 +221,14 @@ private:
         markDone(opaque);
     }
 
-    // Opaque runs end their rays; they are lit all at once.
+    // Opaque runs end their rays; all of the group are lit together here.
     HWY_NOINLINE void addOpaque() {
         const M unlit = hn::And(isOpaque_, isUnlit_);
         if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(openness()), light_);
         add(isOpaque_, transmittance_, runStart_, looksOf(runScalar_, isOpaque_));
     }
 
-    // SurfaceLight::openness().
+    // As SurfaceLight::openness().
     HWY_INLINE V openness() const {
         const D d;
         const V one = hn::Set(d, 1.0), zero = hn::Zero(d);
@@ -240,7 +246,7 @@ private:
         return hn::IfThenElse(isAroundEye_, one, open);
     }
 
-    // OcclusionField::Level::sample(), a cell's size away from `point`.
+    // As OcclusionField::Level::sample(), at `point` moved by one cell along the surface's outward direction.
     HWY_INLINE V sample(const PacketOcclusion& level, const V3& point) const {
         const D d;
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0), size = hn::Set(d, level.cellSize);
@@ -269,7 +275,7 @@ private:
         return hn::IfThenElse(inside, value, hn::Mul(zero, one));
     }
 
-    // SurfaceLight::lightOn().
+    // As SurfaceLight::lightOn().
     HWY_INLINE V lightOn(V open) const {
         const D d;
         const V zero = hn::Zero(d);
@@ -283,7 +289,7 @@ private:
                                         hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
     }
 
-    // SurfaceLight::facing(), and the light on what is not opaque.
+    // As SurfaceLight::facing(); also lights what is not opaque.
     HWY_INLINE void findSurfaces(M lanes, M opaque, M isBody, VI scalar, M isVoxel) {
         const D d;
         const DI di;
@@ -292,9 +298,9 @@ private:
         M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
         M isNowhere = hn::Lt(zero, zero);
         V faceAxis = hn::Set(d, -1.0);
-        VI face = hn::Zero(di);  // of PacketPass::faces
+        VI face = hn::Zero(di);  // index into PacketPass::faces
         if (const M onGrid = andNot(isOblique, lanes); any(onGrid)) {
-            // The first axis whose plane the ray crosses at t.
+            // The first axis whose voxel plane the ray crosses at t.
             const auto nearX = RayVectors::nearPlane(vectors_.x, t_), nearY = RayVectors::nearPlane(vectors_.y, t_),
                        nearZ = RayVectors::nearPlane(vectors_.z, t_);
             const M isX = hn::Eq(nearX.time, t_), isY = hn::Eq(nearY.time, t_), isZ = hn::Eq(nearZ.time, t_);
@@ -308,7 +314,7 @@ private:
             faceAxis = first(zero, one, hn::Set(d, 2.0));
             faceAxis = hn::IfThenElse(isNowhere, hn::Set(d, -1.0), faceAxis);
             face = toInt(first(side(vectors_.x, 0), side(vectors_.y, 1), side(vectors_.z, 2)));
-            // On the side of a brick?
+            // A multiple of 8 is a face of a brick.
             const V fraction = hn::Mul(first(nearX.plane, nearY.plane, nearZ.plane), hn::Set(d, 0.125));
             const M atSide = hn::And(onGrid, hn::Eq(hn::Floor(fraction), fraction));
             const M atSeam = hn::And(andNot(isNowhere, atSide), hn::Gt(t_, from_));
@@ -336,7 +342,7 @@ private:
             const VI side = hn::IfThenElse(toInts(isAway), hn::Add(front, hn::Set(di, 1)), front);
             face = hn::IfThenElse(toInts(onPlane), side, face);
         }
-        // Surface::normal and Surface::away.
+        // As Surface::normal and Surface::away.
         V3 normal, away;
         std::int64_t first = 0;
         if (isSame(face, lanes, first)) {
@@ -366,6 +372,7 @@ private:
         if (any(special)) askForSurfaces(special, scalar, isVoxel, faceAxis);
     }
 
+    // Which index entries are below `end`, see BrickVolume::Arrays.
     static HWY_INLINE M isBelow(VI entry, std::size_t end) {
         return toDoubles(hn::Lt(entry, hn::Set(DI(), static_cast<std::int64_t>(end))));
     }
@@ -379,7 +386,7 @@ private:
         return bitsOf<0, 16>(gatherBytes(pass_.volume.narrow.data(), hn::ShiftLeft<1>(brick64)));
     }
 
-    // The numbers of the planes of each lane's brick; kNoPlane where there is none.
+    // Numbers of the planes of each lane's brick; kNoPlane: none.
     struct Planes {
         VI first, second, third;
     };
@@ -391,6 +398,9 @@ private:
         const M coded = andNot(isBelow(entry, pass_.volume.uniformBoxes), isBox);
         if (!any(coded)) return {none, none, none};
         const VI box = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<4>(entry));
+        // SameLabelBox has 16 bytes: min and max (3 x 16 bits each), then the scalar, at byte 12. The 64 bits from byte
+        // 8 on have the scalar, here the number of a code, in their upper half. The size is asserted elsewhere only, in
+        // volume_textures.cpp of render_gl.
         const VI code = hn::IfThenElseZero(
             toInts(coded),
             shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(pass_.volume.boxes.data()) + 8, box)));
@@ -402,7 +412,7 @@ private:
         return {known(lowHalf(both)), known(shiftRight<32>(both)), known(lowHalf(rest))};
     }
 
-    // seamPlane(): the plane for each of the lanes, crossed_ for the others.
+    // As seamPlane(): the plane for each lane of the mask, crossed_ for the others.
     HWY_NOINLINE VI seamPlanes(M lanes, V faceAxis) const {
         const D d;
         const DI di;
@@ -447,6 +457,7 @@ private:
         return found;
     }
 
+    // Asks PacketPass::surface for the surfaces of some lanes, ray by ray.
     HWY_NOINLINE void askForSurfaces(M lanes, VI scalars, M isVoxel, V faceAxis) {
         const D d;
         const DI di;
@@ -506,7 +517,7 @@ private:
     PacketSamples& samples_;
     V metresPerT_;
     V t_, from_, end_, runStart_, labelStart_;
-    VI runScalar_, object_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
+    VI runScalar_, object_, crossed_;  // crossed_: the oblique plane that the ray crosses at t_, or -1
     V light_, crease_;
     V3 normal_, away_;
     V3 color_;

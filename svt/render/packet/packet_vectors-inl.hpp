@@ -1,7 +1,12 @@
 #pragma once
 /// \file
-/// Rays of a packet as vectors, what reads tables by lane, and the rows in which a walk hands its changes of label to
-/// the shader. Internal to render.
+/// Vector types and helpers of the packet kernel: rays as vectors (RayVectors), table look-ups and gathers by lane
+/// (lookUp(), gatherBytes(), Styles), and the rows that carry changes of label from the walk to the shader
+/// (ChangeRows).
+///
+///     change word of one lane     bits 0..31  scalar    bit 32  only voxels tell the label    bits 33..  plane + 1
+///
+/// Where all lanes want the same element, isSame() finds out and one scalar load replaces the gather.
 
 #include <svt/render/packet/packet_kernel.hpp>
 
@@ -43,11 +48,11 @@ HWY_INLINE V3 loadV3(const Lanes<double> (&lanes)[3], std::size_t first) {
 }
 HWY_INLINE void store(V v, Lanes<double>& lanes, std::size_t first) { hn::Store(v, D(), lanes.data() + first); }
 
-// 64 bits of `array` at a byte offset in each lane that is in `mask`; elsewhere 0.
+// 64 bits of `array` at a byte offset, per lane. All offsets must be valid, also those of inactive lanes.
 HWY_INLINE VI gatherBytes(const void* array, VI offset) {
     return hn::GatherOffset(DI(), static_cast<const std::int64_t*>(array), offset);
 }
-// Element `index`, 0..7, of a table of 8 in each lane.
+// Element `index`, 0..7, of a table of 8 elements, per lane.
 HWY_INLINE VI lookUp(const std::uint64_t* table, VI index) {
     const DI di;
     if constexpr (hn::MaxLanes(D()) == 8) {
@@ -58,7 +63,7 @@ HWY_INLINE VI lookUp(const std::uint64_t* table, VI index) {
     }
 }
 HWY_INLINE VI lowHalf(VI v) { return hn::And(v, hn::Set(DI(), 0xFFFFFFFF)); }
-// The same for 32 bits; `count` is of the table, which has 7 more behind it.
+// The same for 32-bit elements. `count` is the table's size; 7 more elements behind it must be readable.
 HWY_INLINE VI lookUp(const volume::Scalar* table, std::size_t count, VI index) {
     const DI di;
     if constexpr (hn::MaxLanes(D()) == 8) {
@@ -95,7 +100,7 @@ HWY_INLINE V3 broadcast(Vec3d v) {
 HWY_INLINE V3 sum(const V3& a, const V3& b) { return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)}; }
 HWY_INLINE V3 times(const V3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 
-// One axis of the rays.
+// One axis of the rays of a vector; members as in VoxelRay.
 struct Axis {
     V origin, direction, inverse, planeOrigin, count;
     M isNegative, isMoving;
@@ -104,18 +109,18 @@ struct Axis {
     HWY_INLINE V at(V t) const { return hn::Add(origin, hn::Mul(t, direction)); }
 };
 
-// Whether the lanes, of which there must be one, have the same number: `first`. Neighbors mostly have.
+// Whether all lanes of the mask, which must not be empty, hold the same number, `first`. Neighbouring rays mostly do.
 HWY_INLINE bool isSame(VI numbers, M lanes, std::int64_t& first) {
     first = hn::ExtractLane(numbers, hn::FindKnownFirstTrue(D(), lanes));
     return !any(hn::And(lanes, toDoubles(hn::Ne(numbers, hn::Set(DI(), first)))));
 }
 
-// Rays of a packet, as many as one vector takes.
+// The rays of one group: one vector per component.
 struct RayVectors {
     Axis x, y, z;
     V slack;
-    bool areMoving;        // all rays along all axes
-    bool isPlain = false;  // and to the same side as all others of the packet, see go()
+    bool areMoving;        // no ray has a zero direction on any axis
+    bool isPlain = false;  // besides, the signs of its directions are those of the packet's ray 0, see go()
 
     HWY_INLINE RayVectors(const PacketPass& pass, const PacketRays& rays, std::size_t first)
         : x(axisOf(pass, rays, first, 0)),
@@ -125,7 +130,7 @@ struct RayVectors {
         areMoving = hn::AllTrue(D(), hn::And(hn::And(x.isMoving, y.isMoving), z.isMoving));
     }
 
-    // Whether all rays move along all axes, and back along those of `goBack` alone.
+    // Whether all directions are non-zero, and negative exactly on the axes of `goBack`.
     HWY_INLINE bool go(const bool (&goBack)[3]) const {
         const auto isSo = [&](const Axis& axis, bool back) {
             return hn::AllTrue(D(), axis.isMoving) &&
@@ -134,7 +139,7 @@ struct RayVectors {
         return isSo(x, goBack[0]) && isSo(y, goBack[1]) && isSo(z, goBack[2]);
     }
 
-    // The plane between voxels that a ray is nearest to at t, and when it crosses it.
+    // The voxel plane nearest to a ray at t, and the time at which the ray crosses it.
     struct NearPlane {
         V position, plane, time;
     };
@@ -142,13 +147,13 @@ struct RayVectors {
         const V position = axis.at(t), plane = hn::Round(position);
         return {position, plane, axis.planeTime(plane)};
     }
-    // The voxels that the rays are in at t, see VoxelRay::cellAt(). Any for those that have ended.
+    // The voxels that the rays are in at t, see VoxelRay::cellAt(). Undefined for rays that have ended.
     HWY_INLINE V3 cells(V t) const {
         const auto cellOf = [&](const Axis& axis) {
             const D d;
             const V one = hn::Set(d, 1.0);
             const NearPlane near = nearPlane(axis, t);
-            // Beside a plane rounding must not decide.
+            // Next to a plane, the crossing time decides, not the rounded position.
             const M isBeside = hn::And(axis.isMoving, hn::Le(hn::Abs(hn::Sub(near.position, near.plane)), slack));
             const M isBelow = hn::Not(hn::Xor(hn::Le(near.time, t), axis.isNegative));
             const V decided = hn::IfThenElse(isBelow, hn::Sub(near.plane, one), near.plane);
@@ -173,13 +178,13 @@ private:
     }
 };
 
-// What a scalar, or each lane's own, looks like.
+// Reference to the style of each lane.
 struct Looks {
-    const PacketStyle* same;  // of all lanes; or null, and
-    VI offset;                // bytes to each lane's
+    const PacketStyle* same;  // the style of all lanes; null if they differ, and then
+    VI offset;                // byte offset of each lane's style
 };
 
-// The look of each lane's scalar.
+// Styles by scalar, read per lane.
 class Styles {
 public:
     HWY_INLINE explicit Styles(const PacketPass& pass) : styles_(pass.styles), count_(pass.styleCount) {}
@@ -210,10 +215,10 @@ private:
     std::int64_t count_;
 };
 
-// Where rays change their label, in rows: a ray has one change in a row at most, and its rows are in the order of t.
+// Changes of label of the rays of a group, in rows: at most one change per ray and row, in ascending order of t by ray.
 class ChangeRows {
 public:
-    // A walk through one box adds fewer than kOfOneBox; from kFull on there may be no room for them.
+    // A walk through one box adds fewer than kOfOneBox rows, so rows must be emptied once there are kFull.
     static constexpr std::size_t kFull = 24, kOfOneBox = 24, kMost = kFull + kOfOneBox;
 
     HWY_INLINE void clear() {
@@ -222,14 +227,14 @@ public:
     }
     [[nodiscard]] HWY_INLINE std::size_t count() const { return count_; }
 
-    // `plane`: the oblique plane that the ray crosses there, or -1.
+    // `plane`: number of the oblique plane that the ray crosses at t, or -1.
     HWY_INLINE void add(M lanes, V t, VI scalar, VI plane, bool isVoxel) {
         const D d;
         const DI di;
         VI change = hn::Or(scalar, hn::ShiftLeft<33>(hn::Add(plane, hn::Set(di, 1))));
         if (isVoxel) change = hn::Or(change, hn::Set(di, std::int64_t{1} << 32));
-        // Below all rows that the lanes have something in. Others may have come that far: lanes that meet the same wall
-        // in different boxes share a row.
+        // The first row behind the last rows of all these lanes. It may hold changes of other lanes already: lanes that
+        // meet the same wall in different boxes share a row.
         const auto row =
             static_cast<std::size_t>(hn::GetLane(hn::MaxOfLanes(di, hn::IfThenElseZero(toInts(lanes), next_))));
         const V before = row < count_ ? hn::Load(d, t_[row]) : t;
@@ -258,7 +263,7 @@ private:
     static constexpr std::size_t kLanes = hn::MaxLanes(D());
 
     std::size_t count_ = 0;
-    VI next_;  // the row below the last of each lane
+    VI next_;  // by lane: the row after its last one
     alignas(64) double t_[kMost][kLanes];
     alignas(64) std::int64_t changes_[kMost][kLanes];
 };

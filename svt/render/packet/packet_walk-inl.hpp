@@ -1,6 +1,11 @@
 #pragma once
 /// \file
-/// The way of rays through a volume, many rays at once: walkRuns() of the plain caster. Internal to render.
+/// Walks the rays of a group through boxes of bricks: the vector version of walkRuns().
+///
+/// A box of one label is left in one step. A coded box has up to three cuts and three planes; for each, one bit tells
+/// on which side a ray is, and the bits form the number of a cell, whose label comes from a table (crossSides(), with
+/// no branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and Woo (1987): the voxel
+/// is kept as a bit and a word of the brick's bit planes. Each step masks off the lanes that have left the box.
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
@@ -9,20 +14,20 @@ HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
 namespace {
 
-// Voxels [low, high) of a box, and the same as rays of one direction come upon them.
+// Voxels [low, high) of a box; the same planes sorted by the packet's direction: where its rays leave, and enter.
 struct Bounds {
     double low[3], high[3];
     double ahead[3], behind[3];
 };
 
-// Walks as many rays as one vector takes, and writes down where their labels change.
+// Walks the rays of a group, and records where their labels change.
 class Walk {
 public:
     HWY_INLINE Walk(const PacketPass& pass, const PacketRays& rays, const RayVectors& vectors, std::size_t first,
                     ChangeRows& changes)
         : pass_(pass), rays_(rays), vectors_(vectors), styles_(pass), first_(first), changes_(changes) {}
 
-    // Starts on [from, to); not where a ray has ended before.
+    // Starts the rays on [from, to), except those that have ended before.
     HWY_INLINE void begin(const Lanes<double>& from, const Lanes<double>& to, const Lanes<std::int64_t>& isDone) {
         const D d;
         t_ = hn::Load(d, from.data() + first_);
@@ -32,12 +37,12 @@ public:
         runScalar_ = crossed_ = hn::Set(DI(), -1);
     }
 
-    // Ends rays.
+    // Ends the rays of a mask.
     HWY_INLINE void end(M lanes) { t_ = hn::IfThenElse(lanes, hn::Set(D(), kInfinity), t_); }
 
-    // Where the rays are; infinity for those that have ended.
+    // Current t of the rays; infinity for those that have ended.
     HWY_INLINE V times() const { return t_; }
-    // The voxel that one of them is in at t, see VoxelRay::cellAt().
+    // The voxel that one ray is in at t, see VoxelRay::cellAt().
     HWY_INLINE Vec3i cell(std::size_t lane, double t) const {
         const std::size_t ray = first_ + lane;
         Vec3i cell;
@@ -47,7 +52,7 @@ public:
             const auto inner = static_cast<std::int64_t>(position);
             const double aside = position - static_cast<double>(plane);
             const double time = (static_cast<double>(plane) - rays_.planeOrigin[axis][ray]) * rays_.inverse[axis][ray];
-            // Beside a plane rounding must not decide. Without branches: nobody foretells them.
+            // Next to a plane, the crossing time decides, not the rounded position. Unpredictable, so branch-free.
             const bool isBeside = (std::abs(aside) <= rays_.slack[ray]) & (along != 0);
             const std::int64_t decided = plane - std::int64_t{(time <= t) == (along < 0)};
             const std::int64_t at = isBeside ? decided : inner;
@@ -57,10 +62,10 @@ public:
         return cell;
     }
 
-    // The box that rays are in.
+    // The lanes that are inside a box, and the time at which they leave it.
     struct Inside {
         M lanes;
-        V exit;  // when they leave it
+        V exit;
     };
     HWY_INLINE Inside findInside(const Bounds& box) const {
         const D d;
@@ -75,7 +80,7 @@ public:
         return findInsideByLane(box);
     }
 
-    // Through a box of one label.
+    // Crosses a box of one label.
     HWY_INLINE void crossUniform(const Inside& inside, std::int64_t scalar) {
         const DI di;
         const M lanes = change(inside.lanes, hn::Set(di, scalar), false);
@@ -83,7 +88,7 @@ public:
         advance(lanes, inside.exit);
     }
 
-    // Through a coded box, from side to side.
+    // Crosses a coded box, from one cut or plane to the next.
     HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
         const D d;
         Side sides[volume::BrickVolume::kMostSides];
@@ -94,7 +99,7 @@ public:
             Side& side = sides[count++];
             side.time = axis.planeTime(place);
             side.isBeyondAfter = hn::Not(axis.isNegative);
-            // Not along this axis: on one side for good.
+            // Rays with a zero direction on this axis stay on one side.
             if (!vectors_.areMoving)
                 side.isBeyondAfter = hn::And(side.isBeyondAfter, hn::Or(axis.isMoving, hn::Lt(axis.origin, place)));
             side.plane = -1;
@@ -119,7 +124,7 @@ public:
         }
     }
 
-    // Through a brick of voxels, from voxel to voxel.
+    // Crosses a brick of voxels, from voxel to voxel.
     HWY_INLINE void crossVoxels(const Inside& inside, const Bounds& box,
                                 const volume::BrickVolume::PaletteBrick& brick) {
         const D d;
@@ -132,10 +137,10 @@ public:
         const auto local = [&](V at, int axis) {
             return hn::IfThenElseZero(lanes, hn::Sub(at, hn::Set(d, box.low[axis])));
         };
-        // Which bit of which word.
+        // Bit and word of the voxel in each bit plane.
         VI bit = toInt(hn::Add(local(cell.x, 0), hn::Mul(local(cell.y, 1), hn::Set(d, 8.0))));
         VI word = toInt(local(cell.z, 2));
-        // Faces of the voxel before the rays; they move by a voxel.
+        // The planes by which the rays leave the current voxel; they advance by one voxel.
         const auto sign = [&](const Axis& axis) { return hn::IfThenElse(axis.isNegative, hn::Neg(one), one); };
         const V3 step{sign(vectors_.x), sign(vectors_.y), sign(vectors_.z)};
         const auto faceAhead = [&](const Axis& axis, V at) {
@@ -186,14 +191,14 @@ private:
         return inside;
     }
 
-    // When the rays change sides of a cut or plane; whether they are beyond from then on, or until then.
+    // A cut or plane of a coded box: when the rays cross it, and whether they are beyond it after or before that time.
     struct Side {
         V time;
         M isBeyondAfter;
-        std::int64_t plane;  // its number, or -1
+        std::int64_t plane;  // its number; -1: a cut
     };
 
-    // From side to side, which stand in the order of the bits of a cell's number.
+    // Crosses a box with kCount sides; side s gives bit s of the cell number.
     template <std::size_t kCount>
     HWY_INLINE void crossSides(const Inside& inside, const Side* sides, const volume::Scalar* scalars) {
         const DI di;
@@ -216,7 +221,7 @@ private:
         }
     }
 
-    // PlaneCrossing of the plain caster.
+    // As PlaneCrossing of the plain caster.
     HWY_INLINE void findCrossing(const volume::BrickPlane& plane, V& time, M& isRising) const {
         const D d;
         const V zero = hn::Zero(d);
@@ -229,7 +234,7 @@ private:
         isRising = hn::Or(hn::Gt(rise, zero), hn::Not(hn::Or(crosses, hn::Gt(height, zero))));
     }
 
-    // Lanes go on to `t`; returns those that have not ended.
+    // Moves the lanes on to `t`; returns those that have not reached their end.
     HWY_INLINE M advance(M lanes, V t) {
         const D d;
         const M goesOn = hn::And(lanes, hn::Lt(t, end_));
@@ -237,7 +242,7 @@ private:
         return goesOn;
     }
 
-    // The lanes are in `scalar` from t on; returns those that do not end there.
+    // Records that the lanes are in `scalar` from t_ on; returns those that go on. Opaque scalars end their rays.
     HWY_INLINE M change(M lanes, VI scalar, bool isVoxel) {
         const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
         if (!any(changed)) return lanes;
@@ -259,7 +264,7 @@ private:
     std::size_t first_;
     ChangeRows& changes_;
     V t_, end_;
-    VI runScalar_, crossed_;  // crossed: the oblique plane that the ray crosses at t, or -1
+    VI runScalar_, crossed_;  // crossed_: the oblique plane that the ray crosses at t_, or -1
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ Vec3d towardsLight(const Light& light, const CameraRays& rays) {
     return normalized(direction);
 }
 
-// Where the volume's box is seen, a pixel wider; the whole picture where the eye is in it or beside it.
+// Bounds of the volume's box in the picture, one pixel wider; the whole picture if the box reaches the eye plane.
 PixelRect drawnPixels(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
     const PixelRect whole{0, 0, static_cast<double>(spec.width), static_cast<double>(spec.height)};
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -60,7 +60,7 @@ PixelRect drawnPixels(const CameraRays& rays, const volume::Grid& grid, const Fr
     return rays.isPerspective() && !(nearest > 1e-3 * (farthest - nearest)) ? whole : rect;
 }
 
-// Is each voxel at least a pixel wide, wherever the volume is seen?
+// Whether each voxel is at least one pixel wide, at the volume's greatest depth.
 bool arePixelsFine(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
     double farthest = 0;
     const Vec3i n = grid.dimension();
@@ -132,7 +132,7 @@ Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& s
     std::optional<PacketPasses> packets;
     if (!isReference) packets.emplace(frame);
     Frame picture;
-    // Side by side: what new memory takes is seen in fast frames.
+    // In parallel: the time to touch new memory matters in fast frames.
     parallelFor(3, 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t image = begin; image < end; ++image) {
             if (image == 0) picture.color = image::Image<image::Rgba8>(spec.width, spec.height);

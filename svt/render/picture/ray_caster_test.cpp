@@ -151,7 +151,7 @@ TEST(RayCaster, SphereHasItsAreaAndDepth) {
     for (int y = 0; y < 200; ++y)
         for (int x = 0; x < 200; ++x) {
             const double dx = (x + 0.5 - 100) * 0.04, dz = (y + 0.5 - 100) * 0.04, r = 9 - dx * dx - dz * dz;
-            if (r < 2) continue;  // where the sphere is steep a voxel beside is many in depth
+            if (r < 2) continue;  // where the sphere is steep, one voxel sideways is many in depth
             EXPECT_NEAR(double(frame.depth.at(x, y)), 100 - std::sqrt(r), 0.12);
         }
 }
@@ -398,7 +398,7 @@ TEST(RayCaster, SurfacesFacingTheLightAreBrighter) {
     EXPECT_LT(below.color.at(38, 30).r, below.color.at(65, 75).r);
 }
 
-// The same wall within and without: what replaces is bordered where nothing else would be seen to change.
+// The same wall inside and outside: the rim of a Replace pass is drawn even where nothing else changes.
 TEST(RayCaster, ALensHasARim) {
     const TestVolume volume = makeBody({40, 40, 40}, {0.25, 0.25, 0.25}, [](Vec3d p) { return p.y > 5; });
     FrameSpec spec = frontFrame(100, 100, {5, 5, 5}, 10, stylesOf({kOpaque}));

@@ -83,7 +83,7 @@ TEST(Lines, BehindSomethingOpaqueAreFaintOrDashed) {
     EXPECT_EQ(dashed.color.at(40, 69).r, 0) << "begins with a dash";
 }
 
-// What lies before a line stops as much of its darkness as of all other light.
+// Translucent material in front of a line attenuates it like all other light.
 TEST(Lines, AreTintedByWhatLiesBeforeThem) {
     const TestVolume volume = twoBlocks();
     FrameSpec spec = frontOf({kGlass, kWall});

@@ -6,7 +6,7 @@
 namespace svt::render {
 namespace {
 
-// How much of a border line shows on what is fully transparent.
+// Opacity of a border line on a fully transparent sample.
 constexpr float kGlassLine = 0.5f;
 
 Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
@@ -15,10 +15,10 @@ std::int32_t reachOf(float width, std::int32_t side) noexcept {
     return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
 }
 
-// Is the line between the two the rim of a lens that has `sample` in it?
+// Whether the line between the two is the rim of a lens, with `sample` inside.
 bool isRim(const Sample& sample, const Sample& other) noexcept { return sample.lens > other.lens; }
 
-// Is a line between the two one of a cut face or a rim?
+// Whether the line between the two is the outline of a cap, or a rim.
 bool isCutLine(const Sample& sample, const Sample& other) noexcept {
     if (sample.lens != other.lens) return isRim(sample, other);
     return sample.isCap && (!other.hasHit() || !other.isCap || sample.object != other.object);
@@ -30,7 +30,7 @@ SampleLayout::SampleLayout(const FrameSpec& spec)
     : side(static_cast<std::int32_t>(std::lround(std::sqrt(spec.samplesPerPixel)))),
       lineReach(reachOf(spec.borders.width, side)),
       cutReach(reachOf(spec.borders.cutWidth, side)),
-      // Against what is not cut, the cut face carries all of its line.
+      // Next to what is not cut, the whole line is drawn on the cap.
       margin(spec.borders.strength > 0 ? std::max(lineReach, cutReach > 1 ? 2 * cutReach : 1) : 0),
       pixelMargin((margin + side - 1) / side + 1) {}
 
@@ -69,7 +69,8 @@ void TileRenderer::render(std::int32_t x, std::int32_t y) {
         return;
     }
     castSamples();
-    // Nothing is drawn without a sample, but with an even number of them a pixel's middle may still see a label.
+    // If no sample meets anything the tile is background. But with an even number of samples per side, none is at a
+    // pixel's centre, whose ray may still meet a label.
     const bool isEmpty = std::all_of(samples_.begin(), samples_.end(),
                                      [](const Sample& sample) { return sample.alpha <= 0 && !sample.hasHit(); });
     if (isEmpty && layout_.side % 2 == 1) {
@@ -120,13 +121,13 @@ void TileRenderer::castPackets() {
              samples_);
 }
 
-// Several samples only for pixels that differ from a neighbor; the others are filled with what their middle sees.
+// Adaptive sampling: casts all samples of pixels that differ from a neighbour; fills the others with their centre's.
 void TileRenderer::castAdaptively() {
     castPixels();
     const std::int32_t endX = tileWidth_ * layout_.side + layout_.margin,
                        endY = tileHeight_ * layout_.side + layout_.margin;
     const std::int32_t around =
-        (layout_.margin + layout_.side - 1) / layout_.side;  // pixels beside the tile with samples of its margin
+        (layout_.margin + layout_.side - 1) / layout_.side;  // pixels around the tile with samples of its margin
     for (std::int32_t y = -around; y < tileHeight_ + around; ++y)
         for (std::int32_t x = -around; x < tileWidth_ + around; ++x) {
             const bool isSmooth = !needsSamples(x, y);
@@ -145,7 +146,7 @@ void TileRenderer::castAdaptively() {
     packets_->cast(true, samples_);
 }
 
-// Through the middles of pixels.
+// Casts rays through the centres of pixels, for adaptive sampling.
 void TileRenderer::castPixels() {
     const std::int32_t stride = kTilePixels + 2 * layout_.pixelMargin;
     pixels_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride));
@@ -166,10 +167,10 @@ bool TileRenderer::needsSamples(std::int32_t x, std::int32_t y) const {
     return false;
 }
 
-// `other` lies by `aside` (metres, world space) beside `sample`.
+// Whether two samples differ enough for more samples; `other` is offset from `sample` by `aside` (metres, world space).
 bool TileRenderer::looksOther(const Sample& sample, const Sample& other, Vec3d aside) const {
     constexpr float kColor = 0.02f, kTurned = 0.995f;
-    // Lines are smooth as they are.
+    // Lines are antialiased already.
     const bool hasLine = sample.hasLine || other.hasLine;
     if (sample.hasHit() != other.hasHit() || (!hasLine && std::abs(sample.alpha - other.alpha) > kColor)) return true;
     if (!hasLine && std::max({std::abs(sample.color.x - other.color.x), std::abs(sample.color.y - other.color.y),
@@ -180,7 +181,7 @@ bool TileRenderer::looksOther(const Sample& sample, const Sample& other, Vec3d a
            lineBetween(other, sample, -aside, true) > 0;
 }
 
-// What the rays through the middles of the pixels see, with an even number of samples along a pixel.
+// Casts rays through the centres of pixels, needed if the number of samples along a pixel is even.
 void TileRenderer::castCenters() {
     const double middle = layout_.side / 2.0;
     centers_.resize(static_cast<std::size_t>(tileWidth_) * static_cast<std::size_t>(tileHeight_));
@@ -208,7 +209,7 @@ void TileRenderer::findLines() {
         }
 }
 
-// How dark the line on a sample is; it stands at (x, y).
+// Coverage of sample (x, y) by border lines.
 float TileRenderer::lineOn(const Sample& sample, std::int32_t x, std::int32_t y) const {
     const double step = frame_.rays().pixelSize(static_cast<double>(sample.depth)) / layout_.side;
     const std::int32_t most = sample.isCap || sample.lens > 0 ? layout_.margin : layout_.lineReach;
@@ -234,19 +235,18 @@ std::int32_t TileRenderer::reachBetween(const Sample& sample, const Sample& othe
                                                                    : std::max(layout_.lineReach, layout_.margin);
 }
 
-// How dark the line on `sample` is that its border with `other` makes; `other` lies by `aside` (metres, world space)
-// beside it. The nearer of the two carries the line. Where both are of one surface both do, or, with one sample per
-// pixel, only the first of them, so that the line is a pixel wide.
+// Coverage of `sample` by the line along its border with `other`, which is offset by `aside` (metres, world space). The
+// line is drawn on the nearer of the two. If both are on one surface it is drawn on both, or, with one sample per
+// pixel, on the first only, so that it is one pixel wide.
 float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const {
     if (!other.hasHit() || isRim(sample, other)) return 1;
     if (isRim(other, sample)) return 0;
     const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
-    // Depth of the sample's tangent plane under the other ray. Seen at a grazing angle, a voxel more or less is far in
-    // depth.
+    // Depth of the sample's tangent plane at the other ray. At a grazing angle one voxel is a large step in depth.
     const Vec3d normal = toDouble(sample.normal);
     const double facing = std::max(-dot(normal, frame_.rays().forward()), 0.02);
     const double predicted = dot(normal, aside) / facing;
-    // A step of a voxel in one object's face is no border, though its riser faces the viewer.
+    // A step of one voxel in a face of one object is no border, though the side of the step faces the viewer.
     const double otherFacing = std::max(-dot(toDouble(other.normal), frame_.rays().forward()), 0.02);
     const double grazing = sample.object == other.object ? std::min(facing, otherFacing) : facing;
     const double tolerance =
@@ -292,11 +292,11 @@ void TileRenderer::writePixels() {
 TileRenderer::PixelLight TileRenderer::lightOf(std::size_t place) const noexcept {
     const Sample& sample = samples_[place];
     if (sample.alpha <= 0) return {{}, 0};
-    // Light above 1 must not spill into the neighbours of a pixel.
+    // Clamped before averaging, so that overexposed samples do not dominate a pixel.
     const Vec3f color{std::min(sample.color.x, 1.0f), std::min(sample.color.y, 1.0f), std::min(sample.color.z, 1.0f)};
     const float line = layout_.margin > 0 ? frame_.spec.borders.strength * lines_[place] : 0;
     if (line == 0) return {color, sample.alpha};
-    // A line is seen, however thin the glass it borders.
+    // A line is visible, however transparent the sample.
     const float covered = sample.alpha + (1 - sample.alpha) * line * kGlassLine;
     return {color * (1 - line) + lineColor_ * (line * covered), covered};
 }
@@ -318,13 +318,13 @@ Vec3f TileRenderer::backgroundOf(std::int32_t y) const noexcept {
     return backgroundTop_ + (backgroundBottom_ - backgroundTop_) * down;
 }
 
-// Premultiplied linear light over the background.
+// Composites a row of premultiplied linear light over the background, and converts it to sRGB.
 void TileRenderer::writeColors(std::int32_t y, const LightRow& row) noexcept {
     const Vec3f background = backgroundOf(y);
     const float behind = frame_.spec.background.alpha;
     const bool isEmpty = std::all_of(row.alpha.begin(), row.alpha.end(), [](float alpha) { return alpha <= 0; });
     const std::size_t count = isEmpty ? 1 : static_cast<std::size_t>(tileWidth_);
-    // All at once, so that the compiler may take several in one instruction; looked up after.
+    // Indices first, so that the compiler can vectorize this loop; the table look-ups follow.
     std::array<std::int32_t, kTilePixels> red, green, blue, alpha;
     for (std::size_t n = 0; n < count; ++n) {
         const float rest = (1 - row.alpha[n]) * behind, covered = row.alpha[n] + rest;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Renders one tile of the picture: samples, border lines, pixels. Internal to render.
+/// Renders one tile of the picture: samples, border lines, pixels.
 
 #include <svt/image/color.hpp>
 #include <svt/render/packet/packet_caster.hpp>
@@ -17,27 +17,27 @@ namespace svt::render {
 
 inline constexpr std::int32_t kTilePixels = 32;
 
-/// Samples of a tile and around it.
+/// Numbers of samples in a tile and in the margin around it.
 struct SampleLayout {
     std::int32_t side;                 ///< samples per pixel along one axis
-    std::int32_t lineReach, cutReach;  ///< samples from a border that its line covers, on either side
+    std::int32_t lineReach, cutReach;  ///< half widths of border lines, samples; cutReach: around caps
     std::int32_t margin;               ///< samples around the tile
-    std::int32_t pixelMargin;          ///< pixels around the tile whose middles tell which need more samples
+    std::int32_t pixelMargin;          ///< pixels around the tile whose centres are cast in adaptive sampling
 
     explicit SampleLayout(const FrameSpec& spec);
-    /// Pixels before a tile where the blocks of its rays begin.
+    /// Distance from the start of the first block of rays to the tile, pixels.
     [[nodiscard]] double blockMargin(bool isAdaptive) const noexcept {
         return isAdaptive && side > 1 ? double(pixelMargin) : double(margin) / side;
     }
 };
 
-/// Renders tiles; keeps its buffers between them. Belongs to one thread.
+/// Renders tiles; keeps its buffers between them. Not thread-safe: one per thread.
 class TileRenderer {
 public:
-    /// \param packets  null: casts ray by ray
+    /// \param packets  null: casts ray by ray, with the plain caster
     TileRenderer(const PreparedFrame& frame, const PacketPasses* packets, Frame& picture);
 
-    /// The tile whose first pixel is (x, y); writes its pixels of the picture only.
+    /// Renders the tile whose first pixel is (x, y), and writes its pixels of the picture only.
     void render(std::int32_t x, std::int32_t y);
 
 private:
@@ -45,9 +45,9 @@ private:
     void castPackets();
     void castAdaptively();
     void castPixels();
-    // Rays in rows and columns; places in samples of the tile.
+    // A regular grid of rays; coordinates are in samples, relative to the tile.
     struct RayGrid {
-        double first, step;  // along both axes
+        double first, step;  // the same along both axes
         std::int32_t width, height, stride;
     };
     void castGrid(const RayGrid& grid, std::vector<Sample>& samples);
@@ -60,14 +60,15 @@ private:
     [[nodiscard]] float lineBetween(const Sample& sample, const Sample& other, Vec3d aside, bool isFirst) const;
     void writePixels();
     void fillBackground();
-    /// The background in row y of the tile, linear light.
+    /// Background in row y of the tile, linear light.
     [[nodiscard]] Vec3f backgroundOf(std::int32_t y) const noexcept;
     struct PixelLight {
         Vec3f color;  ///< premultiplied
         float alpha;
     };
-    /// Of one sample, with its line; of a pixel.
+    /// Light of one sample, with its border line.
     [[nodiscard]] PixelLight lightOf(std::size_t place) const noexcept;
+    /// Mean over the samples of pixel (x, y).
     [[nodiscard]] PixelLight lightOf(std::int32_t x, std::int32_t y) const noexcept;
     // The light of a row of pixels.
     struct LightRow {
@@ -96,11 +97,11 @@ private:
     Vec3f backgroundTop_, backgroundBottom_, lineColor_;  // linear light
     const image::SrgbBytes& bytes_ = image::SrgbBytes::table();
     std::int32_t tileX_ = 0, tileY_ = 0, tileWidth_ = 0, tileHeight_ = 0;  // pixels
-    std::vector<double> columns_, rows_;                                   // where they lie in the picture, -1..1
+    std::vector<double> columns_, rows_;                                   // u and v of the rays of a grid, -1..1
     std::vector<Sample> samples_;
-    std::vector<Sample> centers_;  // of the tile's pixels, where no sample stands there
-    std::vector<Sample> pixels_;   // through the middles of the tile's pixels and of those around it
-    std::vector<float> lines_;     // how dark, 0..1
+    std::vector<Sample> centers_;  // at the centres of the tile's pixels, if no sample is there
+    std::vector<Sample> pixels_;   // adaptive: at the centres of the tile's pixels and of those around it
+    std::vector<float> lines_;     // by sample: coverage by a border line, 0..1
 };
 
 }  // namespace svt::render

@@ -15,8 +15,8 @@ namespace {
 using Kind = LinearStyle::Kind;
 
 // exp(-x) for x >= 0 by basic arithmetic alone, so that every machine and compiler gives the same bits. With n the
-// whole number nearest to x / ln 2, exp(-x) = 2^-n * exp(-r)^2, |r| <= ln(2) / 4, and exp(-r) by its Taylor polynomial,
-// put together in pairs (Estrin), which keeps the chain short; error below 1e-7 of the value.
+// integer nearest to x / ln 2, exp(-x) = 2^-n * exp(-r)^2, |r| <= ln(2) / 4; exp(-r) by its Taylor polynomial,
+// evaluated by Estrin's scheme for a short dependency chain. Relative error below 1e-7.
 double expOfMinus(double x) noexcept {
     if (!(x < 80)) return 0;
     const double halvings = x * 1.4426950408889634;
@@ -27,7 +27,7 @@ double expOfMinus(double x) noexcept {
     return sum * sum * std::bit_cast<double>((1023 - n) << 52);
 }
 
-// Takes the runs of one ray under one pass.
+// Shades the runs of one ray under one pass, front to back; a visitor of walkRuns().
 class RunShader {
 public:
     RunShader(const PreparedFrame& frame, std::size_t pass, NormalCache& cache, const CameraRay& ray,
@@ -78,7 +78,7 @@ public:
         return addUpTo(to);
     }
 
-    /// What lies behind all voxels.
+    /// Blends the fragments behind all voxels.
     void finish() { addFragments(std::numeric_limits<double>::infinity()); }
 
     [[nodiscard]] bool isDone() const noexcept {
@@ -97,13 +97,13 @@ public:
 private:
     static constexpr std::uint64_t kNoObject = ~std::uint64_t{0};
 
-    // Those up to `depth`, outside of runs; true ends the ray.
+    // Blends the fragments up to `depth`, outside of runs; true ends the ray.
     bool addFragments(double depth) {
         while (!isDone() && next_ < fragments_.size() && fragments_[next_].depth <= depth)
             if (addFragment()) return true;
         return isDone();
     }
-    // The next one; true ends the ray.
+    // Blends the next fragment; true ends the ray.
     bool addFragment() {
         const Fragment& fragment = fragments_[next_++];
         blend(fragment, color_, transmittance_, lines_);
@@ -138,7 +138,7 @@ private:
     const CameraRay& ray_;
     std::span<const Fragment> fragments_;
     std::span<const MetSurface> surfaces_;
-    std::size_t next_ = 0;  // the first that the ray has not come to
+    std::size_t next_ = 0;  // the first fragment that is not blended yet
     bool withColor_;
     bool hasEnded_ = false;
     const DrawnInterval* interval_ = nullptr;
@@ -146,7 +146,7 @@ private:
     Surface surface_;
     Sample sample_;
     Vec3d color_{};
-    double transmittance_ = 1, lines_ = 1;  // of voxels and surfaces, of lines
+    double transmittance_ = 1, lines_ = 1;  // transmittance of voxels and surfaces, and of lines
 };
 
 }  // namespace

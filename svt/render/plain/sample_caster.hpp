@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Casts rays one by one: walks the runs, lights them and blends them.
+/// Casts rays one by one: walks the runs of a ray, lights and blends them.
 
 #include <svt/render/light/sample.hpp>
 #include <svt/render/light/surface_normal.hpp>
@@ -13,13 +13,14 @@ namespace svt::render {
 class FragmentFinder;
 struct Fragments;
 
-/// Casts rays one by one: the plain way, which packets are held against. Belongs to one thread.
+/// The plain caster, against which the packet caster is tested. Not thread-safe: one per thread.
 class SampleCaster {
 public:
     explicit SampleCaster(const PreparedFrame& frame);
     ~SampleCaster();
 
-    /// \param withColor  false: label and depth alone
+    /// Casts the ray through (u, v), see CameraRays::at().
+    /// \param withColor  false: label and depth only
     [[nodiscard]] Sample cast(double u, double v, bool withColor);
 
 private:

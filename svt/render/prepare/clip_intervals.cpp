@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// dot(direction, p) of world space p = origin + axes * (index * spacing), as a vector of voxel space.
+// Transforms a covector from world to voxel space: the gradient of dot(direction, p) with respect to voxel coordinates.
 Vec3d inVoxels(Vec3d direction, const volume::Grid& grid) {
     Vec3d result;
     for (int axis = 0; axis < 3; ++axis)
@@ -42,7 +42,7 @@ Clipper::Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid) {
     }
 }
 
-// Keeps what lies in [from, to] too, whose ends are on `face`.
+// Intersects the interval with [from, to], whose ends are on `face`.
 void Clipper::Stretch::meet(double from, double to, CapFace face) noexcept {
     if (from > enter) {
         enter = from;
@@ -54,7 +54,7 @@ void Clipper::Stretch::meet(double from, double to, CapFace face) noexcept {
     }
 }
 
-// Where a t^2 + 2 b t + c < 0, of a cone only before its tip.
+// Intersects the interval with a round body: the solutions of a t^2 + 2 b t + c < 0; of a cone, only one nappe.
 void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) noexcept {
     const RoundBody& body = round.body;
     const Vec3d from = line.origin - body.center;
@@ -68,7 +68,7 @@ void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) 
     const double c = o.x * o.x + o.y * o.y + along * o.z * o.z - (along < 0 ? 0 : 1);
     const CapFace face{nullptr, round.source};
     if (a == 0) {
-        // Along a cylinder or a line of a cone.
+        // Parallel to a cylinder's axis or to a generator of a cone.
         if (b == 0 ? !(c < 0) : along >= 0) return stretch.meet(kInfinity, -kInfinity, face);
         const double t = b == 0 ? 0 : -c / (2 * b);
         const double low = b > 0 ? -kInfinity : b < 0 ? t : -kInfinity, high = b > 0 ? t : kInfinity;
@@ -77,9 +77,10 @@ void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) 
         return stretch.meet(low, high, face);
     }
     const double square = b * b - a * c;
-    // A line that misses the surface lies outside; through a cone's inside there is none but by its tip.
+    // Without two roots the line misses the body. But with a < 0 it always meets the cone: its roots coincide only at
+    // the apex.
     if (!(square > 0) && !(a < 0)) return stretch.meet(kInfinity, -kInfinity, face);
-    // The root of larger magnitude first; the other without cancellation.
+    // The root of larger magnitude first; the other from it, without cancellation.
     const double sum = -(b + std::copysign(std::sqrt(std::max(square, 0.0)), b));
     double t0 = sum / a, t1 = sum != 0 ? c / sum : t0;
     if (t1 < t0) std::swap(t0, t1);
@@ -105,7 +106,7 @@ Clipper::Stretch Clipper::within(const Part& part, const Line& line) noexcept {
     return stretch;
 }
 
-// The stretches within any part, ascending and apart; their count.
+// Finds the intervals inside any part of a region, merged and ascending. Returns their count.
 std::size_t Clipper::within(const Region& region, const Line& line, Stretches& stretches) noexcept {
     std::size_t count = 0;
     for (const Part& part : region.parts) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// World-space directions of a volume's planes and voxel faces.
+/// World-space normals of a volume's planes and voxel faces, precomputed.
 
 #include <svt/core/vec.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -14,23 +14,23 @@
 
 namespace svt::render {
 
-/// Directions that the planes and voxel faces of a volume have in world space.
+/// World-space normals of a volume's planes and voxel faces.
 class DirectionTable {
 public:
     struct Directions {
         Vec3d normal;  ///< world space, unit length
-        Vec3d away;    ///< the same direction in index space, longest component 1
+        Vec3d away;    ///< the same direction in index space, scaled to a longest component of 1
     };
     DirectionTable(const volume::BrickVolume& volume, const volume::Grid& grid);
 
-    /// Of voxel faces across an axis, upwards.
+    /// Of voxel faces across an axis, in the axis's positive direction.
     [[nodiscard]] const Directions& axis(int axis) const noexcept { return axes_[static_cast<std::size_t>(axis)]; }
-    /// Of a plane of BrickVolume::oblique(), to its positive side.
+    /// Of a plane of BrickVolume::oblique(), towards its positive side.
     [[nodiscard]] const Directions& plane(std::uint32_t number) const noexcept { return planes_[number]; }
     [[nodiscard]] std::span<const Directions> planes() const noexcept { return planes_; }
-    /// Of what has `index` as its normal in index space.
+    /// Of a surface with the normal (covector) `index` in index space.
     [[nodiscard]] Directions directions(Vec3d index) const noexcept;
-    /// Directions::away of a direction in world space.
+    /// Directions::away for a normal in world space.
     [[nodiscard]] Vec3d away(Vec3d normal) const noexcept;
 
 private:

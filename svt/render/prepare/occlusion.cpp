@@ -8,10 +8,10 @@
 namespace svt::render {
 namespace {
 
-// One tap per level, a cell's size away from the surface: near enough to see the corner, far enough that a plane does
-// not see itself through the filter. Nearer blocks count more.
+// One tap per level, one cell away from the surface: close enough for the tap to include the corner, far enough that a
+// flat surface does not occlude itself through the trilinear filter. Closer levels weigh more.
 constexpr std::array<double, OcclusionField::kLevels> kWeights{0.30, 0.30, 0.24, 0.16};
-// A wall beside the surface covers about half of what a tap sees.
+// Coverage that counts as full occlusion: a wall beside the surface covers about half of a tap.
 constexpr double kFull = 0.55;
 
 OcclusionField::Level emptyLevel(Vec3i count, double cellSize, double weight) {
@@ -20,7 +20,7 @@ OcclusionField::Level emptyLevel(Vec3i count, double cellSize, double weight) {
     return level;
 }
 
-// A block is so many times doubled bricks along each axis.
+// Log2 of the bricks per block along each axis.
 int blockShift(double voxelSize) noexcept {
     constexpr double kWidest = 0.2;  // metres
     int shift = 0;
@@ -33,7 +33,7 @@ int blockShift(double voxelSize) noexcept {
 OcclusionField::OcclusionField(const volume::BrickVolume& volume, double voxelSize,
                                const std::function<bool(volume::Scalar)>& isOpaque, const Clipper& clipper,
                                int threads) {
-    // Once per distinct brick, then once per brick.
+    // Count once per distinct palette brick, then sum once per brick.
     std::vector<std::uint32_t> ofPaletteBrick(volume.paletteBrickCount());
     parallelFor(ofPaletteBrick.size(), 512, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
@@ -85,7 +85,7 @@ OcclusionField::Level OcclusionField::halved(const Level& fine) {
     for (std::int32_t z = 0; z < count.z; ++z)
         for (std::int32_t y = 0; y < count.y; ++y) {
             std::uint32_t* to = &level.voxels[level.at(0, y, z)];
-            for (std::int32_t c = 0; c < 4; ++c) {  // at an odd end the second block is the empty one
+            for (std::int32_t c = 0; c < 4; ++c) {  // if the count is odd, the second block at the end is the padding
                 const std::uint32_t* from = &fine.voxels[fine.at(0, 2 * y + (c & 1), 2 * z + (c >> 1))];
                 for (std::int32_t x = 0; x < count.x; ++x) to[x] += from[2 * x] + from[2 * x + 1];
             }
@@ -98,7 +98,7 @@ double OcclusionField::Level::sample(Vec3d point) const noexcept {
     Vec3d f;
     Vec3i low;
     for (int axis = 0; axis < 3; ++axis) {
-        const double p = point[axis] * perVoxel + 0.5;  // 1 more than the place among the blocks' middles
+        const double p = point[axis] * perVoxel + 0.5;  // 1 more than the position relative to the first block's centre
         if (!(p > 0 && p < count[axis] + 1)) return 0;
         low[axis] = static_cast<std::int32_t>(p);
         f[axis] = p - low[axis];

@@ -14,11 +14,12 @@ namespace svt::render {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rays outside of the picture whose shapes are known, pixels; TileRenderer casts them for border lines.
+/// Width of the border around the picture for which shapes are binned, pixels; TileRenderer casts rays there for border
+/// lines.
 constexpr double kMargin = 2;
-/// Shorter lines are left out: those of round profiles far away, which would add up to blots. Pixels.
+/// Shorter lines are left out, pixels: those of distant round profiles would merge into blots.
 constexpr double kShortest = 0.5;
-/// Most entries in the lists of all tiles, and of all squares.
+/// Maximum entries in the lists of all tiles, and in those of all squares.
 constexpr std::size_t kMaxEntries = std::size_t{1} << 26;
 
 Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
@@ -50,7 +51,7 @@ Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, con
     shapes.width_ = spec.width;
     shapes.height_ = spec.height;
     shapes.margin_ = std::fmod(margin, kCellPixels);
-    // Nearer to the eye plane nothing is drawn: a millionth of the way to what is looked at.
+    // Near clipping distance: a millionth of the distance to the camera's target.
     const double nearest = 1e-6 * length(spec.camera.target - spec.camera.eye);
     for (const LineSet& set : pass.lines) {
         const double half = double(set.width) / 2;
@@ -81,7 +82,7 @@ void PassShapes::addLines(const Pass& pass, const FrameSpec& spec, const CameraR
                 addLine(fromEye, fromEye + along, rays, nearest);
                 continue;
             }
-            // The line as a ray: what the clips leave of [0, 1).
+            // Clip the line as a ray with t in [0, 1).
             const Vec3d half{0.5, 0.5, 0.5};
             const VoxelRay ray(grid.indexFromWorld(line.from) + half, grid.indexFromWorldDirection(along));
             for (const DrawnInterval& part : clipper.cut(ray, {0, 1}))
@@ -91,7 +92,7 @@ void PassShapes::addLines(const Pass& pass, const FrameSpec& spec, const CameraR
     }
 }
 
-// Both ends from the eye.
+// Adds a line; `from` and `to` are relative to the eye.
 void PassShapes::addLine(Vec3d from, Vec3d to, const CameraRays& rays, double nearest) {
     double depth = dot(from, rays.forward()), farDepth = dot(to, rays.forward());
     if (depth < nearest && farDepth < nearest) return;
@@ -201,7 +202,7 @@ PassShapes::Square PassShapes::boundsOf(const std::array<double, 6>& o) noexcept
             std::max({o[0], o[2], o[4]}) + kRounding, std::max({o[1], o[3], o[5]}) + kRounding};
 }
 
-// Separating axes; the bounds are known to meet.
+// Separating axis test; the bounds are known to overlap.
 bool PassShapes::touches(std::uint32_t shape, const Square& square) const noexcept {
     const double middleX = (square.left + square.right) / 2, middleY = (square.top + square.bottom) / 2;
     const double halfX = (square.right - square.left) / 2, halfY = (square.bottom - square.top) / 2;
@@ -269,7 +270,7 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
     return {};
 }
 
-// From where to where along x a line reaches between two rows of pixels; nothing where first > last.
+// Range of x that a line covers between two rows of pixels; empty if first > second.
 std::pair<double, double> PassShapes::spanOf(const PictureLine& line, double top, double bottom) const noexcept {
     constexpr double kRounding = 0.01;
     const double reach = looks_[line.look].halfWidth + 0.5 + kRounding;
@@ -284,7 +285,7 @@ std::pair<double, double> PassShapes::spanOf(const PictureLine& line, double top
     return {std::min(a, b) - reach, std::max(a, b) + reach};
 }
 
-// Squares at the border of the picture answer for rays beside it.
+// Bins the shapes of a tile into its squares. Squares at the border of the picture also serve rays outside of it.
 void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const {
     constexpr std::size_t kCells = std::size_t{kTileCells} * kTileCells;
     if (tile.shapes.empty() || tile.shapes.size() * kCells > std::max<std::size_t>(most, kCells)) return;
@@ -297,7 +298,7 @@ void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tile
         };
         const std::int32_t endX = cellAt(bounds.right + kMargin, tileX), endY = cellAt(bounds.bottom + kMargin, tileY);
         if (shape < kTriangle) {
-            // Row by row, what of it lies in the row.
+            // Row by row of squares.
             const double left = beginOf(tileX, kTilePixels), right = left + kTilePixels;
             for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y) {
                 const std::int32_t row = tileY * kTileCells + y;

@@ -24,8 +24,8 @@ LinearStyle linearStyle(const Style& style, volume::Scalar scalar, std::span<con
     return linear;
 }
 
-// Extinction and colour weighted by coverage. `opaqueDensity` is what an opaque label has where it does not fill the
-// cell.
+// Style of a cell with several labels: extinction and colour weighted by coverage.
+// `opaqueDensity`: extinction of an opaque label that fills only part of the cell.
 LinearStyle mixedStyle(const volume::Mixture& mixture, const std::vector<LinearStyle>& styles, float opaqueDensity) {
     LinearStyle mixed;
     float surface = 0;
@@ -33,7 +33,7 @@ LinearStyle mixedStyle(const volume::Mixture& mixture, const std::vector<LinearS
     const auto add = [&](volume::Scalar scalar, int coverage) {
         if (scalar >= styles.size() || styles[scalar].kind == Kind::Hidden || coverage == 0) return;
         const LinearStyle& style = styles[scalar];
-        if (mixed.kind == Kind::Hidden) {  // the most frequent visible label
+        if (mixed.kind == Kind::Hidden) {  // the first one is the most frequent visible label
             mixed.kind = Kind::Translucent;
             mixed.object = style.object;
             mixed.label = style.label;

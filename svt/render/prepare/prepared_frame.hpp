@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A frame with all that its rays share: volumes with the camera's rays through them, and passes with their tables of
-/// styles, clips, occlusion, lines and hulls. Made once a frame, then only read.
+/// A frame prepared for casting: volumes with the camera's rays in their voxel spaces, and passes with their tables of
+/// styles, clips, occlusion, shapes and hulls. Made once per frame, then only read, by all threads.
 
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/clip_intervals.hpp>
@@ -20,7 +20,7 @@
 
 namespace svt::render {
 
-/// Part of the picture, pixels.
+/// A rectangle of the picture, pixels.
 struct PixelRect {
     double left = 0, top = 0, right = 0, bottom = 0;
     void widen(double by) noexcept { *this = {left - by, top - by, right + by, bottom + by}; }
@@ -34,18 +34,18 @@ struct PixelRect {
     }
 };
 
-/// A pass as all rays share it.
+/// A pass, prepared for all rays.
 struct PreparedPass {
     PassTable table;
     Clipper clipper;
     OcclusionField occlusion;
     Pass::Join join;
-    std::uint8_t volume;  ///< see PreparedFrame::volumes
+    std::uint8_t volume;  ///< index into PreparedFrame::volumes
     PassShapes shapes{};
-    VisibleHull hull{};  ///< not of the reference, which walks all of its rays
+    VisibleHull hull{};  ///< not for the reference, which walks all rays in full
 };
 
-/// A volume as all rays share it.
+/// A volume, prepared for all rays.
 struct PreparedVolume {
     const volume::BrickVolume& bricks;
     const volume::Grid& grid;
@@ -61,7 +61,7 @@ struct PreparedVolume {
           voxelSize(std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z})) {}
 };
 
-/// The picture as all rays share it.
+/// A frame, prepared for all rays.
 struct PreparedFrame {
     const FrameSpec& spec;
     const CastOptions& options;
@@ -70,13 +70,14 @@ struct PreparedFrame {
     Vec3d towardsLight{};  ///< world space, unit length
     Vec3f hatchColor{};    ///< linear light
     bool isReference = false;
-    bool isAdaptive = false;  ///< more samples only where pixels differ
-    PixelRect drawn{};        ///< outside of it no ray meets the volume or a line
-    bool hasShapes = false;   ///< any pass has
-    /// Samples along a pixel's side, over which lines fade out. Adaptive pictures have one in most pixels.
+    bool isAdaptive = false;  ///< several samples only in pixels that differ from a neighbour
+    PixelRect drawn{};        ///< outside of it no ray meets a volume or a line
+    bool hasShapes = false;   ///< whether any pass has shapes
+    /// Samples along a pixel's side for the antialiasing of lines, whose edges fade over one sample. 1 if adaptive,
+    /// since most pixels then have one sample.
     double lineSamples = 1;
 
-    /// What rays have in common whatever volume they cross: all but CameraRay::index.
+    /// The camera's rays, for all that does not depend on the volume: not for CameraRay::index.
     [[nodiscard]] const CameraRays& rays() const noexcept { return volumes.front().rays; }
     [[nodiscard]] const PreparedVolume& volumeOf(std::size_t pass) const noexcept {
         return volumes[passes[pass].volume];

@@ -16,10 +16,10 @@ namespace {
 using volume::BrickVolume;
 
 constexpr std::size_t kSlabs = VisibleHull::kSlabs, kFixed = 13, kOfPlanes = kSlabs - kFixed;
-// Far above rounding, in single precision too.
+// Widening of the slabs: far above rounding errors, also in single precision.
 constexpr double kMargin = 0.25;  // voxels
 
-// Across the axes and their diagonals.
+// Directions of the fixed slabs: the axes and their diagonals.
 constexpr std::array<Vec3d, kFixed> kDirections{{{1, 0, 0},
                                                  {0, 1, 0},
                                                  {0, 0, 1},
@@ -40,7 +40,7 @@ std::size_t sideCount(const BrickVolume::BoxCoding& code) noexcept {
     return static_cast<std::size_t>(std::popcount(code.cutAxes)) + static_cast<std::size_t>(planes);
 }
 
-// Directions across most boxes that planes cut.
+// The most frequent plane normals, by number of coded boxes; nearly parallel ones count together.
 std::vector<Vec3d> directionsOfPlanes(const BrickVolume::Arrays& volume) {
     struct Direction {
         Vec3d normal;
@@ -69,7 +69,7 @@ std::vector<Vec3d> directionsOfPlanes(const BrickVolume::Arrays& volume) {
     return directions;
 }
 
-// Whether anything that the table shows is in a brick, by the brick's entry.
+// By index entry: whether the brick has a visible label.
 std::vector<std::uint8_t> findVisible(const BrickVolume::Arrays& volume, const PassTable& table) {
     const auto isAny = [&](std::size_t first, std::size_t count) {
         const auto scalars = volume.palettes.subspan(first, count);
@@ -89,7 +89,7 @@ std::vector<std::uint8_t> findVisible(const BrickVolume::Arrays& volume, const P
     return visible;
 }
 
-// Slabs by component, so that the compiler may take several in one instruction.
+// Slabs as a structure of arrays, so that the compiler can vectorize.
 struct Extents {
     std::array<float, kSlabs> x{}, y{}, z{}, low, high;
 
@@ -102,7 +102,7 @@ struct Extents {
             z[n] = static_cast<float>(directions[n].z);
         }
     }
-    // Bricks [begin, end) of a row.
+    // Extends the slabs by bricks [begin, end) of row (by, bz).
     void include(std::int32_t begin, std::int32_t end, std::int32_t by, std::int32_t bz) noexcept {
         const auto x0 = static_cast<float>(8 * begin), x1 = static_cast<float>(8 * end);
         const auto y0 = static_cast<float>(8 * by), z0 = static_cast<float>(8 * bz);
@@ -132,7 +132,7 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     for (const Vec3d& direction : directionsOfPlanes(arrays)) directions.push_back(direction);
     const std::vector<std::uint8_t> visible = findVisible(arrays, table);
     const Vec3i count = volume.brickCount();
-    // The first visible brick of a row from either end; boxes of one label are skipped at once.
+    // Finds the first visible brick of a row from either end; hidden same-label boxes are skipped at once.
     const auto find = [&](std::size_t row, std::int32_t from, std::int32_t end, std::int32_t step) {
         std::int32_t x = from;
         while ((end - x) * step > 0) {
@@ -166,7 +166,7 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     const CameraRays::Basis basis = rays.basis();
     const Vec3d right = basis.rightIndex * basis.halfWidth, up = basis.upIndex * basis.halfHeight;
     for (std::size_t n = 0; n < directions.size(); ++n) {
-        // What the directions were rounded to.
+        // The directions as rounded to float.
         const Vec3d along{double(extents.x[n]), double(extents.y[n]), double(extents.z[n])};
         rise_.middle[n] = dot(along, basis.forwardIndex);
         height_.middle[n] = dot(along, basis.eyeIndex);
@@ -189,13 +189,13 @@ RaySpan VisibleHull::around(const ViewRect& rect) const noexcept {
         const auto reach = [&](const Linear& of) { return std::abs(of.byU[n]) * halfU + std::abs(of.byV[n]) * halfV; };
         const double rise = middle(rise_), slowest = rise - reach(rise_), fastest = rise + reach(rise_);
         const double height = middle(height_);
-        // From the highest ray up to the slab, and from the lowest to its other side.
+        // Distance from the highest start up to the slab, and from the lowest start up to the slab's far side.
         const double below = low_[n] - (height + reach(height_)), above = high_[n] - (height - reach(height_));
-        // All of them come from one side of it, or, unless they go that way, never.
+        // If all rays start on one side of the slab, the fastest one reaches it first; never, if none moves towards it.
         const double upTo = fastest > 0 ? below / fastest : kInfinity;
         const double downTo = slowest < 0 ? above / slowest : kInfinity;
         from = std::max(from, std::max(below > 0 ? upTo : 0, above < 0 ? downTo : 0));
-        // All of them leave it by the same side; where they do not, some stay in it.
+        // If all rays move in one direction, the slowest one leaves the slab last; otherwise some ray may stay inside.
         to = std::min(to, slowest > 0 ? above / slowest : fastest < 0 ? below / fastest : kInfinity);
     }
     return {from, to};

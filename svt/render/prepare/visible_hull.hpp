@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A convex body around all that a pass shows. Internal to render.
+/// A convex hull of all that a pass shows, as slabs.
 
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/pass_table.hpp>
@@ -11,32 +11,32 @@
 
 namespace svt::render {
 
-/// Part of the picture, see CameraRays::at().
+/// A rectangle of the picture, in the coordinates of CameraRays::at(). Empty by default.
 struct ViewRect {
     double left = 1, right = -1;  ///< u
     double low = 1, high = -1;    ///< v
 };
 
-/// Slabs that hold all bricks with visible labels: across the axes, their diagonals, and the directions that most
-/// planes of the volume have, so that a house is wrapped tightly whichever way it stands. What lies outside is hidden,
+/// Slabs that contain all bricks with visible labels (a k-DOP): across the axes, across their diagonals, and across the
+/// most frequent planes of the volume, so that the hull of a house is tight for any orientation. All outside is hidden,
 /// so rays need not be walked there.
 class VisibleHull {
 public:
-    /// Around nothing.
+    /// An empty hull.
     VisibleHull() = default;
-    /// As `rays` see it. Cost: by boxes, palettes and rows of bricks; 0.5 to 1.5 ms of one core for a house at
-    /// 800 x 700 x 400. Deterministic for any number of threads.
+    /// The hull, seen by `rays`. Cost: O(boxes + palettes + rows of bricks); 0.5 to 1.5 ms of one core for a house at
+    /// 800 x 700 x 400. The result does not depend on `threads`.
     VisibleHull(const volume::BrickVolume& volume, const PassTable& table, const CameraRays& rays, int threads);
 
-    /// A stretch outside of which no ray through `rect` comes to anything visible; empty where none does. Cost: some
-    /// hundred cycles.
+    /// An interval of t outside of which no ray through `rect` meets anything visible (conservative); empty if none
+    /// does. Cost: some hundred cycles.
     [[nodiscard]] RaySpan around(const ViewRect& rect) const noexcept;
 
     static constexpr std::size_t kSlabs = 24;
 
 private:
-    // A ray through (u, v) crosses places low to high along a slab's direction; it begins at height(u, v) and goes on
-    // by rise(u, v) per t. Both are linear, so among the rays of a rectangle the extremes are at its corners.
+    // A slab is [low, high] along its direction. A ray through (u, v) starts at height(u, v) along that direction and
+    // advances by rise(u, v) per t. Both are linear in u and v, so over a rectangle the extremes are at its corners.
     struct Linear {
         std::array<double, kSlabs> middle{}, byU{}, byV{};
     };

@@ -18,7 +18,7 @@ using test::makeVolume;
 using test::stylesOf;
 using test::TestVolume;
 
-// Where a ray comes to the first visible label and leaves the last.
+// The interval from where a ray enters the first visible label to where it leaves the last.
 class Extent {
 public:
     explicit Extent(const PassTable& table) : table_(table) {}

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where a ray crosses the planes that code a brick, and which plane a label begins at on the side of a brick.
+/// Where a ray crosses the planes of a coded brick, and which plane belongs to a label that starts on a brick's face.
 
 #include <svt/render/voxel_ray.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -11,10 +11,10 @@
 
 namespace svt::render {
 
-/// When a ray crosses an oblique plane, and which side it is on when.
+/// When a ray crosses an oblique plane, and on which side it is before and after.
 struct PlaneCrossing {
     double time = std::numeric_limits<double>::infinity();
-    bool isRising = false;  ///< on the positive side from `time` on, else until then
+    bool isRising = false;  ///< true: on the positive side from `time` on; false: until then
 
     PlaneCrossing(const volume::BrickPlane& plane, const VoxelRay& ray) noexcept {
         const double height = dot(plane.normal, ray.origin) + plane.offset, rise = dot(plane.normal, ray.direction);
@@ -27,7 +27,7 @@ struct PlaneCrossing {
     [[nodiscard]] bool isPositiveAt(double t) const noexcept { return (t >= time) == isRising; }
 };
 
-/// The planes of a brick; none where it is not coded by any.
+/// The planes of a brick; kNoPlanes if it is not coded by any.
 using BrickPlanes = decltype(volume::BrickVolume::BoxCoding::plane);
 inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
 [[nodiscard]] inline BrickPlanes planesOf(const volume::BrickVolume& volume,
@@ -35,9 +35,9 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
     return entry.isCoded() ? volume.coding(entry).plane : kNoPlanes;
 }
 
-/// Bricks beside each other may have planes for one surface that do not quite meet, so that a label begins on the side
-/// of a brick: the first of `planes` that the point at t is near, among those that look along the side's axis;
-/// BrickVolume::kNoPlane if there is none.
+/// Planes of adjacent bricks for one surface may not quite meet; then a label starts on the face between the bricks, a
+/// seam. Finds the plane that the surface has there: the first of `planes` near the point at t (0.75 voxels) whose
+/// normal has a component along `axis`, that of the face; BrickVolume::kNoPlane if there is none.
 [[nodiscard]] inline std::uint32_t nearPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t, int axis,
                                              const BrickPlanes& planes) noexcept {
     const Vec3d point = ray.origin + ray.direction * t;
@@ -49,7 +49,8 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
     }
     return volume::BrickVolume::kNoPlane;
 }
-/// The same for where a ray comes into `cell` at t, if that is on the side of a brick.
+/// The plane of the seam at which a ray enters `cell` at t, of the brick entered or of the one left;
+/// BrickVolume::kNoPlane if this is not on a face of a brick, or no plane is near.
 [[nodiscard]] inline std::uint32_t seamPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t,
                                              Vec3i cell) noexcept {
     const int axis = ray.entryAxis(t, cell);

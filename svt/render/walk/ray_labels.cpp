@@ -13,7 +13,7 @@ struct Collector {
     std::vector<RayStretch> stretches;
 
     bool enter(volume::Scalar, double, const RunStart&) const noexcept { return false; }
-    // Scalars of one label (the phases of a pattern) are one stretch.
+    // Consecutive runs of one label (the phases of its pattern) are one interval.
     bool leave(volume::Scalar scalar, double from, double to) {
         const std::uint32_t label = labelOf[scalar];
         if (label == volume::kNoLabel || !(from < to)) return false;

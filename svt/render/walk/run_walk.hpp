@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// A ray's walk through a volume as runs of one scalar.
+/// Walks a ray through a volume as runs of one scalar.
 ///
 ///     ray     --->  . . a a a a a b b . . .
 ///     runs          [ 0 ][    a   ][ b ][ 0 ]      enter(a), leave(a), enter(b), ...
 ///
-/// walkRuns() crosses whole boxes at once; walkRunsReference() goes from voxel to voxel. Both visit the same runs to
+/// walkRuns() crosses whole boxes at once; walkRunsReference() steps from voxel to voxel. Both visit the same runs, to
 /// the last bit, since both decide by VoxelRay::planeTime() alone.
 
 #include <svt/render/voxel_ray.hpp>
@@ -19,18 +19,19 @@
 
 namespace svt::render {
 
-/// Where a run begins: in which voxel, at which oblique plane if it is one that the ray crosses there or a seam of one,
-/// and whether voxels alone tell the label there.
+/// The start of a run: its voxel; the oblique plane that the ray crosses there, or whose seam it is on; and whether the
+/// brick is one of voxels only.
 struct RunStart {
     Vec3i cell;
     std::uint32_t plane = volume::BrickVolume::kNoPlane;
     bool isVoxel = false;
 };
 
-/// Walks [from, to) of the ray, which must lie in spanInVolume(), and tells `visitor` of each run of one scalar:
+/// Walks [from, to) of the ray, which must lie in spanInVolume(), and calls `visitor` for each run of one scalar:
 ///     bool enter(Scalar, double from, RunStart)        at its start; true ends the walk
 ///     bool leave(Scalar, double from, double to)       at its end; true ends the walk
-/// Same-label boxes are crossed in one step, coded bricks from side to side, other mixed bricks voxel by voxel.
+/// Same-label boxes are crossed in one step, coded boxes from one cut or plane to the next, other mixed bricks voxel by
+/// voxel.
 template <class Visitor>
 class RunWalk {
 public:
@@ -57,7 +58,7 @@ public:
     }
 
 private:
-    // The ray is in `scalar` from t_ on; true ends the walk.
+    // The ray is in `scalar` from t_ on. Returns true if the visitor ends the walk.
     bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane, bool isVoxel = false) {
         if (!isFirst_ && scalar == runScalar_) return false;
         if (!isFirst_ && visitor_.leave(runScalar_, runStart_, t_)) return true;
@@ -68,7 +69,7 @@ private:
         return visitor_.enter(scalar, t_, RunStart{cell_, plane, isVoxel});
     }
 
-    // To where the ray leaves the voxels [min, max).
+    // Where the ray leaves the voxels [min, max): by axis the time and the plane, and the earliest of the times.
     struct Exit {
         Vec3d leave;
         Vec3i plane;
@@ -106,7 +107,8 @@ private:
         const volume::BrickVolume::BoxCoding& coding = volume_.coding(entry);
         const Exit exit = exitOf([&](int axis) { return std::int32_t{box.min[static_cast<std::size_t>(axis)]}; },
                                  [&](int axis) { return std::int32_t{box.max[static_cast<std::size_t>(axis)]}; });
-        // When the ray changes sides, in the order of the bits; whether it is beyond from then on, or until then.
+        // The cuts and planes, in the order of the bits of a cell's number: when the ray crosses each, and whether it
+        // is beyond it after or before that time.
         struct Side {
             double time;
             bool isBeyondAfter;
@@ -119,7 +121,7 @@ private:
             if (!coding.hasCut(axis)) return;
             const std::int32_t place = coding.cut[static_cast<std::size_t>(axis)];
             Side side{ray_.planeTime(axis, place), ray_.step[axis] > 0, axis, volume::BrickVolume::kNoPlane};
-            // Not along this axis: on one side for good.
+            // A ray with zero direction on this axis stays on one side.
             if (ray_.step[axis] == 0) side.isBeyondAfter = cell_[axis] < place;
             sides[count++] = side;
         });
@@ -186,8 +188,8 @@ void walkRuns(const volume::BrickVolume& volume, const VoxelRay& ray, double fro
     RunWalk<Visitor>(volume, ray, from, to, visitor).walk();
 }
 
-/// The same from voxel to voxel, within a voxel from oblique plane to oblique plane, and else by scalarAt() alone: what
-/// the fast ways are held against.
+/// The same by stepping from voxel to voxel, within voxels of coded bricks from plane to plane, and otherwise by
+/// scalarAt() alone: the reference that the fast walks are tested against.
 template <class Visitor>
 void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, double from, double to,
                        Visitor& visitor) {
@@ -221,7 +223,7 @@ void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, d
                 if (plane == volume::BrickVolume::kNoPlane) continue;
                 const PlaneCrossing crossing(volume.oblique()[plane], ray);
                 side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
-                // A plane between voxels is met where a voxel ends.
+                // A plane may be crossed exactly where the ray leaves the voxel; then it counts as crossed, too.
                 const bool isFirstPlane = nextPlane == volume::BrickVolume::kNoPlane;
                 if (crossing.time > t && (crossing.time < next || (isFirstPlane && crossing.time == next))) {
                     next = crossing.time;

@@ -14,9 +14,9 @@
 namespace svt::render_gl {
 namespace {
 
-/// Side of the targets, samples: 32 MB for each set.
+/// Side of the render targets, samples: 32 MB for each set.
 constexpr std::int32_t kTargetSamples = 1024;
-/// Stands for infinity in shaders.
+/// Stands for infinity in shaders; kFar of tables.glsl.
 constexpr float kFar = 3.0e38f;
 
 std::int32_t reachOf(float width, int side) {
@@ -127,8 +127,8 @@ void FramePainter::castSamples(const PixelTile& tile) {
               tile.width * side_ + 2 * margin_, tile.height * side_ + 2 * margin_});
 }
 
-// Where rays may meet anything: the volume's box as it is seen, a pixel wider. The whole picture where the eye is in it
-// or beside it, or where lines may lie outside.
+// Sets the scissor to where rays may meet anything: the bounds of the volume's box in the picture, one pixel wider. The
+// whole picture if the box reaches the eye plane, or if there are lines, which may lie outside.
 void FramePainter::scissorTo(const SampleGrid& samples) const {
     glScissor(0, 0, samples.width, samples.height);
     const render::CameraRays rays(parts_->spec, parts_->grid);
@@ -191,7 +191,7 @@ void FramePainter::castGrid(const SampleGrid& grid) {
     }
 }
 
-// The rays of the camera: their places at the depth of the volume's middle, from where floats reach farthest.
+// Sets the camera's rays. t = 0 is at the depth of the volume's middle, where floats are most precise.
 void FramePainter::setView(Program& program) const {
     const render::FrameSpec& spec = parts_->spec;
     const volume::Grid& grid = parts_->grid;
@@ -215,7 +215,7 @@ void FramePainter::setView(Program& program) const {
     program.set("isPerspective", isPerspective ? 1 : 0);
     program.set("worldOriginRight", basis.right * (basis.halfWidth * reach));
     program.set("worldOriginUp", basis.up * (basis.halfHeight * reach));
-    // A ten-thousandth of a voxel, as depth.
+    // 1e-4 voxel, converted to depth.
     program.set("clipSlack", 1e-4 / length(basis.forwardIndex));
 
     const render::Light& light = spec.light;
@@ -293,7 +293,7 @@ void FramePainter::resolve(const PixelTile& tile, const PixelTile& window) {
 }
 
 void FramePainter::readMiddles(const PixelTile& tile, const TakeHit& taken) {
-    // A single sample stands in the middle.
+    // A single sample is at the pixel's centre.
     if (side_ > 1) return pick(tile, taken);
     targets_[last_].bind({color_[last_].name(), hit_[last_].name()});
     readHits(margin_, tile, taken);
@@ -304,7 +304,7 @@ void FramePainter::pick(const PixelTile& tile, const TakeHit& taken) {
     readHits(0, tile, taken);
 }
 
-// Of the bound targets, from sample (first, first) on.
+// Reads hits from the bound targets, from sample (first, first) on.
 void FramePainter::readHits(std::int32_t first, const PixelTile& tile, const TakeHit& taken) {
     std::vector<std::array<std::uint32_t, 4>> hits(static_cast<std::size_t>(tile.width) *
                                                    static_cast<std::size_t>(tile.height));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Casts the samples of a frame, tile by tile, and makes pixels of them. Internal to render_gl.
+/// Casts the samples of a frame tile by tile, and resolves them to pixels.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
@@ -17,12 +17,12 @@
 
 namespace svt::render_gl {
 
-/// Pixels of the picture; y from the top.
+/// A rectangle of the picture, pixels; y from the top.
 struct PixelTile {
     std::int32_t x = 0, y = 0, width = 0, height = 0;
 };
 
-/// What a frame is drawn from.
+/// Inputs of a frame.
 struct FrameParts {
     const render::FrameSpec& spec;
     const volume::BrickVolume& volume;
@@ -32,28 +32,27 @@ struct FrameParts {
     const GlOptions& options;
 };
 
-/// Keeps programs, tables and targets between frames.
+/// Draws frames; keeps programs, tables and render targets between them.
 class FramePainter {
 public:
-    /// Before the first tile of a frame; `parts` must live until its last.
+    /// Must be called before the first tile of a frame; `parts` must live until its last one.
     [[nodiscard]] Result<void> prepare(const FrameParts& parts);
-    /// Side of a tile whose samples fit the targets, pixels.
+    /// Side of the largest tile whose samples fit the targets, pixels.
     [[nodiscard]] std::int32_t tilePixels() const noexcept;
 
-    /// Casts the samples of a tile, and those around it that border lines look at.
+    /// Casts the samples of a tile, and those in the margin around it that border lines need.
     void castSamples(const PixelTile& tile);
-    /// Makes their pixels, in the bound framebuffer, whose pixels are those of `window`.
+    /// Resolves the samples cast last to the pixels of `tile`, in the bound framebuffer, which covers `window`.
     void resolve(const PixelTile& tile, const PixelTile& window);
-    /// Labels and depths of what the rays through the middles of pixels see: taken(x, y, hit), from the tile's upper
-    /// left corner.
+    /// Receives label and depth of the ray through a pixel's centre; x and y are relative to the tile's upper left.
     using TakeHit = std::function<void(std::int32_t, std::int32_t, const PickedPixel&)>;
-    /// Of the tile whose samples were cast last.
+    /// Reads the hits of the tile whose samples were cast last.
     void readMiddles(const PixelTile& tile, const TakeHit& taken);
-    /// Of any tile.
+    /// Casts and reads the hits of any tile.
     void pick(const PixelTile& tile, const TakeHit& taken);
 
 private:
-    // What the shader of a pass must be able to do.
+    // Features that the shader of a pass needs, as bits.
     enum Needs : unsigned {
         kClips = 1,
         kTranslucent = 2,
@@ -83,12 +82,12 @@ private:
     std::vector<unsigned> passNeeds_;
     std::array<std::optional<Program>, kNeeds> cast_;
     std::array<std::optional<Program>, 2> resolve_;  // without and with border lines
-    // Two sets: a pass reads what the one before has written.
+    // Two sets of targets (ping-pong): a pass reads what the one before has written.
     std::array<Texture, 2> color_, hit_;
     std::array<Target, 2> targets_;
     std::size_t last_ = 0;  // the set written last
     int side_ = 1;
-    std::int32_t lineReach_ = 1, cutReach_ = 1, margin_ = 0;  // samples, as TileRenderer has them
+    std::int32_t lineReach_ = 1, cutReach_ = 1, margin_ = 0;  // samples, as in render::SampleLayout
 };
 
 }  // namespace svt::render_gl

@@ -63,7 +63,7 @@ bool isCompiled(GLuint shader) {
 Result<GlLimits> glLimits() {
     const auto* version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
     if (version == nullptr) return Error(Code::NoGraphics, "no OpenGL context is current");
-    // "OpenGL ES 3.2 ...", also in browsers.
+    // "OpenGL ES 3.2 ...", also in browsers (Emscripten).
     constexpr std::string_view kName = "OpenGL ES ";
     const std::string_view text(version);
     if (text.substr(0, kName.size()) != kName || text.size() <= kName.size() || text[kName.size()] < '3')

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Owners of OpenGL objects: textures that hold arrays, targets, programs. Internal to render_gl.
+/// RAII owners of OpenGL objects: textures, framebuffers and programs.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -21,8 +21,7 @@
 
 namespace svt::render_gl {
 
-/// A float as shaders read it by uintBitsToFloat(), and back. Not std::bit_cast, which the library of the web build
-/// lacks.
+/// The bits of a float, which shaders read by uintBitsToFloat(); and back.
 [[nodiscard]] inline std::uint32_t bitsOf(float value) noexcept {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
@@ -34,19 +33,22 @@ namespace svt::render_gl {
     return value;
 }
 
-/// What the current context can do.
+/// Limits of a context.
 struct GlLimits {
     GLint textureSize = 2048;  ///< texels along a side
-    int rowBits = 11;          ///< arrays lie in rows of 2^rowBits texels
+    int rowBits = 11;          ///< arrays are stored in rows of 2^rowBits texels
 };
-/// \return the limits, or NoGraphics where the context is older than OpenGL ES 3.0 or none is current
+/// Limits of the current context.
+/// \return the limits, or NoGraphics if none is current or it is older than OpenGL ES 3.0
 [[nodiscard]] Result<GlLimits> glLimits();
 
-/// Forgets pending errors of the context; then says whether one came up since.
+/// Discards pending errors of the context.
 void clearGlErrors() noexcept;
+/// \return nothing, or NoGraphics if the context has an error pending
+/// \param doing  what was being done, for the message
 [[nodiscard]] Result<void> checkGl(std::string_view doing);
 
-/// A texture; integers, not filtered.
+/// A texture, not filtered.
 class Texture {
 public:
     Texture() = default;
@@ -62,10 +64,11 @@ public:
     [[nodiscard]] GLuint name() const noexcept { return name_; }
     [[nodiscard]] bool isEmpty() const noexcept { return name_ == 0; }
 
-    /// `count` elements of `texel` bytes as an array, see tables.glsl. \return GridTooLarge where they are too many
+    /// Uploads `count` texels as an array, in rows, see tables.glsl.
+    /// \return GridTooLarge if they do not fit a texture
     [[nodiscard]] Result<void> setArray(GLenum internalFormat, const void* data, std::size_t count,
                                         const GlLimits& limits);
-    /// Room for a picture to draw into; it grows, and never shrinks.
+    /// Makes it a render target of at least this size; it grows, and never shrinks.
     void setTarget(GLenum internalFormat, GLsizei width, GLsizei height);
 
 private:
@@ -75,7 +78,7 @@ private:
     std::array<GLint, 3> size_{};  // width, height, format
 };
 
-/// A vertex array without arrays, and framebuffers.
+/// A framebuffer object; bind() attaches its textures.
 class Target {
 public:
     Target() = default;
@@ -87,7 +90,7 @@ public:
     ~Target() {
         if (name_ != 0) glDeleteFramebuffers(1, &name_);
     }
-    /// Binds it with these textures as what is drawn into.
+    /// Binds it for drawing, with these textures as color attachments.
     void bind(std::initializer_list<GLuint> textures);
 
 private:
@@ -110,11 +113,12 @@ public:
         if (name_ != 0) glDeleteProgram(name_);
     }
 
-    /// \param defines  lines such as "#define CLIPS 1\n" \param parts  fragment shader, in order
-    /// \return the program, or NoGraphics with what the driver says
+    /// \param defines  lines such as "#define CLIPS 1\n"
+    /// \param parts    sources of the fragment shader, concatenated in this order
+    /// \return the program, or NoGraphics with the driver's message
     [[nodiscard]] static Result<Program> make(const std::string& defines, std::span<const std::string_view> parts);
 
-    /// The following are for the program in use; uniforms that it does not use are left out.
+    /// Makes it the current program, as all functions below require. Uniforms that it does not use are ignored.
     void use();
     void set(const char* uniform, GLint value);
     void set(const char* uniform, GLuint value);
@@ -124,12 +128,12 @@ public:
     void set(const char* uniform, Vec3d value);
     void set(const char* uniform, Vec3i value);
     void setPair(const char* uniform, GLint x, GLint y);
-    /// By columns.
+    /// A matrix, by columns.
     void set(const char* uniform, const std::array<Vec3d, 3>& columns);
     void set(const char* uniform, std::span<const Vec3i> values);
     void set(const char* uniform, std::span<const GLuint> values);
     void setPairs(const char* uniform, std::span<const float> values);
-    /// Binds a texture to the next free unit, from use() on.
+    /// Binds a texture to the next free unit; use() starts at the first one.
     void bind(const char* uniform, const Texture& texture);
 
 private:

@@ -15,7 +15,7 @@
 namespace svt::render_gl {
 namespace {
 
-/// Binding of framebuffers as it was.
+/// Restores the framebuffer bindings at the end of its scope.
 class KeptBindings {
 public:
     KeptBindings() {
@@ -52,7 +52,7 @@ Result<void> forTiles(const render::FrameSpec& spec, std::int32_t size, const Bo
     return {};
 }
 
-// Of the bound framebuffer, into the picture.
+// Reads a tile of the bound framebuffer into the picture, flipping its rows.
 void readPixels(const PixelTile& tile, image::Image<image::Rgba8>& color) {
     std::vector<image::Rgba8> rows(static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height));
     glReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE, rows.data());

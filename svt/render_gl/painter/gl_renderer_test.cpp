@@ -387,7 +387,7 @@ void expectSame(const Model& model, GlRenderer& renderer, const Look& look, cons
     EXPECT_EQ(difference.labels, 0u) << place;
     EXPECT_EQ(difference.depths, 0u) << place;
     EXPECT_EQ(difference.colors, 0u) << place << ", up to " << difference.largestColor;
-    // What is let through at edges is little.
+    // Few pixels may differ at edges.
     EXPECT_LE(difference.edges, 10u);
     EXPECT_LE(difference.colorEdges, 20u);
     if (const char* folder = std::getenv("SVT_TEST_PICTURES"); folder != nullptr) {
@@ -396,7 +396,7 @@ void expectSame(const Model& model, GlRenderer& renderer, const Look& look, cons
     }
 }
 
-// One renderer draws all looks, so what a frame leaves behind would show in the next.
+// One renderer draws all looks, so state left over from one frame would show in the next.
 void expectAllSame(const Model& model, const std::string& name) {
     auto renderer = GlRenderer::make(model.bricks, model.grid);
     ASSERT_TRUE(renderer) << renderer.error().toString();

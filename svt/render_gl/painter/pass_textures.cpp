@@ -14,7 +14,7 @@ void append(std::vector<std::uint32_t>& words, Vec3d v, double w) {
     for (const double value : {v.x, v.y, v.z, w}) words.push_back(bitsOf(static_cast<float>(value)));
 }
 
-// dot(direction, p) of world space as a vector of voxel space.
+// Transforms a covector from world to voxel space: the gradient of dot(direction, p) with respect to voxel coordinates.
 Vec3d inVoxels(Vec3d direction, const volume::Grid& grid) {
     Vec3d result;
     for (int axis = 0; axis < 3; ++axis)
@@ -48,7 +48,7 @@ void appendPart(std::vector<std::uint32_t>& words, const render::ConvexPart& par
 Result<void> PassTextures::update(const render::Pass& pass, const render::FrameSpec& spec,
                                   const volume::BrickVolume& volume, const volume::Grid& grid, Vec3i middle,
                                   const GlLimits& limits, int threads) {
-    // What triangles stand for is not drawn as voxels.
+    // Objects drawn as triangles are not drawn as voxels.
     auto styles = pass.triangles.empty()
                       ? updateStyles(pass, spec, volume.scalarCount(), limits)
                       : updateStyles(render::voxelsOf(pass, spec.objectOfScalar), spec, volume.scalarCount(), limits);
@@ -59,7 +59,7 @@ Result<void> PassTextures::update(const render::Pass& pass, const render::FrameS
     return {};
 }
 
-// Two texels a scalar: color and density; flags, object, surface, label.
+// Two texels per scalar: color and density; flags, object, surface, label.
 Result<void> PassTextures::updateStyles(const render::Pass& pass, const render::FrameSpec& spec,
                                         std::uint64_t scalarCount, const GlLimits& limits) {
     if (!styleTexture_.isEmpty() && pass.styles == styles_ && spec.objectOfScalar == objects_) return {};
@@ -137,9 +137,9 @@ void PassTextures::setUniforms(Program& program) const {
         program.set("clipRegions", GLuint{clipRegions_});
     }
     if (hasShapes()) shapes_.setUniforms(program);
-    // Without anything opaque no corner is dark.
+    // No ambient occlusion if nothing is opaque.
     if (!hasOpaque_) program.set("lightOcclusion", 0.0f);
-    // A sampler must not stay on what may be drawn into meanwhile.
+    // Always bind something: a sampler must not refer to a texture that is drawn into (feedback loop).
     program.bind("occlusion", occlusionTexture_.isEmpty() ? styleTexture_ : occlusionTexture_);
     if (occlusionTexture_.isEmpty()) return;
     program.set("occlusionCell", occlusionCell_);

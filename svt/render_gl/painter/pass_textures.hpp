@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Styles, clips and occlusion of a pass as textures. Internal to render_gl.
+/// Styles, clips and occlusion of a pass as textures.
 
 #include <svt/render/clip_intervals.hpp>
 #include <svt/render/frame_spec.hpp>
@@ -15,10 +15,11 @@
 
 namespace svt::render_gl {
 
-/// What passes are made of, and what of it has changed since the last frame is uploaded anew.
+/// Textures of one pass. Only what has changed since the last frame is uploaded again.
 class PassTextures {
 public:
-    /// Follows `pass`. \return as VolumeTextures::make()
+    /// Updates the textures to `pass`.
+    /// \return nothing, or errors as VolumeTextures::make() and ShapeTextures::update()
     [[nodiscard]] Result<void> update(const render::Pass& pass, const render::FrameSpec& spec,
                                       const volume::BrickVolume& volume, const volume::Grid& grid, Vec3i middle,
                                       const GlLimits& limits, int threads);
@@ -47,12 +48,12 @@ private:
     std::vector<GLuint> occlusionFirsts_;
     std::vector<float> occlusionGains_;
     float occlusionCell_ = 8;  // voxels along a block of the finest level
-    // What the textures were made of.
+    // Inputs of the current textures, to find changes.
     std::vector<render::Style> styles_;
     std::vector<std::uint32_t> objects_;
     std::vector<render::ClipRegion> clips_;
     std::vector<std::uint8_t> bodies_;           // by scalar
-    std::vector<std::uint8_t> occludingBodies_;  // of the occlusion
+    std::vector<std::uint8_t> occludingBodies_;  // by scalar, when the occlusion was made
     std::vector<render::ClipRegion> occludingClips_;
 };
 

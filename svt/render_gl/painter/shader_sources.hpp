@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The shaders, built into the library. Internal to render_gl.
+/// Sources of the shaders, embedded in the library; one function per file of shaders/.
 
 #include <string_view>
 

@@ -29,7 +29,7 @@ public:
         addFloats(look.darkest, look.hiddenOpacity, look.dash, look.period);
         words_.insert(words_.end(), {static_cast<std::uint32_t>(look.hidden), 0u, 0u, 0u});
     }
-    /// \param from  where corners are counted from, from the eye, metres
+    /// \param from  origin of the corners, relative to the eye, metres
     void add(const render::PictureTriangle& triangle, Vec3d from, std::uint32_t hatch) {
         for (const Vec3d corner : triangle.corners) addVector(corner - from, 0);
         addVector(triangle.normal, 0);
@@ -49,7 +49,7 @@ private:
     std::vector<std::uint32_t> words_;
 };
 
-/// Which shapes lie near each square of 4 x 4 pixels.
+/// The shapes near each square of 4 x 4 pixels.
 struct SortedShapes {
     std::uint32_t countX, countY;
     std::vector<std::uint32_t> cells;  ///< by square: first in the list, lines, triangles, 0

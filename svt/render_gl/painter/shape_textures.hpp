@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Lines and triangles of a pass as textures, by squares of the picture. Internal to render_gl.
+/// Lines and triangles of a pass as textures, binned into squares of the picture.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/render_gl/painter/gl_objects.hpp>
@@ -10,11 +10,11 @@
 
 namespace svt::render_gl {
 
-/// Where they lie in the picture depends on the camera, so they are uploaded with each frame.
+/// The bins depend on the camera, so they are uploaded with each frame.
 class ShapeTextures {
 public:
-    /// \param middle  see VolumeTextures::middle \return as VolumeTextures::make(); BadFrame where they cover the
-    ///                picture too often
+    /// \param middle  see VolumeTextures::middle
+    /// \return nothing, or errors as VolumeTextures::make(), and BadFrame if they cover the picture too often
     [[nodiscard]] Result<void> update(const render::Pass& pass, const render::FrameSpec& spec, const volume::Grid& grid,
                                       Vec3i middle, const GlLimits& limits, int threads);
     void setUniforms(Program& program) const;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The depth from which shaders count. Internal to render_gl.
+/// The depth that is t = 0 in shaders.
 
 #include <svt/render/camera_rays.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace svt::render_gl {
 
-/// Of the middle voxel, metres along the view direction; 0 where it lies behind the eye plane.
+/// Depth of the middle voxel, metres along the view direction; 0 if it is behind the eye plane.
 [[nodiscard]] inline double middleDepthOf(const render::Camera& camera, const render::CameraRays& rays,
                                           const volume::Grid& grid, Vec3i middle) noexcept {
     const Vec3d place = grid.worldFromIndex(Vec3d{middle.x - 0.5, middle.y - 0.5, middle.z - 0.5});

@@ -9,13 +9,14 @@ namespace {
 
 using volume::BrickVolume;
 
-// What textures hold is what stands in memory.
+// Arrays are uploaded without conversion, so their layout in memory is that of the texels. The packet kernel
+// (packet_shader-inl.hpp) reads SameLabelBox by byte offset as well.
 static_assert(sizeof(volume::SameLabelBox) == 16);
 static_assert(sizeof(BrickVolume::BoxCoding) == 24);
 static_assert(sizeof(BrickVolume::PaletteBrick) == 16);
 static_assert(sizeof(volume::Scalar) == 4);
 
-// Planes in places from `middle`, as floats.
+// Planes as floats, for positions relative to `middle`.
 std::vector<float> planesFrom(Vec3i middle, std::span<const volume::BrickPlane> planes) {
     std::vector<float> values;
     values.reserve(4 * planes.size());
@@ -27,7 +28,7 @@ std::vector<float> planesFrom(Vec3i middle, std::span<const volume::BrickPlane> 
     return values;
 }
 
-// Palette brick of each brick; all bits set where it holds one scalar.
+// Number of the palette brick of each brick; all bits set if the brick has one scalar.
 std::vector<std::uint32_t> patternsOf(const BrickVolume& volume) {
     std::vector<std::uint32_t> patterns;
     const Vec3i count = volume.brickCount();

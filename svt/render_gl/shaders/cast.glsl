@@ -1,11 +1,11 @@
-// One ray under one pass, joined with the passes before.
+// Casts one ray under one pass, and composites it with the passes before.
 uniform usampler2D colorBefore, hitBefore;
 uniform uint join;  // 0 over, 1 replace, 2 depth; 3 the first pass
 uniform float opaqueAt, labelAt;
-uniform vec2 firstSample, perSample;  // samples from the picture's upper left corner; 2 / samples along it
+uniform vec2 firstSample, perSample;  // first sample, from the picture's upper left corner; 2 / samples of the picture
 
-layout(location = 0) out uvec4 sampleColor;  // linear light, premultiplied, and opacity, as floats
-layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float; kFar: nothing), normal; bit 30: cut face, 31: lens
+layout(location = 0) out uvec4 sampleColor;  // bits of floats: linear light, premultiplied, and opacity
+layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float; kFar: none), normal; bit 30: cap, 31: lens
 
 const uint kCap = 0x40000000u, kLens = 0x80000000u;
 
@@ -15,24 +15,24 @@ uint hitLabel, hitObject, hitHatch;
 float hitDepth;
 vec3 hitNormal;
 bool hitIsCap, hasEnded;
-// Of the run that the ray is in.
+// State of the current run.
 uvec4 style;
 uint runScalar, runCap;
 float runFrom, surfaceLight;
 vec3 surfaceNormal;
 bool surfaceIsCap, runIsFirst, isSameObject;
-// Of the interval.
+// State of the current drawn interval.
 uint object;
 bool isFirst;
 
 #if SHAPES
-float shapeAt;  // t of the line or triangle that comes next; kFar where there is none
+float shapeAt;  // t of the next line or triangle; kFar: none
 float lineLight();
 void addShape();
 bool addCutBody(float at, uint cap);
 void beginShapes(vec2 samplePlace);
 void drawHiddenLines(inout float alpha);
-vec2 raySpan;  // inside the volume
+vec2 raySpan;  // part of the ray inside the volume
 #else
 float lineLight() { return 1.0; }
 #endif
@@ -55,7 +55,7 @@ void add(float alpha) {
 
 bool isDone() { return 1.0 - transmittance >= opaqueAt; }
 
-// \p isBeyond: the ray is over, only shapes are left.
+// Casts one drawn interval. isBeyond: the ray has left the volume or ended; only shapes are left.
 void castInterval(float from, float to, uint cap, bool isBeyond) {
 #if TRIANGLES && CLIPS
     if (cap != kNone && !isBeyond && addCutBody(from, cap)) hasEnded = true;
@@ -157,7 +157,7 @@ void castPass() {
         float before = from;
         to = span.y;
         bool isBeyond = hasEnded || !(from < to) || !nextInterval(from, to, cap);
-        // Parts that touch are one.
+        // Adjacent intervals count as one.
         if (!isBeyond && (n == 0 || from != before)) enterInterval(from, from == span.x ? entryAxis : -1);
         if (SHAPES == 1 || !isBeyond) castInterval(from, to, cap, isBeyond);
         if (isBeyond) break;
@@ -172,11 +172,11 @@ void castPass() {
 #endif
     bool isOpaque = hasEnded && !isDone();
 #if !SHAPES
-    // Where nothing is seen the target says so already; drivers skip what is discarded.
+    // Where nothing is met, the cleared target already says so; discarding is cheaper than writing.
     if (join == 3u && !isOpaque && transmittance >= 1.0) discard;
 #endif
     if (isOpaque) {
-        // Within an object no surface is seen.
+        // There is no surface inside an object.
         if (!isSameObject) lightSurface();
         add(1.0);
     }

@@ -1,11 +1,11 @@
-// What the clips leave of a ray. The table holds per region: (mode, parts, element behind it, -); per part: (planes,
-// rounds, -, -); per plane: normal and offset; per round body: center and kind, then the three rows of its frame.
-// Places as in ray.glsl.
+// Intervals that the clips leave of a ray. The table has per region: (mode, parts, element behind it, -); per part:
+// (planes, rounds, -, -); per plane: normal and offset; per round body: center and kind, then the three rows of its
+// frame. Positions as in ray.glsl.
 uniform usampler2D clips;
 uniform uint clipRegions;
-uniform float clipSlack;  // what is shorter is rounding
+uniform float clipSlack;  // in t; shorter intervals are rounding errors
 
-// A face is its element's number, twice, and 1 more for a round one.
+// An interval inside a part. A face is 2 * number of its element, + 1 if it is round.
 struct Stretch {
     float enter, leave;
     uint enterFace, leaveFace;
@@ -33,7 +33,7 @@ void meetHalfSpace(inout Stretch s, uint number) {
         meet(s, -kFar, -height / slope, 2u * number);
 }
 
-// Where a t^2 + 2 b t + c < 0, of a cone only before its tip.
+// Intersects the interval with a round body: the solutions of a t^2 + 2 b t + c < 0; of a cone, only one nappe.
 void meetRound(inout Stretch s, uint number) {
     vec4 body = floatsOf(clips, number);
     vec3 x = floatsOf(clips, number + 1u).xyz, y = floatsOf(clips, number + 2u).xyz;
@@ -42,7 +42,7 @@ void meetRound(inout Stretch s, uint number) {
     vec3 o = vec3(dot(x, from), dot(y, from), dot(z, from));
     vec3 d = vec3(dot(x, direction), dot(y, direction), dot(z, direction));
     float along = body.w;  // 1 ball, 0 cylinder, -1 cone
-    // From where the ray is nearest to the center: c would drown in rounding elsewhere.
+    // Start where the ray is nearest to the center; elsewhere c loses its digits to cancellation.
     float back = dot(d, d) > 0.0 ? -dot(o, d) / dot(d, d) : 0.0;
     o += d * back;
     vec3 weight = vec3(1.0, 1.0, along);
@@ -73,7 +73,7 @@ void meetRound(inout Stretch s, uint number) {
     meet(s, first, last, code);
 }
 
-// Of the part at `number`, which becomes the element behind it.
+// Interval inside the part at element `number`, which is advanced past the part.
 Stretch stretchOf(inout uint number) {
     Stretch s = Stretch(-kFar, kFar, kNone, kNone);
     uvec4 part = elementOf(clips, number++);
@@ -89,8 +89,8 @@ Stretch stretchOf(inout uint number) {
     return s;
 }
 
-// Moves `from` to where the first drawn stretch begins, and `to` to its end or to where parts that are kept touch;
-// `cap` is the face there, kNone where no clip made it. False where nothing is left before `to`.
+// Finds the next drawn interval: moves `from` to its start, and `to` to its end or to where two kept parts touch. `cap`
+// is the clip face at the start, kNone if no clip made it. False if nothing is left before `to`.
 bool nextInterval(inout float from, inout float to, out uint cap) {
     cap = kNone;
     float end = to;
@@ -132,7 +132,7 @@ bool nextInterval(inout float from, inout float to, out uint cap) {
     return false;
 }
 
-// Across the face, in voxel space; not of length 1.
+// Normal of a clip face in voxel space; not of unit length.
 vec3 capDirection(uint cap, vec3 point) {
     uint number = cap >> 1;
     vec4 head = floatsOf(clips, number);

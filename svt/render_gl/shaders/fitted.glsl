@@ -1,6 +1,6 @@
-// Normals of surfaces that voxels alone tell, as render::normalOf() finds them. The 7 x 7 x 7 voxels around one are
-// seven words of 64 bits, bit x + 8 y of word z; heights over the plane across an axis are words by height.
-uniform usampler2D patterns;  // palette brick of each brick; kNone where it holds one scalar
+// Normals fitted to voxels, as by render::normalOf(). The window of 7 x 7 x 7 voxels is seven words of 64 bits, bit
+// x + 8 y of word z; a height field over the plane across an axis has one word per height.
+uniform usampler2D patterns;  // number of the palette brick of each brick; kNone: the brick has one scalar
 
 struct Layers {
     uvec2 a, b, c, d, e, f, g;
@@ -31,8 +31,8 @@ uvec2 down(uvec2 v, int by) {
 }
 bool isAny(uvec2 v) { return (v.x | v.y) != 0u; }
 
-// Number of bits, and sums of x - 3 and of y - 3 over them. All counts of a word side by side: of pairs, then nibbles,
-// then bytes, each with the sum of the x of its bits.
+// Population count, and sums of x - 3 and of y - 3 over the set bits. SIMD within a register: counts of pairs, then
+// nibbles, then bytes, each with the sum of x of its bits.
 ivec3 sumsOf(uvec2 bits) {
     uvec2 xOfPair = (bits >> 1) & 0x55555555u, ofPair = bits - xOfPair, upper = (ofPair >> 2) & 0x33333333u;
     uvec2 ofNibble = (ofPair & 0x33333333u) + upper;
@@ -59,7 +59,7 @@ uvec2 ballOf(int z) {
 
 bool isBody(uint number) { return number < styleCount && (elementOf(styles, 2u * number + 1u).x & 4u) != 0u; }
 
-// Which voxels of a brick are body, in one layer.
+// Mask of the body voxels in one layer of a brick.
 uvec2 bodyWord(ivec3 brick, uint layer) {
     uint place = uint(brick.x + brickCount.x * (brick.y + brickCount.y * brick.z));
     uint pattern = elementOf(patterns, place).x;
@@ -80,7 +80,7 @@ uvec2 bodyWord(ivec3 brick, uint layer) {
     return body;
 }
 
-// Columns or rows of the window inside the volume, as 7 bits.
+// Mask of the columns or rows of the window that are inside the volume, 7 bits.
 uint insideBits(int first, int size) {
     int begin = clamp(-first, 0, 7), end = clamp(size - first, 0, 7);
     return (0x7Fu >> uint(7 - end)) & ~((1u << uint(begin)) - 1u);
@@ -101,13 +101,13 @@ uvec2 windowWord(ivec3 corner, int z) {
         word |= aside.y < 0 ? down(body, -8 * aside.y) : up(body, 8 * aside.y);
     }
     uint columns = insideBits(corner.x, dimension.x) * 0x01010101u, rows = insideBits(corner.y, dimension.y);
-    // Each of the rows' bits becomes a byte.
+    // Expand each bit of `rows` to a byte.
     uvec2 spread = uvec2(rows & 15u, rows >> 4);
     spread = ((spread * 0x00204081u) & 0x01010101u) * 255u;
     return word & columns & spread;
 }
 
-// Layer `n` across an axis of the window; bits run along (x, y), (x, z) or (y, z).
+// Layer `n` of the window across an axis; the bits of a layer run along (y, z), (x, z) or (x, y).
 uvec2 layerAcross(Layers window, int across, int n) {
     if (across == 2) return layerOf(window, n);
     uvec2 layer = uvec2(0u);
@@ -121,7 +121,7 @@ uvec2 layerAcross(Layers window, int across, int n) {
     return layer;
 }
 
-// The body's surface as heights over the plane across an axis: where it ends, seen from inside.
+// The body's surface as a height field over the plane across an axis, see render::Heights.
 Layers topsOf(Layers window, int across, int side, int layers) {
     Layers tops = Layers(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     uvec2 inner = uvec2(0u);
@@ -133,7 +133,7 @@ Layers topsOf(Layers window, int across, int side, int layers) {
     return tops;
 }
 
-// Keeps what is joined with the middle place by steps of one voxel at most, at one height a place.
+// Keeps one height per cell: those connected to the central cell by height steps of at most one voxel.
 void keepJoined(inout Layers tops, int rounds) {
     Layers joined = Layers(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     uvec2 reached = uvec2(0u);
@@ -148,7 +148,7 @@ void keepJoined(inout Layers tops, int rounds) {
         for (int h = -1; h < 6; ++h) {
             below = here;
             here = above;
-            // Of the height above `h`, as it was before this round.
+            // The layer above `h`, as before this round.
             uvec2 next = h < 5 ? layerOf(joined, h + 1) : uvec2(0u);
             uvec2 row = next | up(next, 1) | down(next, 1);
             above = row | up(row, 8) | down(row, 8);
@@ -164,7 +164,7 @@ void keepJoined(inout Layers tops, int rounds) {
 
 uvec2 placesOf(Layers tops) { return tops.a | tops.b | tops.c | tops.d | tops.e | tops.f; }
 
-// Slopes of the plane of least squares through the heights in the disc around the middle; z: places, -1 for none.
+// Slopes of the least-squares plane through the heights in the disc around the centre; z: their number, -1: no fit.
 vec3 slopesOf(Layers tops) {
     uvec2 disc = placesOf(tops) & kDisc;
     ivec3 all = sumsOf(disc);
@@ -193,8 +193,8 @@ vec3 slopeNormal(vec3 slopes, int across, float side) {
                          : vec3(-slopes.xy, side);
 }
 
-// World space; `crease` says how deep in a corner. Where it is not needed it is nothing, and costs little where no ray
-// nearby needs it.
+// Fitted normal, world space. `crease`: how deep in a concave corner, 0..1. If not isNeeded, the face's normal, at
+// little cost if no other ray of the SIMD group needs it.
 vec3 fittedNormal(bool isNeeded, out float crease) {
     int side = -componentOf(stride, axis), layers = isNeeded ? 7 : 0;
     vec3 faceNormal = vec3(axisVector(axis) * side);
@@ -246,7 +246,7 @@ vec3 fittedNormal(bool isNeeded, out float crease) {
             }
             if (slopes.z >= 0.0) normal = slopeNormal(slopes, axis, float(sideOfLongest));
         }
-        // Smoothing may not turn the surface away from the face that was seen.
+        // The fitted normal must not point away from the side of the face that was hit.
         if (dot(normal, faceNormal) > 0.0) fitted = normal;
         break;
     }

@@ -1,10 +1,10 @@
-// Hatches of cut faces, as render::hatchInk() draws them. Lengths in metres.
-uniform vec3 originFromMiddle;  // the grid's origin in places of ray.glsl
+// Hatches of caps (cut faces), as by render::hatchInk(). Lengths in metres.
+uniform vec3 originFromMiddle;  // the grid's origin, position as in ray.glsl
 uniform vec3 gridNorth, gridUp;
 uniform mat3 worldFromIndex;  // of directions
 uniform vec3 hatchColor;      // linear light
 uniform float hatchSpacing, hatchWidth, hatchStrength;  // metres, pixels, 0..1
-uniform float pixelPerDepth, pixelSize;                 // metres: by depth, and at any depth
+uniform float pixelPerDepth, pixelSize;                 // size of a pixel, metres: per metre of depth, and constant
 uniform float samplesAlong;                             // samples along a pixel
 uniform vec3 cameraForward;
 
@@ -17,7 +17,7 @@ float lineInk(float apart) {
 }
 float stripes(float x, float period) { return lineInk(abs(x - period * round(x / period))); }
 
-// Of 64 bits; low word first.
+// Product of 64-bit integers; low word first.
 uvec2 times(uvec2 a, uvec2 b) {
     uvec2 a0 = uvec2(a.x & 0xFFFFu, a.x >> 16), b0 = uvec2(b.x & 0xFFFFu, b.x >> 16);
     uint bottom = a0.x * b0.x, cross1 = a0.y * b0.x, cross2 = a0.x * b0.y;
@@ -30,7 +30,7 @@ uvec2 wide(float whole) {
     int i = int(whole);
     return uvec2(uint(i), i < 0 ? 0xFFFFFFFFu : 0u);
 }
-// 0..1, the same for the same cell.
+// A pseudo-random number, 0..1, by cell.
 float randomOf(float i, float j, uint salt) {
     uvec2 hash = times(wide(i), uvec2(0x7F4A7C15u, 0x9E3779B9u)) ^ times(wide(j), uvec2(0x27D4EB4Fu, 0xC2B2AE3Du)) ^
                  times(uvec2(salt, 0u), uvec2(0x9E3779F9u, 0x165667B1u));
@@ -44,7 +44,7 @@ float toSegment(vec2 p, vec2 a, vec2 b) {
     return length(p - a - way * clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0));
 }
 
-// A dot in each field, and a triangle in some.
+// A dot in each square field, and a triangle in some.
 float gravel(vec2 p) {
     vec2 field = floor(p / spacing), place = p - field * spacing;
     vec2 center = (0.3 + 0.4 * vec2(randomOf(field.x, field.y, 1u), randomOf(field.x, field.y, 2u))) * spacing;
@@ -97,10 +97,10 @@ float hatchInk(uint hatch, vec2 p) {
     return hatch == 9u ? stripes(across, 2.0 * spacing) : 0.0;
 }
 
-// The ink at the point where the ray meets a cut face at `depth` from the eye.
+// Coverage by ink at the point of a cap that the ray meets at `depth`.
 float inkOn(uint hatch, vec3 normal, float depth) {
     if (hatch == 0u) return 0.0;
-    // Level with the ground as far as the face allows: up is up, and north is up on faces that lie.
+    // The vertical axis is the grid's up direction projected onto the face; on nearly horizontal faces, north.
     vec3 above = abs(dot(normal, gridUp)) < 0.9 ? gridUp : gridNorth;
     vec3 upwards = normalize(above - normal * dot(normal, above)), aside = cross(upwards, normal);
     vec3 point = worldFromIndex * (origin + direction * (depth - middleDepth) - originFromMiddle);

@@ -1,12 +1,12 @@
-// Where a run begins, and how it is lit there.
+// Normal and lighting of the surface at the start of a run.
 uniform usampler2D styles, occlusion;
 uniform uint styleCount;
-uniform mat3 worldFromCovector;  // of planes in voxel space to world space
-uniform mat3 indexFromWorld;     // of directions
+uniform mat3 worldFromCovector;  // normals of planes from voxel space to world space
+uniform mat3 indexFromWorld;     // for directions
 uniform vec3 towardsLight;
 uniform float lightKey, lightAmbient, lightOcclusion;
-uniform int occlusionLevels;  // 4; a number here keeps compilers from writing the loop out
-uniform float occlusionCell;  // voxels along a block of the finest level; of the next ones twice as many
+uniform int occlusionLevels;  // 4; a uniform, so that compilers do not unroll the loop
+uniform float occlusionCell;  // voxels along a block of the finest level; doubles with each level
 uniform ivec3 occlusionCount[4];
 uniform uint occlusionFirst[4];
 uniform vec2 occlusionGain[4];  // gain, weight
@@ -28,7 +28,7 @@ bool isNear(uint number, vec3 point) {
     return abs(dot(p.xyz, point) + p.w) < 0.75 && abs(componentOf(p.xyz, axis)) > 0.2;
 }
 
-// Bricks beside each other may have planes for one surface that do not quite meet.
+// Planes of adjacent bricks for one surface may not quite meet; see render::seamPlane().
 uint seamPlane() {
     if (axis < 0 || (face & 7) != 0) return kNone;
     ivec3 onAxis = axisVector(axis);
@@ -46,7 +46,7 @@ uint seamPlane() {
 
 bool isAroundEye, isOblique;
 
-// World space, towards the viewer but for what is seen from behind.
+// Normal of the cap, plane or voxel face that the ray crosses; world space, towards the viewer.
 vec3 facingNormal(uint cap, bool isFirst) {
     isAroundEye = isOblique = false;
     if (cap != kNone) {
@@ -71,7 +71,7 @@ float lightOn(vec3 normal, float open) {
     return lightAmbient * open * (0.82 * sky + 0.18 * facing) + lightKey * key * (0.45 + 0.55 * open);
 }
 
-// Opaque voxels around a point, in blocks that are blended.
+// Opaque voxels per block around a point, interpolated trilinearly.
 float takenAt(int level, vec3 point) {
     vec3 p = point / (occlusionCell * float(1 << level)) + 0.5;
     ivec3 count = occlusionCount[level];
@@ -89,7 +89,7 @@ float takenAt(int level, vec3 point) {
     return sum;
 }
 
-// 1 in the open, less in corners.
+// 1 where nothing occludes, less in corners.
 float openness(vec3 normal, float crease, float at) {
     vec3 away = indexFromWorld * normal;
     away /= max(abs(away.x), max(abs(away.y), abs(away.z)));

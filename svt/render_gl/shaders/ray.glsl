@@ -1,16 +1,17 @@
-// A ray through the bricks. Places are voxels from `middle`, a whole voxel near the middle of the volume; t is depth
-// from `middleDepth`, metres along the view direction. So all numbers stay small, and floats are exact enough.
+// Walks a ray through the bricks. Positions are in voxels relative to `middle`, a voxel near the centre of the volume;
+// t is depth minus `middleDepth`, metres along the view direction. So all numbers stay small, and floats are precise
+// enough.
 uniform usampler2D brickIndex, boxes, codes, bricks, palettes, words, planes;
 uniform uint uniformBoxes, boxCount;
 uniform ivec3 dimension, brickCount, middle;
-uniform vec3 rayMiddle, rayRight, rayUp;              // where the ray through (u, v) is at t = 0
-uniform vec3 directionAhead, directionRight, directionUp;  // its direction, voxels a metre of depth
-uniform vec3 worldAhead, worldRight, worldUp;         // the same in world space
+uniform vec3 rayMiddle, rayRight, rayUp;              // position of the ray through (u, v) at t = 0
+uniform vec3 directionAhead, directionRight, directionUp;  // its direction, voxels per metre of depth
+uniform vec3 worldAhead, worldRight, worldUp;         // its direction in world space
 uniform float middleDepth;
 
 vec3 origin, direction, inverse, worldDirection;
-ivec3 stride, isBack;  // 1, -1 or 0; 1 where the ray goes down
-bvec3 isStill;
+ivec3 stride, isBack;  // sign of the direction; 1 on axes with negative direction
+bvec3 isStill;         // axes with zero direction
 float metresPerT;
 
 void beginRay(vec2 place) {
@@ -19,7 +20,7 @@ void beginRay(vec2 place) {
     worldDirection = worldAhead + worldRight * place.x + worldUp * place.y;
     metresPerT = length(worldDirection);
     vec3 size = abs(direction);
-    // Rounding leaves a trace of a direction on axes that it does not have.
+    // A component this small is rounding noise.
     isStill = lessThanEqual(size, vec3(max(size.x, max(size.y, size.z)) * 1e-7));
     direction = mix(direction, vec3(0.0), isStill);
     inverse = 1.0 / mix(direction, vec3(1.0), isStill);
@@ -27,7 +28,7 @@ void beginRay(vec2 place) {
     isBack = ivec3(lessThan(direction, vec3(0.0)));
 }
 
-// When the ray crosses a plane across each axis.
+// Times at which the ray crosses one plane across each axis.
 vec3 planeTimes(ivec3 plane) { return mix((vec3(plane - middle) - origin) * inverse, vec3(kFar), isStill); }
 
 ivec3 cellAt(float t) { return ivec3(floor(origin + t * direction)) + middle; }
@@ -52,13 +53,13 @@ uint voxelScalar(uint pattern, ivec3 cell) {
     return elementOf(palettes, brick.x + number).x;
 }
 
-// Where the ray is: the voxel, or any voxel of the box that it is in; how it came there.
+// Position of the ray: its voxel, or any voxel of the box that it is in; and how it got there.
 ivec3 cell;
 float t;
-int axis;    // across which voxel face, or -1
+int axis;    // axis of the voxel face that it crossed, or -1
 int face;    // that face's plane
-uint plane;  // or through which oblique plane
-// What it is in, and what ends that.
+uint plane;  // the oblique plane that it crossed, or kNone
+// The current step, set by look(): its scalar, and where it ends.
 uint scalar;
 bool isVoxel;
 float stepEnd;
@@ -129,7 +130,7 @@ void look() {
     scalar = elementOf(palettes, rest.y + side).x;
 }
 
-// To the end of the step; false where that leaves the volume.
+// Moves to the end of the step; false if that is outside the volume.
 bool goOn() {
     if (endsInside) {
         t = stepEnd;
@@ -148,7 +149,8 @@ bool goOn() {
     return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, dimension));
 }
 
-// Part of the ray inside the volume, from the eye on; `entry` is the axis across whose face it comes in, or -1.
+// Part of the ray inside the volume, in front of the eye. `entry`: axis of the face by which it enters; -1: the eye is
+// inside.
 vec2 spanInVolume(out int entry) {
     vec3 a = planeTimes(ivec3(0)), b = planeTimes(dimension);
     vec3 near = mix(min(a, b), vec3(-kFar), isStill), far = max(a, b);

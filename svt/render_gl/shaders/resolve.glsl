@@ -1,13 +1,13 @@
-// Samples to pixels: border lines, background, sRGB.
+// Resolves samples to pixels: border lines, background, sRGB.
 uniform usampler2D colorSamples, hitSamples;
 uniform int side, margin, lineReach, cutReach;  // samples
 uniform ivec2 pictureFirst;   // pixel of the picture at the target's lower left corner; y downwards
-uniform ivec2 tileFirst;      // pixel of the picture where the samples begin, behind the margin
+uniform ivec2 tileFirst;      // pixel of the picture at the first sample after the margin
 uniform float pictureHeight;  // pixels
 uniform vec3 backgroundTop, backgroundBottom, lineColor;  // linear light
 uniform float backgroundAlpha, lineStrength;
 uniform vec3 cameraRight, cameraUp, cameraForward;
-uniform float samplePerDepth, sampleSize;  // metres from sample to sample: by depth, and at any depth
+uniform float samplePerDepth, sampleSize;  // distance of samples, metres: per metre of depth, and constant
 uniform float voxelSize;
 
 out vec4 pixel;  // sRGB, not premultiplied
@@ -38,7 +38,7 @@ int reachBetween(Seen a, Seen b) {
     return isRim(a, b) || (b.depth < kFar && b.isCap) ? cutReach : max(lineReach, margin);
 }
 
-// How dark the line on `a` is that its border with `b` makes, which lies by `aside` (metres) beside it.
+// Coverage of `a` by the line along its border with `b`, which is offset by `aside` (metres); see TileRenderer.
 float lineBetween(Seen a, Seen b, vec3 aside, bool isFirst) {
     if (b.depth >= kFar || isRim(a, b)) return 1.0;
     if (isRim(b, a)) return 0.0;
@@ -93,7 +93,7 @@ void main() {
 #if BORDERS
         line = lineStrength * lineOn(at);
 #endif
-        // A line is seen, however thin the glass it borders.
+        // A line is visible, however transparent the sample.
         float covered = light.a + (1.0 - light.a) * line * 0.5;
         color += min(light.rgb, 1.0) * (1.0 - line) + lineColor * (line * covered);
         alpha += covered;

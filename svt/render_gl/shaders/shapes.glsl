@@ -1,21 +1,21 @@
-// Lines and triangles that a ray meets, by depth. Nothing is kept of them but the next of each kind: the one after it
-// is looked for when it has been drawn.
-uniform usampler2D shapeCells, shapeList, shapeTable;  // by square of 4 x 4 pixels; numbers; what they stand for
+// Lines and triangles that a ray meets, in order of depth. Only the next one of each kind is kept; when it has been
+// drawn, the one after it is searched for.
+uniform usampler2D shapeCells, shapeList, shapeTable;  // by square of 4 x 4 pixels; numbers of shapes; the shapes
 uniform ivec2 shapeCellCount;
-uniform uint looksFirst, trianglesFirst;  // in shapeTable
+uniform uint looksFirst, trianglesFirst;  // first element in shapeTable
 uniform float lineSamples;                // along a pixel
-uniform float linePixelPerDepth, linePixelSize;  // metres: by depth, and at any depth
-uniform float lineBefore, lineTogether;   // metres
+uniform float linePixelPerDepth, linePixelSize;  // size of a pixel, metres: per metre of depth, and constant
+uniform float lineBefore, lineTogether;   // metres: depth bias; lines this close in depth are one
 uniform bool isPerspective;
-uniform vec3 worldOriginRight, worldOriginUp;  // where rays are at t = 0, from there on the view axis
+uniform vec3 worldOriginRight, worldOriginUp;  // position of rays at t = 0, relative to the view axis
 uniform float samplesAPixel;
 
 vec2 pixelPlace;
-uvec4 shapes;  // first number, lines, triangles
+uvec4 shapes;  // of the ray's square: first element of shapeList, number of lines, of triangles
 float linesLeft;
 vec3 worldOrigin;
 
-// The line, and the triangle, that come next; their depths are t.
+// The next line, and the next triangle; depths are in t.
 float lineAt, lineEnd, lineOpacity, lineHidden;
 vec3 nextLineColor, strongestColor;
 float strongestHidden;
@@ -25,7 +25,7 @@ bool triangleEnters;
 
 float lineLight() { return linesLeft; }
 
-// t of a line where the ray comes upon it; kFar where it does not.
+// t at which the ray meets a line; kFar if it does not.
 float meetLine(uint number, out float coverage, out float hidden, out uint look) {
     vec4 place = floatsOf(shapeTable, 3u * number), depths = floatsOf(shapeTable, 3u * number + 1u);
     look = elementOf(shapeTable, 3u * number + 2u).x;
@@ -44,7 +44,7 @@ float meetLine(uint number, out float coverage, out float hidden, out uint look)
     return max(depth - before, 0.0) - middleDepth;
 }
 
-// Lines at one depth are one line, as strong as the strongest.
+// Lines within lineTogether of depth count as one, as strong as the strongest.
 void findLine() {
     float coverage, hidden;
     uint look;
@@ -89,7 +89,7 @@ bool isDrawnAt(float at) {
 bool isDrawnAt(float at) { return at >= raySpan.x && at < raySpan.y; }
 #endif
 
-// t of a triangle where the ray goes through it; kFar where it does not.
+// t at which the ray crosses a triangle; kFar if it does not.
 float meetTriangle(uint number, out bool isEntering) {
     uint first = trianglesFirst + 6u * number;
     vec4 corner = floatsOf(shapeTable, first), second = floatsOf(shapeTable, first + 1u);
@@ -116,7 +116,7 @@ void findTriangle() {
         bool isEntering;
         float at = meetTriangle(number, isEntering);
         if (at < after || (at == after && number <= last) || at >= triangleAt) continue;
-        // The edge between two triangles is met once.
+        // Two triangles hit on their shared edge count once.
         bool isSame = after > -kFar && at - after <= 1e-6 * (abs(after) + middleDepth) && isEntering == wasEntering &&
                       objectOf(number) == object;
         if (isSame || !isDrawnAt(at)) continue;
@@ -145,8 +145,9 @@ void addSurface(uint number, vec3 normal, float at, bool isCap) {
 }
 
 #if CLIPS
-// The body that the ray is in where a clip cuts it open, the one entered last; what the ray does not leave as often as
-// it enters it is no body but a sheet. Draws its cut face, and ends the ray, where it is opaque.
+// Finds the body that the ray is inside at a clip face, the one entered last; an object that the ray does not enter as
+// often as it leaves it is an open sheet, not a body. If the body is opaque, draws its cap and returns true: the ray
+// ends.
 bool addCutBody(float at, uint cap) {
     float before = kFar;
     for (int n = 0; n < 64; ++n) {
@@ -201,12 +202,12 @@ void beginShapes(vec2 samplePlace) {
     nextLineColor = strongestColor = vec3(0.0);
     nextTriangle = 0u;
     triangleEnters = false;
-    // Nothing comes first; behind it the first ones are looked for.
+    // Start with shapes at -kFar that draw nothing; the first real ones are searched for behind them.
     lineEnd = lineAt = shapeAt = shapes.y + shapes.z > 0u ? -kFar : kFar;
     triangleAt = shapes.z > 0u ? -kFar : kFar;
 }
 
-// Draws what comes next, and looks for what comes then. Of lines behind where the ray has ended the strongest is kept.
+// Draws the next shape, and finds the one after it. Of the lines behind the end of the ray, the strongest is kept.
 void addShape() {
     bool isOver = hasEnded || isDone();
     if (lineAt <= triangleAt) {
@@ -231,7 +232,7 @@ void addShape() {
     shapeAt = min(lineAt, triangleAt);
 }
 
-// Over what the ray has ended at.
+// Draws the strongest hidden line over what the ray has ended at.
 void drawHiddenLines(inout float alpha) {
     color = color * (1.0 - strongestHidden) + strongestColor * strongestHidden;
     alpha += (1.0 - alpha) * strongestHidden;

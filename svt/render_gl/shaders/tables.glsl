@@ -1,13 +1,13 @@
-// Arrays in rows of textures, read one element at a time.
+// Arrays stored as rows of a texture, read one element at a time.
 const uint kNone = 0xFFFFFFFFu;
-const float kFar = 3.0e38;  // stands for infinity, which not every driver keeps
+const float kFar = 3.0e38;  // stands for infinity, which not all drivers support
 
 uvec4 elementOf(usampler2D table, uint number) {
     return texelFetch(table, ivec2(int(number & uint((1 << ROW_BITS) - 1)), int(number >> ROW_BITS)), 0);
 }
 vec4 floatsOf(usampler2D table, uint number) { return uintBitsToFloat(elementOf(table, number)); }
 
-// Directions in one word: octahedral, 15 bits a coordinate. Bit 30 is free, bit 31 as well.
+// Directions in one word: octahedral encoding, 15 bits per coordinate. Bits 30 and 31 are free.
 uint packedDirection(vec3 direction) {
     vec3 d = direction / (abs(direction.x) + abs(direction.y) + abs(direction.z));
     vec2 side = vec2(d.x >= 0.0 ? 1.0 : -1.0, d.y >= 0.0 ? 1.0 : -1.0);
