@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -21,7 +22,8 @@ class MappedFile {
 public:
     /// Maps the whole file; an empty file gives an empty span. Cost: O(1), pages are read when touched.
     /// \return the file, or CannotOpen that says why: missing, a folder, no permission, a pipe or device
-    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path);
+    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path,
+                                                 std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
 
     MappedFile(MappedFile&& other) noexcept;
     MappedFile& operator=(MappedFile&& other) noexcept;
@@ -96,5 +98,11 @@ private:
 [[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target,
                                                         std::span<const std::byte> bytes);
 [[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target, std::string_view text);
+
+/// Whether messages to stderr are read by a person at a terminal.
+[[nodiscard]] bool isErrorTerminal() noexcept;
+
+/// The file of the running program; empty where the system does not tell.
+[[nodiscard]] std::filesystem::path executablePath();
 
 }  // namespace svt

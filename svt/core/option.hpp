@@ -32,7 +32,7 @@ struct Option {
     std::string_view choices{};    ///< the only values there are: "thin|conservative"; empty: any
     std::string_view byDefault{};  ///< the value where none is given, as it would be written; empty: none
     std::string_view otherwise{};  ///< in words what holds where none is given: "by look"
-    std::string_view help;         ///< what it does; a sentence without its first capital and full stop
+    std::string_view help{};       ///< what it does; a sentence without its first capital and full stop
     std::string_view group{};      ///< heading in help
     std::string_view
         member{};  ///< of the command line: the member of a scene that it sets; gives all that is not given here

@@ -10,3 +10,12 @@
 #elif !defined(HWY_COMPILE_ONLY_EMU128)
 #define HWY_COMPILE_ONLY_STATIC
 #endif
+
+#include <string_view>
+
+namespace svt {
+
+/// Name of the instruction set that kernels use on this machine: "AVX3" (AVX-512), "AVX2", "SSE4", "EMU128" (portable).
+[[nodiscard]] std::string_view simdTargetName() noexcept;
+
+}  // namespace svt

@@ -1,5 +1,7 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/volume/svt_file.hpp>
 
@@ -27,9 +29,9 @@ void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, c
 }
 
 Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const BuildArguments& build) {
-    if (!build.dimension.empty() || !build.spacing.empty() || build.frame != "world")
+    if (!build.dimension.empty() || !build.spacing.empty() || build.axes != "world")
         return Error(Code::BadArgument,
-                     "--grid-of excludes --dimension, --spacing and --frame; the other volume has them already");
+                     "--grid-of excludes --dimension, --spacing and --axes; the other volume has them already");
     const auto volume = volume::readSvt(path);
     if (!volume) return volume.error();
     return volume->grid;
@@ -88,39 +90,21 @@ int runBuild(const Arguments& arguments) {
 
 }  // namespace
 
-Run addBuildCommand(CLI::App& app) {
+Action connectBuild(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("build", "Make a volume (.svt) of one or more model files");
-    command->add_option("input", arguments->inputs, "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq")
-        ->required();
-    command->add_option("-o,--output", arguments->output, "the volume to write")->required()->type_name("F.svt");
-    arguments->build.addTo(*command);
-    command
-        ->add_option("--grid-of", arguments->gridOf,
-                     "samples where this volume has them, so that the two can be compared voxel by voxel")
-        ->group("Grid")
-        ->type_name("F.svt");
-    command
-        ->add_option_function<std::vector<std::string>>(
-            "--vectors",
-            [arguments](const std::vector<std::string>& kinds) {
-                for (const std::string& kind : kinds) {
-                    if (kind == "edges") arguments->build.vectors.edges = true;
-                    if (kind == "meshes") arguments->build.vectors.meshes = true;
-                }
-            },
-            "also keep edges, or meshes, or both (edges,meshes), to be drawn inside the volume")
-        ->group("Output")
-        ->delimiter(',')
-        ->expected(1, 2)
-        ->type_name("KIND")
-        ->check(CLI::IsMember({"edges", "meshes"}));
-    command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");
-    command
-        ->add_flag("--strict", arguments->strict,
-                   "exit 4 where the model has defects; the volume is written all the same")
-        ->group("Output");
-    command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
+    command.set("input", arguments->inputs);
+    command.set("--output", arguments->output);
+    arguments->build.connect(command);
+    command.set("--grid-of", arguments->gridOf);
+    command.take("--vectors", [arguments](const std::vector<std::string>& kinds) {
+        for (const std::string& kind : kinds) {
+            if (kind == "edges") arguments->build.vectors.edges = true;
+            if (kind == "meshes") arguments->build.vectors.meshes = true;
+        }
+    });
+    command.set("--json", arguments->json);
+    command.set("--strict", arguments->strict);
+    command.set("--verbose", arguments->verbose);
     return [arguments] { return runBuild(*arguments); };
 }
 

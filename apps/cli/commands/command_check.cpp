@@ -1,5 +1,7 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/mesh/mesh_scene.hpp>
 
@@ -112,14 +114,12 @@ int runCheck(const Arguments& arguments) {
 
 }  // namespace
 
-Run addCheckCommand(CLI::App& app) {
+Action connectCheck(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand(
-        "check", "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong");
-    command->add_option("input", arguments->inputs, "model files")->required();
-    command->add_option("--lod", arguments->lod, "use no finer level of detail than this")->group("Model");
-    command->add_flag("--json", arguments->json, "print everything as JSON on stdout")->group("Output");
-    command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
+    command.set("input", arguments->inputs);
+    command.set("--lod", arguments->lod);
+    command.set("--json", arguments->json);
+    command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };
 }
 

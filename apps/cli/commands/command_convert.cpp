@@ -1,4 +1,6 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/volume/svt_file.hpp>
 #include <svt/writers/glb_writer.hpp>
@@ -11,7 +13,7 @@ namespace {
 
 struct Arguments {
     std::filesystem::path input, output;
-    std::string encoding = "gzip", faces = "planes";
+    std::string encoding, faces;
     BuildArguments build;
 };
 
@@ -44,21 +46,13 @@ int runConvert(const Arguments& arguments) {
 
 }  // namespace
 
-Run addConvertCommand(CLI::App& app) {
+Action connectConvert(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("convert", "Write a volume in another format");
-    command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    command->add_option("output", arguments->output, "file to write; the extension tells the format: .nrrd or .glb")
-        ->required();
-    command->add_option("--encoding", arguments->encoding, "NRRD samples: gzip or raw")
-        ->check(CLI::IsMember({"gzip", "raw"}))
-        ->capture_default_str();
-    command
-        ->add_option("--faces", arguments->faces,
-                     "slopes of a .glb: planes (flat, as far as the volume knows them) or voxels (stairs)")
-        ->check(CLI::IsMember({"planes", "voxels"}))
-        ->capture_default_str();
-    arguments->build.addTo(*command);
+    command.set("input", arguments->input);
+    command.set("output", arguments->output);
+    command.set("--encoding", arguments->encoding);
+    command.set("--faces", arguments->faces);
+    arguments->build.connect(command);
     return [arguments] { return runConvert(*arguments); };
 }
 

@@ -1,5 +1,7 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <fmt/format.h>
 
@@ -83,13 +85,12 @@ int runInfo(const Arguments& arguments) {
 
 }  // namespace
 
-Run addInfoCommand(CLI::App& app) {
+Action connectInfo(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Show what is inside a volume or model");
-    command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    arguments->build.addTo(*command);
-    command->add_flag("--json", arguments->json, "print everything as JSON on stdout")->group("Output");
-    command->add_flag("--tree", arguments->tree, "print the tree of features")->group("Output");
+    command.set("input", arguments->input);
+    arguments->build.connect(command);
+    command.set("--json", arguments->json);
+    command.set("--tree", arguments->tree);
     return [arguments] { return runInfo(*arguments); };
 }
 

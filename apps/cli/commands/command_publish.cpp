@@ -1,4 +1,6 @@
+#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/site_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <fmt/format.h>
 
@@ -28,14 +30,12 @@ int runPublish(const Arguments& arguments) {
 
 }  // namespace
 
-Run addPublishCommand(CLI::App& app) {
+Action connectPublish(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("publish", "Write the viewer with models as a folder for any web server");
-    command->add_option("input", arguments->inputs, "what the page opens: .svt or model files")->required();
-    command->add_option("-o,--output", arguments->output, "the folder to write")->required()->type_name("DIR");
-    command->add_flag("--force", arguments->mayReplace,
-                      "write into a folder that is not empty; what is not of the page stays");
-    arguments->site.addTo(*command);
+    command.set("input", arguments->inputs);
+    command.set("--output", arguments->output);
+    command.set("--force", arguments->mayReplace);
+    arguments->site.connect(command);
     return [arguments] { return runPublish(*arguments); };
 }
 

@@ -1,5 +1,7 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/query_reports.hpp>
 
 #include <svt/analyze/selection.hpp>
@@ -127,38 +129,20 @@ int runQuery(const Arguments& arguments) {
 
 }  // namespace
 
-Run addQueryCommand(CLI::App& app) {
+Action connectQuery(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("query", "List the features that a query selects, and what is around them");
-    command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    command->add_option("query", arguments->query, "such as 'class=BuildingRoom and volume>20'")->required();
-    command
-        ->add_option("--with", arguments->with,
-                     "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface")
-        ->group("Report")
-        ->type_name("LIST");
-    command->add_flag("--neighbours", arguments->neighbors, "what each feature touches, with the shared area")
-        ->group("Report");
-    command
-        ->add_option("--along", arguments->along,
-                     "what lies along a ray: a point in metres from the lower corner, and a direction")
-        ->group("Report")
-        ->type_name("X,Y,Z:DX,DY,DZ");
-    command->add_flag("--overlaps", arguments->overlaps, "what two features both claim")->group("Report");
-    command->add_flag("--gaps", arguments->gaps, "air beside the features that is shut in")->group("Report");
-    command
-        ->add_option("--owners", arguments->owners,
-                     "who owns what: a table of feature and owner; walls between owners are divided")
-        ->group("Report")
-        ->type_name("T.csv");
-    command
-        ->add_option("--parcels", arguments->parcels,
-                     "how much of each feature lies in which parcel: a volume on the same grid, or a model")
-        ->group("Report")
-        ->type_name("FILE");
-    command->add_flag("--json", arguments->json, "print rows as JSON on stdout")->group("Output");
-    command->add_flag("--csv", arguments->csv, "print rows as CSV on stdout")->group("Output");
-    arguments->build.addTo(*command);
+    command.set("input", arguments->input);
+    command.set("query", arguments->query);
+    command.set("--with", arguments->with);
+    command.set("--neighbours", arguments->neighbors);
+    command.set("--along", arguments->along);
+    command.set("--overlaps", arguments->overlaps);
+    command.set("--gaps", arguments->gaps);
+    command.set("--owners", arguments->owners);
+    command.set("--parcels", arguments->parcels);
+    command.set("--json", arguments->json);
+    command.set("--csv", arguments->csv);
+    arguments->build.connect(command);
     return [arguments] { return runQuery(*arguments); };
 }
 

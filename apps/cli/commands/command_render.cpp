@@ -1,5 +1,7 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/scene_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/scene_painter.hpp>
@@ -20,7 +22,7 @@ struct Arguments {
     std::filesystem::path input, output, labelOutput, depthOutput, sceneOutput;
     BuildArguments build;
     SceneArguments scene;
-    int frames = 1;
+    int frames = 0;
     bool gl = false;
     bool verbose = false;
 };
@@ -130,34 +132,18 @@ int runRender(const Arguments& arguments) {
 
 }  // namespace
 
-Run addRenderCommand(CLI::App& app) {
+Action connectRender(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("render", "Draw a picture (PNG) of a volume or model");
-    command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    command->add_option("-o,--output", arguments->output, "the picture to write")->required()->type_name("P.png");
-    arguments->scene.addTo(*command);
-    command->add_option("--write-scene", arguments->sceneOutput, "also write the scene that these options make")
-        ->group("Scene")
-        ->type_name("S.scene.json");
-    command
-        ->add_option("--frames", arguments->frames,
-                     "so many pictures P_0000.png, ... of a section that moves, 1 to 10000")
-        ->group("Scene")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
-    command->add_flag("--gl", arguments->gl, "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display")
-        ->group("Output")
-        ->excludes(command->get_option("--level"));
-    command->add_option("--labels", arguments->labelOutput, "also write the scalar of each pixel, 16-bit gray")
-        ->group("Output")
-        ->type_name("L.png");
-    command
-        ->add_option("--depth", arguments->depthOutput,
-                     "also write the depth of each pixel in millimetres, 16-bit gray")
-        ->group("Output")
-        ->type_name("D.png");
-    command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
-    arguments->build.addTo(*command);
+    command.set("input", arguments->input);
+    command.set("--output", arguments->output);
+    arguments->scene.connect(command);
+    command.set("--write-scene", arguments->sceneOutput);
+    command.set("--frames", arguments->frames);
+    command.set("--gl", arguments->gl);
+    command.set("--labels", arguments->labelOutput);
+    command.set("--depth", arguments->depthOutput);
+    command.set("--verbose", arguments->verbose);
+    arguments->build.connect(command);
     return [arguments] { return runRender(*arguments); };
 }
 

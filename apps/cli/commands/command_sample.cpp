@@ -1,4 +1,6 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/samples/sample.hpp>
@@ -52,32 +54,19 @@ int runSample(const Arguments& arguments) {
 
 }  // namespace
 
-Run addSampleCommand(CLI::App& app) {
+Action connectSample(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("sample", "Write a generated model: a house, a tower of flats, a district");
-    command->add_option("kind", arguments->kind, "house, tower or district")
-        ->required()
-        ->check(CLI::IsMember({"house", "tower", "district"}));
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq)")
-        ->required();
-    command
-        ->add_option("--format", arguments->format,
-                     "citygml3, citygml2, cityjson or cityjsonseq; default: by extension")
-        ->check(CLI::IsMember({"citygml3", "citygml2", "cityjson", "cityjsonseq"}));
-    auto& options = arguments->options;
-    command->add_option("--seed", options.seed, "decides owners and the houses of a district")->capture_default_str();
-    command->add_option("--storeys", options.storeys, "tower: number of storeys, 1 to 200")->capture_default_str();
-    command->add_option("--flats", options.flatsPerStorey, "tower: flats on each storey, 2 to 8")
-        ->capture_default_str();
-    command->add_option("--columns", options.columns, "district: houses from west to east, 1 to 1000")
-        ->capture_default_str();
-    command->add_option("--rows", options.rows, "district: houses from south to north, 1 to 1000")
-        ->capture_default_str();
-    command->add_option("--turn", options.turnDegrees, "turn in plan, degrees counter-clockwise, -360 to 360")
-        ->capture_default_str();
-    command->add_flag("--thematic", options.thematic, "CityGML 2.0: walls only as surfaces, as LoD4 has them");
+    command.set("kind", arguments->kind);
+    command.set("--output", arguments->output);
+    command.set("--format", arguments->format);
+    samples::SampleOptions& options = arguments->options;
+    command.set("--seed", options.seed);
+    command.set("--storeys", options.storeys);
+    command.set("--flats", options.flatsPerStorey);
+    command.set("--columns", options.columns);
+    command.set("--rows", options.rows);
+    command.set("--turn", options.turnDegrees);
+    command.set("--thematic", options.thematic);
     return [arguments] { return runSample(*arguments); };
 }
 

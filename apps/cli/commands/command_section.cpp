@@ -1,4 +1,6 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/section_drawing.hpp>
@@ -18,9 +20,9 @@ namespace {
 struct Arguments {
     std::filesystem::path input;
     std::vector<std::filesystem::path> outputs, tables;
-    std::string plane, scale = "1:100";
+    std::string plane, scale;
     std::vector<std::string> show, hide;
-    double minArea = 0.0001;
+    double minArea = 0;
     bool noRooms = false, json = false, verbose = false;
     BuildArguments build;
 };
@@ -98,46 +100,20 @@ int runSection(const Arguments& arguments) {
 
 }  // namespace
 
-Run addSectionCommand(CLI::App& app) {
+Action connectSection(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("section", "Draw what a plane cuts (SVG, DXF, GeoJSON)");
-    command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    command
-        ->add_option("-o,--output", arguments->outputs, "the drawing to write: .svg, .dxf or .geojson; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->type_name("D.svg");
-    command
-        ->add_option("--plane", arguments->plane,
-                     "z=1.2, y<3, x>4, storey=EG+1.1, or A,B,C,D; metres from the lower corner; default: 1.1 m above "
-                     "the floor of the lowest storey, or the middle")
-        ->group("Drawing");
-    command->add_option("--scale", arguments->scale, "of the SVG: 1:50 draws 1 m as 20 mm")
-        ->group("Drawing")
-        ->capture_default_str();
-    command->add_option("--hide", arguments->hide, "leave out what the query selects; may be repeated")
-        ->group("Drawing")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->type_name("QUERY");
-    command->add_option("--show", arguments->show, "draw only what the query selects; may be repeated")
-        ->group("Drawing")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->type_name("QUERY");
-    command->add_flag("--no-rooms", arguments->noRooms, "leave out rooms, units and storeys")->group("Drawing");
-    command->add_option("--min-area", arguments->minArea, "leave out polygons smaller than this, m2")
-        ->group("Drawing")
-        ->check(CLI::Range(0.0, 1e9))
-        ->capture_default_str();
-    command->add_option("--table", arguments->tables, "areas per component and class: .json or .csv; may be repeated")
-        ->group("Output")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->type_name("T.csv");
-    command->add_flag("--json", arguments->json, "print the areas as JSON on stdout")->group("Output");
-    command->add_flag("-v,--verbose", arguments->verbose, "show all findings")->group("Output");
-    arguments->build.addTo(*command);
+    command.set("input", arguments->input);
+    command.set("--output", arguments->outputs);
+    command.set("--plane", arguments->plane);
+    command.set("--scale", arguments->scale);
+    command.set("--hide", arguments->hide);
+    command.set("--show", arguments->show);
+    command.set("--no-rooms", arguments->noRooms);
+    command.set("--min-area", arguments->minArea);
+    command.set("--table", arguments->tables);
+    command.set("--json", arguments->json);
+    command.set("--verbose", arguments->verbose);
+    arguments->build.connect(command);
     return [arguments] { return runSection(*arguments); };
 }
 

@@ -1,5 +1,7 @@
-#include <apps/cli/cli.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/analyze/selection.hpp>
 #include <svt/illustrate/shell.hpp>
@@ -15,7 +17,7 @@ namespace {
 
 struct Arguments {
     std::filesystem::path input, output;
-    std::string level = "building", labels = "components", faces = "planes", of;
+    std::string level, labels, faces, of;
     double thickness = 0;
     BuildArguments build;
     bool levels = false, json = false;
@@ -134,41 +136,18 @@ int runShell(const Arguments& arguments) {
 
 }  // namespace
 
-Run addShellCommand(CLI::App& app) {
+Action connectShell(Command& command) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("shell", "Leave only the hull of rooms, flats, storeys or buildings");
-    command->add_option("input", arguments->input, "a .svt or a model file")->required();
-    command
-        ->add_option("-o,--output", arguments->output,
-                     "what to write; the extension tells the format: .svt (volume) or .glb (triangles)")
-        ->type_name("FILE");
-    command->add_option("--level", arguments->level, "whose hull stays")
-        ->group("Shell")
-        ->check(CLI::IsMember({"component", "room", "unit", "storey", "building"}))
-        ->capture_default_str();
-    command->add_option("--of", arguments->of, "only the groups that have something of what the query selects")
-        ->group("Shell")
-        ->type_name("QUERY");
-    command
-        ->add_option("--thickness", arguments->thickness,
-                     "thickness of the hull in metres, rounded up to voxels; default: two voxels")
-        ->group("Shell")
-        ->type_name("M");
-    command
-        ->add_option("--labels", arguments->labels,
-                     "whose label the voxels keep: that of their component, or one per group")
-        ->group("Shell")
-        ->check(CLI::IsMember({"components", "groups"}))
-        ->capture_default_str();
-    command
-        ->add_option("--faces", arguments->faces,
-                     "slopes of a .glb: planes (flat, as far as the volume knows them) or voxels (stairs)")
-        ->group("Output")
-        ->check(CLI::IsMember({"planes", "voxels"}))
-        ->capture_default_str();
-    command->add_flag("--levels", arguments->levels, "list the levels of the model and write nothing")->group("Output");
-    command->add_flag("--json", arguments->json, "print figures as JSON on stdout")->group("Output");
-    arguments->build.addTo(*command);
+    command.set("input", arguments->input);
+    command.set("--output", arguments->output);
+    command.set("--level", arguments->level);
+    command.set("--of", arguments->of);
+    command.set("--thickness", arguments->thickness);
+    command.set("--labels", arguments->labels);
+    command.set("--faces", arguments->faces);
+    command.set("--levels", arguments->levels);
+    command.set("--json", arguments->json);
+    arguments->build.connect(command);
     return [arguments] { return runShell(*arguments); };
 }
 

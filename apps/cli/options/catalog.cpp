@@ -31,7 +31,7 @@ constexpr Option kGrid[] = {
      .otherwise = "400 samples along the longest side",
      .help = "distance of samples in metres, one number or three",
      .group = "Grid"},
-    {.name = "--frame",
+    {.name = "--axes",
      .choices = "world|building",
      .byDefault = "world",
      .help = "axes of the grid: world, or building (turned to its dominant edge)",
@@ -493,7 +493,7 @@ constexpr Option kDescribe[] = {
      .choices = "json|man|bash|zsh|fish",
      .help = "json: all commands and options; man: a manual page; bash, zsh, fish: completions for that shell",
      .isRequired = true},
-    {.name = "command", .help = "of man: the command whose page is printed", .otherwise = "the page of svt itself"},
+    {.name = "command", .otherwise = "the page of svt itself", .help = "of man: the command whose page is printed"},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <apps/cli/options/scene_options.hpp>
 
-#include <apps/cli/cli.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/image/color_text.hpp>
@@ -27,8 +28,6 @@ Result<std::pair<std::string, std::string>> splitValue(const std::string& text, 
                      fmt::format("{} '{}': expected a query, a colon and a value, such as {}", option, text, example));
     return std::pair(text.substr(0, at), text.substr(at + 1));
 }
-
-constexpr int kDefaultDpi = 300;
 
 bool isMetric(const std::string& size) { return size.size() > 2 && size.compare(size.size() - 2, 2, "mm") == 0; }
 
@@ -178,7 +177,7 @@ Result<Scene> readScene(const std::filesystem::path& file) {
 
 }  // namespace
 
-int SceneArguments::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? kDefaultDpi : 0; }
+int SceneArguments::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? dpiByDefault : 0; }
 
 Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     Scene scene;
@@ -188,7 +187,7 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
         scene = std::move(*read);
     }
     if (size)
-        if (auto parsed = parseSize(*size, dpi.value_or(kDefaultDpi), scene); !parsed) return parsed.error();
+        if (auto parsed = parseSize(*size, dpi.value_or(dpiByDefault), scene); !parsed) return parsed.error();
     if (samples) scene.samples = *samples;
     if (look) scene.look = *illustrate::lookFromName(*look);
     if (camera) scene.camera.preset = *camera;
@@ -215,137 +214,48 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     return scene;
 }
 
-void SceneArguments::addTo(CLI::App& command) {
-    const auto list = [&](const char* name, std::vector<std::string>& to, const char* what, const char* group,
-                          const char* type) {
-        command.add_option(name, to, what)
-            ->group(group)
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-            ->type_name(type);
-    };
-    const std::string presets = fmt::format("{}", fmt::join(render::cameraPresetNames(), ", "));
-    command.add_option("--camera", camera, "one of " + presets + "; default: iso")->group("View");
-    command.add_option("--around", around, "the view shows what the query selects, as large as it fits")
-        ->group("View")
-        ->type_name("QUERY");
-    command.add_flag("--ortho", isParallel, "parallel projection")->group("View");
-    command.add_option("--eye", eye, "where the viewer stands, metres from the lower corner of the model")
-        ->group("View")
-        ->expected(3)
-        ->delimiter(',');
-    command.add_option("--target", target, "what stands in the middle of the picture, metres from the lower corner")
-        ->group("View")
-        ->expected(3)
-        ->delimiter(',');
-    command.add_option("--fov", fov, "vertical field of view, degrees, above 0 and below 180; default: 30")
-        ->group("View");
-    command.add_option("--zoom", zoom, "nearer (above 1) or further than the preset, 0.01 to 100")
-        ->group("View")
-        ->check(CLI::Range(0.01, 100.0));
-    command.add_option("--size", size, "width x height in pixels, or such as 160x90mm; default: 1280x720")
-        ->group("View");
-    command.add_option("--dpi", dpi, "pixels an inch, for sizes in mm and written to the picture; default: 300")
-        ->group("View")
-        ->check(CLI::Range(1, 4800));
-    command.add_option("--samples", samples, "rays per pixel: 1, 4, 9 or 16; default: 4")
-        ->group("View")
-        ->check(CLI::IsMember({1, 4, 9, 16}));
-    list("--section", sections,
-         "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=EG+1.1, or A,B,C,D; metres from the lower corner; "
-         "z=0..6 moves with --frames; may be repeated",
-         "Cut", "PLANE");
-    command.add_option("--cut", cut, "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'")
-        ->group("Cut")
-        ->type_name("REGION");
-    command.add_option("--keep", keep, "draw nothing outside of a region, such as storey(EG)")
-        ->group("Cut")
-        ->type_name("REGION");
-    CLI::Option* lensOption =
-        command
-            .add_option("--lens", lens, "S-Lens: in this region the model is cut by --section, the rest is the context")
-            ->group("Illustrate")
-            ->type_name("REGION");
-    list("--highlight", highlights, "the selected, lit whatever stands in front; the rest is the context", "Illustrate",
-         "QUERY");
-    CLI::Option* cutawayOption =
-        command.add_option("--cutaway", cutaway, "take away what hides the selected, and no more than that")
-            ->group("Illustrate")
-            ->type_name("QUERY");
-    CLI::Option* highlightOption = command.get_option("--highlight");
-    lensOption->excludes(highlightOption)->excludes(cutawayOption);
-    highlightOption->excludes(cutawayOption);
-    command.add_option("--context", context, "what is around a lens or highlight: ghost, solid, shell or none")
-        ->group("Illustrate")
-        ->check(CLI::IsMember({"ghost", "solid", "shell", "none"}))
-        ->capture_default_str();
-    command
-        .add_option("--context-level", contextLevel,
-                    "level of detail of what is around a lens, highlight or cutaway, 0 (finest) to 6")
-        ->group("Illustrate")
-        ->check(CLI::Range(0, 6));
-    command.add_option("--shell", shell, "draw only the hulls of components, rooms, units, storeys or the building")
-        ->group("Illustrate")
-        ->check(CLI::IsMember({"component", "room", "unit", "storey", "building"}));
-    list("--names", names, "name the selected at the sides of the picture, with leader lines; may be repeated",
-         "Illustrate", "QUERY");
-    command
-        .add_option_function<std::string>(
-            "--wireframe", [this](const std::string& text) { wireframe = text; },
-            "draw the edges of what the query selects, at their depth inside the volume; without a query: of all that "
-            "is visible")
-        ->group("Lines")
-        ->expected(0, 1)
-        ->default_str("")
-        ->type_name("QUERY");
-    command.add_option("--hidden-lines", hiddenLines, "lines behind something opaque")
-        ->group("Lines")
-        ->check(CLI::IsMember({"faint", "dashed", "none"}))
-        ->capture_default_str();
-    command.add_option("--wire-width", wireWidth, "pixels, 0.1 to 64; default: 1")
-        ->group("Lines")
-        ->check(CLI::Range(0.1, 64.0));
-    command.add_option("--wire-color", wireColor, "#rrggbb or a colour name")->group("Lines");
-    list("--vectors", meshes,
-         "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along each "
-         "axis; may be repeated",
-         "Lines", "QUERY");
-    list("--hide", hide, "hide what the query selects; may be repeated", "Style", "QUERY");
-    list("--show", show, "show only what the query selects; may be repeated", "Style", "QUERY");
-    list("--color", color, "colour by query, such as 'name=\"Unterzug-1\":red'; may be repeated", "Style",
-         "QUERY:COLOR");
-    list("--opacity", opacity, "share of light stopped by 1 m, 0 to 1, by query; may be repeated", "Style",
-         "QUERY:VALUE");
-    command.add_option("--look", look, "plain, paper (for print), blueprint or dark; default: plain")
-        ->group("Style")
-        ->check(CLI::IsMember({"plain", "paper", "blueprint", "dark"}));
-    command
-        .add_flag("--hatch", hasHatches, "hatch what is cut, by material or class; paper and blueprint do so anyway")
-        ->group("Style");
-    list("--hatch-of", hatchOf,
-         "hatch by query: masonry, concrete, reinforced-concrete, timber, insulation, earth, "
-         "steel, glass, general or none; may be repeated",
-         "Style", "QUERY:HATCH");
-    command.add_option("--hatch-spacing", hatchSpacing, "distance of hatch lines, metres; default: about 10 pixels")
-        ->group("Style")
-        ->check(CLI::Range(0.0001, 10000.0));
-    command.add_option("--edges", edges, "strength of lines between objects, 0 to 1; default: 0.5")
-        ->group("Style")
-        ->check(CLI::Range(0.0, 1.0));
-    command.add_option("--line-width", lineWidth, "width of lines between objects, pixels, 0 to 16; default: 1")
-        ->group("Style")
-        ->check(CLI::Range(0.0, 16.0));
-    command.add_option("--cut-width", cutWidth, "width of lines around what is cut, pixels, 0 to 16; default: by look")
-        ->group("Style")
-        ->check(CLI::Range(0.0, 16.0));
-    command.add_option("--level", level, "level of detail, 0 (finest) to 6; default: as fine as the pixels show")
-        ->group("Style")
-        ->check(CLI::Range(0, 6));
-    command.add_option("--background", background, "#rrggbb or a colour name; default: by look")->group("Style");
-    command.add_flag("--transparent", isTransparent, "leave the background transparent")->group("Style");
-    command.add_option("--scene", sceneFile, "scene file; the other options change it")
-        ->group("Scene")
-        ->type_name("S.scene.json");
+void SceneArguments::connect(Command& command) {
+    dpiByDefault = std::atoi(std::string(command.byDefault("--dpi")).c_str());
+    command.set("--camera", camera);
+    command.set("--around", around);
+    command.set("--ortho", isParallel);
+    command.set("--eye", eye);
+    command.set("--target", target);
+    command.set("--fov", fov);
+    command.set("--zoom", zoom);
+    command.set("--size", size);
+    command.set("--dpi", dpi);
+    command.set("--samples", samples);
+    command.set("--section", sections);
+    command.set("--cut", cut);
+    command.set("--keep", keep);
+    command.set("--lens", lens);
+    command.set("--highlight", highlights);
+    command.set("--cutaway", cutaway);
+    command.set("--context", context);
+    command.set("--context-level", contextLevel);
+    command.set("--shell", shell);
+    command.set("--names", names);
+    command.set("--wireframe", wireframe);
+    command.set("--hidden-lines", hiddenLines);
+    command.set("--wire-width", wireWidth);
+    command.set("--wire-color", wireColor);
+    command.set("--vectors", meshes);
+    command.set("--hide", hide);
+    command.set("--show", show);
+    command.set("--color", color);
+    command.set("--opacity", opacity);
+    command.set("--look", look);
+    command.set("--hatch", hasHatches);
+    command.set("--hatch-of", hatchOf);
+    command.set("--hatch-spacing", hatchSpacing);
+    command.set("--edges", edges);
+    command.set("--line-width", lineWidth);
+    command.set("--cut-width", cutWidth);
+    command.set("--level", level);
+    command.set("--background", background);
+    command.set("--transparent", isTransparent);
+    command.set("--scene", sceneFile);
 }
 
 }  // namespace svt::cli

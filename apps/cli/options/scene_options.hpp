@@ -2,9 +2,9 @@
 /// \file
 /// Command-line options that describe a picture, converted to a scene.
 
-#include <svt/illustrate/scene.hpp>
+#include <apps/cli/options/command_line.hpp>
 
-#include <CLI/CLI.hpp>
+#include <svt/illustrate/scene.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -19,15 +19,16 @@ struct SceneArguments {
     std::optional<std::string> camera, size, background, look;
     std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes;
     std::optional<std::string> wireframe, wireColor;
-    std::string hiddenLines = "faint";
+    std::string hiddenLines;
     std::optional<double> wireWidth;
-    std::string cut, keep, lens, cutaway, around, context = "ghost", shell;
+    std::string cut, keep, lens, cutaway, around, context, shell;
     std::vector<double> eye, target;
     std::optional<int> samples, dpi, level, contextLevel;
     std::optional<double> edges, lineWidth, cutWidth, hatchSpacing, fov, zoom;
+    int dpiByDefault = 0;
     bool isParallel = false, isTransparent = false, hasHatches = false;
 
-    void addTo(CLI::App& command);
+    void connect(Command& command);
     /// Resolution to store in the picture for printing; 0: none.
     [[nodiscard]] int printedDpi() const;
     /// The scene of frame `frame` of `frames`: sections such as z=0..6 move from one end to the other.

@@ -117,19 +117,16 @@ private:
 
 }  // namespace
 
-void SiteArguments::addTo(CLI::App& command) {
-    command.add_option("--viewer", viewer, "folder of the page; default: share/svt/viewer beside the program's folder")
-        ->group("Page")
-        ->type_name("DIR");
-    command.add_flag("-v,--verbose", verbose, "show all findings")->group("Page");
-    build.addTo(command);
+void SiteArguments::connect(Command& command) {
+    command.set("--viewer", viewer);
+    command.set("--verbose", verbose);
+    build.connect(command);
 }
 
 Result<fs::path> SiteArguments::viewerFolder() const {
     std::error_code error;
     const fs::path folder =
-        !viewer.empty() ? viewer
-                        : fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() / "share/svt/viewer";
+        !viewer.empty() ? viewer : executablePath().parent_path().parent_path() / "share/svt/viewer";
     if (fs::is_regular_file(folder / "index.html", error)) return folder;
     return Error(Code::CannotOpen,
                  "no viewer is here: index.html is missing; `make viewer` builds one, --viewer names "

@@ -2,7 +2,8 @@
 /// \file
 /// Shared by serve and publish: the page, its models, and server-side pictures for browsers that cannot draw.
 
-#include <apps/cli/cli.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/messages.hpp>
 
 #include <svt/serve/http_server.hpp>
 #include <svt/serve/site.hpp>
@@ -19,7 +20,7 @@ struct SiteArguments {
     BuildArguments build;
     bool verbose = false;
 
-    void addTo(CLI::App& command);
+    void connect(Command& command);
     /// The folder of the page.
     /// \return CannotOpen if it does not exist
     [[nodiscard]] Result<std::filesystem::path> viewerFolder() const;

@@ -87,7 +87,7 @@ int openRetrying(const char* path, int flags, mode_t mode = 0) noexcept {
 
 }  // namespace
 
-Result<MappedFile> MappedFile::open(const fs::path& path) {
+Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes) {
     // Without O_NONBLOCK, opening a pipe without a writer would block forever.
     const int descriptor = openRetrying(path.c_str(), O_RDONLY | O_NONBLOCK);
     if (descriptor < 0) return cannotOpen(path, errno);
@@ -102,6 +102,11 @@ Result<MappedFile> MappedFile::open(const fs::path& path) {
         return cannotOpen(path, S_ISDIR(status.st_mode)
                                     ? "this is a folder; give the name of a file in it"
                                     : "this is a pipe or device, which cannot be mapped; copy it to a file first");
+    }
+    if (static_cast<std::uint64_t>(status.st_size) > maxBytes) {
+        ::close(descriptor);
+        return Error(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", status.st_size, maxBytes),
+                     Place{path.string(), 0, 0, {}});
     }
     if (static_cast<std::uint64_t>(status.st_size) > SIZE_MAX) {
         ::close(descriptor);
@@ -270,6 +275,13 @@ Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::span<cons
 
 Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::string_view text) {
     return writeFileAtomically(target, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+bool isErrorTerminal() noexcept { return ::isatty(STDERR_FILENO) != 0; }
+
+fs::path executablePath() {
+    std::error_code error;
+    return fs::read_symlink("/proc/self/exe", error);
 }
 
 }  // namespace svt

@@ -1,22 +1,15 @@
-#include <svt/readers/read_model.hpp>
-
+#include <svt/core/file.hpp>
 #include <svt/model/classes.hpp>
-
 #include <svt/readers/citygml/citygml_reader.hpp>
 #include <svt/readers/cityjson/cityjson_reader.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,47 +28,6 @@ constexpr Format kFormats[] = {
 };
 
 string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-
-// A mapped file, unmapped by the destructor.
-class MappedFile {
-public:
-    static Result<std::unique_ptr<MappedFile>> open(const std::filesystem::path& path, std::uint64_t maxBytes) {
-        const auto fail = [&](Code code, std::string message) {
-            return Error(code, std::move(message), {path.string(), 0, 0, {}});
-        };
-        std::unique_ptr<MappedFile> file(new MappedFile);
-        file->descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-        if (file->descriptor_ < 0)
-            return fail(Code::CannotOpen, fmt::format("cannot be opened: {}", std::strerror(errno)));
-        struct stat status {};
-        if (::fstat(file->descriptor_, &status) != 0)
-            return fail(Code::CannotOpen, fmt::format("cannot be read: {}", std::strerror(errno)));
-        if (!S_ISREG(status.st_mode)) return fail(Code::CannotOpen, "is no regular file");
-        const auto size = static_cast<std::uint64_t>(status.st_size);
-        if (size > maxBytes) return fail(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", size, maxBytes));
-        if (size == 0) return file;
-        void* const data = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file->descriptor_, 0);
-        if (data == MAP_FAILED)
-            return fail(Code::CannotOpen, fmt::format("cannot be mapped: {}", std::strerror(errno)));
-        file->data_ = data;
-        file->size_ = size;
-        ::madvise(data, size, MADV_SEQUENTIAL);
-        return file;
-    }
-    MappedFile(const MappedFile&) = delete;
-    MappedFile& operator=(const MappedFile&) = delete;
-    ~MappedFile() {
-        if (data_ != nullptr) ::munmap(data_, size_);
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    [[nodiscard]] Bytes bytes() const noexcept { return {static_cast<const std::byte*>(data_), size_}; }
-
-private:
-    MappedFile() = default;
-    int descriptor_ = -1;
-    void* data_ = nullptr;
-    std::size_t size_ = 0;
-};
 
 bool isGzip(Bytes bytes) noexcept { return asText(bytes).starts_with("\x1F\x8B\x08"); }
 
@@ -230,9 +182,9 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
 
 Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
                                        Diagnostics* diagnostics) {
-    const Result<std::unique_ptr<MappedFile>> file = MappedFile::open(path, options.maxBytes);
+    const Result<MappedFile> file = MappedFile::open(path, options.maxBytes);
     if (!file) return file.error();
-    return readModel((*file)->bytes(), path.string(), options, diagnostics);
+    return readModel(file->bytes(), path.string(), options, diagnostics);
 }
 
 }  // namespace svt::readers

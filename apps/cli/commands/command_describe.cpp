@@ -1,0 +1,87 @@
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/describe/completions.hpp>
+#include <apps/cli/describe/man_pages.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/version.hpp>
+
+#include <svt/illustrate/scene_members.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+namespace svt::cli {
+namespace {
+
+struct Arguments {
+    std::string what, command;
+};
+
+Json optionJson(const Option& option) {
+    constexpr std::string_view kKinds[] = {"flag", "whole", "number", "text", "object", "list"};
+    Json json{{"name", option.name}, {"kind", kKinds[static_cast<std::size_t>(option.kind)]}};
+    const auto text = [&](const char* key, std::string_view value) {
+        if (!value.empty()) json[key] = value;
+    };
+    const auto list = [&](const char* key, std::string_view values) {
+        if (!values.empty()) json[key] = splitChoices(values);
+    };
+    text("value", option.value);
+    text("unit", option.unit);
+    if (std::isfinite(option.least)) json["minimum"] = option.least;
+    if (std::isfinite(option.most)) json["maximum"] = option.most;
+    list("choices", option.choices);
+    text("default", option.byDefault);
+    text("otherwise", option.otherwise);
+    text("help", option.help);
+    text("group", option.group);
+    text("member", option.member);
+    list("excludes", option.excludes);
+    if (option.count != 1) json["count"] = option.count;
+    if (option.leastCount != 1) json["leastCount"] = option.leastCount;
+    if (option.isRequired) json["required"] = true;
+    if (option.mayRepeat) json["repeats"] = true;
+    return json;
+}
+
+Json describedJson() {
+    Json json{{"version", versionNumber()}, {"commands", Json::array()}, {"sceneMembers", Json::array()}};
+    for (const CommandText& command : commandTexts()) {
+        Json described{{"name", command.name}, {"help", command.help}, {"options", Json::array()}};
+        for (const Option& option : optionsOf(command)) described["options"].push_back(optionJson(option));
+        json["commands"].push_back(std::move(described));
+    }
+    for (const Option& member : illustrate::sceneMembers()) json["sceneMembers"].push_back(optionJson(member));
+    return json;
+}
+
+int runDescribe(const Arguments& arguments) {
+    if (arguments.what == "json") {
+        print(describedJson());
+        return kDone;
+    }
+    if (arguments.what != "man") {
+        fmt::print("{}", completionScript(arguments.what));
+        return kDone;
+    }
+    const auto page = manPage(arguments.command);
+    if (!page)
+        return fail(
+            Error(Code::BadArgument, fmt::format("there is no command '{}'; see 'svt --help'", arguments.command)));
+    fmt::print("{}", *page);
+    return kDone;
+}
+
+}  // namespace
+
+Action connectDescribe(Command& command) {
+    auto arguments = std::make_shared<Arguments>();
+    command.set("what", arguments->what);
+    command.set("command", arguments->command);
+    return [arguments] { return runDescribe(*arguments); };
+}
+
+}  // namespace svt::cli

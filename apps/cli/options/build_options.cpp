@@ -1,0 +1,109 @@
+#include <apps/cli/options/build_options.hpp>
+
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+namespace svt::cli {
+
+Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std::string_view unit) {
+    std::array<double, 3> values{};
+    std::size_t count = 0, at = 0;
+    while (at <= text.size()) {
+        std::size_t end = text.find_first_of(",x", at);
+        if (end == std::string::npos) end = text.size();
+        const std::string part = text.substr(at, end - at);
+        char* rest = nullptr;
+        const double value = std::strtod(part.c_str(), &rest);
+        if (part.empty() || *rest != '\0' || count == 3)
+            return Error(
+                Code::BadArgument,
+                fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
+        values[count++] = value;
+        at = end + 1;
+    }
+    if (count == 1) return Vec3d{values[0], values[0], values[0]};
+    if (count != 3)
+        return Error(Code::BadArgument,
+                     fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
+    return Vec3d{values[0], values[1], values[2]};
+}
+
+void BuildArguments::connect(Command& command) {
+    command.set("--dimension", dimension);
+    command.set("--spacing", spacing);
+    command.set("--axes", axes);
+    command.set("--lod", lod);
+    command.set("--no-bodies", noBodies);
+    command.set("--style", style);
+    command.set("--patterns", patterns);
+    command.set("--sheets", sheets);
+    command.set("--no-thin", noThin);
+    command.set("--threads", threads);
+}
+
+Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::StyleSheet>& styleSheet) const {
+    pipeline::BuildOptions options;
+    if (!dimension.empty() && !spacing.empty())
+        return Error(Code::BadArgument, "--dimension and --spacing exclude each other; give one of them");
+    if (!dimension.empty()) {
+        const auto triple = parseTriple(dimension, "--dimension", "samples, 2 to 65535");
+        if (!triple) return triple.error();
+        Vec3i samples;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double value = (*triple)[axis];
+            if (!(value >= 2 && value <= volume::Grid::kMaxDimension) || value != std::floor(value))
+                return Error(
+                    Code::BadDimension,
+                    fmt::format("--dimension {}: {} is out of range; whole numbers from 2 to {} samples are possible",
+                                dimension, value, volume::Grid::kMaxDimension));
+            samples[axis] = static_cast<std::int32_t>(value);
+        }
+        options.dimension = samples;
+    }
+    if (!spacing.empty()) {
+        const auto triple = parseTriple(spacing, "--spacing", "metres, greater than 0");
+        if (!triple) return triple.error();
+        options.spacing = *triple;
+    }
+    options.frame = axes == "building" ? pipeline::FrameKind::Building : pipeline::FrameKind::World;
+    options.lod.lod = lod;
+    options.giveThematicBodies = !noBodies;
+    options.usePatterns = patterns;
+    options.sheets = sheets == "thin" ? voxelize::SheetMode::Thin : voxelize::SheetMode::Conservative;
+    options.keepThinParts = !noThin;
+    options.threads = threads;
+    options.vectors = vectors;
+    if (!style.empty()) {
+        auto sheet = pipeline::readStyleSheet(style);
+        if (!sheet) return sheet.error();
+        styleSheet = std::move(*sheet);
+        options.style = &*styleSheet;
+    }
+    return options;
+}
+
+Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const BuildArguments& arguments,
+                                          const Progress* progress, Diagnostics& diagnostics,
+                                          const volume::Grid* grid) {
+    std::array<char, 4096> head{};
+    std::ifstream stream(input, std::ios::binary);
+    stream.read(head.data(), head.size());
+    const auto bytes = std::as_bytes(std::span(head).first(static_cast<std::size_t>(stream.gcount())));
+    if (volume::looksLikeSvt(bytes)) return volume::readSvt(input);
+    std::optional<pipeline::StyleSheet> sheet;
+    auto options = arguments.options(sheet);
+    if (!options) return options.error();
+    options->progress = progress;
+    if (grid != nullptr) options->grid = *grid;
+    auto output = pipeline::buildVolume(std::span(&input, 1), *options, &diagnostics);
+    if (!output) return output.error();
+    return std::move(output->volume);
+}
+
+}  // namespace svt::cli

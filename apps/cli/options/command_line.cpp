@@ -1,0 +1,177 @@
+// The only file that knows the parser of command lines (CLI11).
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/version.hpp>
+
+#include <svt/core/check.hpp>
+#include <svt/core/edit_distance.hpp>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+namespace svt::cli {
+namespace {
+
+// What was given, by the option's number in its command.
+using Given = std::vector<std::vector<std::string>>;
+
+// One option of `command` in CLI11's terms; its values are held against the declaration and kept as texts.
+CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::string>& values) {
+    const std::string name(option.name), description = descriptionOf(option);
+    if (option.kind == OptionKind::Flag) return app.add_flag(name, description);
+    CLI::Option* added = app.add_option(name, values, description);
+    added->type_name(valueText(option));
+    if (option.count > 1) {
+        added->delimiter(',')->expected(option.leastCount, option.count);
+    } else if (option.leastCount == 0) {
+        added->expected(0, 1)->default_str("");
+    } else if (option.mayRepeat && option.name.starts_with('-')) {
+        added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    } else if (!option.mayRepeat) {
+        added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    }
+    return added->check(CLI::Validator([option](std::string& text) { return faultOf(option, text); }, ""));
+}
+
+void addOptions(CLI::App& app, const std::vector<Option>& options, Given& given) {
+    given.resize(options.size());
+    for (std::size_t n = 0; n < options.size(); ++n) {
+        CLI::Option* added = addOption(app, options[n], given[n]);
+        if (options[n].isRequired) added->required();
+        if (!options[n].group.empty()) added->group(std::string(options[n].group));
+    }
+    for (const Option& option : options)
+        for (const std::string_view other : splitChoices(option.excludes))
+            app.get_option(std::string(longName(option)))->excludes(app.get_option(std::string(other)));
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t distance = std::max<std::size_t>(3, word.size() / 2);
+    for (const std::string& candidate : known)
+        if (const std::size_t d = editDistance(word, candidate, distance); d < distance) {
+            distance = d;
+            best = candidate;
+        }
+    return best;
+}
+
+// The option or command that the user may have meant.
+std::string suggestionFor(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> known;
+    const auto commands = app.get_subcommands();
+    if (word.rfind("-", 0) == 0) {
+        const CLI::App* scope = commands.empty() ? &app : commands.front();
+        for (const CLI::Option* option : scope->get_options())
+            for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    } else if (commands.empty()) {
+        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+            known.push_back(command->get_name());
+    }
+    const std::string found = nearest(word.substr(0, word.find('=')), known);
+    return found.empty() ? "" : fmt::format("; did you mean {}?", found);
+}
+
+// Results that stdout cannot take (a full disk behind '>') must not pass for success.
+int flushed(int exitCode) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
+    fmt::print(stderr, "svt: error: stdout cannot be written\n");
+    return exitCode == kDone ? kOutput : exitCode;
+}
+
+// The parser with all commands.
+struct Parser {
+    CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
+    std::map<std::string_view, Given> given;
+
+    Parser() {
+        app.require_subcommand(0, 1);
+        app.set_version_flag("--version", versionText());
+        app.failure_message(CLI::FailureMessage::simple);
+        for (const CommandText& text : commandTexts())
+            addOptions(*app.add_subcommand(std::string(text.name), std::string(text.help)), optionsOf(text),
+                       given[text.name]);
+    }
+};
+
+int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
+    std::string message = error.what();
+    for (const std::string& word : app.remaining(true)) message += suggestionFor(app, word);
+    const auto chosen = app.get_subcommands();
+    fmt::print(stderr, "svt: {}\nsvt: see 'svt {}--help'\n", message,
+               chosen.empty() ? "" : chosen.front()->get_name() + " ");
+    return kUsage;
+}
+
+int runCommand(const CLI::App& app, const Given& given, const CommandText& text, Connect connect) {
+    Command command(text);
+    const Action action = connect(command);
+    for (std::size_t n = 0; n < command.connections().size(); ++n) {
+        const auto& [option, take] = command.connections()[n];
+        SVT_CHECK(take != nullptr);
+        if (app.get_option(std::string(longName(option)))->count() != 0) take(given[n]);
+    }
+    return flushed(action());
+}
+
+}  // namespace
+
+Command::Command(const CommandText& text) : text_(&text) {
+    for (const Option& option : optionsOf(text)) connections_.push_back({option, nullptr});
+}
+
+Command::Connection& Command::connection(std::string_view option) {
+    const auto found = std::ranges::find_if(
+        connections_, [&](const Connection& connection) { return longName(connection.option) == option; });
+    SVT_CHECK(found != connections_.end());
+    return *found;
+}
+
+void Command::take(std::string_view option, Take take) {
+    Connection& found = connection(option);
+    SVT_CHECK(found.take == nullptr);
+    found.take = std::move(take);
+}
+
+double Command::number(const std::string& text) {
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);  // faultOf() has seen it
+    return value;
+}
+
+int runCommandLine(int argc, char** argv, std::span<const CommandAction> commands) {
+    Parser parser;
+    try {
+        parser.app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+        parser.app.exit(help);
+        return flushed(kDone);
+    } catch (const CLI::CallForVersion& version) {
+        parser.app.exit(version);
+        return flushed(kDone);
+    } catch (const CLI::ParseError& error) {
+        return reportUsage(parser.app, error);
+    }
+    for (const CommandText& text : commandTexts()) {
+        if (!parser.app.got_subcommand(std::string(text.name))) continue;
+        const auto found = std::ranges::find(commands, text.name, &CommandAction::name);
+        SVT_CHECK(found != commands.end());
+        return runCommand(*parser.app.get_subcommand(std::string(text.name)), parser.given[text.name], text,
+                          found->connect);
+    }
+    fmt::print("{}", parser.app.help());
+    return kUsage;
+}
+
+std::string helpText(std::string_view command) {
+    const Parser parser;
+    return command.empty() ? parser.app.help() : parser.app.get_subcommand(std::string(command))->help();
+}
+
+}  // namespace svt::cli

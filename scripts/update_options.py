@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user, and
+docs/formats/scene.schema.json.
+
+    scripts/update_options.py [--svt build/release/bin/svt] [--check]
+
+A page docs/user/<command>.md has the lines `<!-- BEGIN options -->` and `<!-- END options -->`; what stands between
+them is replaced. With --check nothing is written, and the exit code is 1 where a file is stale or missing.
+"""
+import argparse
+import difflib
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BEGIN, END = "<!-- BEGIN options -->", "<!-- END options -->"
+PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
+
+
+def range_text(option: dict) -> str:
+    low, high = option.get("minimum"), option.get("maximum")
+    if low is None and high is None or high is not None and high >= 1e9:
+        return ""
+    return f"{low:g} to {high:g}" if None not in (low, high) else f"at least {low:g}" if high is None else f"at most {high:g}"
+
+
+def value_cell(option: dict) -> str:
+    if option["kind"] == "flag":
+        return ""
+    if "choices" in option:
+        return ", ".join(f"`{choice}`" for choice in option["choices"])
+    value = option.get("value", PLAIN_KINDS[option["kind"]])
+    return ", ".join(filter(None, (value, option.get("unit", ""), range_text(option))))
+
+
+def default_cell(option: dict) -> str:
+    if option.get("required"):
+        return "required"
+    return f"`{option['default']}`" if "default" in option else option.get("otherwise", "")
+
+
+def options_table(command: dict) -> str:
+    groups: dict[str, list[dict]] = {}
+    for option in command["options"]:
+        is_argument = not option["name"].startswith("-")
+        groups.setdefault("Arguments" if is_argument else option.get("group", "General"), []).append(option)
+    lines = []
+    for group, options in groups.items():
+        lines += ["", f"### {group}", "", "| option | value | default | what it does |", "|---|---|---|---|"]
+        for option in options:
+            names = ", ".join(f"`{name}`" for name in option["name"].split(","))
+            said = option["help"] + ("; may be repeated" if option.get("repeats") else "")
+            cells = (names, value_cell(option), default_cell(option), said)
+            lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines[1:])
+
+
+def page_with(page: str, table: str, name: str) -> str:
+    begin, end = page.find(BEGIN), page.find(END)
+    if begin < 0 or end < begin:
+        sys.exit(f"{name}: needs the lines '{BEGIN}' and '{END}'")
+    return page[: begin + len(BEGIN)] + "\n" + table + "\n" + page[end:]
+
+
+def value_schema(member: dict) -> dict:
+    """The schema of one value of a member, without its description and default."""
+    if member["kind"] == "flag":
+        return {"type": "boolean"}
+    if "choices" in member:
+        whole = member["kind"] == "whole"
+        choices = [int(choice) if whole else choice for choice in member["choices"]]
+        return {"const": choices[0]} if len(choices) == 1 else {"enum": choices}
+    if member["kind"] == "text":
+        return {"type": "string"}
+    if member["minimum"] == member["maximum"]:
+        return {"const": int(member["minimum"])}
+    number = {"type": "integer" if member["kind"] == "whole" else "number"}
+    for bound in ("minimum", "maximum"):
+        if bound in member:
+            number[bound] = int(member[bound]) if member[bound] == int(member[bound]) else member[bound]
+    return number
+
+
+def default_value(member: dict):
+    values = []
+    for text in member["default"].split(","):
+        numeric = member["kind"] in ("whole", "number")
+        values.append(text == "true" if member["kind"] == "flag" else json.loads(text) if numeric else text)
+    return values if member.get("count", 1) > 1 else values[0]
+
+
+def member_schema(members: dict[str, dict], pointer: str) -> dict:
+    """The schema of a member with all that is below it."""
+    member = members[pointer]
+    said = ", ".join(filter(None, (member.get("help", ""), member.get("unit", ""))))
+    if "otherwise" in member:
+        said += f"; default: {member['otherwise']}"
+    schema = {"description": said} if said else {}
+    if member["kind"] == "object":
+        return schema | object_schema(members, pointer)
+    if member["kind"] == "list":
+        schema |= {"type": "array", "items": object_schema(members, pointer + "/*")}
+        return schema | ({"minItems": int(member["minimum"]), "maxItems": int(member["maximum"])} if "minimum" in member else {})
+    if member.get("repeats"):
+        schema |= {"type": "array", "items": value_schema(member)}
+    elif member.get("count", 1) > 1:
+        schema |= {"type": "array", "items": value_schema(member), "minItems": member["count"], "maxItems": member["count"]}
+    else:
+        schema |= value_schema(member)
+    return schema | ({"default": default_value(member)} if "default" in member else {})
+
+
+def object_schema(members: dict[str, dict], pointer: str) -> dict:
+    own = [name for name in members if name.rpartition("/")[0] == pointer]
+    schema = {"type": "object", "additionalProperties": False}
+    required = [name.rpartition("/")[2] for name in own if members[name].get("required")]
+    if required:
+        schema["required"] = required
+    return schema | {"properties": {name.rpartition("/")[2]: member_schema(members, name) for name in own}}
+
+
+def scene_schema(described: dict) -> str:
+    members = {member["name"]: member for member in described["sceneMembers"]}
+    schema = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "SVT scene",
+        "description": "What a picture shows, in queries and regions (docs/user/query-language.md, docs/user/regions.md). "
+        "`svt render --scene` draws it, `--write-scene` writes one. Lengths are metres.",
+    }
+    return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--svt", default=str(ROOT / "build/release/bin/svt"))
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    described = json.loads(subprocess.run([arguments.svt, "describe", "json"], capture_output=True, text=True, check=True, timeout=30).stdout)
+
+    wanted = {ROOT / "docs/formats/scene.schema.json": scene_schema(described)}
+    for command in described["commands"]:
+        path = ROOT / "docs/user" / f"{command['name']}.md"
+        if not path.exists():
+            print(f"{path.relative_to(ROOT)}: missing, the page of svt {command['name']}", file=sys.stderr)
+            return 1
+        wanted[path] = page_with(path.read_text(encoding="utf-8"), options_table(command), path.name)
+    stale = 0
+    for path, new in wanted.items():
+        old = path.read_text(encoding="utf-8") if path.exists() else ""
+        if new == old:
+            continue
+        stale += 1
+        if arguments.check:
+            sys.stderr.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), path.name, "svt describe"))
+        else:
+            path.write_text(new, encoding="utf-8")
+            print(f"updated {path.relative_to(ROOT)}")
+    if arguments.check and stale:
+        print("options: files are stale; run scripts/update_options.py", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
