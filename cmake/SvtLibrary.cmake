@@ -35,6 +35,7 @@ function(svt_library folder)
   list(TRANSFORM SVT_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE below)
   target_link_libraries(svt_${folder} PUBLIC ${below} PRIVATE ${ARG_PRIVATE_LINK})
   svt_warnings(svt_${folder})
+  svt_precompile(svt_${folder} svt_precompiled)
   if(SVT_TESTS AND tests)
     list(TRANSFORM SVT_TEST_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE of_tests)
     svt_test(svt_${folder}_test SOURCES ${tests} LINK svt::${folder} ${of_tests} ${ARG_PRIVATE_LINK})
@@ -54,7 +55,33 @@ function(svt_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gtest_main)
   svt_warnings(${name})
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${name} PRIVATE -O1)  # tests are compiled more often than they run
+  endif()
+  svt_precompile(${name} svt_precompiled_test)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()
+
+# svt_precompiled(<name> <header> [<targets>...]): a header that is compiled once, for the targets that svt_precompile() gives
+# it to. A target of its own, with few definitions: a compiler refuses it where one is missing.
+function(svt_precompiled name header)
+  file(WRITE ${CMAKE_BINARY_DIR}/${name}.cpp "")
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${ARGN})
+  target_precompile_headers(${name} PRIVATE ${header})
+  svt_warnings(${name})
+endfunction()
+
+# svt_precompile(<target> <name>): lets a target use what svt_precompiled(<name>) compiles.
+function(svt_precompile target name)
+  if(NOT SVT_PCH)
+    return()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${name})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)  # so that ccache sees what is precompiled
+  endif()
 endfunction()
 
 # Warnings, and floating-point settings that give identical bits with every compiler and on every machine: no

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/image/text.hpp>
 
 #include <svt/core/check.hpp>
@@ -52,17 +53,9 @@ private:
 std::vector<char32_t> lettersOf(std::string_view text) {
     std::vector<char32_t> letters;
     for (std::size_t n = 0; n < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[n]);
-        const std::size_t count = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
-        char32_t letter = count == 1 ? lead : count == 0 ? 0 : lead & (0x7Fu >> count);
-        bool isFine = count != 0 && n + count <= text.size();
-        for (std::size_t k = 1; k < count && isFine; ++k) {
-            const auto next = static_cast<unsigned char>(text[n + k]);
-            isFine = next >> 6 == 2;
-            letter = letter << 6 | (next & 0x3Fu);
-        }
-        letters.push_back(isFine ? letter : 0xFFFD);
-        n += isFine ? count : 1;
+        const Utf8Character character = firstCharacter(text.substr(n));
+        letters.push_back(character.size != 0 ? character.code : 0xFFFD);
+        n += std::max<std::size_t>(character.size, 1);
     }
     return letters;
 }

@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/mesh/planes.hpp>
 
 #include <algorithm>
@@ -22,8 +23,8 @@ struct CellKey {
 };
 struct CellHash {
     std::size_t operator()(const CellKey& key) const noexcept {
-        std::uint64_t h = std::uint64_t(key.slopeX) * 0x9E3779B97F4A7C15ull;
-        h = (h ^ (h >> 31) ^ std::uint64_t(key.slopeY)) * 0xBF58476D1CE4E5B9ull;
+        std::uint64_t h = mixHash(0, std::uint64_t(key.slopeX));
+        h = mixHash(h, std::uint64_t(key.slopeY));
         return (h ^ (h >> 29) ^ std::uint64_t(key.offset)) * 0x94D049BB133111EBull;
     }
 };

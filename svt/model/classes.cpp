@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -14,11 +15,7 @@ bool isIn(const std::array<string_view, N>& names, string_view name) noexcept {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool isSameWord(string_view a, string_view b) noexcept {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
-}
+bool isSameWord(string_view a, string_view b) noexcept { return equalsIgnoringCase(a, b); }
 
 bool endsWith(string_view text, string_view tail) noexcept {
     return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;

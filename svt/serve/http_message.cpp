@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/serve/http_message.hpp>
 
 #include <arpa/inet.h>
@@ -29,13 +30,6 @@ bool hasControl(std::string_view text) noexcept {
         const auto byte = static_cast<unsigned char>(c);
         return (byte < 0x20 && c != '\t') || byte == 0x7F;
     });
-}
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
 }
 
 std::string_view trimmed(std::string_view text) noexcept {
@@ -117,7 +111,7 @@ std::optional<HeadError> readHeader(std::string_view line, Fields& headers) {
     const std::string_view value = trimmed(line.substr(colon + 1));
     if (hasControl(value)) return HeadError{400, "a header has control characters"};
     if (headers.size() == kMaxHeaders) return HeadError{431, fmt::format("over {} headers", kMaxHeaders)};
-    headers.emplace_back(lower(line.substr(0, colon)), value);
+    headers.emplace_back(lowerAscii(line.substr(0, colon)), value);
     return std::nullopt;
 }
 
@@ -133,9 +127,9 @@ std::optional<HeadError> readMeaning(Head& head) {
         if (!length) return HeadError{400, "Content-Length is no whole number"};
         head.bodyBytes = *length;
     }
-    const std::string connection = lower(valueOf(headers, "connection"));
+    const std::string connection = lowerAscii(valueOf(headers, "connection"));
     if (connection.find("close") != std::string::npos) head.isKeptAlive = false;
-    head.expectsContinue = lower(valueOf(headers, "expect")) == "100-continue";
+    head.expectsContinue = lowerAscii(valueOf(headers, "expect")) == "100-continue";
     return std::nullopt;
 }
 
@@ -233,7 +227,7 @@ std::variant<Head, HeadError> parseHead(std::string_view text) {
 }
 
 bool isKnownHost(std::string_view host, std::span<const std::string> names) {
-    std::string name = lower(withoutPort(host));
+    std::string name = lowerAscii(withoutPort(host));
     if (name.size() > 1 && name.back() == '.') name.pop_back();
     if (name == "localhost" || std::find(names.begin(), names.end(), name) != names.end()) return true;
     std::array<unsigned char, sizeof(in6_addr)> address{};

@@ -1,8 +1,9 @@
+#include <svt/core/deflate.hpp>
+#include <svt/core/text.hpp>
 #include <svt/serve/site.hpp>
 
 #include <fmt/format.h>
 #include <stdlib.h>
-#include <zlib.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ std::string lowerExtension(std::string_view path) {
     const std::size_t slash = path.rfind('/'), dot = path.rfind('.');
     if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash)) return {};
     std::string extension(path.substr(dot));
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    extension = lowerAscii(extension);
     return extension;
 }
 
@@ -68,21 +69,10 @@ std::uint64_t hashOf(std::span<const std::byte> bytes) noexcept {
 
 // One gzip member; empty if it saves less than a tenth.
 Bytes compressed(std::span<const std::byte> bytes) {
-    constexpr int kGzip = 15 + 16, kMemory = 8;
     if (bytes.size() < kMinCompressed || bytes.size() > UINT32_MAX / 2) return {};
-    z_stream stream{};
-    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) return {};
-    std::string out(bytes.size() - bytes.size() / 10, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    const bool isWhole = deflate(&stream, Z_FINISH) == Z_STREAM_END;
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    if (!isWhole) return {};
-    out.shrink_to_fit();
-    return Bytes::of(std::move(out));
+    const std::vector<std::byte> packed = gzipBytes(bytes);
+    if (packed.size() > bytes.size() - bytes.size() / 10) return {};
+    return Bytes::of(std::string(reinterpret_cast<const char*>(packed.data()), packed.size()));
 }
 
 // Files that Vite names by a content hash: assets/index-BX3k9a1_.js. Such a file never changes.
@@ -298,7 +288,7 @@ std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
         }
         if (name.find_first_not_of("._") == std::string::npos) name = "model";
         const auto isTaken = [&](std::string text) {
-            std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+            text = lowerAscii(text);
             return !taken.insert(text).second;
         };
         std::string unique = name;

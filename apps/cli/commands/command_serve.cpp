@@ -2,6 +2,7 @@
 #include <apps/cli/options/site_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <svt/core/text.hpp>
 
 #include <svt/serve/child_process.hpp>
 #include <svt/serve/convert_call.hpp>
@@ -49,8 +50,7 @@ serve::ServerOptions serverOptions(const Arguments& arguments, const serve::Priv
     options.hostNames.push_back(arguments.host);
     if (const std::string name = serve::machineName(); !serve::isLoopback(arguments.host) && !name.empty())
         options.hostNames.push_back(name);
-    for (std::string& known : options.hostNames)
-        for (char& c : known) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (std::string& known : options.hostNames) known = lowerAscii(known);
     return options;
 }
 

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/illustrate/scene/region.hpp>
 
 #include <svt/analyze/selection.hpp>
@@ -25,7 +26,7 @@ constexpr int kMaxDepth = 32;
 
 std::string lower(std::string_view text) {
     std::string result(text);
-    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (char& c : result) c = lowerAscii(c);
     return result;
 }
 

@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/illustrate/shell/run_sets.hpp>
 
 #include <algorithm>
@@ -7,18 +8,13 @@ namespace {
 
 using volume::Run;
 
-std::uint64_t mix(std::uint64_t hash, std::uint64_t word) noexcept {
-    hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
-    return hash ^ (hash >> 32);
-}
-
 }  // namespace
 
 std::uint32_t RunSets::add(std::span<const Run> runs) {
     std::uint64_t hash = runs.size();
-    for (const Run& run : runs) hash = mix(hash, std::uint64_t(run.scalar) << 32 | run.end);
+    for (const Run& run : runs) hash = mixHash(hash, std::uint64_t(run.scalar) << 32 | run.end);
     return setIndex_.findOrAdd(
-        hash * 0x9E3779B97F4A7C15ull,
+        hash * kHashFactor,
         [&](std::uint32_t known) {
             const auto other = this->runs(known);
             return std::equal(runs.begin(), runs.end(), other.begin(), other.end());
@@ -35,7 +31,7 @@ std::uint32_t RunSets::common(std::uint32_t a, std::uint32_t b) {
     if (a == kNone || b == kNone) return kNone;
     if (b < a) std::swap(a, b);
     const std::uint32_t pair = pairIndex_.findOrAdd(
-        mix(mix(0, a), b) * 0x9E3779B97F4A7C15ull,
+        mixHash(mixHash(0, a), b) * kHashFactor,
         [&](std::uint32_t known) { return pairs_[known].a == a && pairs_[known].b == b; },
         [&] {
             scratch_.clear();

@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/illustrate/shell.hpp>
 
 #include <svt/core/parallel.hpp>
@@ -218,7 +219,7 @@ private:
     // Number of the output column: the column without what is deep inside.
     std::uint16_t shellColumn(std::uint16_t column, std::span<const Run> runs, std::uint32_t deep) {
         const std::uint32_t found = shellIndex_.findOrAdd(
-            (std::uint64_t(deep) << 16 | column) * 0x9E3779B97F4A7C15ull,
+            mixHash(0, std::uint64_t(deep) << 16 | column),
             [&](std::uint32_t known) {
                 return shellColumns_[known].column == column && shellColumns_[known].deep == deep;
             },

@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
 
 #include <svt/core/parallel.hpp>
@@ -28,8 +29,8 @@ std::uint32_t weld(std::span<const Vec3d> points, std::vector<std::uint32_t>& id
     ids.resize(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const Vec3d p = points[i];
-        std::uint64_t hash = std::bit_cast<std::uint64_t>(p.x + 0.0) * 0x9E3779B97F4A7C15ull;
-        hash = (hash ^ (hash >> 31) ^ std::bit_cast<std::uint64_t>(p.y + 0.0)) * 0xBF58476D1CE4E5B9ull;
+        std::uint64_t hash = mixHash(0, std::bit_cast<std::uint64_t>(p.x + 0.0));
+        hash = mixHash(hash, std::bit_cast<std::uint64_t>(p.y + 0.0));
         hash = (hash ^ (hash >> 29) ^ std::bit_cast<std::uint64_t>(p.z + 0.0)) * 0x94D049BB133111EBull;
         std::size_t slot = (hash ^ (hash >> 32)) & mask;
         while (table[slot] != 0 && !(points[representative[table[slot] - 1]] == p)) slot = (slot + 1) & mask;

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/model/query.hpp>
 
 #include <svt/model/classes.hpp>
@@ -21,8 +22,6 @@ using Rows = std::span<const QueryRow>;
 using Mask = std::vector<char>;  ///< per row: 1 if it matches
 
 constexpr std::size_t kMaxSearchedBytes = 4096;
-
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 template <class T>
 bool parses(std::string_view text, T& value) noexcept {
@@ -197,13 +196,11 @@ Mask evaluate(const Node& node, Rows rows) {
 
 namespace query {
 
-bool isSameWord(std::string_view a, std::string_view b) noexcept {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
-}
+bool isSameWord(std::string_view a, std::string_view b) noexcept { return equalsIgnoringCase(a, b); }
 
 bool containsWord(std::string_view text, std::string_view word) noexcept {
     return std::search(text.begin(), text.end(), word.begin(), word.end(),
-                       [](char x, char y) { return lower(x) == lower(y); }) != text.end();
+                       [](char x, char y) { return lowerAscii(x) == lowerAscii(y); }) != text.end();
 }
 
 bool isStorey(const QueryRow& row) {

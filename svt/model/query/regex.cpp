@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/model/query/regex.hpp>
 
 #include <fmt/format.h>
@@ -14,18 +15,10 @@ constexpr std::int32_t kMaxRepeats = 1000;
 
 /// Decodes the character at `position` and advances `position`.
 char32_t nextCharacter(std::string_view text, std::size_t& position) noexcept {
-    const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned lead = byteAt(position++);
-    if (lead < 0x80) return lead;
-    const std::size_t more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-    if (lead < 0xC2 || lead > 0xF4 || position + more > text.size()) return kStrayByte + lead;
-    char32_t character = lead & (0x3Fu >> more);
-    for (std::size_t k = 0; k < more; ++k) {
-        if ((byteAt(position + k) & 0xC0u) != 0x80u) return kStrayByte + lead;
-        character = character << 6 | (byteAt(position + k) & 0x3Fu);
-    }
-    position += more;
-    return character;
+    const Utf8Character character = firstCharacter(text.substr(position));
+    if (character.size == 0) return kStrayByte + static_cast<unsigned char>(text[position++]);
+    position += character.size;
+    return character.code;
 }
 
 using Ranges = std::vector<std::pair<char32_t, char32_t>>;

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/readers/cityjson/cityjson_json.hpp>
 
 #include <fmt/format.h>
@@ -14,25 +15,6 @@ constexpr std::size_t kMessageBytes = 200;
 
 bool isBlank(char c) noexcept { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
-
-/// Offset of the first byte of invalid UTF-8, or npos.
-std::size_t findBadUtf8(std::string_view text) noexcept {
-    const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    for (std::size_t i = 0; i < text.size();) {
-        const unsigned lead = byteAt(i);
-        const int more = lead < 0x80 ? 0 : lead < 0xC2 ? -1 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : lead < 0xF5 ? 3 : -1;
-        if (more < 0 || i + static_cast<std::size_t>(more) >= text.size()) return i;
-        for (int k = 1; k <= more; ++k)
-            if ((byteAt(i + k) & 0xC0u) != 0x80u) return i;
-        // Overlong forms, surrogates and code points above 10FFFF are detected in the second byte.
-        const unsigned second = more > 0 ? byteAt(i + 1) : 0;
-        if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F) || (lead == 0xF0 && second < 0x90) ||
-            (lead == 0xF4 && second > 0x8F))
-            return i;
-        i += static_cast<std::size_t>(more) + 1;
-    }
-    return std::string_view::npos;
-}
 
 /// True if a well-formed number is too large for the types it may be read as.
 bool isTooLarge(std::string_view number) noexcept {
@@ -71,7 +53,7 @@ public:
 
     std::optional<JsonFault> run() {
         auto fault = scan();
-        const std::size_t bad = findBadUtf8(text_);
+        const std::size_t bad = findInvalidUtf8(text_);
         // A text truncated inside a character is reported as truncated.
         const bool isCutOff = fault && fault->offset >= text_.size() && bad + 4 > text_.size();
         if (bad == std::string_view::npos || isCutOff) return fault;

@@ -1,4 +1,6 @@
+#include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_reader.hpp>
 #include <svt/readers/cityjson/cityjson_reader.hpp>
@@ -7,7 +9,6 @@
 #include <svt/readers/xml/xml_scanner.hpp>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <memory>
@@ -36,43 +37,18 @@ Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::
     const auto fail = [&](Code code, std::string message) {
         return Error(code, std::move(message), {std::string(name), 0, 0, {}});
     };
-    z_stream stream{};
-    if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) throw std::bad_alloc();
-    const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
-
-    constexpr std::size_t kStep = 1 << 30;  // zlib counters have 32 bits
-    std::vector<std::byte> output(
-        std::min<std::uint64_t>(std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), maxBytes));
-    std::size_t written = 0;
-    std::size_t taken = 0;
-    int status = Z_OK;
-    while (true) {
-        if (written == output.size()) {
-            if (output.size() >= maxBytes)
-                return fail(Code::InputTooBig,
-                            fmt::format("more than {} bytes after decompression, which is the limit", maxBytes));
-            output.resize(std::min<std::uint64_t>(2 * output.size(), maxBytes));
-        }
-        const std::size_t input = std::min(bytes.size() - taken, kStep);
-        const std::size_t room = std::min(output.size() - written, kStep);
-        stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data() + taken));
-        stream.avail_in = static_cast<uInt>(input);
-        stream.next_out = reinterpret_cast<Bytef*>(output.data() + written);
-        stream.avail_out = static_cast<uInt>(room);
-        status = inflate(&stream, Z_NO_FLUSH);
-        taken += input - stream.avail_in;
-        written += room - stream.avail_out;
-        if (status == Z_STREAM_END) {
-            if (!isGzip(bytes.subspan(taken))) break;
-            inflateReset(&stream);
-        } else if (status != Z_OK && status != Z_BUF_ERROR) {
-            return fail(Code::CannotOpen, fmt::format("damaged gzip data at byte {}", taken));
-        } else if (taken == bytes.size() && written < output.size()) {
+    Inflated unpacked =
+        inflateBytes(bytes, DeflateFormat::Gzip, std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), maxBytes);
+    switch (unpacked.status) {
+        case InflateStatus::Done: return std::move(unpacked.bytes);
+        case InflateStatus::TooLong:
+            return fail(Code::InputTooBig,
+                        fmt::format("more than {} bytes after decompression, which is the limit", maxBytes));
+        case InflateStatus::CutShort:
             return fail(Code::CannotOpen, "the gzip data ends too early; the file seems to be cut off");
-        }
+        case InflateStatus::Damaged: break;
     }
-    output.resize(written);
-    return output;
+    return fail(Code::CannotOpen, fmt::format("damaged gzip data at byte {}", unpacked.taken));
 }
 
 // Content that users often try: what it is and what to do instead.
@@ -105,13 +81,6 @@ constexpr KnownOther kOtherRoots[] = {
     {"X3D", "X3D, which has no semantics"},
 };
 
-std::string lowered(string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
-}
-
 std::string describeUnknown(string_view text) {
     if (text.empty()) return "the file is empty";
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -119,12 +88,12 @@ std::string describeUnknown(string_view text) {
     if (trimmed.empty()) return "the file holds nothing but blanks";
     for (const KnownOther& other : kOthers)
         if (trimmed.starts_with(other.beginsWith)) return fmt::format("this is {}", other.isWhat);
-    if (lowered(trimmed.substr(0, 14)) == "<!doctype html") return fmt::format("this is {}", kOtherRoots[0].isWhat);
+    if (lowerAscii(trimmed.substr(0, 14)) == "<!doctype html") return fmt::format("this is {}", kOtherRoots[0].isWhat);
     if (trimmed[0] == '<') {
         const xml::Prolog prolog = xml::readProlog(text);
         const string_view root = xml::splitName(prolog.rootName).localName;
         for (const KnownOther& other : kOtherRoots)
-            if (lowered(root) == lowered(other.beginsWith)) return fmt::format("this is {}", other.isWhat);
+            if (lowerAscii(root) == lowerAscii(other.beginsWith)) return fmt::format("this is {}", other.isWhat);
         if (prolog.hasRoot) return fmt::format("this is XML with the root <{}>", prolog.rootName.substr(0, 60));
         return "this begins like XML, but has no root element";
     }

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/readers/xml/xml_encoding.hpp>
 
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -13,24 +14,6 @@ namespace svt::readers::xml {
 namespace {
 
 using std::string_view;
-
-void appendUtf8(std::uint32_t code, std::string& to) {
-    if (code < 0x80) {
-        to += static_cast<char>(code);
-    } else if (code < 0x800) {
-        to += static_cast<char>(0xC0 | (code >> 6));
-        to += static_cast<char>(0x80 | (code & 0x3F));
-    } else if (code < 0x10000) {
-        to += static_cast<char>(0xE0 | (code >> 12));
-        to += static_cast<char>(0x80 | ((code >> 6) & 0x3F));
-        to += static_cast<char>(0x80 | (code & 0x3F));
-    } else {
-        to += static_cast<char>(0xF0 | (code >> 18));
-        to += static_cast<char>(0x80 | ((code >> 12) & 0x3F));
-        to += static_cast<char>(0x80 | ((code >> 6) & 0x3F));
-        to += static_cast<char>(0x80 | (code & 0x3F));
-    }
-}
 
 Result<Utf8Text> fromUtf16(string_view bytes, bool isBigEndian, string_view fileName) {
     const auto unitAt = [&](std::size_t i) {
@@ -77,13 +60,6 @@ Utf8Text fromOneByte(string_view bytes, bool isWindows) {
     return text;
 }
 
-std::string lowered(string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
-}
-
 }  // namespace
 
 Result<Utf8Text> toUtf8(std::span<const std::byte> bytes, string_view fileName) {
@@ -94,7 +70,7 @@ Result<Utf8Text> toUtf8(std::span<const std::byte> bytes, string_view fileName) 
     if (text.starts_with(string_view("\0<\0?", 4))) return fromUtf16(text, true, fileName);
     if (text.starts_with("\xEF\xBB\xBF")) return Utf8Text{text.substr(3), {}};
 
-    const std::string encoding = lowered(readProlog(text.substr(0, 4096)).encoding);
+    const std::string encoding = lowerAscii(readProlog(text.substr(0, 4096)).encoding);
     if (encoding.empty() || encoding == "utf-8" || encoding == "utf8" || encoding == "us-ascii" || encoding == "ascii")
         return Utf8Text{text, {}};
     if (encoding == "iso-8859-1" || encoding == "latin1" || encoding == "iso8859-1") return fromOneByte(text, false);
@@ -113,16 +89,9 @@ std::size_t firstBadUtf8(string_view text) noexcept {
     // Rare: locate the error, one character at a time.
     std::size_t i = 0;
     while (i < text.size()) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80   ? 1
-                                   : lead < 0xC2 ? 0
-                                   : lead < 0xE0 ? 2
-                                   : lead < 0xF0 ? 3
-                                   : lead < 0xF5 ? 4
-                                                 : 0;
-        if (lead == 0 || length == 0 || !simdjson::validate_utf8(text.data() + i, std::min(length, text.size() - i)))
-            return i;
-        i += length;
+        const Utf8Character character = firstCharacter(text.substr(i));
+        if (character.size == 0 || character.code == 0) return i;
+        i += character.size;
     }
     return string_view::npos;
 }

@@ -2,6 +2,7 @@
 /// \file
 /// Normals of voxel surfaces, fitted to a window of 7 x 7 x 7 voxels that are body or not.
 
+#include <svt/core/hash.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/brick_volume.hpp>
 
@@ -106,7 +107,7 @@ public:
 private:
     static constexpr int kBits = 10;
     [[nodiscard]] static std::size_t place(std::uint64_t key) noexcept {
-        return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15ull) >> (64 - kBits));
+        return static_cast<std::size_t>((key * kHashFactor) >> (64 - kBits));
     }
     std::array<Slot, std::size_t{1} << kBits> slots_{};
 };

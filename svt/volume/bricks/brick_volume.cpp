@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/bricks/code_boxes.hpp>
@@ -17,11 +18,6 @@ constexpr std::uint32_t kMixedBit = 0x80000000u;
 constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
 constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
-
-std::uint64_t mix(std::uint64_t hash, std::uint64_t value) noexcept {
-    hash = (hash ^ value) * 0x9E3779B97F4A7C15ull;
-    return hash ^ (hash >> 29);
-}
 
 // Numbers distinct items by first use, by hash chaining. The items stay with the caller, who compares them.
 class Numbering {
@@ -189,8 +185,8 @@ private:
         const std::span<const std::uint64_t> planes(
             words_.data(), 8 * std::max<std::size_t>(1, static_cast<std::size_t>(std::bit_width(palette_.size() - 1))));
         std::uint64_t hash = planes.size();
-        for (const std::uint64_t word : planes) hash = mix(hash, word);
-        for (const Scalar scalar : palette_) hash = mix(hash, scalar);
+        for (const std::uint64_t word : planes) hash = mixHash(hash, word);
+        for (const Scalar scalar : palette_) hash = mixHash(hash, scalar);
         const auto next = static_cast<std::uint32_t>(result_.patterns.size());
         std::uint32_t number = numbering_.find(hash, next, [&](std::uint32_t other) {
             const BrickPattern& pattern = result_.patterns[other];
@@ -557,7 +553,7 @@ private:
     std::uint32_t planeNumber(const BrickPlane& plane) {
         std::uint64_t hash = 0;
         for (const double part : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
-            hash = mix(hash, std::bit_cast<std::uint64_t>(part));
+            hash = mixHash(hash, std::bit_cast<std::uint64_t>(part));
         const auto next = static_cast<std::uint32_t>(volume_.oblique_.size());
         const std::uint32_t known =
             planeNumbers_.find(hash, next, [&](std::uint32_t other) { return volume_.oblique_[other] == plane; });
@@ -568,8 +564,8 @@ private:
 
     std::uint32_t brickNumber(const BrickPattern& pattern) {
         std::uint64_t hash = pattern.planes.size();
-        for (const std::uint64_t word : pattern.planes) hash = mix(hash, word);
-        for (const Scalar scalar : pattern.palette) hash = mix(hash, scalar);
+        for (const std::uint64_t word : pattern.planes) hash = mixHash(hash, word);
+        for (const Scalar scalar : pattern.palette) hash = mixHash(hash, scalar);
         const auto next = static_cast<std::uint32_t>(volume_.bricks_.size());
         const auto equals = [](const auto& wanted, const auto& stored, std::uint32_t first) {
             return std::equal(wanted.begin(), wanted.end(), stored.begin() + first);
@@ -600,7 +596,7 @@ private:
     template <class T>
     static std::uint32_t offsetOf(const std::vector<T>& set, std::vector<T>& store, SharedSets& shared) {
         std::uint64_t hash = set.size();
-        for (const T value : set) hash = mix(hash, value);
+        for (const T value : set) hash = mixHash(hash, value);
         const auto next = static_cast<std::uint32_t>(shared.sets.size());
         const std::uint32_t known = shared.numbering.find(hash, next, [&](std::uint32_t other) {
             const auto [first, size] = shared.sets[other];

@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
@@ -16,7 +17,7 @@ struct MixtureHash {
     std::size_t operator()(const Mixture& mixture) const noexcept {
         std::uint64_t hash = mixture.partCount;
         for (const MixturePart& part : mixture.labels()) {
-            hash = (hash ^ (std::uint64_t{part.scalar} << 8 | part.coverage)) * 0x9E3779B97F4A7C15ull;
+            hash = mixHash(hash, std::uint64_t{part.scalar} << 8 | part.coverage);
             hash ^= hash >> 31;
         }
         return static_cast<std::size_t>(hash);
@@ -27,7 +28,7 @@ struct KeyHash {
     std::size_t operator()(const std::vector<std::uint32_t>& key) const noexcept {
         std::uint64_t hash = key.size();
         for (const std::uint32_t word : key) {
-            hash = (hash ^ word) * 0x9E3779B97F4A7C15ull;
+            hash = mixHash(hash, word);
             hash ^= hash >> 31;
         }
         return static_cast<std::size_t>(hash);

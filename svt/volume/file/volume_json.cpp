@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/volume/volume_json.hpp>
 
 #include <fmt/format.h>
@@ -33,27 +34,6 @@ void appendReal(std::string& out, T value) {
     const std::string text = fmt::format("{}", value);
     out += text;
     if (text.find_first_of(".e") == std::string::npos) out += ".0";
-}
-
-/// Length of the valid UTF-8 sequence at the beginning of `text`, and its code point; 0 if there is none.
-std::size_t decodeUtf8(std::string_view text, char32_t& point) noexcept {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    const std::size_t size = lead < 0x80   ? 1
-                             : lead < 0xC2 ? 0
-                             : lead < 0xE0 ? 2
-                             : lead < 0xF0 ? 3
-                             : lead < 0xF5 ? 4
-                                           : 0;
-    if (size == 0 || size > text.size()) return 0;
-    point = size == 1 ? lead : lead & (0x7Fu >> size);
-    for (std::size_t i = 1; i < size; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) return 0;
-        point = (point << 6) | (byte(i) & 0x3Fu);
-    }
-    const bool isOverlong = (size == 3 && point < 0x800) || (size == 4 && point < 0x10000);
-    const bool isSurrogate = point >= 0xD800 && point < 0xE000;
-    return isOverlong || isSurrogate || point > 0x10FFFF ? 0 : size;
 }
 
 void appendUnicodeEscape(std::string& out, char32_t point) {
@@ -330,9 +310,8 @@ Result<void> checkVersion(Members& members) {
 void appendJsonString(std::string& out, std::string_view text, JsonCharacters characters) {
     out += '"';
     while (!text.empty()) {
-        char32_t point = 0xFFFD;
-        const std::size_t size = decodeUtf8(text, point);
-        if (size == 0) point = 0xFFFD;
+        const auto [code, size] = firstCharacter(text);
+        const char32_t point = size == 0 ? 0xFFFD : code;
         if (point == '"' || point == '\\') {
             out += '\\';
             out += static_cast<char>(point);

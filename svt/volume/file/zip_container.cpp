@@ -1,3 +1,4 @@
+#include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/volume/file/zip_container.hpp>
@@ -96,21 +97,6 @@ constexpr std::uint64_t maxUnpacked(std::uint64_t packedSize) noexcept {
     return (std::uint64_t{64} << 20) + 128 * packedSize;
 }
 
-/// One piece of a deflate stream. It ends at a byte boundary, so that pieces can be concatenated.
-std::vector<std::byte> deflatePiece(std::span<const std::byte> piece, bool isLast) {
-    z_stream stream{};
-    if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
-    std::vector<std::byte> out(deflateBound(&stream, static_cast<uLong>(piece.size())) + 16);
-    stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(piece.data()));
-    stream.avail_in = static_cast<uInt>(piece.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    ::deflate(&stream, isLast ? Z_FINISH : Z_SYNC_FLUSH);
-    out.resize(out.size() - stream.avail_out);
-    deflateEnd(&stream);
-    return out;
-}
-
 /// Deflates all parts in parallel, as pieces of one stream. The pieces do not depend on the number of threads.
 std::vector<std::vector<std::byte>> deflateParts(std::span<const std::span<const std::byte>> parts) {
     std::vector<std::span<const std::byte>> pieces;
@@ -119,7 +105,7 @@ std::vector<std::vector<std::byte>> deflateParts(std::span<const std::span<const
             pieces.push_back(part.first(std::min(part.size(), kDeflatePiece)));
     std::vector<std::vector<std::byte>> packed(pieces.size());
     parallelFor(pieces.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) packed[p] = deflatePiece(pieces[p], p + 1 == pieces.size());
+        for (std::size_t p = begin; p < end; ++p) packed[p] = deflatePiece(pieces[p], -1, p + 1 == pieces.size());
     });
     return packed;
 }
@@ -395,29 +381,9 @@ Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std:
 /// Inflates the data of an entry into `buffer`.
 /// \return false if they are invalid or do not give exactly `entry.size` bytes
 bool inflateInto(const ZipEntry& entry, std::vector<std::byte>& buffer) {
-    buffer.resize(static_cast<std::size_t>(entry.size));
-    z_stream stream{};
-    if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return false;
-    constexpr std::size_t kMost = std::size_t{1} << 30;
-    auto in = entry.data;
-    std::span<std::byte> out = buffer;
-    std::byte beyond[1];
-    int state = Z_OK;
-    while (state == Z_OK) {
-        const std::span<std::byte> target = out.empty() ? std::span(beyond) : out.first(std::min(out.size(), kMost));
-        const auto source = in.first(std::min(in.size(), kMost));
-        stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(source.data()));
-        stream.avail_in = static_cast<uInt>(source.size());
-        stream.next_out = reinterpret_cast<Bytef*>(target.data());
-        stream.avail_out = static_cast<uInt>(target.size());
-        state = ::inflate(&stream, Z_NO_FLUSH);
-        in = in.subspan(source.size() - stream.avail_in);
-        const std::size_t written = target.size() - stream.avail_out;
-        if (written > out.size()) state = Z_DATA_ERROR;
-        out = out.subspan(std::min(written, out.size()));
-    }
-    inflateEnd(&stream);
-    return state == Z_STREAM_END && in.empty() && out.empty();
+    Inflated unpacked = inflateBytes(entry.data, DeflateFormat::Raw, entry.size, entry.size);
+    buffer = std::move(unpacked.bytes);
+    return unpacked.status == InflateStatus::Done && unpacked.taken == entry.data.size() && buffer.size() == entry.size;
 }
 
 }  // namespace

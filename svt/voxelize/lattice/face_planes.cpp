@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/voxelize/face_planes.hpp>
 #include <svt/voxelize/lattice/index_mesh.hpp>
 
@@ -107,7 +108,7 @@ private:
     struct CellHash {
         std::size_t operator()(const Cell& cell) const noexcept {
             std::uint64_t hash = 0;
-            for (const std::int64_t n : cell) hash = (hash ^ (hash >> 29) ^ std::uint64_t(n)) * 0x9E3779B97F4A7C15ull;
+            for (const std::int64_t n : cell) hash = mixHash(hash, std::uint64_t(n));
             return hash;
         }
     };

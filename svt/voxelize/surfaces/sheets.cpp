@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/voxelize/surfaces/sheets.hpp>
 
 #include <svt/core/hash_index.hpp>
@@ -71,8 +72,7 @@ private:
     static std::uint64_t hashOf(const std::pair<Vec3i, Vec3i>& line) noexcept {
         std::uint64_t hash = 0;
         for (const Vec3i& end : {line.first, line.second})
-            for (int axis = 0; axis < 3; ++axis)
-                hash = (hash ^ hash >> 29 ^ static_cast<std::uint32_t>(end[axis])) * 0x9E3779B97F4A7C15ull;
+            for (int axis = 0; axis < 3; ++axis) hash = mixHash(hash, static_cast<std::uint32_t>(end[axis]));
         return hash;
     }
 

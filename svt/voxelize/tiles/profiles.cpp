@@ -1,3 +1,4 @@
+#include <svt/core/hash.hpp>
 #include <svt/voxelize/tiles/profiles.hpp>
 
 #include <algorithm>
@@ -7,7 +8,7 @@ namespace {
 
 std::uint64_t hashOf(std::span<const std::uint32_t> numbers) noexcept {
     std::uint64_t hash = numbers.size();
-    for (const std::uint32_t number : numbers) hash = (hash ^ hash >> 29 ^ number) * 0x9E3779B97F4A7C15ull;
+    for (const std::uint32_t number : numbers) hash = mixHash(hash, number);
     return hash;
 }
 
@@ -17,7 +18,7 @@ void SharedCounts::add(const SharedCount& shared) {
     const auto isSame = [&](std::uint32_t number) {
         return sums_[number].first == shared.first && sums_[number].second == shared.second;
     };
-    const std::uint64_t hash = (std::uint64_t{shared.first} << 32 | shared.second) * 0x9E3779B97F4A7C15ull;
+    const std::uint64_t hash = mixHash(0, std::uint64_t{shared.first} << 32 | shared.second);
     const std::uint32_t number = index_.findOrAdd(hash, isSame, [&] {
         sums_.push_back({shared.first, shared.second, 0});
         return static_cast<std::uint32_t>(sums_.size() - 1);

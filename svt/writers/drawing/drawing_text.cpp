@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 
 #include <fmt/format.h>
@@ -47,13 +48,13 @@ std::string planeText(const illustrate::SectionDrawing& drawing, const volume::G
 }
 
 std::uint32_t epsgCodeOf(std::string_view crsName) noexcept {
-    constexpr std::string_view kName = "EPSG";
+    constexpr std::string_view kName = "epsg";
     const auto isDigit = [&](std::size_t at) {
         return at < crsName.size() && crsName[at] >= '0' && crsName[at] <= '9';
     };
     for (std::size_t at = 0; at + kName.size() < crsName.size(); ++at) {
         std::size_t n = 0;
-        while (n < kName.size() && std::toupper(static_cast<unsigned char>(crsName[at + n])) == kName[n]) ++n;
+        while (n < kName.size() && lowerAscii(crsName[at + n]) == kName[n]) ++n;
         if (n < kName.size()) continue;
         // A version and another separator may follow the separator: the last number of the name is the code.
         std::size_t next = at + kName.size();

@@ -1,4 +1,5 @@
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/dxf_drawing.hpp>
@@ -33,29 +34,22 @@ int colorOf(const std::string& className) noexcept {
 std::string dxfText(std::string_view text) {
     std::string safe;
     for (std::size_t at = 0; at < text.size();) {
-        const auto byteAt = [&](std::size_t n) {
-            return at + n < text.size() ? static_cast<unsigned char>(text[at + n]) : 0u;
-        };
-        const auto next = [&](std::size_t n) { return (byteAt(n) & 0xC0u) == 0x80u; };
-        const unsigned c = byteAt(0);
-        if (c < 0x80) {
-            safe += c < 0x20 || c == 0x7F ? ' ' : static_cast<char>(c);
-            ++at;
-        } else if (c >= 0xC2 && c < 0xE0 && next(1)) {
-            const unsigned code = ((c & 0x1Fu) << 6) | (byteAt(1) & 0x3Fu);
-            if (code >= 0xA0 && code <= 0xFF)
-                safe += static_cast<char>(code);
-            else
-                safe += fmt::format("\\U+{:04X}", code);
-            at += 2;
-        } else if (c >= 0xE0 && c < 0xF0 && next(1) && next(2)) {
-            safe += fmt::format("\\U+{:04X}", ((c & 0xFu) << 12) | ((byteAt(1) & 0x3Fu) << 6) | (byteAt(2) & 0x3Fu));
-            at += 3;
-        } else {
+        const auto [c, size] = firstCharacter(text.substr(at));
+        if (size == 0) {
             safe += '?';
             do ++at;
-            while (at < text.size() && next(0));
+            while (at < text.size() && (text[at] & 0xC0) == 0x80);
+            continue;
         }
+        if (c < 0x80)
+            safe += c < 0x20 || c == 0x7F ? ' ' : static_cast<char>(c);
+        else if (c >= 0xA0 && c <= 0xFF)
+            safe += static_cast<char>(c);
+        else if (c < 0x10000)
+            safe += fmt::format("\U+{:04X}", static_cast<std::uint32_t>(c));
+        else
+            safe += '?';
+        at += size;
     }
     return safe;
 }

@@ -1,4 +1,5 @@
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 #include <svt/illustrate/hatches.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
@@ -56,27 +57,11 @@ constexpr HatchStyle kHatches[] = {
 // Text for XML 1.0: markup escaped, forbidden characters replaced.
 std::string xmlText(std::string_view text) {
     std::string safe;
-    const auto byteAt = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0u; };
     for (std::size_t at = 0; at < text.size();) {
-        const unsigned c = byteAt(at);
-        const std::size_t size = c < 0x80                ? 1
-                                 : c >= 0xC2 && c < 0xE0 ? 2
-                                 : c >= 0xE0 && c < 0xF0 ? 3
-                                 : c >= 0xF0 && c < 0xF5 ? 4
-                                                         : 0;
-        bool isValid = size != 0;
-        for (std::size_t n = 1; n < size; ++n) isValid = isValid && (byteAt(at + n) & 0xC0u) == 0x80u;
-        if (size == 3) {
-            const unsigned code = ((c & 0xFu) << 12) | ((byteAt(at + 1) & 0x3Fu) << 6) | (byteAt(at + 2) & 0x3Fu);
-            isValid = isValid && code >= 0x800 && (code < 0xD800 || code > 0xDFFF) && code < 0xFFFE;
-        }
-        if (size == 4) {
-            const unsigned code = ((c & 0x7u) << 18) | ((byteAt(at + 1) & 0x3Fu) << 12);
-            isValid = isValid && code >= 0x10000 && code < 0x110000;
-        }
-        if (!isValid || (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F) {
-            safe += c < 0x20 || c == 0x7F ? " " : "\xEF\xBF\xBD";
-            ++at;
+        const auto [c, size] = firstCharacter(text.substr(at));
+        if (size == 0 || c == 0xFFFE || c == 0xFFFF || (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F) {
+            safe += size != 0 && (c < 0x20 || c == 0x7F) ? " " : "\xEF\xBF\xBD";
+            at += std::max<std::size_t>(size, 1);
             continue;
         }
         switch (c) {
@@ -89,10 +74,6 @@ std::string xmlText(std::string_view text) {
         at += size;
     }
     return safe;
-}
-
-std::size_t characterCount(std::string_view text) noexcept {
-    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 // The largest of 1, 2 and 5 times a power of ten that does not exceed `value`.

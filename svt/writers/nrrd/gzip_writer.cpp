@@ -1,4 +1,5 @@
 #include <svt/core/check.hpp>
+#include <svt/core/deflate.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/writers/nrrd/gzip_writer.hpp>
 
@@ -14,8 +15,6 @@ namespace {
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 constexpr std::size_t kPiecesAtOnce = 16;
 constexpr int kLevel = 5;
-/// Maximum bytes that Z_SYNC_FLUSH adds beyond deflateBound().
-constexpr std::size_t kFlushBytes = 64;
 
 struct Piece {
     std::vector<std::byte> compressed;
@@ -24,18 +23,8 @@ struct Piece {
 
 /// Raw deflate blocks that end at a byte boundary, so that pieces can be joined.
 Piece compressPiece(std::span<const std::byte> bytes) {
-    z_stream stream{};
-    if (deflateInit2(&stream, kLevel, Z_DEFLATED, -MAX_WBITS, 9, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
     Piece piece;
-    piece.compressed.resize(deflateBound(&stream, static_cast<uLong>(bytes.size())) + kFlushBytes);
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(piece.compressed.data());
-    stream.avail_out = static_cast<uInt>(piece.compressed.size());
-    const int done = deflate(&stream, Z_SYNC_FLUSH);
-    SVT_CHECK(done == Z_OK && stream.avail_in == 0 && stream.avail_out > 0);
-    piece.compressed.resize(piece.compressed.size() - stream.avail_out);
-    deflateEnd(&stream);
+    piece.compressed = deflatePiece(bytes, kLevel, false);
     piece.crc = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
     return piece;
 }

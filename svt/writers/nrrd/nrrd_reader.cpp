@@ -1,3 +1,4 @@
+#include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/writers/nrrd/nrrd_reader.hpp>
 
@@ -152,39 +153,6 @@ Result<Header> readHeader(std::string_view text) {
     return header;
 }
 
-/// Inflates consecutive gzip members into exactly `out`.
-Result<void> inflateInto(std::span<const std::byte> in, std::span<std::byte> out) {
-    z_stream stream{};
-    if (inflateInit2(&stream, MAX_WBITS + 16) != Z_OK) throw std::bad_alloc();
-    constexpr std::size_t kPiece = std::size_t{1} << 30;  // zlib counts with 32 bits
-    int state = Z_OK;
-    std::byte beyond{};
-    while (state == Z_OK || (state == Z_STREAM_END && !in.empty())) {
-        if (state == Z_STREAM_END && inflateReset(&stream) != Z_OK) break;
-        const std::size_t given = std::min(in.size(), kPiece);
-        // Ask for one byte more than expected, to detect data that are too long.
-        const std::span<std::byte> target =
-            out.empty() ? std::span(&beyond, 1) : out.first(std::min(out.size(), kPiece));
-        stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(in.data()));
-        stream.avail_in = static_cast<uInt>(given);
-        stream.next_out = reinterpret_cast<Bytef*>(target.data());
-        stream.avail_out = static_cast<uInt>(target.size());
-        state = inflate(&stream, Z_NO_FLUSH);
-        in = in.subspan(given - stream.avail_in);
-        const std::size_t made = target.size() - stream.avail_out;
-        if (out.empty() && made > 0) {
-            inflateEnd(&stream);
-            return bad("the compressed samples are more than the sizes say");
-        }
-        if (!out.empty()) out = out.subspan(made);
-    }
-    inflateEnd(&stream);
-    if (state != Z_STREAM_END) return bad("the compressed samples are damaged or cut short");
-    if (!out.empty())
-        return bad(fmt::format("the compressed samples are {} bytes fewer than the sizes say", out.size()));
-    return {};
-}
-
 Result<NrrdImage> readImage(std::span<const std::byte> bytes, std::string_view text, const NrrdReadOptions& options) {
     auto header = readHeader(text);
     if (!header) return header.error();
@@ -204,11 +172,17 @@ Result<NrrdImage> readImage(std::span<const std::byte> bytes, std::string_view t
     if (header->encoding == "gzip" && size / kMaxGzipRatio > stored.size())
         return bad(fmt::format("{} bytes of compressed samples cannot hold the {} bytes that the sizes say",
                                stored.size(), size));
-    image.data.resize(static_cast<std::size_t>(size));
     if (header->encoding == "raw") {
-        std::copy(stored.begin(), stored.end(), image.data.begin());
-    } else if (auto done = inflateInto(stored, image.data); !done) {
-        return done.error();
+        image.data.assign(stored.begin(), stored.end());
+    } else {
+        Inflated unpacked = inflateBytes(stored, DeflateFormat::Gzip, size, size);
+        if (unpacked.status == InflateStatus::TooLong) return bad("the compressed samples are more than the sizes say");
+        if (unpacked.status != InflateStatus::Done || unpacked.taken != stored.size())
+            return bad("the compressed samples are damaged or cut short");
+        if (unpacked.bytes.size() != size)
+            return bad(fmt::format("the compressed samples are {} bytes fewer than the sizes say",
+                                   size - unpacked.bytes.size()));
+        image.data = std::move(unpacked.bytes);
     }
     constexpr bool kIsLittle = std::endian::native == std::endian::little;
     if (image.bits > 8 && (header->endian == "little") != kIsLittle) {

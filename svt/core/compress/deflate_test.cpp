@@ -1,0 +1,66 @@
+#include <svt/core/deflate.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+namespace svt {
+namespace {
+
+std::vector<std::byte> someBytes(std::size_t count, unsigned seed, unsigned distinct) {
+    std::mt19937 random(seed);
+    std::vector<std::byte> bytes(count);
+    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random() % distinct);
+    return bytes;
+}
+
+std::vector<std::byte> joined(std::vector<std::byte> a, const std::vector<std::byte>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+TEST(Deflate, BytesComeBack) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{4095}, std::size_t{300000}})
+        for (const unsigned distinct : {1u, 7u, 256u}) {
+            const auto bytes = someBytes(count, 1, distinct);
+            const auto raw = inflateBytes(deflatePiece(bytes, 5, true), DeflateFormat::Raw, 0, count);
+            EXPECT_EQ(raw.status, InflateStatus::Done);
+            EXPECT_EQ(raw.bytes, bytes);
+            const auto packed = gzipBytes(bytes);
+            const auto whole = inflateBytes(packed, DeflateFormat::Gzip, 10, count);
+            EXPECT_EQ(whole.status, InflateStatus::Done);
+            EXPECT_EQ(whole.bytes, bytes);
+            EXPECT_EQ(whole.taken, packed.size());
+        }
+}
+
+TEST(Deflate, PiecesAndMembersAreJoined) {
+    const auto a = someBytes(5000, 2, 9), b = someBytes(777, 3, 9);
+    const auto pieces = joined(deflatePiece(a, -1, false), deflatePiece(b, 9, true));
+    EXPECT_EQ(inflateBytes(pieces, DeflateFormat::Raw, 0, 1 << 20).bytes, joined(a, b));
+    EXPECT_EQ(inflateBytes(joined(gzipBytes(a), gzipBytes(b)), DeflateFormat::Gzip, 0, 1 << 20).bytes, joined(a, b));
+}
+
+TEST(Deflate, TheLimitHoldsToTheByte) {
+    const auto bytes = someBytes(10000, 4, 3);
+    const auto packed = gzipBytes(bytes);
+    EXPECT_EQ(inflateBytes(packed, DeflateFormat::Gzip, 0, bytes.size()).status, InflateStatus::Done);
+    const auto over = inflateBytes(packed, DeflateFormat::Gzip, 0, bytes.size() - 1);
+    EXPECT_EQ(over.status, InflateStatus::TooLong);
+    EXPECT_EQ(over.bytes.size(), bytes.size() - 1);
+    EXPECT_EQ(inflateBytes(packed, DeflateFormat::Gzip, 1 << 30, 16).status, InflateStatus::TooLong);
+}
+
+TEST(Deflate, DamageAndMissingEndsAreTold) {
+    auto packed = gzipBytes(someBytes(10000, 5, 50));
+    const std::span<const std::byte> all(packed);
+    for (const std::size_t size : {std::size_t{0}, std::size_t{5}, packed.size() / 2, packed.size() - 1})
+        EXPECT_EQ(inflateBytes(all.first(size), DeflateFormat::Gzip, 0, 1 << 20).status, InflateStatus::CutShort)
+            << size;
+    packed[packed.size() - 6] ^= std::byte{1};  // the checksum
+    EXPECT_EQ(inflateBytes(packed, DeflateFormat::Gzip, 0, 1 << 20).status, InflateStatus::Damaged);
+}
+
+}  // namespace
+}  // namespace svt

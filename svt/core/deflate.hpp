@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Deflate (RFC 1951) and gzip (RFC 1952) in memory. Unpacked sizes are bounded by the caller.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace svt {
+
+enum class DeflateFormat : std::uint8_t {
+    Raw,  ///< one stream without header
+    Gzip  ///< one or more gzip members, concatenated
+};
+
+enum class InflateStatus : std::uint8_t {
+    Done,
+    Damaged,
+    CutShort,  ///< the data end before the stream does
+    TooLong    ///< more bytes than the limit
+};
+
+struct Inflated {
+    InflateStatus status = InflateStatus::Done;
+    std::size_t taken = 0;         ///< bytes of the input that were read
+    std::vector<std::byte> bytes;  ///< whole only if Done
+};
+
+/// Unpacks `packed`.
+/// \param expectedBytes  guess of the size, to reserve memory; the buffer doubles beyond it
+/// \param maxBytes       limit of the size
+/// Cost: about 3 s per GB unpacked. Memory: twice the unpacked size at most, and at most `maxBytes`.
+[[nodiscard]] Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format,
+                                    std::uint64_t expectedBytes, std::uint64_t maxBytes);
+
+/// Raw deflate data of `bytes` that end at a byte boundary, so that pieces that were made independently can be joined.
+/// \param bytes   less than 2 GiB
+/// \param level   of zlib, 1 to 9; -1: its default
+/// \param isLast  whether the stream ends with this piece
+[[nodiscard]] std::vector<std::byte> deflatePiece(std::span<const std::byte> bytes, int level, bool isLast);
+
+/// One gzip member, without name and time, so equal input gives equal bytes.
+/// \param bytes  less than 2 GiB
+[[nodiscard]] std::vector<std::byte> gzipBytes(std::span<const std::byte> bytes);
+
+}  // namespace svt

@@ -1,0 +1,54 @@
+#pragma once
+/// \file
+/// Text that comes from files: UTF-8 with every byte checked, and letter case of ASCII alone, whatever the locale.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace svt {
+
+/// A character of UTF-8 text.
+struct Utf8Character {
+    char32_t code = 0;
+    std::uint8_t size = 0;  ///< bytes; 0: the text begins with no valid character
+};
+
+/// The character that `text` begins with. Overlong forms, surrogates and codes above U+10FFFF are not valid.
+/// \param text  not empty
+[[nodiscard]] constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return {lead, 1};
+    const std::size_t size = lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+    if (size == 0 || size > text.size()) return {};
+    char32_t code = lead & (0x7Fu >> size);
+    for (std::size_t i = 1; i < size; ++i) {
+        if ((byte(i) & 0xC0u) != 0x80u) return {};
+        code = code << 6 | (byte(i) & 0x3Fu);
+    }
+    const bool isOverlong = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000);
+    const bool isSurrogate = code >= 0xD800 && code < 0xE000;
+    if (isOverlong || isSurrogate || code > 0x10FFFF) return {};
+    return {code, static_cast<std::uint8_t>(size)};
+}
+
+/// Appends a character as UTF-8.
+/// \param code  at most U+10FFFF
+void appendUtf8(char32_t code, std::string& to);
+
+/// Offset of the first byte that begins no valid character, or npos.
+[[nodiscard]] std::size_t findInvalidUtf8(std::string_view text) noexcept;
+
+/// Count of characters of valid UTF-8; in other text, of bytes that continue none.
+[[nodiscard]] std::size_t characterCount(std::string_view text) noexcept;
+
+/// A to Z become a to z; other bytes stay.
+[[nodiscard]] constexpr char lowerAscii(char c) noexcept {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+[[nodiscard]] std::string lowerAscii(std::string_view text);
+[[nodiscard]] bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept;
+
+}  // namespace svt

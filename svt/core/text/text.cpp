@@ -1,0 +1,51 @@
+#include <svt/core/text.hpp>
+
+#include <algorithm>
+
+namespace svt {
+
+void appendUtf8(char32_t code, std::string& to) {
+    const auto append = [&](char32_t byte) { to += static_cast<char>(byte); };
+    const auto continuation = [&](int shift) { append(0x80u | (code >> shift & 0x3Fu)); };
+    if (code < 0x80) {
+        append(code);
+    } else if (code < 0x800) {
+        append(0xC0u | code >> 6);
+        continuation(0);
+    } else if (code < 0x10000) {
+        append(0xE0u | code >> 12);
+        continuation(6);
+        continuation(0);
+    } else {
+        append(0xF0u | code >> 18);
+        continuation(12);
+        continuation(6);
+        continuation(0);
+    }
+}
+
+std::size_t findInvalidUtf8(std::string_view text) noexcept {
+    for (std::size_t at = 0; at < text.size();) {
+        const Utf8Character character = firstCharacter(text.substr(at));
+        if (character.size == 0) return at;
+        at += character.size;
+    }
+    return std::string_view::npos;
+}
+
+std::size_t characterCount(std::string_view text) noexcept {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string lowerAscii(std::string_view text) {
+    std::string result(text);
+    for (char& c : result) c = lowerAscii(c);
+    return result;
+}
+
+bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept {
+    return std::ranges::equal(
+        a, b, {}, [](char c) { return lowerAscii(c); }, [](char c) { return lowerAscii(c); });
+}
+
+}  // namespace svt

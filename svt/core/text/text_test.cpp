@@ -1,0 +1,37 @@
+#include <svt/core/text.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt {
+namespace {
+
+TEST(Utf8, CharactersComeBack) {
+    for (const char32_t code : {U'a', U'\u007F', U'\u0080', U'\u07FF', U'\u0800', U'\uD7FF', U'\uE000', U'\uFFFF',
+                                U'\U00010000', U'\U0010FFFF'}) {
+        std::string text;
+        appendUtf8(code, text);
+        const Utf8Character read = firstCharacter(text + "x");
+        EXPECT_EQ(read.code, code);
+        EXPECT_EQ(read.size, text.size());
+        EXPECT_EQ(findInvalidUtf8(text + "x"), std::string_view::npos);
+        EXPECT_EQ(characterCount(text + "x"), 2u);
+    }
+}
+
+TEST(Utf8, WrongBytesAreFound) {
+    for (const char* bad : {"\x80", "\xC0\x80", "\xC1\xBF", "\xC3", "\xC3(", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xE2\x82",
+                            "\xF0\x8F\xBF\xBF", "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xFF"}) {
+        EXPECT_EQ(firstCharacter(bad).size, 0) << bad;
+        EXPECT_EQ(findInvalidUtf8(std::string("a\xC3\xA4") + bad), 3u) << bad;
+    }
+}
+
+TEST(Ascii, OnlyItsLettersChangeCase) {
+    EXPECT_EQ(lowerAscii("EG Küche ÄÖ [@Z]"), "eg küche ÄÖ [@z]");
+    EXPECT_TRUE(equalsIgnoringCase("EG", "eg"));
+    EXPECT_FALSE(equalsIgnoringCase("EG", "eg "));
+    static_assert(lowerAscii('Q') == 'q' && lowerAscii('[') == '[' && lowerAscii('@') == '@');
+}
+
+}  // namespace
+}  // namespace svt
