@@ -233,11 +233,11 @@ Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
     if (!stream)
         return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
     std::string text;
-    constexpr std::size_t kMostBytes = std::size_t{16} << 20;
-    text.resize(kMostBytes + 1);
+    constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+    text.resize(kMaxBytes + 1);
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMostBytes)
+    if (text.size() > kMaxBytes)
         return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
     auto sheet = parseStyleSheet(text, file.parent_path());
     // An error in the file of a pattern keeps that file as its place.

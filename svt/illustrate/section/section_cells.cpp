@@ -219,7 +219,7 @@ private:
             Piece piece;
             std::size_t cell = 0;
         };
-        std::array<Part, std::size_t{1} << BrickVolume::kMostSides> parts;
+        std::array<Part, std::size_t{1} << BrickVolume::kMaxSides> parts;
         parts[0] = {pieceOf(above, low_, high_), 0};
         std::size_t count = 1, bit = 1;
         const auto split = [&](Vec3d normal, double offset) {
@@ -238,9 +238,9 @@ private:
             split(normal, -double(coding.cut[static_cast<std::size_t>(axis)]));
         }
         for (const std::uint32_t plane : coding.plane)
-            if (plane != BrickVolume::kNoPlane) split(bricks_.oblique()[plane].normal, bricks_.oblique()[plane].offset);
+            if (plane != BrickVolume::kNoPlane) split(bricks_.planes()[plane].normal, bricks_.planes()[plane].offset);
         for (std::size_t n = 0; n < count; ++n)
-            if (parts[n].piece.count != 0) emit(parts[n].piece, labelOf(bricks_.cellScalar(coding, parts[n].cell)));
+            if (parts[n].piece.count != 0) emit(parts[n].piece, labelOf(bricks_.sideScalar(coding, parts[n].cell)));
     }
 
     // Splits a piece by a plane. Both parts get the same new corners, and so do all pieces that share an edge.

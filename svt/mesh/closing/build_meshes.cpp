@@ -23,7 +23,7 @@ using model::FeatureIndex;
 using model::SurfaceUse;
 
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
-constexpr std::size_t kMostLeaks = 100;
+constexpr std::size_t kMaxLeaks = 100;
 
 // The source of one mesh: a feature and the faces of its geometry.
 struct Source {
@@ -247,7 +247,7 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
     }
     mesh.leakCount = static_cast<std::uint32_t>(mesh.openEdges.size());
     for (const OpenEdge& edge : mesh.openEdges) {
-        if (mesh.leaks.size() == kMostLeaks) break;
+        if (mesh.leaks.size() == kMaxLeaks) break;
         mesh.leaks.push_back((mesh.vertices[edge.from] + mesh.vertices[edge.to]) * 0.5);
     }
     if (mesh.openEdges.empty()) mesh.closure = mesh.tJunctionCount != 0 ? Closure::TJunctions : Closure::Closed;

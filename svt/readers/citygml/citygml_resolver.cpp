@@ -19,7 +19,7 @@ using model::SurfaceUse;
 using std::string_view;
 
 // The scanner limits inline nesting; a chain of references could still overflow the stack.
-constexpr std::uint32_t kDeepestWalk = 2000;
+constexpr std::uint32_t kMaxReferenceDepth = 2000;
 constexpr std::uint64_t kCostPerPlacedPoint = 10;
 
 Vec3d place(const Placement& placement, Vec3d p) noexcept {
@@ -84,10 +84,10 @@ bool GeometryResolver::spend(std::uint64_t amount) {
 void GeometryResolver::walk(NodeIndex index, bool isReversed, Resolved& into) {
     if (!spend(1)) return;
     const Node& node = part_.nodes[index];
-    if (depth_ >= kDeepestWalk) {
+    if (depth_ >= kMaxReferenceDepth) {
         report_(Severity::Warning, Code::InputTooBig,
-                fmt::format("references lead deeper than {} levels; the rest is left out", kDeepestWalk), node.offset,
-                featureId_);
+                fmt::format("references lead deeper than {} levels; the rest is left out", kMaxReferenceDepth),
+                node.offset, featureId_);
         return;
     }
     ++depth_;

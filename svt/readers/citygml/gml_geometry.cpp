@@ -15,7 +15,7 @@ using citygml::Placement;
 using std::string_view;
 using xml::Vocabulary;
 
-constexpr int kDeepestCurve = 16;
+constexpr int kMaxCurveDepth = 16;
 
 constexpr std::pair<string_view, Shape> kShapes[] = {
     {"Polygon", Shape::Polygon},
@@ -294,7 +294,7 @@ bool GeometryReader::readRing(const Element& property, int dimension, model::Pol
 
 // A boundary made of curves: the positions of their segments, concatenated.
 void GeometryReader::readCurve(const Element& element, int dimension, int depth) {
-    if (depth > kDeepestCurve) return;
+    if (depth > kMaxCurveDepth) return;
     const ElementAttributes attributes = attributesOf(scope_, element.node);
     const std::size_t first = points_.size();
     bool hasPositions = false;

@@ -19,8 +19,8 @@ std::size_t find(const LineView& view, const PictureLine* lines, const LineLook*
                  std::span<const std::uint32_t> numbers, const double* x, const double* y, LineHit* hits) {
     const D d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0), half = hn::Set(d, 0.5);
-    constexpr std::size_t kMost = hn::MaxLanes(D());
-    alignas(64) double coverages[kMost], alongs[kMost], depths[kMost];
+    constexpr std::size_t kMaxLanes = hn::MaxLanes(D());
+    alignas(64) double coverages[kMaxLanes], alongs[kMaxLanes], depths[kMaxLanes];
     std::size_t count = 0;
     for (std::size_t first = 0; first < kLineRays; first += hn::Lanes(d)) {
         const V placeX = hn::LoadU(d, x + first), placeY = hn::LoadU(d, y + first);

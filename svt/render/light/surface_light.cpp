@@ -37,7 +37,7 @@ Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) co
         surface.isCap = true;
     } else if (hit.plane != volume::BrickVolume::kNoPlane) {
         found = volume_.directions.plane(hit.plane);
-        isAway = dot(volume_.bricks.oblique()[hit.plane].normal, hit.direction) > 0;
+        isAway = dot(volume_.bricks.planes()[hit.plane].normal, hit.direction) > 0;
     } else if (hit.axis < 0) {
         found.normal = hit.view;
         surface.isAroundEye = true;

@@ -112,7 +112,7 @@ struct PacketPass {
     const PacketStyle* styles = nullptr;  ///< by scalar; element styleCount is hidden and stands for all larger scalars
     std::int64_t styleCount = 0;
     /// Elements 2 a and 2 a + 1: voxel faces across axis a, for rays in the negative and in the positive direction.
-    /// Elements 6 + 2 p and 7 + 2 p: plane p of volume.oblique, seen from its positive and from its negative side.
+    /// Elements 6 + 2 p and 7 + 2 p: plane p of volume.planes, seen from its positive and from its negative side.
     const PacketFace* faces = nullptr;
     std::array<PacketOcclusion, OcclusionField::kLevels> occlusion;
     double ambientOcclusion = 0;

@@ -325,7 +325,7 @@ private:
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {
-            const auto* planes = reinterpret_cast<const double*>(pass_.volume.oblique.data());
+            const auto* planes = reinterpret_cast<const double*>(pass_.volume.planes.data());
             V3 normal;  // voxel space
             std::int64_t first = 0;
             if (isSame(crossed_, onPlane, first)) {
@@ -405,7 +405,7 @@ private:
             toInts(coded),
             shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(pass_.volume.boxes.data()) + 8, box)));
         const VI place = hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code));
-        static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMostPlanes == 3);
+        static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMaxPlanes == 3);
         const auto* codes = reinterpret_cast<const std::byte*>(pass_.volume.codes.data());
         const VI both = gatherBytes(codes + 8, place), rest = gatherBytes(codes + 16, place);
         const auto known = [&](VI planes) { return hn::IfThenElse(toInts(coded), planes, none); };
@@ -427,7 +427,7 @@ private:
             const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
             const auto number = [&](int n) {
                 return hn::BitCast(
-                    d, gatherBytes(reinterpret_cast<const double*>(pass_.volume.oblique.data()) + n, offset));
+                    d, gatherBytes(reinterpret_cast<const double*>(pass_.volume.planes.data()) + n, offset));
             };
             const V3 normal{number(0), number(1), number(2)};
             const V distance = hn::Add(dot(normal, point), number(3));
@@ -461,16 +461,16 @@ private:
     HWY_NOINLINE void askForSurfaces(M lanes, VI scalars, M isVoxel, V faceAxis) {
         const D d;
         const DI di;
-        constexpr std::size_t kMost = hn::MaxLanes(D());
-        alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], crease[kMost], normal[3][kMost],
-            away[3][kMost];
-        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], voxel[kMost], cap[kMost] = {},
-                                                                                           eye[kMost] = {};
+        constexpr std::size_t kMaxLanes = hn::MaxLanes(D());
+        alignas(64) double t[kMaxLanes], axis[kMaxLanes], cell[3][kMaxLanes], light[kMaxLanes], crease[kMaxLanes],
+            normal[3][kMaxLanes], away[3][kMaxLanes];
+        alignas(64) std::int64_t scalar[kMaxLanes], plane[kMaxLanes], wanted[kMaxLanes], voxel[kMaxLanes],
+            cap[kMaxLanes] = {}, eye[kMaxLanes] = {};
         hn::Store(t_, d, t);
         hn::Store(faceAxis, d, axis);
         hn::Store(light_, d, light);
         hn::Store(crease_, d, crease);
-        const auto storeV3 = [&](const V3& v, double(&to)[3][kMost]) {
+        const auto storeV3 = [&](const V3& v, double(&to)[3][kMaxLanes]) {
             hn::Store(v.x, d, to[0]);
             hn::Store(v.y, d, to[1]);
             hn::Store(v.z, d, to[2]);
@@ -497,7 +497,7 @@ private:
             cap[lane] = found.isCap ? 1 : 0;
             eye[lane] = found.isAroundEye ? 1 : 0;
         }
-        const auto loadBack = [&](const double(&from)[3][kMost]) {
+        const auto loadBack = [&](const double(&from)[3][kMaxLanes]) {
             return V3{hn::Load(d, from[0]), hn::Load(d, from[1]), hn::Load(d, from[2])};
         };
         light_ = hn::Load(d, light);

@@ -218,8 +218,8 @@ private:
 // Changes of label of the rays of a group, in rows: at most one change per ray and row, in ascending order of t by ray.
 class ChangeRows {
 public:
-    // A walk through one box adds fewer than kOfOneBox rows, so rows must be emptied once there are kFull.
-    static constexpr std::size_t kFull = 24, kOfOneBox = 24, kMost = kFull + kOfOneBox;
+    // A walk through one box adds fewer than kMaxRowsPerBox rows, so rows must be emptied once there are kShadeAt.
+    static constexpr std::size_t kShadeAt = 24, kMaxRowsPerBox = 24, kMaxRows = kShadeAt + kMaxRowsPerBox;
 
     HWY_INLINE void clear() {
         count_ = 0;
@@ -264,8 +264,8 @@ private:
 
     std::size_t count_ = 0;
     VI next_;  // by lane: the row after its last one
-    alignas(64) double t_[kMost][kLanes];
-    alignas(64) std::int64_t changes_[kMost][kLanes];
+    alignas(64) double t_[kMaxRows][kLanes];
+    alignas(64) std::int64_t changes_[kMaxRows][kLanes];
 };
 
 }  // namespace

@@ -91,7 +91,7 @@ public:
     // Crosses a coded box, from one cut or plane to the next.
     HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
         const D d;
-        Side sides[volume::BrickVolume::kMostSides];
+        Side sides[volume::BrickVolume::kMaxSides];
         std::size_t count = 0;
         const auto addCut = [&](const Axis& axis, std::size_t number) {
             if (((code.cutAxes >> number) & 1u) == 0) return;
@@ -110,10 +110,10 @@ public:
         for (const std::uint32_t number : code.plane) {
             if (number == volume::BrickVolume::kNoPlane) continue;
             Side& side = sides[count++];
-            findCrossing(pass_.volume.oblique[number], side.time, side.isBeyondAfter);
+            findCrossing(pass_.volume.planes[number], side.time, side.isBeyondAfter);
             side.plane = number;
         }
-        const volume::Scalar* scalars = pass_.volume.palettes.data() + code.cells;
+        const volume::Scalar* scalars = pass_.volume.palettes.data() + code.firstSideScalar;
         switch (count) {
             case 1: return crossSides<1>(inside, sides, scalars);
             case 2: return crossSides<2>(inside, sides, scalars);
@@ -130,7 +130,7 @@ public:
         const D d;
         const DI di;
         const V one = hn::Set(d, 1.0);
-        const std::uint64_t* words = pass_.volume.words.data() + brick.planes;
+        const std::uint64_t* words = pass_.volume.words.data() + brick.bitPlanes;
         const volume::Scalar* scalars = pass_.volume.palettes.data() + brick.palette;
         M lanes = inside.lanes;
         const V3 cell = vectors_.cells(t_);
@@ -151,7 +151,7 @@ public:
         crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
         while (true) {
             VI index = hn::Zero(di);
-            for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
+            for (std::uint32_t plane = 0; plane < brick.bitPlaneCount; ++plane) {
                 const VI bits = shiftRightBy(lookUp(words + std::size_t{8} * plane, word), bit);
                 index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
             }

@@ -11,8 +11,8 @@ DirectionTable::DirectionTable(const volume::BrickVolume& volume, const volume::
         index[axis] = 1;
         axes_[static_cast<std::size_t>(axis)] = directions(index);
     }
-    planes_.reserve(volume.oblique().size());
-    for (const volume::BrickPlane& plane : volume.oblique()) planes_.push_back(directions(plane.normal));
+    planes_.reserve(volume.planes().size());
+    for (const volume::BrickPlane& plane : volume.planes()) planes_.push_back(directions(plane.normal));
 }
 
 DirectionTable::Directions DirectionTable::directions(Vec3d index) const noexcept {

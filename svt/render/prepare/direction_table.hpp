@@ -25,7 +25,7 @@ public:
 
     /// Of voxel faces across an axis, in the axis's positive direction.
     [[nodiscard]] const Directions& axis(int axis) const noexcept { return axes_[static_cast<std::size_t>(axis)]; }
-    /// Of a plane of BrickVolume::oblique(), towards its positive side.
+    /// Of a plane of BrickVolume::planes(), towards its positive side.
     [[nodiscard]] const Directions& plane(std::uint32_t number) const noexcept { return planes_[number]; }
     [[nodiscard]] std::span<const Directions> planes() const noexcept { return planes_; }
     /// Of a surface with the normal (covector) `index` in index space.

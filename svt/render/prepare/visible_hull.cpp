@@ -47,13 +47,13 @@ std::vector<Vec3d> directionsOfPlanes(const BrickVolume::Arrays& volume) {
         std::size_t boxes;
     };
     constexpr double kSame = 0.999;  // cosine; 2.6 degrees
-    std::vector<std::size_t> boxesOf(volume.oblique.size());
+    std::vector<std::size_t> boxesOf(volume.planes.size());
     for (const BrickVolume::BoxCoding& code : volume.codes)
         for (const std::uint32_t plane : code.plane)
             if (plane != BrickVolume::kNoPlane) ++boxesOf[plane];
     std::vector<Direction> found;
     for (std::size_t plane = 0; plane < boxesOf.size(); ++plane) {
-        const Vec3d normal = normalized(volume.oblique[plane].normal);
+        const Vec3d normal = normalized(volume.planes[plane].normal);
         const auto same = std::find_if(found.begin(), found.end(), [&](const Direction& other) {
             return std::abs(dot(other.normal, normal)) > kSame;
         });
@@ -82,7 +82,7 @@ std::vector<std::uint8_t> findVisible(const BrickVolume::Arrays& volume, const P
         visible.push_back(table[volume.boxes[box].scalar].kind != LinearStyle::Kind::Hidden);
     for (std::size_t box = volume.uniformBoxes; box < volume.boxes.size(); ++box) {
         const BrickVolume::BoxCoding& code = volume.codes[volume.boxes[box].scalar];
-        visible.push_back(isAny(code.cells, std::size_t{1} << sideCount(code)));
+        visible.push_back(isAny(code.firstSideScalar, std::size_t{1} << sideCount(code)));
     }
     for (const BrickVolume::PaletteBrick& brick : volume.bricks)
         visible.push_back(isAny(brick.palette, brick.paletteSize));

@@ -43,7 +43,7 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
     const Vec3d point = ray.origin + ray.direction * t;
     for (const std::uint32_t number : planes) {
         if (number == volume::BrickVolume::kNoPlane) continue;
-        const volume::BrickPlane& plane = volume.oblique()[number];
+        const volume::BrickPlane& plane = volume.planes()[number];
         const double distance = dot(plane.normal, point) + plane.offset;
         if (std::abs(distance) < 0.75 && std::abs(plane.normal[axis]) > 0.2) return number;
     }

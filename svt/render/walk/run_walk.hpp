@@ -115,7 +115,7 @@ private:
             int axis;
             std::uint32_t plane;
         };
-        std::array<Side, volume::BrickVolume::kMostSides> sides;
+        std::array<Side, volume::BrickVolume::kMaxSides> sides;
         std::size_t count = 0;
         forEachAxis([&](auto axis) {
             if (!coding.hasCut(axis)) return;
@@ -127,7 +127,7 @@ private:
         });
         for (const std::uint32_t plane : coding.plane) {
             if (plane == volume::BrickVolume::kNoPlane) continue;
-            const PlaneCrossing crossing(volume_.oblique()[plane], ray_);
+            const PlaneCrossing crossing(volume_.planes()[plane], ray_);
             sides[count++] = {crossing.time, crossing.isRising, -1, plane};
         }
         std::uint32_t crossed = volume::BrickVolume::kNoPlane;
@@ -143,7 +143,7 @@ private:
                     nextSide = &sides[s];
                 }
             }
-            if (moveTo(volume_.cellScalar(coding, cell), crossed)) return true;
+            if (moveTo(volume_.sideScalar(coding, cell), crossed)) return true;
             if (nextSide == nullptr) break;
             t_ = next;
             if (!(t_ < to_)) return false;
@@ -221,7 +221,7 @@ void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, d
             std::uint32_t nextPlane = volume::BrickVolume::kNoPlane;
             for (const std::uint32_t plane : coding.plane) {
                 if (plane == volume::BrickVolume::kNoPlane) continue;
-                const PlaneCrossing crossing(volume.oblique()[plane], ray);
+                const PlaneCrossing crossing(volume.planes()[plane], ray);
                 side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
                 // A plane may be crossed exactly where the ray leaves the voxel; then it counts as crossed, too.
                 const bool isFirstPlane = nextPlane == volume::BrickVolume::kNoPlane;
@@ -230,7 +230,7 @@ void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, d
                     nextPlane = plane;
                 }
             }
-            if (moveTo(volume.cellScalar(coding, side), crossed, false)) return;
+            if (moveTo(volume.sideScalar(coding, side), crossed, false)) return;
             crossed = nextPlane;
         } else {
             const bool isVoxel = entry.isMixed() && !entry.isCoded();

@@ -11,7 +11,7 @@
 namespace svt::samples {
 namespace {
 
-constexpr std::int64_t kMostDescribed = 10000;  // houses
+constexpr std::int64_t kMaxDescribed = 10000;  // houses
 
 // n . local <= c with local = inverse(world), in millimetres, as a half-space in world metres.
 HalfSpace worldHalfSpace(const Placement& placement, Vec3d normal, double limit) {
@@ -94,9 +94,9 @@ Result<std::string> writeSample(SampleKind kind, SampleFormat format, const Samp
 Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const SampleOptions& options) {
     Result<SampleSource> source = SampleSource::make(kind, options);
     if (!source) return source.error();
-    if (source->buildingCount() > kMostDescribed)
+    if (source->buildingCount() > kMaxDescribed)
         return Error(Code::BadArgument, fmt::format("columns x rows is {}, at most {} houses can be described",
-                                                    source->buildingCount(), kMostDescribed));
+                                                    source->buildingCount(), kMaxDescribed));
     std::vector<SampleComponent> result;
     for (std::int64_t i = 0; i < source->buildingCount(); ++i) {
         const Document document = source->building(i);

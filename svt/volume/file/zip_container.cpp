@@ -398,14 +398,14 @@ bool inflateInto(const ZipEntry& entry, std::vector<std::byte>& buffer) {
     buffer.resize(static_cast<std::size_t>(entry.size));
     z_stream stream{};
     if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) return false;
-    constexpr std::size_t kMost = std::size_t{1} << 30;
+    constexpr std::size_t kMaxStep = std::size_t{1} << 30;
     auto in = entry.data;
     std::span<std::byte> out = buffer;
     std::byte beyond[1];
     int state = Z_OK;
     while (state == Z_OK) {
-        const std::span<std::byte> target = out.empty() ? std::span(beyond) : out.first(std::min(out.size(), kMost));
-        const auto source = in.first(std::min(in.size(), kMost));
+        const std::span<std::byte> target = out.empty() ? std::span(beyond) : out.first(std::min(out.size(), kMaxStep));
+        const auto source = in.first(std::min(in.size(), kMaxStep));
         stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(source.data()));
         stream.avail_in = static_cast<uInt>(source.size());
         stream.next_out = reinterpret_cast<Bytef*>(target.data());

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int32_t kLargestImage = 4096;
 constexpr std::int32_t kLargestRaw = 1024;
-constexpr std::size_t kMostPhases = 64;
+constexpr std::size_t kMaxPhases = 64;
 
 using Pixel = std::array<std::uint8_t, 3>;
 
@@ -87,9 +87,9 @@ void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCell
 }  // namespace
 
 Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file, int maxColors) {
-    if (maxColors < 2 || maxColors > static_cast<int>(kMostPhases))
+    if (maxColors < 2 || maxColors > static_cast<int>(kMaxPhases))
         return Error(Code::BadArgument,
-                     fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMostPhases));
+                     fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMaxPhases));
     const auto mapped = MappedFile::open(file);
     if (!mapped) return mapped.error();
     png_image image;
@@ -137,8 +137,8 @@ Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem
     std::size_t count = 0;
     for (std::size_t value = 0; value < 256; ++value)
         if (isUsed[value]) phase[value] = static_cast<std::uint8_t>(count++);
-    if (count > kMostPhases)
-        return badImage(file, fmt::format("{} different values found; {} are possible", count, kMostPhases));
+    if (count > kMaxPhases)
+        return badImage(file, fmt::format("{} different values found; {} are possible", count, kMaxPhases));
     auto cells = std::make_shared<PatternCells>();
     cells->dimension = dimension;
     cells->phaseCount = static_cast<std::uint32_t>(count);

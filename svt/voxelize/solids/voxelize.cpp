@@ -383,12 +383,12 @@ Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid
     SVT_CHECK(claims.size() == scene.objects.size());
     Progress::tell(options.progress, "voxelize", 0);
     const IndexFromLocal indexFromLocal(scene, grid);
-    constexpr double kMostSheetVoxels = 5e8;
-    if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMostSheetVoxels)
+    constexpr double kMaxSheetVoxels = 5e8;
+    if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMaxSheetVoxels)
         return Error(Code::GridTooLarge,
                      fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
                                  "choose a coarser spacing",
-                                 sheets, kMostSheetVoxels));
+                                 sheets, kMaxSheetVoxels));
     const Claims ordered = orderClaims(scene, claims);
     auto geometry = prepareObjects(scene, grid, indexFromLocal, ordered, options);
     if (!geometry) return geometry.error();

@@ -152,11 +152,11 @@ bool TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
     std::size_t count = 0;
     profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
                             [&](std::uint32_t group, std::uint32_t length) {
-                                if (count < KnownColumn::kMostShared) known.shared[count] = {group, length};
+                                if (count < KnownColumn::kMaxShared) known.shared[count] = {group, length};
                                 ++count;
                             });
-    known.sharedCount = static_cast<std::uint8_t>(std::min(count, KnownColumn::kMostShared));
-    return count <= KnownColumn::kMostShared;
+    known.sharedCount = static_cast<std::uint8_t>(std::min(count, KnownColumn::kMaxShared));
+    return count <= KnownColumn::kMaxShared;
 }
 
 // Makes the column with the current heights of the stack and returns its number.
@@ -216,7 +216,7 @@ std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* he
     known.stack = kNoStack;
     moveStack(stack, heights);
     const std::uint16_t column = makeColumn(stack);
-    if (stack.slopedCount <= KnownColumn::kMostSloped && measureShared(stack, known)) {
+    if (stack.slopedCount <= KnownColumn::kMaxSloped && measureShared(stack, known)) {
         known.stack = number;
         known.tile = tile_;
         known.column = column;
@@ -306,8 +306,8 @@ void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
 }
 
 volume::ColumnTileData TileColumns::make(const TileInput& input) {
-    constexpr std::size_t kMostMembers = std::size_t{1} << 20;
-    if (members_.size() + profiles_.size() > kMostMembers) forget();
+    constexpr std::size_t kMaxMembers = std::size_t{1} << 20;
+    if (members_.size() + profiles_.size() > kMaxMembers) forget();
     ++tile_;
     firstColumn_ = input.firstColumn;
     firstRow_ = input.firstRow;

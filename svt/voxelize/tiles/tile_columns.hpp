@@ -108,15 +108,15 @@ private:
     // Cache entry: a recent column with its key (stack, heights of the sloped levels), and the voxels that solids share
     // in it, per group.
     struct alignas(64) KnownColumn {
-        static constexpr std::size_t kMostSloped = 6, kMostShared = 3;
+        static constexpr std::size_t kMaxSloped = 6, kMaxShared = 3;
         std::uint32_t stack = kNoStack, tile = 0;
-        std::int32_t heights[kMostSloped] = {};
+        std::int32_t heights[kMaxSloped] = {};
         std::uint32_t columns = 0;  // uses not counted yet, at most the columns of a tile
         std::uint16_t column = 0;
         std::uint8_t sharedCount = 0;
         struct Shared {
             std::uint32_t group, length;
-        } shared[kMostShared] = {};
+        } shared[kMaxShared] = {};
     };
     static constexpr std::uint32_t kNoStack = 0xFFFFFFFFu;
 

@@ -20,7 +20,7 @@ using render::Hatch;
 using volume::kNoLabel;
 
 // Millimetres on paper.
-constexpr double kMargin = 10, kTitleHeight = 24, kLeastWidth = 90;
+constexpr double kMargin = 10, kTitleHeight = 24, kMinWidth = 90;
 constexpr double kSlim = 0.7;
 constexpr double kTextSize = 2.5, kLeastTextSize = 1.2;
 constexpr double kTextWidth = 0.56;  // width of a character relative to the font size, sans serif
@@ -119,7 +119,7 @@ public:
                 }
         drawnWidth_ = (high_.u - low_.u) * millimetres_;
         drawnHeight_ = (high_.v - low_.v) * millimetres_;
-        width_ = std::max(drawnWidth_, kLeastWidth) + 2 * kMargin;
+        width_ = std::max(drawnWidth_, kMinWidth) + 2 * kMargin;
         left_ = 0.5 * (width_ - drawnWidth_);
         height_ = drawnHeight_ + 2 * kMargin + kTitleHeight;
     }
