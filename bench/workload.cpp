@@ -172,7 +172,7 @@ Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension) {
     return pipeline::chooseGrid(scene.meshes, options);
 }
 
-std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes, const std::vector<voxelize::ObjectClaim>& claims) {
+std::vector<std::uint32_t> paintOrder(const mesh::MeshSet& meshes, const std::vector<voxelize::ObjectClaim>& claims) {
     std::vector<std::uint32_t> order(meshes.objects.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t o) {

@@ -3,7 +3,7 @@
 /// The fixed inputs and sizes.
 
 #include <svt/core/result.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/model/building_model.hpp>
 #include <svt/pipeline/labels.hpp>
 #include <svt/volume/grid.hpp>
@@ -49,8 +49,8 @@ inline constexpr double kTurnDegrees = 30;
 struct Scene {
     std::string name;
     model::BuildingModel model;
-    mesh::MeshScene meshes;
-    pipeline::Labelling labels;
+    mesh::MeshSet meshes;
+    pipeline::LabelledObjects labels;
 };
 
 [[nodiscard]] Result<Scene> loadScene(const Input& input);
@@ -66,7 +66,7 @@ inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGr
 /// Objects in increasing priority where they overlap: painting labels in this order gives the same owners as the
 /// voxelizer.
 /// \param claims  one per object, same order
-[[nodiscard]] std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes,
+[[nodiscard]] std::vector<std::uint32_t> paintOrder(const mesh::MeshSet& meshes,
                                                     const std::vector<voxelize::ObjectClaim>& claims);
 
 }  // namespace svt::bench

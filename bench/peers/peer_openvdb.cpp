@@ -29,7 +29,7 @@ public:
     OpenVdb() { openvdb::initialize(); }
     std::string name() const override { return "OpenVDB meshToVolume"; }
 
-    void load(const mesh::MeshScene& scene, const volume::Grid& grid) override {
+    void load(const mesh::MeshSet& scene, const volume::Grid& grid) override {
         grid_ = grid;
         objects_.clear();
         for (const mesh::ObjectMesh& object : scene.objects) {

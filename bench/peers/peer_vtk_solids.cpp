@@ -25,7 +25,7 @@ class VtkStencils final : public SolidPeer {
 public:
     std::string name() const override { return "VTK stencils"; }
 
-    void load(const mesh::MeshScene& scene, const volume::Grid& grid) override {
+    void load(const mesh::MeshSet& scene, const volume::Grid& grid) override {
         vtkObject::GlobalWarningDisplayOff();
         grid_ = grid;
         localOrigin_ = grid.origin() - scene.origin;

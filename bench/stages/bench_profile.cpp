@@ -36,7 +36,7 @@ std::uint64_t crossingsOf(const std::array<Vec3d, 3>& p, Vec3i n) {
     return count;
 }
 
-std::uint64_t crossingsOf(const mesh::MeshScene& meshes, const volume::Grid& grid) {
+std::uint64_t crossingsOf(const mesh::MeshSet& meshes, const volume::Grid& grid) {
     std::uint64_t count = 0;
     for (const mesh::ObjectMesh& object : meshes.objects)
         for (const mesh::Triangle& triangle : object.triangles) {

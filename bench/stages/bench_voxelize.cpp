@@ -21,7 +21,7 @@ Json comparisonJson(const VoxelComparison& comparison) {
 
 // Only the closed objects, since the peers can fill no others.
 struct Solids {
-    mesh::MeshScene meshes;
+    mesh::MeshSet meshes;
     std::vector<voxelize::ObjectClaim> claims;
     std::vector<std::uint16_t> scalars;
     std::vector<std::uint32_t> order;  // in increasing priority

@@ -69,21 +69,21 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
               const std::vector<illustrate::SectionPlane>& planes) {
     Tally tally;
     model::BuildingModel copy = model;
-    const auto scene = mesh::buildMeshes(copy);
+    const auto meshes = mesh::buildMeshes(copy);
     const auto built = buildVolume(model, options);
-    EXPECT_TRUE(scene && built);
-    if (!scene || !built) return tally;
+    EXPECT_TRUE(meshes && built);
+    if (!meshes || !built) return tally;
     const volume::SemanticVolume& volume = built->volume;
     std::set<std::uint32_t> losers;
     for (const volume::Overlap& overlap : volume.labels.overlaps) losers.insert(overlap.b);
-    const bool hasSheets = !std::ranges::all_of(scene->objects, &mesh::ObjectMesh::isSolid);
+    const bool hasSheets = !std::ranges::all_of(meshes->objects, &mesh::ObjectMesh::isSolid);
     const auto bricks = *volume::BrickVolume::fromColumns(volume.columns);
     for (const illustrate::SectionPlane& relative : planes) {
         const illustrate::SectionPlane plane{normalized(relative.normal), volume.grid.origin() + relative.point};
         const auto drawing = illustrate::drawSection(volume, bricks, plane);
         EXPECT_TRUE(drawing);
         if (!drawing) return tally;
-        for (const mesh::ObjectMesh& object : scene->objects) {
+        for (const mesh::ObjectMesh& object : meshes->objects) {
             if (!object.isSolid() || object.isAssembled) continue;
             const std::string& id = copy.features[object.feature].id;
             const auto label =
@@ -94,7 +94,7 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
             if (hasSheets && model::isSpace(volume.labels.labels[number].className)) continue;
             // Parts thinner than a voxel are drawn one voxel thick.
             if (losers.contains(number) || volume.labels.labels[number].thinVoxels != 0) continue;
-            const MeshSection exact = cutMesh(object, scene->origin, drawing->frame, volume.grid);
+            const MeshSection exact = cutMesh(object, meshes->origin, drawing->frame, volume.grid);
             const auto found = std::ranges::find(drawing->components, number, &illustrate::SectionComponent::label);
             const double area = found == drawing->components.end() ? 0 : found->area;
             if (exact.area == 0 && area == 0) continue;
