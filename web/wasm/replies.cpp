@@ -155,13 +155,13 @@ std::string pickOf(Session& session, double x, double y) {
 }
 
 Result<std::string> stretchesOf(Session& session, double x, double y) {
-    const auto stretches = session.along(x, y);
-    if (!stretches) return stretches.error();
+    const auto intervals = session.along(x, y);
+    if (!intervals) return intervals.error();
     Json list = Json::array();
-    for (const render::RayStretch& stretch : *stretches) {
-        Json row = namesOf(session.volume().labels.labels[stretch.label]);
-        row["from"] = stretch.enter;
-        row["to"] = stretch.leave;
+    for (const render::LabelInterval& interval : *intervals) {
+        Json row = namesOf(session.volume().labels.labels[interval.label]);
+        row["from"] = interval.enter;
+        row["to"] = interval.leave;
         list.push_back(std::move(row));
     }
     return textOf(list);

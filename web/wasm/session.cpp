@@ -117,8 +117,8 @@ std::optional<Picked> Session::pick(double x, double y) {
                   ray.origin + ray.direction * double(pixel.depth) - volume_.grid.origin()};
 }
 
-Result<std::vector<render::RayStretch>> Session::along(double x, double y) {
-    if (!lastSpec_) return std::vector<render::RayStretch>{};
+Result<std::vector<render::LabelInterval>> Session::along(double x, double y) {
+    if (!lastSpec_) return std::vector<render::LabelInterval>{};
     const auto whole = painter_.form({{}, 0}, *lastSpec_);
     if (!whole) return whole.error();
     const auto ray = render::viewRay(*lastSpec_, volume_.grid, x, y);

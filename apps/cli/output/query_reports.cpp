@@ -161,7 +161,7 @@ Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selec
     Table table;
     table.columns = {{"id", "id"},        {"class", "class"}, {"name", "name"},
                      {"enter", "from m"}, {"leave", "to m"},  {"length", "length m"}};
-    for (const render::RayStretch& stretch : *stretches) {
+    for (const render::LabelInterval& stretch : *stretches) {
         if (!isIn(selected, stretch.label)) continue;
         std::vector<Json> row;
         addNames(row, volume.labels, stretch.label);

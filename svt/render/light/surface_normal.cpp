@@ -260,7 +260,7 @@ SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) no
     std::int32_t voxels = 0;
     const PlaceSums sums(body);
     for (int digit = 0; digit < 3; ++digit) voxels += count(sums.digits[digit]) * (1 << digit);
-    normal.coverage = static_cast<float>(voxels) / kBallVoxels;
+    normal.filledShare = static_cast<float>(voxels) / kBallVoxels;
     if (isFlatFace(window, faceAxis, faceSign)) return normal;
 
     Heights heights(layersAlong(window, faceAxis, faceSign));

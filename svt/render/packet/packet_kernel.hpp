@@ -88,14 +88,14 @@ struct PacketSurface {
     std::size_t lane;
     std::int64_t scalar, plane;
     double from;
-    Vec3i cell;
+    Vec3i voxel;
     int axis;  ///< axis of the voxel face that the ray crosses there, or -1
     bool isVoxel;
 };
 
-/// Surface::normal and Surface::away of one side of a plane.
+/// Surface::normal and Surface::outwardIndex of one side of a plane.
 struct PacketFace {
-    double normal[3], away[3], unused[2];
+    double normal[3], outwardIndex[3], unused[2];
 };
 
 /// View of an OcclusionField::Level.

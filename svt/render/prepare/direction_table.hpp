@@ -18,8 +18,8 @@ namespace svt::render {
 class DirectionTable {
 public:
     struct Directions {
-        Vec3d normal;  ///< world space, unit length
-        Vec3d away;    ///< the same direction in index space, scaled to a longest component of 1
+        Vec3d normal;        ///< world space, unit length
+        Vec3d outwardIndex;  ///< the same direction in index space, scaled to a longest component of 1
     };
     DirectionTable(const volume::BrickVolume& volume, const volume::Grid& grid);
 
@@ -30,8 +30,8 @@ public:
     [[nodiscard]] std::span<const Directions> planes() const noexcept { return planes_; }
     /// Of a surface with the normal (covector) `index` in index space.
     [[nodiscard]] Directions directions(Vec3d index) const noexcept;
-    /// Directions::away for a normal in world space.
-    [[nodiscard]] Vec3d away(Vec3d normal) const noexcept;
+    /// Directions::outwardIndex for a normal in world space.
+    [[nodiscard]] Vec3d outwardIndex(Vec3d normal) const noexcept;
 
 private:
     const volume::Grid& grid_;

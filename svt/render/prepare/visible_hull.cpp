@@ -164,12 +164,12 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     if (extents.low[0] > extents.high[0]) return;
     isEmpty_ = false;
     const CameraRays::Basis basis = rays.basis();
-    const Vec3d right = basis.rightIndex * basis.halfWidth, up = basis.upIndex * basis.halfHeight;
+    const Vec3d right = basis.rightVoxel * basis.halfWidth, up = basis.upVoxel * basis.halfHeight;
     for (std::size_t n = 0; n < directions.size(); ++n) {
         // The directions as rounded to float.
         const Vec3d along{double(extents.x[n]), double(extents.y[n]), double(extents.z[n])};
-        rise_.middle[n] = dot(along, basis.forwardIndex);
-        height_.middle[n] = dot(along, basis.eyeIndex);
+        rise_.middle[n] = dot(along, basis.forwardVoxel);
+        height_.middle[n] = dot(along, basis.eyeVoxel);
         Linear& moved = rays.isPerspective() ? rise_ : height_;
         moved.byU[n] = dot(along, right);
         moved.byV[n] = dot(along, up);
@@ -178,7 +178,7 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     }
 }
 
-RaySpan VisibleHull::around(const ViewRect& rect) const noexcept {
+RaySpan VisibleHull::spanOf(const ViewRect& rect) const noexcept {
     if (isEmpty_) return {0, 0};
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double u = (rect.left + rect.right) / 2, v = (rect.low + rect.high) / 2;
