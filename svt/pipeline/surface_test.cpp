@@ -27,7 +27,7 @@ double surfaceByVoxels(const mesh::MeshSet& meshes, const mesh::ObjectMesh& obje
     table.labels[0].first = table.labels[0].count = 1;
     const voxelize::ObjectClaim claim{1, 0, "only"};
     const auto voxels = voxelize::voxelize(alone, *grid, std::span(&claim, 1));
-    const auto contacts = analyze::contactsOf(voxels->columns, *grid, table);
+    const auto contacts = analyze::findContacts(voxels->columns, *grid, table);
     return contacts.size() == 1 ? contacts[0].area : -1;
 }
 
