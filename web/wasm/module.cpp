@@ -171,7 +171,7 @@ Result<Reply> view(const Arguments& arguments) {
     const auto now = illustrate::parseScene(Json{{"camera", arguments.at(2)}}.dump(), "camera");
     if (!now) return now.error();
     auto camera =
-        illustrate::viewOf(arguments.text(0), arguments.text(1), now->camera, session->aspect(), session->volume());
+        illustrate::makeView(arguments.text(0), arguments.text(1), now->camera, session->aspect(), session->volume());
     if (!camera) return camera.error();
     illustrate::Scene scene;
     scene.camera = std::move(*camera);

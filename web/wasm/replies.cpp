@@ -94,7 +94,7 @@ Box3d boxOf(Session& session, std::uint32_t index) {
 
 Json neighborsJson(Session& session, std::uint32_t index) {
     Json list = Json::array();
-    for (const analyze::Neighbor& neighbor : analyze::neighborsOf(index, session.contacts())) {
+    for (const analyze::Neighbor& neighbor : analyze::findNeighbors(index, session.contacts())) {
         if (neighbor.label == volume::kNoLabel) continue;
         Json row = namesOf(session.volume().labels.labels[neighbor.label]);
         row["area"] = neighbor.area;

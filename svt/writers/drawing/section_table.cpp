@@ -31,10 +31,10 @@ std::string csvText(std::string_view text) {
 }  // namespace
 
 std::string sectionJsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    const illustrate::PlaneFrame& frame = drawing.frame;
+    const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
         "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}}},\n  \"components\": [",
-        jsonVector(frame.origin, 6), jsonVector(frame.u, 15), jsonVector(frame.v, 15), jsonVector(frame.normal, 15));
+        jsonVector(axes.origin, 6), jsonVector(axes.u, 15), jsonVector(axes.v, 15), jsonVector(axes.normal, 15));
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         json += fmt::format(

@@ -276,7 +276,7 @@ private:
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
                 isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
-            const illustrate::LabelPlace place = illustrate::labelPlaceOf(largest);
+            const illustrate::TextPlace place = illustrate::findTextPlace(largest);
             const auto longest = static_cast<double>(std::max(characterCount(name), characterCount(area)));
             const double lines = area.empty() ? 1 : 2.3;
             const double size = std::min({kTextSize, 0.9 * place.width * millimetres_ / (kTextWidth * longest),

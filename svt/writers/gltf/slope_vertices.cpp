@@ -24,7 +24,7 @@ bool isInside(Vec3i voxel, Vec3i dimension) {
 
 // Sides of a code's cuts and planes on which a voxel lies; see BrickVolume::BoxCoding::firstSideScalar.
 struct Sides {
-    std::uint32_t cell = 0;
+    std::uint32_t bits = 0;
     std::uint32_t cutBits = 0;  // number of bits that belong to cuts
 };
 
@@ -33,14 +33,14 @@ Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec
     for (int axis = 0; axis < 3; ++axis)
         if (code.hasCut(axis)) {
             const bool isBeyond = voxel[axis] >= code.cut[static_cast<std::size_t>(axis)];
-            sides.cell |= (isBeyond ? 1u : 0u) << sides.cutBits++;
+            sides.bits |= (isBeyond ? 1u : 0u) << sides.cutBits++;
         }
     std::uint32_t bit = sides.cutBits;
     for (const std::uint32_t number : code.plane) {
         if (number == BrickVolume::kNoPlane) continue;
         const BrickPlane& plane = bricks.planes()[number];
         const Vec3d center{voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5};
-        sides.cell |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
+        sides.bits |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
     }
     return sides;
 }
@@ -83,9 +83,9 @@ std::uint32_t SlopeVertices::separatingPlane(Vec3i a, Vec3i b) const {
         if (!entry.isCoded()) continue;
         const BrickVolume::BoxCoding& code = bricks_.coding(entry);
         const Sides sidesA = sidesOf(bricks_, code, a), sidesB = sidesOf(bricks_, code, b);
-        const std::uint32_t differing = sidesA.cell ^ sidesB.cell;
+        const std::uint32_t differing = sidesA.bits ^ sidesB.bits;
         if (std::popcount(differing) != 1 || (differing >> sidesA.cutBits) == 0) continue;
-        if (bricks_.sideScalar(code, sidesA.cell) != scalarA || bricks_.sideScalar(code, sidesB.cell) != scalarB)
+        if (bricks_.sideScalar(code, sidesA.bits) != scalarA || bricks_.sideScalar(code, sidesB.bits) != scalarB)
             continue;
         std::uint32_t bit = sidesA.cutBits;
         for (const std::uint32_t number : code.plane)
