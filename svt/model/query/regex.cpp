@@ -9,7 +9,7 @@
 namespace svt::model {
 namespace {
 
-constexpr char32_t kStrayByte = 0x110000;  ///< + byte: an invalid UTF-8 byte, equal only to itself
+constexpr char32_t kInvalidByte = 0x110000;  ///< + byte: an invalid UTF-8 byte, equal only to itself
 constexpr std::int32_t kMaxRepeats = 1000;
 
 /// Decodes the character at `position` and advances `position`.
@@ -18,10 +18,10 @@ char32_t nextCharacter(std::string_view text, std::size_t& position) noexcept {
     const unsigned lead = byteAt(position++);
     if (lead < 0x80) return lead;
     const std::size_t more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-    if (lead < 0xC2 || lead > 0xF4 || position + more > text.size()) return kStrayByte + lead;
+    if (lead < 0xC2 || lead > 0xF4 || position + more > text.size()) return kInvalidByte + lead;
     char32_t character = lead & (0x3Fu >> more);
     for (std::size_t k = 0; k < more; ++k) {
-        if ((byteAt(position + k) & 0xC0u) != 0x80u) return kStrayByte + lead;
+        if ((byteAt(position + k) & 0xC0u) != 0x80u) return kInvalidByte + lead;
         character = character << 6 | (byteAt(position + k) & 0x3Fu);
     }
     position += more;
@@ -61,7 +61,7 @@ Ranges complement(const Ranges& sorted) {
         if (first > next) result.emplace_back(next, first - 1);
         next = last + 1;
     }
-    result.emplace_back(next, kStrayByte + 0xFF);
+    result.emplace_back(next, kInvalidByte + 0xFF);
     return result;
 }
 

@@ -211,8 +211,8 @@ Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, strin
                      {fileName, 0, 0, {}});
     const Result<xml::Utf8Text> text = xml::toUtf8(bytes, name);
     if (!text) return text.error();
-    Diagnostics unheard;
-    return Reading(text->view(), std::move(fileName), options, diagnostics != nullptr ? *diagnostics : unheard).run();
+    Diagnostics ignored;
+    return Reading(text->view(), std::move(fileName), options, diagnostics != nullptr ? *diagnostics : ignored).run();
 }
 
 }  // namespace svt::readers

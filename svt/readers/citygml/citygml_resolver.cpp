@@ -76,13 +76,13 @@ Resolved GeometryResolver::resolve(NodeIndex node, double lod, string_view featu
     return resolved;
 }
 
-bool GeometryResolver::spend(std::uint64_t amount) {
+bool GeometryResolver::chargeBudget(std::uint64_t amount) {
     spent_ += amount;
     return spent_ <= budget_;
 }
 
 void GeometryResolver::walk(NodeIndex index, bool isReversed, Resolved& into) {
-    if (!spend(1)) return;
+    if (!chargeBudget(1)) return;
     const Node& node = part_.nodes[index];
     if (depth_ >= kMaxReferenceDepth) {
         report_(Severity::Warning, Code::InputTooBig,
@@ -221,7 +221,7 @@ PolygonIndex GeometryResolver::placed(PolygonIndex index, const Placement& place
                                       std::unordered_map<PolygonIndex, PolygonIndex>& known) {
     const auto [entry, isNew] = known.emplace(index, index);
     const Polygon& prototype = part_.polygons[index];
-    if (!isNew || !spend(kCostPerPlacedPoint * (prototype.points.size() + 4))) return entry->second;
+    if (!isNew || !chargeBudget(kCostPerPlacedPoint * (prototype.points.size() + 4))) return entry->second;
     Polygon polygon = prototype;
     for (Vec3d& point : polygon.points) point = place(placement, point);
     placed_.push_back(std::move(polygon));
@@ -235,7 +235,7 @@ void GeometryResolver::forEachPolygon(NodeIndex start, const std::function<void(
     while (!open.empty()) {
         const NodeIndex index = open.back();
         open.pop_back();
-        if (visitedBy_[index] == visit_ || !spend(1)) continue;
+        if (visitedBy_[index] == visit_ || !chargeBudget(1)) continue;
         visitedBy_[index] = visit_;
         const Node& node = part_.nodes[index];
         if (node.kind == NodeKind::Polygon) visit(node.payload);

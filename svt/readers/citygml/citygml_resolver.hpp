@@ -56,7 +56,7 @@ public:
     [[nodiscard]] std::vector<model::Polygon>& placedPolygons() noexcept { return placed_; }
 
     /// Adds to the work done; false once the budget is exceeded.
-    bool spend(std::uint64_t amount);
+    bool chargeBudget(std::uint64_t amount);
     [[nodiscard]] bool isOverBudget() const noexcept { return spent_ > budget_; }
 
 private:

@@ -55,7 +55,7 @@ constexpr std::pair<string_view, Shape> kShapes[] = {
 };
 
 // Members of a surface that are not faces.
-bool isNoFace(string_view property) noexcept {
+bool isNotFace(string_view property) noexcept {
     return property == "stopLines" || property == "breakLines" || property == "maxLength" ||
            property == "controlPoint" || property == "name" || property == "description" ||
            property == "metaDataProperty" || property == "boundedBy" || property == "identifier";
@@ -195,7 +195,7 @@ NodeIndex GeometryReader::readElement(const Element& element, Shape shape, int d
 
 void GeometryReader::readMembers(const Element& element, NodeIndex parent, int dimension) {
     scope_.forEachChild(element.node, [&](const Element& property) {
-        if (isNoFace(property.localName)) return;
+        if (isNotFace(property.localName)) return;
         const pugi::xml_node first = xml::firstChildElement(property.node);
         if (!first) {
             const ElementAttributes attributes = attributesOf(scope_, property.node);

@@ -19,9 +19,9 @@ constexpr double kMaxCoordinate = 1e10;
 using Matrix = std::array<double, 16>;  ///< row-major, world = matrix * (x, y, z, 1) + anchor
 
 /// Iterates an array parallel to another one; yields nothing where the file has null or too few values.
-class Beside {
+class ParallelArray {
 public:
-    Beside(std::optional<json::element> value, bool& hasBadNesting) {
+    ParallelArray(std::optional<json::element> value, bool& hasBadNesting) {
         if (!value) return;
         if (const auto array = asArray(*value)) {
             next_ = array->begin();
@@ -50,9 +50,9 @@ struct Values {
 };
 
 /// Both arrays of values, iterated in parallel with the boundaries.
-class BesideValues {
+class ParallelValues {
 public:
-    BesideValues(const Values& values, bool& hasBadNesting)
+    ParallelValues(const Values& values, bool& hasBadNesting)
         : semantics_(values.semantics, hasBadNesting), material_(values.material, hasBadNesting) {}
     Values next() {
         const auto semantics = semantics_.next();
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    Beside semantics_, material_;
+    ParallelArray semantics_, material_;
 };
 
 /// True if at least three of the points are distinct.
@@ -190,7 +190,7 @@ private:
         if (isSurface) {
             readSurfaces(*parts, values, result.surfaces);
         } else if (isSolidList) {
-            BesideValues beside(values, hasBadNestingOfValues_);
+            ParallelValues beside(values, hasBadNestingOfValues_);
             for (const json::element part : *parts) {
                 const Values inner = beside.next();
                 if (const auto shells = asArray(part))
@@ -229,7 +229,7 @@ private:
 
     void readSolid(json::array shells, const Values& values, std::vector<model::Solid>& solids) {
         model::Solid solid;
-        BesideValues beside(values, hasBadNestingOfValues_);
+        ParallelValues beside(values, hasBadNestingOfValues_);
         bool isExterior = true;
         for (const json::element shell : shells) {
             const Values inner = beside.next();
@@ -249,7 +249,7 @@ private:
 
     void readSurfaces(json::array surfaces, const Values& values, std::vector<model::SurfaceUse>& uses) {
         uses.reserve(surfaces.size());
-        BesideValues beside(values, hasBadNestingOfValues_);
+        ParallelValues beside(values, hasBadNestingOfValues_);
         for (const json::element surface : surfaces) {
             const Values own = beside.next();
             model::Polygon polygon;

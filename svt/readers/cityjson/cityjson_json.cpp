@@ -239,9 +239,9 @@ private:
 };
 
 /// Line and column of offsets queried in ascending order, in one pass.
-class PlaceFinder {
+class LocationFinder {
 public:
-    PlaceFinder(std::string_view text, const TextOrigin& origin)
+    LocationFinder(std::string_view text, const TextOrigin& origin)
         : text_(text), file_(origin.file), line_(origin.firstLine) {}
 
     Place at(std::size_t offset) {
@@ -288,7 +288,7 @@ Result<json::element> JsonText::parse(std::string_view text, const TextOrigin& o
 Result<json::element> JsonText::parseAgain(std::string_view text, const TextOrigin& origin, std::uint32_t maxDepth,
                                            simdjson::error_code error, Diagnostics& diagnostics) {
     if (error == simdjson::MEMALLOC) throw std::bad_alloc();
-    PlaceFinder places(text, origin);
+    LocationFinder places(text, origin);
     std::vector<TextRange> outOfRange;
     if (const auto fault = findJsonFault(text, maxDepth, outOfRange))
         return Error(fault->code, fmt::format("at byte {}: {}", fault->offset, fault->message),

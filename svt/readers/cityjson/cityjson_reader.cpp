@@ -427,13 +427,13 @@ bool looksLikeCityJson(std::span<const std::byte> head) noexcept {
 
 Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std::string_view name,
                                           const ReadOptions& options, Diagnostics* diagnostics) {
-    Diagnostics unheard;
+    Diagnostics ignored;
     if (bytes.size() > options.maxBytes)
         return Error(Code::InputTooBig, fmt::format("{} bytes; at most {} are read", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    return CityJsonReader(text, name, options, diagnostics != nullptr ? *diagnostics : unheard).read();
+    return CityJsonReader(text, name, options, diagnostics != nullptr ? *diagnostics : ignored).read();
 }
 
 }  // namespace svt::readers
