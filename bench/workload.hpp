@@ -46,14 +46,14 @@ inline constexpr double kTurnDegrees = 30;
 [[nodiscard]] std::filesystem::path dataDir();
 
 /// A model prepared for voxelization.
-struct Scene {
+struct Workload {
     std::string name;
     model::BuildingModel model;
     mesh::MeshSet meshes;
     pipeline::LabelledObjects labels;
 };
 
-[[nodiscard]] Result<Scene> loadScene(const Input& input);
+[[nodiscard]] Result<Workload> loadWorkload(const Input& input);
 
 inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGrid{1000, 1200, 600};  // the paper's
 
@@ -61,7 +61,7 @@ inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGr
 [[nodiscard]] Vec3i gridSize(bool isQuick);
 /// "800 x 700 x 400"
 [[nodiscard]] std::string sizeText(Vec3i dimension);
-[[nodiscard]] Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension);
+[[nodiscard]] Result<volume::Grid> gridOver(const Workload& workload, Vec3i dimension);
 
 /// Objects in increasing priority where they overlap: painting labels in this order gives the same owners as the
 /// voxelizer.
