@@ -113,7 +113,7 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         table.labels[l].filling = fillingOf(meshes.objects[o].closure);
         table.labels[l].volume = meshes.objects[o].isSolid() ? meshes.objects[o].volume : 0;
     }
-    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::rowsOf(table), sheets, colors);
+    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::queryRows(table), sheets, colors);
 
     std::uint64_t next = 1;
     bool hasPattern = false;

@@ -157,6 +157,6 @@ private:
 };
 
 /// The pass with styles for its voxels: objects that are drawn as triangles are hidden.
-[[nodiscard]] Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar);
+[[nodiscard]] Pass makeVoxelPass(const Pass& pass, std::span<const std::uint32_t> objectOfScalar);
 
 }  // namespace svt::render

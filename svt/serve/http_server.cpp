@@ -189,7 +189,8 @@ constexpr std::string_view kSafetyHeaders =
     "X-Content-Type-Options: nosniff\r\n";
 
 std::string headOf(const Reply& reply, bool isKept) {
-    std::string text = fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\n", reply.status, reasonOf(reply.status), dateNow());
+    std::string text =
+        fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\n", reply.status, reasonPhrase(reply.status), dateNow());
     if (!reply.type.empty()) text += fmt::format("Content-Type: {}\r\n", reply.type);
     if (reply.status != 304) text += fmt::format("Content-Length: {}\r\n", reply.body.data.size() + reply.skippedBody);
     for (const auto& [name, value] : reply.headers) text += fmt::format("{}: {}\r\n", name, value);

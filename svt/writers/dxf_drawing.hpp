@@ -17,7 +17,7 @@
 namespace svt::writers {
 
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
-[[nodiscard]] std::string dxfOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
+[[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 /// Writes the same as a file, all or nothing.
 /// \return bytes written, or CannotWrite or DiskFull

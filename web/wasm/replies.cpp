@@ -31,7 +31,7 @@ Json namesOf(const volume::Label& label) {
 
 Json storeysJson(const volume::SemanticVolume& volume) {
     Json list = Json::array();
-    for (const illustrate::StoreyHeights& storey : illustrate::storeysOf(volume)) {
+    for (const illustrate::StoreyHeights& storey : illustrate::findStoreys(volume)) {
         const volume::Label& label = volume.labels.labels[storey.label];
         list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.ceiling}});
     }
@@ -154,7 +154,7 @@ std::string pickOf(Session& session, double x, double y) {
     return textOf(json);
 }
 
-Result<std::string> stretchesOf(Session& session, double x, double y) {
+Result<std::string> intervalsOf(Session& session, double x, double y) {
     const auto intervals = session.along(x, y);
     if (!intervals) return intervals.error();
     Json list = Json::array();

@@ -162,7 +162,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
     std::vector<LabelLook> looks;
     const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
-    if (hasHatches) hatches = hatchesOf(table);
+    if (hasHatches) hatches = labelHatches(table);
     for (std::size_t l = 0; l < table.labels.size(); ++l)
         looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
                          table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});

@@ -41,7 +41,7 @@ public:
 
     SectionDrawing make(const std::vector<DrawingBorder>& borders) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> shown;  // label and border
-        for (const QuantumPolygon& polygon : polygonsOf(borders)) addPolygon(polygon, shown);
+        for (const DrawingPolygon& polygon : makePolygons(borders)) addPolygon(polygon, shown);
         // Borders of polygons that were left out as too small are not drawn.
         for (std::uint32_t b = 0; b < borders.size(); ++b) {
             SectionBorder border;
@@ -60,11 +60,11 @@ private:
         return {p.u * drawing_.drawingUnit, p.v * drawing_.drawingUnit};
     }
 
-    void addPolygon(const QuantumPolygon& polygon, std::set<std::pair<std::uint32_t, std::uint32_t>>& shown) {
+    void addPolygon(const DrawingPolygon& polygon, std::set<std::pair<std::uint32_t, std::uint32_t>>& shown) {
         SectionPolygon added;
         double bound = 0;
         for (const auto& ring : polygon.rings) {
-            added.area += 0.5 * twiceAreaOf(ring) * drawing_.drawingUnit * drawing_.drawingUnit;
+            added.area += 0.5 * twiceSignedArea(ring) * drawing_.drawingUnit * drawing_.drawingUnit;
             Ring& points = &ring == &polygon.rings.front() ? added.outer : added.holes.emplace_back();
             for (const RingPoint& p : ring) points.push_back(placed(p.point));
             bound += boundOf(points);

@@ -188,12 +188,12 @@ class OuterFinder {
 public:
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-    explicit OuterFinder(std::span<const QuantumPolygon> polygons) {
+    explicit OuterFinder(std::span<const DrawingPolygon> polygons) {
         std::size_t edges = 0;
         low_ = std::numeric_limits<std::int32_t>::max();
         std::int32_t high = std::numeric_limits<std::int32_t>::min();
-        for (const QuantumPolygon& polygon : polygons) {
-            areas_.push_back(twiceAreaOf(polygon.rings.front()));
+        for (const DrawingPolygon& polygon : polygons) {
+            areas_.push_back(twiceSignedArea(polygon.rings.front()));
             edges += polygon.rings.front().size();
             for (const RingPoint& p : polygon.rings.front()) {
                 low_ = std::min(low_, p.point.v);
@@ -260,7 +260,7 @@ class RingMaker {
 public:
     explicit RingMaker(const std::vector<DrawingBorder>& borders) : borders_(borders) {}
 
-    std::vector<QuantumPolygon> run() {
+    std::vector<DrawingPolygon> run() {
         struct Labelled {
             std::uint32_t label = 0;
             HalfBorder half;
@@ -360,7 +360,7 @@ private:
     }
 
     void addRing(LabelRing ring) {
-        if (ring.size() < 3 || twiceAreaOf(ring) == 0) return;
+        if (ring.size() < 3 || twiceSignedArea(ring) == 0) return;
         const auto lowest = std::ranges::min_element(ring, {}, &RingPoint::point);
         std::rotate(ring.begin(), lowest, ring.end());
         rings_.push_back(std::move(ring));
@@ -372,13 +372,13 @@ private:
         const std::size_t first = polygons_.size();
         std::vector<LabelRing> holes;
         for (LabelRing& ring : rings_) {
-            if (twiceAreaOf(ring) > 0)
+            if (twiceSignedArea(ring) > 0)
                 polygons_.push_back({label, {std::move(ring)}});
             else
                 holes.push_back(std::move(ring));
         }
         if (holes.empty()) return;
-        const OuterFinder finder(std::span<const QuantumPolygon>(polygons_).subspan(first));
+        const OuterFinder finder(std::span<const DrawingPolygon>(polygons_).subspan(first));
         for (LabelRing& hole : holes)
             if (const std::size_t outer = finder.find(hole); outer != OuterFinder::kNone)
                 polygons_[first + outer].rings.push_back(std::move(hole));
@@ -388,7 +388,7 @@ private:
     const std::vector<DrawingBorder>& borders_;
     std::vector<HalfBorder> halves_;  // of the current label
     std::vector<LabelRing> rings_;
-    std::vector<QuantumPolygon> polygons_;
+    std::vector<DrawingPolygon> polygons_;
 };
 
 }  // namespace
@@ -404,9 +404,9 @@ void straighten(std::vector<DrawingBorder>& borders, double tolerance) {
     });
 }
 
-std::vector<QuantumPolygon> polygonsOf(const std::vector<DrawingBorder>& borders) { return RingMaker(borders).run(); }
+std::vector<DrawingPolygon> makePolygons(const std::vector<DrawingBorder>& borders) { return RingMaker(borders).run(); }
 
-double twiceAreaOf(const std::vector<RingPoint>& ring) noexcept {
+double twiceSignedArea(const std::vector<RingPoint>& ring) noexcept {
     double area = 0;
     for (std::size_t n = 1; n + 1 < ring.size(); ++n)
         area += static_cast<double>(cross(ring[n].point - ring.front().point, ring[n + 1].point - ring.front().point));

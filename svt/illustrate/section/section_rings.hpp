@@ -41,7 +41,7 @@ struct RingPoint {
 };
 
 /// A polygon of one label: the outer ring counter-clockwise, then its holes clockwise.
-struct QuantumPolygon {
+struct DrawingPolygon {
     std::uint32_t label = 0;
     std::vector<std::vector<RingPoint>> rings;
 };
@@ -54,9 +54,9 @@ struct QuantumPolygon {
 void straighten(std::vector<DrawingBorder>& borders, double tolerance);
 
 /// Polygons of all labels, ordered by label, then by the smallest point of the outer ring.
-[[nodiscard]] std::vector<QuantumPolygon> polygonsOf(const std::vector<DrawingBorder>& borders);
+[[nodiscard]] std::vector<DrawingPolygon> makePolygons(const std::vector<DrawingBorder>& borders);
 
 /// Twice the signed area of a ring, square drawing units.
-[[nodiscard]] double twiceAreaOf(const std::vector<RingPoint>& ring) noexcept;
+[[nodiscard]] double twiceSignedArea(const std::vector<RingPoint>& ring) noexcept;
 
 }  // namespace svt::illustrate

@@ -141,7 +141,7 @@ std::optional<ShellLevel> shellLevelFromName(std::string_view name) noexcept {
 }
 
 ShellHierarchy ShellHierarchy::ofVolume(const volume::SemanticVolume& volume, int threads) {
-    const std::vector<model::QueryRow> rows = analyze::rowsOf(volume.labels);
+    const std::vector<model::QueryRow> rows = analyze::queryRows(volume.labels);
     const auto count = static_cast<std::uint32_t>(rows.size());
     ShellHierarchy hierarchy;
     const std::vector<Holders> byTree = TreeHolders(rows).find();

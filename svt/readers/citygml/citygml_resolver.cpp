@@ -112,7 +112,7 @@ void GeometryResolver::walkChildren(NodeIndex node, bool isReversed, Resolved& i
         walk(child, isReversed, into);
 }
 
-void GeometryResolver::surfacesOf(NodeIndex node, bool isReversed, std::vector<SurfaceUse>& into) {
+void GeometryResolver::collectSurfaces(NodeIndex node, bool isReversed, std::vector<SurfaceUse>& into) {
     Resolved below;
     walkChildren(node, isReversed, below);
     if (into.empty() && below.solids.empty())
@@ -127,17 +127,17 @@ void GeometryResolver::walkSolid(NodeIndex index, Resolved& into) {
     for (NodeIndex child = part_.nodes[index].firstChild; child != kNone; child = part_.nodes[child].nextSibling) {
         if (part_.nodes[child].kind == NodeKind::Interior) {
             solid.interiors.emplace_back();
-            surfacesOf(child, false, solid.interiors.back());
+            collectSurfaces(child, false, solid.interiors.back());
             if (solid.interiors.back().empty()) solid.interiors.pop_back();
         } else {
-            surfacesOf(child, false, solid.exterior);
+            collectSurfaces(child, false, solid.exterior);
         }
     }
     into.solids.push_back(std::move(solid));
 }
 
 // The geometry of the level being resolved, else the finest.
-const FeatureGeometry* GeometryResolver::geometryOf(FeatureIndex feature) const {
+const FeatureGeometry* GeometryResolver::findGeometry(FeatureIndex feature) const {
     const FeatureGeometry* best = nullptr;
     for (const FeatureGeometry* geometry = geometries_.begin(feature); geometry != geometries_.end(feature);
          ++geometry) {
@@ -155,7 +155,7 @@ NodeIndex GeometryResolver::follow(NodeIndex reference) {
     const Target target = references_.geometry(href);
     if (target.kind == Target::Kind::Node) return target.index;
     if (target.kind == Target::Kind::Feature) {
-        if (const FeatureGeometry* geometry = geometryOf(target.index)) return geometry->node;
+        if (const FeatureGeometry* geometry = findGeometry(target.index)) return geometry->node;
         report_(Severity::Warning, Code::DanglingReference,
                 fmt::format("'{}' refers to a {} that has no geometry", shown, part_.features[target.index].className),
                 node.offset, featureId_);

@@ -352,7 +352,7 @@ std::optional<std::int64_t> asInteger(json::element value) noexcept {
     return static_cast<std::int64_t>(*number);
 }
 
-std::optional<json::element> memberOf(json::object object, std::string_view key) noexcept {
+std::optional<json::element> findMember(json::object object, std::string_view key) noexcept {
     json::element value;
     if (object.at_key(key).get(value) != simdjson::SUCCESS) return std::nullopt;
     return value;

@@ -254,7 +254,7 @@ bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
 
 }  // namespace
 
-SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept {
+SurfaceNormal fitNormal(const VoxelWindow& window, int faceAxis, int faceSign) noexcept {
     const VoxelWindow body = inBall(window);
     SurfaceNormal normal{axisNormal(faceAxis, faceSign), 0};
     std::int32_t voxels = 0;

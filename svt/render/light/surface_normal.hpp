@@ -85,14 +85,14 @@ struct SurfaceNormal {
 /// that of the least-squares plane through the heights. Where these are steep or few, heights over the axis of the
 /// longest component of the body's first moment in a ball are taken instead. If they are too few as well, the normal is
 /// the moment, reversed; if all else fails, the face's.
-[[nodiscard]] SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
+[[nodiscard]] SurfaceNormal fitNormal(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
 
 /// Normal of the surface of all voxels with accepts(scalar), where a ray enters voxel `voxel` through a face.
 template <class Accepts>
 [[nodiscard]] SurfaceNormal surfaceNormal(const volume::BrickVolume& volume, Vec3i voxel, int faceAxis, int faceSign,
                                           const Accepts& accepts) {
     voxel[faceAxis] += faceSign;
-    return normalOf(voxelWindow(volume, voxel, accepts), faceAxis, faceSign);
+    return fitNormal(voxelWindow(volume, voxel, accepts), faceAxis, faceSign);
 }
 
 /// Direct-mapped cache of normals of hit voxels: neighbouring rays often hit the same voxel.

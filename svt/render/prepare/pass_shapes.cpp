@@ -30,7 +30,7 @@ bool isOutside(double x, double y, double dx, double dy, double middleX, double 
 
 }  // namespace
 
-Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar) {
+Pass makeVoxelPass(const Pass& pass, std::span<const std::uint32_t> objectOfScalar) {
     const auto objectOf = [&](std::size_t scalar) {
         return scalar < objectOfScalar.size() ? objectOfScalar[scalar] : static_cast<std::uint32_t>(scalar);
     };

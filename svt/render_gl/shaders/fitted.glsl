@@ -1,4 +1,4 @@
-// Normals fitted to voxels, as by render::normalOf(). The window of 7 x 7 x 7 voxels is seven words of 64 bits, bit
+// Normals fitted to voxels, as by render::fitNormal(). The window of 7 x 7 x 7 voxels is seven words of 64 bits, bit
 // x + 8 y of word z; a height field over the plane across an axis has one word per height.
 uniform usampler2D patterns;  // number of the palette brick of each brick; kNone: the brick has one scalar
 
@@ -133,7 +133,7 @@ Layers topsOf(Layers window, int across, int side, int layers) {
     return tops;
 }
 
-// Keeps one height per cell: those connected to the central cell by height steps of at most one voxel.
+// Keeps one height per place: those connected to the central one by height steps of at most one voxel.
 void keepJoined(inout Layers tops, int rounds) {
     Layers joined = Layers(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     uvec2 reached = uvec2(0u);

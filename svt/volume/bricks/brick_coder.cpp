@@ -105,7 +105,7 @@ bool findSideScalars(const BrickPattern& pattern, std::span<const SideMask> side
 
 BrickSide::BrickSide(const SideMask& sideMask) noexcept : mask(sideMask) { addChanges(mask.data(), changes); }
 
-Changes changesOf(const BrickPattern& pattern) noexcept {
+Changes findChanges(const BrickPattern& pattern) noexcept {
     Changes changes{};
     for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)
         addChanges(pattern.bitPlanes.data() + 8 * p, changes);
@@ -181,7 +181,7 @@ Heights heightsAlong(const BrickPattern& pattern, int axis) {
 }
 
 int steepestAxis(const BrickPattern& pattern) noexcept {
-    const Changes changes = changesOf(pattern);
+    const Changes changes = findChanges(pattern);
     int best = 0, most = -1;
     for (int axis = 0; axis < 3; ++axis) {
         int count = 0;
@@ -374,7 +374,7 @@ private:
         const auto mask = sideMask(result_.planes[plane], at);
         if (!mask) return false;
         const BrickSide side(*mask);
-        auto code = codeBySides(patternAt(at), changesOf(patternAt(at)), {&side});
+        auto code = codeBySides(patternAt(at), findChanges(patternAt(at)), {&side});
         if (!code || code->cut != std::array<std::uint8_t, 3>{}) return false;
         code->plane[0] = plane;
         setCode(at, std::move(*code));
@@ -514,7 +514,7 @@ private:
     void startCandidates(Vec3i at) {
         candidates_.clear();
         sides_.clear();
-        changes_ = changesOf(patternAt(at));
+        changes_ = findChanges(patternAt(at));
     }
 
     void addFacePlanes(Vec3i at, std::size_t most) {
@@ -659,7 +659,7 @@ private:
         if (faces) return *faces;
         faces.emplace();
         const BrickPattern& pattern = patternAt(at);
-        const Changes changes = changesOf(pattern);
+        const Changes changes = findChanges(pattern);
         const auto scalarAt = [&](std::size_t word, std::size_t bit) {
             std::size_t index = 0;
             for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)

@@ -15,7 +15,8 @@
 ///
 /// The ideas (all ours):
 /// - A side is a mask of 512 bits: the samples on the positive side of a plane, or beyond a cut. A code is valid if the
-///   samples of each side combination have one label, which is tested on the bit planes of the palette by a few AND operations.
+///   samples of each side combination have one label, which is tested on the bit planes of the palette by a few AND
+///   operations.
 /// - Where labels change from voxel to voxel is a mask, too. Changes along an axis that no plane explains must all lie
 ///   at one place: this is the cut across that axis. So cuts are derived, not searched for.
 /// - Candidate planes, first match wins: planes of the model's faces, alone, in pairs and in triples; the plane of a
@@ -68,10 +69,10 @@ struct BrickSide {
 };
 
 /// The places where the labels of `pattern` change.
-[[nodiscard]] Changes changesOf(const BrickPattern& pattern) noexcept;
+[[nodiscard]] Changes findChanges(const BrickPattern& pattern) noexcept;
 
 /// Codes `pattern` by the given sides of planes and at most one cut across each axis.
-/// \param changes  changesOf(pattern)
+/// \param changes  findChanges(pattern)
 /// \param planes   at most BrickVolume::kMaxPlanes
 /// \return the code, with BrickCode::plane left to the caller, or nullopt if there is none
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,

@@ -34,7 +34,7 @@ BrickPattern patternOf(const LabelAt& labelAt) {
     return pattern;
 }
 
-std::optional<BrickCode> codeByCuts(const BrickPattern& pattern) { return codeBySides(pattern, changesOf(pattern)); }
+std::optional<BrickCode> codeByCuts(const BrickPattern& pattern) { return codeBySides(pattern, findChanges(pattern)); }
 
 BrickVolume bricksOf(Vec3i n, const LabelAt& labelAt, BrickFaces faces = BrickFaces::Planes,
                      const std::vector<FacePlane>& planes = {}) {
@@ -109,7 +109,7 @@ TEST(BrickCode, ASlabInsideTheBrickNeedsASideBesideTheCut) {
     SideMask above{};
     above.fill(~std::uint64_t{0} << (8 * 5));  // j >= 5
     const BrickSide side(above);
-    const auto code = codeBySides(pattern, changesOf(pattern), {&side});
+    const auto code = codeBySides(pattern, findChanges(pattern), {&side});
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{0, 2, 0}));
     EXPECT_EQ(code->sideScalars, (std::vector<Scalar>{0, 9, 0, 0}));

@@ -260,7 +260,7 @@ private:
         std::vector<std::uint32_t> byCuts;  // by pattern: its code, or kNone
         bool isAllCoded = true;
         for (const BrickPattern& pattern : tile_.patterns) {
-            auto code = codeBySides(pattern, changesOf(pattern));
+            auto code = codeBySides(pattern, findChanges(pattern));
             const BrickKind kind = !code                          ? BrickKind::Uncoded
                                    : code->sideScalars.size() > 2 ? BrickKind::Step
                                                                   : BrickKind::Coded;

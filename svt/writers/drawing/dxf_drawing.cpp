@@ -354,13 +354,13 @@ private:
 
 }  // namespace
 
-std::string dxfOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     return DxfWriter(drawing, volume).write();
 }
 
 Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                const std::filesystem::path& path) {
-    return writeFileAtomically(path, dxfOf(drawing, volume));
+    return writeFileAtomically(path, makeDxf(drawing, volume));
 }
 
 }  // namespace svt::writers

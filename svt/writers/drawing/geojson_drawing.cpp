@@ -29,7 +29,7 @@ void appendRing(std::string& json, const illustrate::Ring& ring, const illustrat
 
 }  // namespace
 
-std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = "{\"type\":\"FeatureCollection\",\n";
     appendMember(json, "name", planeText(drawing, volume.grid));
@@ -74,7 +74,7 @@ std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::S
 
 Result<std::uint64_t> writeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path) {
-    return writeFileAtomically(path, geojsonOf(drawing, volume));
+    return writeFileAtomically(path, makeGeojson(drawing, volume));
 }
 
 }  // namespace svt::writers

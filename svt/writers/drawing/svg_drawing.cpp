@@ -105,7 +105,7 @@ class SvgWriter {
 public:
     SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, double scale)
         : drawing_(drawing), volume_(volume), scale_(scale), millimetres_(1000 / scale) {
-        hatches_ = illustrate::hatchesOf(volume.labels);
+        hatches_ = illustrate::labelHatches(volume.labels);
         isSlim_.resize(volume.labels.labels.size());
         for (const SectionComponent& component : drawing.components)
             isSlim_[component.label] = isSlim(component) ? 1 : 0;
@@ -329,8 +329,8 @@ private:
 
 }  // namespace
 
-Result<std::string> svgOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                          const SvgOptions& options) {
+Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                            const SvgOptions& options) {
     if (!(options.scale >= 0.01 && options.scale <= 1e7))
         return Error(Code::BadArgument,
                      fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
@@ -340,7 +340,7 @@ Result<std::string> svgOf(const illustrate::SectionDrawing& drawing, const volum
 
 Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                const std::filesystem::path& path, const SvgOptions& options) {
-    const auto text = svgOf(drawing, volume, options);
+    const auto text = makeSvg(drawing, volume, options);
     if (!text) return text.error();
     return writeFileAtomically(path, *text);
 }
