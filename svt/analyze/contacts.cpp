@@ -140,7 +140,7 @@ public:
         for (const CellPair& pair : pairs_) {
             Contact& contact = contacts.of(pair.pair);
             for (std::size_t axis = 0; axis < 3; ++axis)
-                contact.faces[axis] += times * (pair.sides[2 * axis].count + pair.sides[2 * axis + 1].count);
+                contact.faces[axis] += times * (pair.faces[2 * axis].count + pair.faces[2 * axis + 1].count);
             contact.area += double(times) * CellShape(pair, faceArea_).area();
         }
     }

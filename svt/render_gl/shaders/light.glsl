@@ -97,6 +97,7 @@ float openness(vec3 normal, float cavity, float at) {
     float taken = 0.0;
     for (int level = 0; level < occlusionLevels; ++level)
         taken += occlusionGain[level].y *
-                 min(1.0, coverageAt(level, point + outwardIndex * occlusionCell * float(1 << level)) * occlusionGain[level].x);
+                 min(1.0, coverageAt(level, point + outwardIndex * occlusionCell * float(1 << level)) *
+                              occlusionGain[level].x);
     return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * cavity);
 }

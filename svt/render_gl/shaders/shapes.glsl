@@ -26,16 +26,17 @@ bool triangleEnters;
 float lineLight() { return linesLeft; }
 
 // t at which the ray meets a line; kFar if it does not.
-float meetLine(uint number, out float coverage, out float hidden, out uint style) {
+float meetLine(uint number, out float coverage, out float hidden, out uint lineStyle) {
     vec4 place = floatsOf(shapeTable, 3u * number), depths = floatsOf(shapeTable, 3u * number + 1u);
-    style = elementOf(shapeTable, 3u * number + 2u).x;
-    vec4 first = floatsOf(shapeTable, lineStylesFirst + 3u * style), more = floatsOf(shapeTable, lineStylesFirst + 3u * style + 1u);
+    lineStyle = elementOf(shapeTable, 3u * number + 2u).x;
+    vec4 first = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle),
+         more = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle + 1u);
     vec2 aside = pixelPlace - place.xy;
     float along = clamp(dot(aside, place.zw) * depths.x, 0.0, 1.0);
     coverage = min((first.w - length(aside - along * place.zw)) * lineSamples + 0.5, more.x);
     hidden = 0.0;
     if (coverage <= 0.0) return kFar;
-    uint kind = elementOf(shapeTable, lineStylesFirst + 3u * style + 2u).x;
+    uint kind = elementOf(shapeTable, lineStylesFirst + 3u * lineStyle + 2u).x;
     if (kind != 0u) hidden = coverage * more.y;
     float pixels = along * depths.w;
     if (kind == 2u && pixels - floor(pixels / more.w) * more.w > more.z) hidden = 0.0;
@@ -47,10 +48,10 @@ float meetLine(uint number, out float coverage, out float hidden, out uint style
 // Lines within lineTogether of depth count as one, as strong as the strongest.
 void findLine() {
     float coverage, hidden;
-    uint style;
+    uint lineStyle;
     lineAt = kFar;
     for (uint n = 0u; n < shapes.y; ++n) {
-        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, style);
+        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, lineStyle);
         if (at > lineEnd) lineAt = min(lineAt, at);
     }
     if (lineAt >= kFar) return;
@@ -58,13 +59,13 @@ void findLine() {
     lineOpacity = lineHidden = 0.0;
     float nearest = kFar;
     for (uint n = 0u; n < shapes.y; ++n) {
-        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, style);
+        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, lineStyle);
         if (at < lineAt || at > lineEnd) continue;
         lineHidden = max(lineHidden, hidden);
         if (coverage < lineOpacity || (coverage == lineOpacity && at >= nearest)) continue;
         lineOpacity = coverage;
         nearest = at;
-        nextLineColor = floatsOf(shapeTable, lineStylesFirst + 3u * style).rgb;
+        nextLineColor = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle).rgb;
     }
 }
 
@@ -128,12 +129,12 @@ void findTriangle() {
 
 void addSurface(uint number, vec3 normal, float at, bool isCap) {
     uint first = trianglesFirst + 6u * number;
-    vec4 style = floatsOf(shapeTable, first + 4u);
+    vec4 surfaceStyle = floatsOf(shapeTable, first + 4u);
     uvec4 kind = elementOf(shapeTable, first + 5u);
     bool isOpen = (kind.x & 4u) == 0u || lightOcclusion <= 0.0;
     float lit = lightOn(normal, isOpen ? 1.0 : openness(normal, 0.0, at));
-    float share = transmittance * style.a;
-    color += style.rgb * ((1.0 + (lit - 1.0) * uintBitsToFloat(kind.z)) * share * linesLeft);
+    float share = transmittance * surfaceStyle.a;
+    color += surfaceStyle.rgb * ((1.0 + (lit - 1.0) * uintBitsToFloat(kind.z)) * share * linesLeft);
     transmittance -= share;
     if (hasHit() || 1.0 - transmittance <= labelAt) return;
     hitLabel = kind.w;
