@@ -56,11 +56,11 @@ struct VoxelRay {
     [[nodiscard]] double planeTime(int axis, std::int32_t plane) const noexcept {
         return (plane - planeOrigin[axis]) * inverse[axis];
     }
-    /// Time at which the ray leaves voxel `voxel` along an axis.
+    /// Time at which the ray leaves `voxel` along an axis.
     [[nodiscard]] double leaveTime(int axis, std::int32_t voxel) const noexcept {
         return planeTime(axis, step[axis] < 0 ? voxel : voxel + 1);
     }
-    /// Time at which the ray entered voxel `voxel` along an axis; only for axes with non-zero direction.
+    /// Time at which the ray entered `voxel` along an axis; only for axes with non-zero direction.
     [[nodiscard]] double enterTime(int axis, std::int32_t voxel) const noexcept {
         return planeTime(axis, step[axis] < 0 ? voxel + 1 : voxel);
     }

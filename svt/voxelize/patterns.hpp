@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Spatial patterns: solid textures in metres, placed in an object's own axes, repeated to fill its envelope and
+/// Spatial patterns: solid textures in metres, laid along an object's own axes, repeated to fill its envelope and
 /// masked by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three directions, so that every
 /// section shows them correctly.
 

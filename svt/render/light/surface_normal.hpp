@@ -68,9 +68,9 @@ template <class Accepts>
 /// Normal of a body's surface.
 struct SurfaceNormal {
     Vec3f indexNormal;  ///< index space (a covector); not normalized, never zero
-    float filledShare =
-        0;  ///< share of body voxels in a ball around the voxel in front of the surface: kPlaneFilledShare on
-            ///< a plane, more in concave corners
+    /// Share of body voxels in a ball around the voxel in front of the surface: kPlaneFilledShare on a plane, more in
+    /// concave corners.
+    float filledShare = 0;
 
     static constexpr float kPlaneFilledShare = 71.0f / 179;
 };
@@ -87,7 +87,7 @@ struct SurfaceNormal {
 /// the moment, reversed; if all else fails, the face's.
 [[nodiscard]] SurfaceNormal fitNormal(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
 
-/// Normal of the surface of all voxels with accepts(scalar), where a ray enters voxel `voxel` through a face.
+/// Normal of the surface of all voxels with accepts(scalar), where a ray enters `voxel` through a face.
 template <class Accepts>
 [[nodiscard]] SurfaceNormal surfaceNormal(const volume::BrickVolume& volume, Vec3i voxel, int faceAxis, int faceSign,
                                           const Accepts& accepts) {

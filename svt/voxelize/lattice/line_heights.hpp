@@ -23,7 +23,7 @@ struct LineHeightPlane {
 
 /// Computes the heights of `heightPlanes` at samples n < count, and a hash of them for each sample.
 /// \param line  output, (height planes + 1) * kLineSamples numbers: first the hash of each sample, over `seed` and its
-///              heights (use its upper bits), then the heights by height plane. Entries from `count` on are unspecified.
+///              heights (use its upper bits), then the heights by height plane. Entries beyond `count` are unspecified.
 /// \return bit n is set where some height differs from that of sample n - 1; bit 0 is never set
 [[nodiscard]] std::uint64_t heightsAlong(std::span<const LineHeightPlane> heightPlanes, std::int32_t count,
                                          std::uint32_t seed, std::int32_t* line);
