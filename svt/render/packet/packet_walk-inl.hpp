@@ -3,8 +3,8 @@
 /// Walks the rays of a group through boxes of bricks: the vector version of walkRuns().
 ///
 /// A box of one label is left in one step. A coded box has up to three cuts and three planes; for each, one bit tells
-/// on which side a ray is, and the bits form a side combination, whose label comes from a table
-/// (crossSides(), with no branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and
+/// on which side a ray is, and the bits form a side combination, whose label comes from a table (crossSides(),
+/// with no branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and
 /// Woo (1987): the voxel is kept as a bit and a word of the brick's bit planes. Each step masks off the lanes that have
 /// left the box.
 

@@ -153,7 +153,7 @@ private:
     std::vector<std::uint64_t> members_;
     std::vector<std::uint64_t> ascending_;  // sorted members of the stack being added
     std::vector<StackHeightPlane> stackHeightPlanes_;
-    std::vector<std::uint32_t> stackCodes_;  // profile codes of the boundaries, height plane by height plane
+    std::vector<std::uint32_t> stackCodes_;  // profile codes of the boundaries, by height plane
     std::vector<std::uint32_t> order_;       // slots of a stack, bottom up
     std::vector<SlopedHeightPlane> sloped_;
     std::vector<std::int32_t> heights_;

@@ -19,7 +19,7 @@
 /// - Sets of rows are 64-bit masks, one bit per row. newRows() has the rows where some cover begins, ends or moves:
 ///   only these are laid out again (row coherence, as in scanline rendering).
 /// - A row is cut into intervals at all ends of spans. The intervals of a row often have the same members as those of
-///   the row laid out before, with other ends: such a row "keeps boundaries" and its members are not collected again.
+///   the row laid out before, with other ends: such a row has the same boundaries, and its members are not collected again.
 /// - The members of an interval have an order-independent hash (a sum), by which the stacks of tile_columns.hpp are
 ///   found.
 
@@ -66,8 +66,8 @@ struct PlanInterval {
 /// Intervals of a row, west to east, without gaps.
 struct PlanRowIntervals {
     std::span<const PlanInterval> intervals;
-    bool hasSameBoundaries =
-        false;  ///< each interval has the boundaries of the same interval of the row laid out before
+    /// Each interval has the boundaries of the same interval of the row laid out before.
+    bool hasSameBoundaries = false;
 };
 
 /// Builds the plans of tiles, one after the other; keeps its buffers between them.
@@ -81,8 +81,8 @@ public:
 
     /// Intervals of row y, which must be one of newRows(). Valid until the next call.
     [[nodiscard]] PlanRowIntervals layOut(std::int32_t y);
-    /// Packed boundaries of an interval of the last layOut(), unless its row keeps boundaries. Their order, faces
-    /// before boxes, each by object and number, is the same in all tiles.
+    /// Packed boundaries of an interval of the last layOut(), unless its row has the same
+    /// boundaries as that before. Their order, faces before boxes, each by object and number, is the same in all tiles.
     [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanInterval& interval) const noexcept {
         return std::span(members_).subspan(interval.firstMember, interval.memberCount);
     }
