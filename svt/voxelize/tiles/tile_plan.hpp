@@ -19,7 +19,8 @@
 /// - Sets of rows are 64-bit masks, one bit per row. newRows() has the rows where some cover begins, ends or moves:
 ///   only these are laid out again (row coherence, as in scanline rendering).
 /// - A row is cut into intervals at all ends of spans. The intervals of a row often have the same members as those of
-///   the row laid out before, with other ends: such a row has the same boundaries, and its members are not collected again.
+///   the row laid out before, with other ends: such a row has the same boundaries, and its members are not collected
+///   again.
 /// - The members of an interval have an order-independent hash (a sum), by which the stacks of tile_columns.hpp are
 ///   found.
 
@@ -81,8 +82,8 @@ public:
 
     /// Intervals of row y, which must be one of newRows(). Valid until the next call.
     [[nodiscard]] PlanRowIntervals layOut(std::int32_t y);
-    /// Packed boundaries of an interval of the last layOut(), unless its row has the same
-    /// boundaries as that before. Their order, faces before boxes, each by object and number, is the same in all tiles.
+    /// Packed boundaries of an interval of the last layOut(), unless its row has the same boundaries as that before.
+    /// Their order, faces before boxes, each by object and number, is the same in all tiles.
     [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanInterval& interval) const noexcept {
         return std::span(members_).subspan(interval.firstMember, interval.memberCount);
     }
