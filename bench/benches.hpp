@@ -21,15 +21,15 @@ struct BenchOptions {
 /// Reads CityGML into the tree, compared with libcitygml; MB/s.
 [[nodiscard]] Result<void> benchRead(const BenchOptions& options, Report& report);
 /// From meshes in memory to the canonical volume, compared with VTK and OpenVDB; labels are compared voxel by voxel.
-[[nodiscard]] Result<void> benchVoxelize(const Scene& scene, const BenchOptions& options, Report& report);
+[[nodiscard]] Result<void> benchVoxelize(const Workload& workload, const BenchOptions& options, Report& report);
 /// Frames, compared with VTK's volume mappers; labels are compared pixel by pixel.
-[[nodiscard]] Result<void> benchRender(const Scene& scene, const BenchOptions& options, Report& report);
+[[nodiscard]] Result<void> benchRender(const Workload& workload, const BenchOptions& options, Report& report);
 /// Every stage from the file to the finished volume: time, memory, size.
-[[nodiscard]] Result<void> benchStages(const Input& input, const Scene& scene, const BenchOptions& options,
+[[nodiscard]] Result<void> benchStages(const Input& input, const Workload& workload, const BenchOptions& options,
                                        Report& report);
 
 /// A house, also rotated, at increasing resolutions: time, memory, and the size of a dense volume.
-[[nodiscard]] Result<void> benchScaling(const Scene& scene, const BenchOptions& options, Report& report);
+[[nodiscard]] Result<void> benchScaling(const Workload& workload, const BenchOptions& options, Report& report);
 /// Many houses in one volume at 0.05 m, from the file to a frame.
 [[nodiscard]] Result<void> benchDistrict(const BenchOptions& options, Report& report);
 

@@ -12,13 +12,13 @@
 namespace svt::bench {
 namespace {
 
-constexpr std::uint32_t kSteps = 9;                             // per channel
-constexpr std::uint32_t kTelltales = kSteps * kSteps * kSteps;  // including black
+constexpr std::uint32_t kSteps = 9;                               // per channel
+constexpr std::uint32_t kLabelColors = kSteps * kSteps * kSteps;  // including black
 constexpr double kStepSize = 28;
 
 std::array<std::uint32_t, 3> digitsOf(std::uint32_t scalar) {
     constexpr std::uint32_t kSpread = 275;  // coprime to 728: neighbours get different colors
-    const std::uint32_t number = scalar == 0 ? 0 : 1 + (scalar - 1) % (kTelltales - 1) * kSpread % (kTelltales - 1);
+    const std::uint32_t number = scalar == 0 ? 0 : 1 + (scalar - 1) % (kLabelColors - 1) * kSpread % (kLabelColors - 1);
     return {number % kSteps, number / kSteps % kSteps, number / kSteps / kSteps};
 }
 
@@ -59,7 +59,7 @@ VoxelComparison compareVoxels(const volume::ColumnVolume& ours, const DenseLabel
     return result;
 }
 
-Vec3f telltaleColor(std::uint32_t scalar) {
+Vec3f labelColor(std::uint32_t scalar) {
     const auto digits = digitsOf(scalar);
     const auto channel = [&](std::size_t c) { return static_cast<float>(digits[c] * kStepSize / 255); };
     return {channel(0), channel(1), channel(2)};

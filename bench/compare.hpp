@@ -29,7 +29,7 @@ struct VoxelComparison {
 
 /// Colors that identify labels in pictures of other renderers: steps of 28 per channel, for up to 728 labels,
 /// then repeating. Scalar 0 is black.
-[[nodiscard]] Vec3f telltaleColor(std::uint32_t scalar);
+[[nodiscard]] Vec3f labelColor(std::uint32_t scalar);
 
 /// Fraction of pixels, 0..1, whose color is nearest to the identifying color of our label, among those where either
 /// picture is not empty.

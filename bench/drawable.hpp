@@ -20,7 +20,7 @@ struct Drawable {
     volume::BrickVolume bricks;
 };
 
-[[nodiscard]] Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension, int threads = 0);
+[[nodiscard]] Result<Drawable> makeDrawable(const Workload& workload, Vec3i dimension, int threads = 0);
 
 /// Labels with a built-in opacity below 1 (rooms, units) are hidden; all others are opaque. Identifying colors.
 [[nodiscard]] std::vector<render::Style> opaqueStyles(const volume::LabelTable& labels);
@@ -28,8 +28,8 @@ struct Drawable {
 [[nodiscard]] std::vector<render::Style> translucentStyles(const volume::LabelTable& labels);
 
 /// From the south-east and above, with lighting, on white.
-[[nodiscard]] Result<render::FrameSpec> frameOf(const volume::Grid& grid, std::vector<render::Style> styles,
-                                                std::int32_t width, std::int32_t height);
+[[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const volume::Grid& grid, std::vector<render::Style> styles,
+                                                      std::int32_t width, std::int32_t height);
 
 /// The same with ambient light only and no ambient occlusion: the least work our caster can do.
 [[nodiscard]] render::FrameSpec unlit(render::FrameSpec spec);

@@ -43,16 +43,16 @@ Result<void> runParts(const Arguments& arguments, const std::vector<Input>& inpu
         if (auto done = benchRead(options, report); !done) return done;
     for (const Input& input : inputs) {
         if (options.isQuick && input.name == kTurnedHouse) continue;
-        const auto scene = loadScene(input);
-        if (!scene) return scene.error();
+        const auto workload = loadWorkload(input);
+        if (!workload) return workload.error();
         if (isAsked("voxelize"))
-            if (auto done = benchVoxelize(*scene, options, report); !done) return done;
+            if (auto done = benchVoxelize(*workload, options, report); !done) return done;
         if (isAsked("render"))
-            if (auto done = benchRender(*scene, options, report); !done) return done;
+            if (auto done = benchRender(*workload, options, report); !done) return done;
         if (isAsked("stages"))
-            if (auto done = benchStages(input, *scene, options, report); !done) return done;
+            if (auto done = benchStages(input, *workload, options, report); !done) return done;
         if (isAsked("scaling") && (input.name == kHouse || input.name == kTurnedHouse))
-            if (auto done = benchScaling(*scene, options, report); !done) return done;
+            if (auto done = benchScaling(*workload, options, report); !done) return done;
     }
     if (isAsked("scaling") && !options.isQuick) return benchDistrict(options, report);
     return {};

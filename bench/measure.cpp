@@ -39,12 +39,12 @@ double medianOf(std::vector<double> values) {
 }
 
 // Seconds per run: the median of as many runs as fit into a turn, at least one.
-double secondsOfTurn(const std::function<void()>& run, double secondsATurn) {
+double secondsOfTurn(const std::function<void()>& run, double secondsPerTurn) {
     std::vector<double> seconds;
     const auto start = Clock::now();
     do {
         seconds.push_back(secondsOf(run));
-    } while (std::chrono::duration<double>(Clock::now() - start).count() + seconds.back() < secondsATurn);
+    } while (std::chrono::duration<double>(Clock::now() - start).count() + seconds.back() < secondsPerTurn);
     return medianOf(std::move(seconds));
 }
 
@@ -73,11 +73,11 @@ std::vector<Measurement> measureInTurns(const std::vector<Contestant>& contestan
     const auto start = Clock::now();
     for (int round = 0; round < options.mostRuns; ++round) {
         const double spent = std::chrono::duration<double>(Clock::now() - start).count();
-        if (round >= options.leastRuns && spent > options.secondsInAll) break;
+        if (round >= options.leastRuns && spent > options.maxTotalSeconds) break;
         for (std::size_t c = 0; c < contestants.size(); ++c) {
-            if (own[c] > (round >= 3 ? options.secondsEach : 4 * options.secondsEach)) continue;
+            if (own[c] > (round >= 3 ? options.maxSecondsPerContestant : 4 * options.maxSecondsPerContestant)) continue;
             const auto turn = Clock::now();
-            seconds[c].push_back(secondsOfTurn(contestants[c].run, options.secondsATurn));
+            seconds[c].push_back(secondsOfTurn(contestants[c].run, options.secondsPerTurn));
             own[c] += std::chrono::duration<double>(Clock::now() - turn).count();
         }
     }

@@ -28,11 +28,11 @@ struct Measurement {
 };
 
 struct MeasureOptions {
-    double secondsATurn = 0.15;  ///< shorter work is repeated within a turn, which counts as the median of its runs
+    double secondsPerTurn = 0.15;  ///< shorter work is repeated within a turn, which counts as the median of its runs
     int leastRuns = 5;
     int mostRuns = 15;
-    double secondsInAll = 12;  ///< no new round begins after this, once all have had `leastRuns`
-    double secondsEach =
+    double maxTotalSeconds = 12;  ///< no new round begins after this, once all have had `leastRuns`
+    double maxSecondsPerContestant =
         8;  ///< a contestant stops once it has used this much after three runs, or four times this after any run
 };
 

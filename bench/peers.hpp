@@ -5,7 +5,7 @@
 
 #include <svt/core/vec.hpp>
 #include <svt/image/image.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/grid.hpp>
 
@@ -44,7 +44,7 @@ public:
     virtual ~SolidPeer() = default;
     [[nodiscard]] virtual std::string name() const = 0;
     /// Sets the same vertices and triangles as for our voxelizer. Not timed.
-    virtual void load(const mesh::MeshScene& scene, const volume::Grid& grid) = 0;
+    virtual void load(const mesh::MeshSet& meshes, const volume::Grid& grid) = 0;
     /// Processes all objects up to `step`.
     /// \param order    objects in increasing priority
     /// \param scalars  per object

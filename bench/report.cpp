@@ -7,8 +7,8 @@
 namespace svt::bench {
 namespace {
 
-double ratioOf(const Row& row, const Beside& beside) {
-    return row.ours.median > 0 ? beside.measurement.median / row.ours.median : 0;
+double ratioOf(const Row& row, const Comparison& comparison) {
+    return row.ours.median > 0 ? comparison.measurement.median / row.ours.median : 0;
 }
 
 Json measurementJson(const Measurement& m) {
@@ -56,12 +56,12 @@ Json Report::json() const {
         if (row.resultBytes != 0) entry["result_bytes"] = row.resultBytes;
         if (!row.note.empty()) entry["note"] = row.note;
         for (const auto& [key, value] : row.extra.items()) entry[key] = value;
-        for (const Beside& beside : row.beside) {
-            Json other = measurementJson(beside.measurement);
-            other["is_peer"] = beside.isPeer;
-            other["ratio"] = ratioOf(row, beside);
-            if (!beside.note.empty()) other["note"] = beside.note;
-            for (const auto& [key, value] : beside.extra.items()) other[key] = value;
+        for (const Comparison& comparison : row.comparisons) {
+            Json other = measurementJson(comparison.measurement);
+            other["is_peer"] = comparison.isPeer;
+            other["ratio"] = ratioOf(row, comparison);
+            if (!comparison.note.empty()) other["note"] = comparison.note;
+            for (const auto& [key, value] : comparison.extra.items()) other[key] = value;
             entry["beside"].push_back(std::move(other));
         }
         for (const std::string& missing : row.missing) entry["missing"].push_back(missing);

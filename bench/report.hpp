@@ -15,7 +15,7 @@ namespace svt::bench {
 using Json = nlohmann::ordered_json;
 
 /// The time of a peer (or of ours run in another way), compared with our time of the same row.
-struct Beside {
+struct Comparison {
     Measurement measurement;
     std::string note;  ///< agreement with ours, or omissions
     Json extra = Json::object();
@@ -30,7 +30,7 @@ struct Row {
     Measurement ours;
     std::string note;
     Json extra = Json::object();
-    std::vector<Beside> beside;
+    std::vector<Comparison> comparisons;
     std::vector<std::string> missing;  ///< missing peers, with the reason
     bool isStage = false;              ///< belongs to the table of stages: time, memory, size
     double yardsticks = 0;             ///< our time in units of yardstick(); 0 if that was not measured

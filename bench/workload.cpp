@@ -146,33 +146,33 @@ Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch) {
     return input;
 }
 
-Result<Scene> loadScene(const Input& input) {
-    Scene scene;
-    scene.name = input.name;
+Result<Workload> loadWorkload(const Input& input) {
+    Workload workload;
+    workload.name = input.name;
     auto model = readers::readModel(input.file);
     if (!model) return model.error();
-    scene.model = std::move(*model);
-    auto meshes = mesh::buildMeshes(scene.model);
+    workload.model = std::move(*model);
+    auto meshes = mesh::buildMeshes(workload.model);
     if (!meshes) return meshes.error();
-    scene.meshes = std::move(*meshes);
+    workload.meshes = std::move(*meshes);
     const std::array sheets{&pipeline::defaultStyle(false)};
-    auto labels = pipeline::makeLabels(scene.model, scene.meshes, sheets);
+    auto labels = pipeline::makeLabels(workload.model, workload.meshes, sheets);
     if (!labels) return labels.error();
-    scene.labels = std::move(*labels);
-    return scene;
+    workload.labels = std::move(*labels);
+    return workload;
 }
 
 Vec3i gridSize(bool isQuick) { return isQuick ? kSmallGrid : kGrid; }
 
 std::string sizeText(Vec3i dimension) { return fmt::format("{} x {} x {}", dimension.x, dimension.y, dimension.z); }
 
-Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension) {
+Result<volume::Grid> gridOver(const Workload& workload, Vec3i dimension) {
     pipeline::BuildOptions options;
     options.dimension = dimension;
-    return pipeline::chooseGrid(scene.meshes, options);
+    return pipeline::chooseGrid(workload.meshes, options);
 }
 
-std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes, const std::vector<voxelize::ObjectClaim>& claims) {
+std::vector<std::uint32_t> paintOrder(const mesh::MeshSet& meshes, const std::vector<voxelize::ObjectClaim>& claims) {
     std::vector<std::uint32_t> order(meshes.objects.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto key = [&](std::uint32_t o) {

@@ -3,7 +3,7 @@
 /// The fixed inputs and sizes.
 
 #include <svt/core/result.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/model/building_model.hpp>
 #include <svt/pipeline/labels.hpp>
 #include <svt/volume/grid.hpp>
@@ -46,14 +46,14 @@ inline constexpr double kTurnDegrees = 30;
 [[nodiscard]] std::filesystem::path dataDir();
 
 /// A model prepared for voxelization.
-struct Scene {
+struct Workload {
     std::string name;
     model::BuildingModel model;
-    mesh::MeshScene meshes;
-    pipeline::Labelling labels;
+    mesh::MeshSet meshes;
+    pipeline::LabelledObjects labels;
 };
 
-[[nodiscard]] Result<Scene> loadScene(const Input& input);
+[[nodiscard]] Result<Workload> loadWorkload(const Input& input);
 
 inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGrid{1000, 1200, 600};  // the paper's
 
@@ -61,12 +61,12 @@ inline constexpr Vec3i kSmallGrid{271, 230, 163}, kGrid{800, 700, 400}, kLargeGr
 [[nodiscard]] Vec3i gridSize(bool isQuick);
 /// "800 x 700 x 400"
 [[nodiscard]] std::string sizeText(Vec3i dimension);
-[[nodiscard]] Result<volume::Grid> gridOver(const Scene& scene, Vec3i dimension);
+[[nodiscard]] Result<volume::Grid> gridOver(const Workload& workload, Vec3i dimension);
 
 /// Objects in increasing priority where they overlap: painting labels in this order gives the same owners as the
 /// voxelizer.
 /// \param claims  one per object, same order
-[[nodiscard]] std::vector<std::uint32_t> paintOrder(const mesh::MeshScene& meshes,
+[[nodiscard]] std::vector<std::uint32_t> paintOrder(const mesh::MeshSet& meshes,
                                                     const std::vector<voxelize::ObjectClaim>& claims);
 
 }  // namespace svt::bench

@@ -8,14 +8,14 @@
 
 namespace svt::bench {
 
-Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension, int threads) {
-    const auto grid = gridOver(scene, dimension);
+Result<Drawable> makeDrawable(const Workload& workload, Vec3i dimension, int threads) {
+    const auto grid = gridOver(workload, dimension);
     if (!grid) return grid.error();
     voxelize::VoxelizeOptions options;
     options.threads = threads;
-    auto voxels = voxelize::voxelize(scene.meshes, *grid, scene.labels.claims, options);
+    auto voxels = voxelize::voxelize(workload.meshes, *grid, workload.labels.claims, options);
     if (!voxels) return voxels.error();
-    std::vector<volume::FacePlane> planes = voxelize::findFacePlanes(scene.meshes, *grid);
+    std::vector<volume::FacePlane> planes = voxelize::findFacePlanes(workload.meshes, *grid);
     auto bricks = volume::BrickVolume::fromColumns(voxels->columns, {.planes = planes, .threads = threads});
     if (!bricks) return bricks.error();
     return Drawable{*grid, std::move(voxels->columns), std::move(planes), std::move(*bricks)};
@@ -23,7 +23,7 @@ Result<Drawable> makeDrawable(const Scene& scene, Vec3i dimension, int threads) 
 
 std::vector<render::Style> opaqueStyles(const volume::LabelTable& labels) {
     std::vector<render::Style> styles(labels.scalarCount());
-    for (std::size_t s = 0; s < styles.size(); ++s) styles[s] = {telltaleColor(static_cast<std::uint32_t>(s)), 0};
+    for (std::size_t s = 0; s < styles.size(); ++s) styles[s] = {labelColor(static_cast<std::uint32_t>(s)), 0};
     for (const volume::Label& label : labels.labels)
         for (volume::Scalar s = 0; s < label.count; ++s)
             styles[label.first + s].opacity = label.opacity < 1 ? 0.0f : 1.0f;
@@ -36,8 +36,8 @@ std::vector<render::Style> translucentStyles(const volume::LabelTable& labels) {
     return styles;
 }
 
-Result<render::FrameSpec> frameOf(const volume::Grid& grid, std::vector<render::Style> styles, std::int32_t width,
-                                  std::int32_t height) {
+Result<render::FrameSpec> makeFrameSpec(const volume::Grid& grid, std::vector<render::Style> styles, std::int32_t width,
+                                        std::int32_t height) {
     render::FrameSpec spec;
     spec.width = width;
     spec.height = height;

@@ -43,7 +43,7 @@ public:
     }
 
     void setCamera(const render::Camera& camera, std::int32_t width, std::int32_t height) override {
-        image_ = render::Image<render::Rgba8>(width, height);
+        image_ = image::Image<image::Rgba8>(width, height);
         eye_ = camera.eye;
         forward_ = normalized(camera.target - camera.eye);
         const Vec3d right = normalized(cross(forward_, camera.up));
@@ -61,7 +61,7 @@ public:
         });
     }
 
-    render::Image<render::Rgba8> picture() override { return image_; }
+    image::Image<image::Rgba8> picture() override { return image_; }
 
 private:
     // Opacity is given per metre; converted to one step.
@@ -74,7 +74,7 @@ private:
         }
     }
 
-    render::Rgba8 cast(std::int32_t x, std::int32_t y) const {
+    image::Rgba8 cast(std::int32_t x, std::int32_t y) const {
         const double u = 2 * (x + 0.5) / image_.width() - 1, v = 1 - 2 * (y + 0.5) / image_.height();
         const Vec3d direction = grid_.indexFromWorldDirection(normalized(forward_ + right_ * u + up_ * v));  // a metre
         const Vec3d origin = grid_.indexFromWorld(eye_) + Vec3d{0.5, 0.5, 0.5};  // voxel (i, j, k) is [i, i + 1) x ...
@@ -90,7 +90,7 @@ private:
                      static_cast<int>((to - from) / step_ + 0.5));
     }
 
-    render::Rgba8 march(Vec3d first, Vec3d step, int samples) const {
+    image::Rgba8 march(Vec3d first, Vec3d step, int samples) const {
         const auto x0 = static_cast<float>(first.x), y0 = static_cast<float>(first.y), z0 = static_cast<float>(first.z);
         const auto dx = static_cast<float>(step.x), dy = static_cast<float>(step.y), dz = static_cast<float>(step.z);
         const auto nx = static_cast<std::uint32_t>(labels_->dimension.x),
@@ -126,7 +126,7 @@ private:
     std::vector<render::Style> styles_;
     std::vector<Entry> table_;
     Vec3d eye_{}, forward_{}, right_{}, up_{};  // right_ and up_ reach to the border of the picture
-    render::Image<render::Rgba8> image_;
+    image::Image<image::Rgba8> image_;
 };
 
 }  // namespace

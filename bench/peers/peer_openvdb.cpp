@@ -29,14 +29,14 @@ public:
     OpenVdb() { openvdb::initialize(); }
     std::string name() const override { return "OpenVDB meshToVolume"; }
 
-    void load(const mesh::MeshScene& scene, const volume::Grid& grid) override {
+    void load(const mesh::MeshSet& meshes, const volume::Grid& grid) override {
         grid_ = grid;
         objects_.clear();
-        for (const mesh::ObjectMesh& object : scene.objects) {
+        for (const mesh::ObjectMesh& object : meshes.objects) {
             IndexMesh mesh;
             mesh.triangles = &object.triangles;
             for (const Vec3d& vertex : object.vertices) {
-                const Vec3d p = grid.indexFromWorld(vertex + scene.origin);
+                const Vec3d p = grid.indexFromWorld(vertex + meshes.origin);
                 mesh.points.emplace_back(p.x, p.y, p.z);
             }
             objects_.push_back(std::move(mesh));

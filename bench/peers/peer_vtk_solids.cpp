@@ -25,14 +25,14 @@ class VtkStencils final : public SolidPeer {
 public:
     std::string name() const override { return "VTK stencils"; }
 
-    void load(const mesh::MeshScene& scene, const volume::Grid& grid) override {
+    void load(const mesh::MeshSet& meshes, const volume::Grid& grid) override {
         vtkObject::GlobalWarningDisplayOff();
         grid_ = grid;
-        localOrigin_ = grid.origin() - scene.origin;
+        localOrigin_ = grid.origin() - meshes.origin;
         objects_.clear();
-        for (const mesh::ObjectMesh& mesh : scene.objects) objects_.push_back(toPolyData(mesh));
+        for (const mesh::ObjectMesh& mesh : meshes.objects) objects_.push_back(toPolyData(mesh));
         extents_.clear();
-        for (const mesh::ObjectMesh& mesh : scene.objects) extents_.push_back(extentOf(mesh.bounds));
+        for (const mesh::ObjectMesh& mesh : meshes.objects) extents_.push_back(extentOf(mesh.bounds));
     }
 
     void run(SolidStep step, std::span<const std::uint32_t> order, std::span<const std::uint16_t> scalars,

@@ -117,11 +117,11 @@ public:
         window_->WaitForCompletion();
     }
 
-    render::Image<render::Rgba8> picture() override {
+    image::Image<image::Rgba8> picture() override {
         const int* size = window_->GetSize();
         vtkNew<vtkUnsignedCharArray> pixels;
         window_->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, pixels);
-        render::Image<render::Rgba8> image(size[0], size[1]);
+        image::Image<image::Rgba8> image(size[0], size[1]);
         for (std::int32_t y = 0; y < size[1]; ++y)
             for (std::int32_t x = 0; x < size[0]; ++x) {
                 const unsigned char* pixel = pixels->GetPointer(

@@ -26,7 +26,7 @@ std::uint64_t levelBytes(const std::vector<volume::LodLevel>& levels) {
     return bytes;
 }
 
-Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, const BenchOptions& options,
+Result<void> benchSize(const Input& input, const Workload& workload, Vec3i dimension, const BenchOptions& options,
                        Report& report) {
     tell(fmt::format("stages {} {}", input.name, sizeText(dimension)));
     const std::array files{input.file};
@@ -48,10 +48,10 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
     const std::array sheets{&pipeline::defaultStyle(false)};
     const std::vector<Stage> stages{
         {"read the model", 0, [&] { done(readers::readModel(input.file)); }},
-        {"make meshes", 0, [&] { done(mesh::buildMeshes(scene.model)); }},
-        {"make labels", 0, [&] { done(pipeline::makeLabels(scene.model, scene.meshes, sheets)); }},
+        {"make meshes", 0, [&] { done(mesh::buildMeshes(workload.model)); }},
+        {"make labels", 0, [&] { done(pipeline::makeLabels(workload.model, workload.meshes, sheets)); }},
         {"voxelize to columns", volume.columns.sizeBytes(),
-         [&] { done(voxelize::voxelize(scene.meshes, volume.grid, scene.labels.claims)); }},
+         [&] { done(voxelize::voxelize(workload.meshes, volume.grid, workload.labels.claims)); }},
         {"write .svt", *fileBytes, [&] { done(volume::writeSvt(volume, target)); }},
         {"open .svt", 0, [&] { done(volume::readSvt(target)); }},
         {"make bricks", bricks->sizeBytes(),
@@ -81,8 +81,8 @@ Result<void> benchSize(const Input& input, const Scene& scene, Vec3i dimension, 
 
 }  // namespace
 
-Result<void> benchStages(const Input& input, const Scene& scene, const BenchOptions& options, Report& report) {
-    return benchSize(input, scene, gridSize(options.isQuick), options, report);
+Result<void> benchStages(const Input& input, const Workload& workload, const BenchOptions& options, Report& report) {
+    return benchSize(input, workload, gridSize(options.isQuick), options, report);
 }
 
 }  // namespace svt::bench

@@ -36,7 +36,7 @@ std::uint64_t crossingsOf(const std::array<Vec3d, 3>& p, Vec3i n) {
     return count;
 }
 
-std::uint64_t crossingsOf(const mesh::MeshScene& meshes, const volume::Grid& grid) {
+std::uint64_t crossingsOf(const mesh::MeshSet& meshes, const volume::Grid& grid) {
     std::uint64_t count = 0;
     for (const mesh::ObjectMesh& object : meshes.objects)
         for (const mesh::Triangle& triangle : object.triangles) {
@@ -51,25 +51,25 @@ std::uint64_t crossingsOf(const mesh::MeshScene& meshes, const volume::Grid& gri
 }  // namespace
 
 Result<void> runProfilePiece(ProfilePiece piece, const Input& input) {
-    const auto scene = loadScene(input);
-    if (!scene) return scene.error();
-    const auto drawable = makeDrawable(*scene, kGrid, 1);
+    const auto workload = loadWorkload(input);
+    if (!workload) return workload.error();
+    const auto drawable = makeDrawable(*workload, kGrid, 1);
     if (!drawable) return drawable.error();
     const bool isOpaque = piece != ProfilePiece::Translucent;
-    const auto spec =
-        frameOf(drawable->grid, isOpaque ? opaqueStyles(scene->labels.table) : translucentStyles(scene->labels.table),
-                kWidth, kHeight);
+    const auto spec = makeFrameSpec(
+        drawable->grid, isOpaque ? opaqueStyles(workload->labels.table) : translucentStyles(workload->labels.table),
+        kWidth, kHeight);
     if (!spec) return spec.error();
     if (piece == ProfilePiece::Count) {
         fmt::print("{}\n", Json{{"machine", describeMachine()},
                                 {"input", input.name},
-                                {"crossings", crossingsOf(scene->meshes, drawable->grid)},
+                                {"crossings", crossingsOf(workload->meshes, drawable->grid)},
                                 {"rays", std::uint64_t{kWidth} * kHeight}}
                                .dump());
     } else if (piece == ProfilePiece::Voxelize) {
         voxelize::VoxelizeOptions options;
         options.threads = 1;
-        const auto volume = voxelize::voxelize(scene->meshes, drawable->grid, scene->labels.claims, options);
+        const auto volume = voxelize::voxelize(workload->meshes, drawable->grid, workload->labels.claims, options);
         if (!volume) return volume.error();
     } else if (piece != ProfilePiece::Prepare) {
         render::CastOptions options;

@@ -57,12 +57,12 @@ Result<Row> readRow(const Input& input, const BenchOptions& options) {
     row.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[0].median);
     row.extra["polygons"] = countUses(*model);
     for (std::size_t m = 1; m < measured.size(); ++m) {
-        Beside beside;
-        beside.measurement = measured[m];
-        beside.isPeer = m > 1;
-        beside.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[m].median);
-        if (beside.isPeer) beside.extra["polygons"] = counts.polygons;
-        row.beside.push_back(std::move(beside));
+        Comparison comparison;
+        comparison.measurement = measured[m];
+        comparison.isPeer = m > 1;
+        comparison.extra["mb_per_s"] = megabytesPerSecond(bytes, measured[m].median);
+        if (comparison.isPeer) comparison.extra["polygons"] = counts.polygons;
+        row.comparisons.push_back(std::move(comparison));
     }
     return row;
 }

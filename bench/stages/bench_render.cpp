@@ -30,11 +30,12 @@ struct Frame {
     render::FrameSpec spec;
 };
 
-Result<Frame> makeFrame(const Scene& scene, const Drawable& drawable, Look look) {
+Result<Frame> makeFrame(const Workload& workload, const Drawable& drawable, Look look) {
     const bool isOpaque = look == Look::Opaque;
     std::vector<render::Style> styles =
-        isOpaque ? opaqueStyles(scene.labels.table) : translucentStyles(scene.labels.table);
-    auto spec = isOpaque ? frameOf(drawable.grid, styles, 1280, 720) : frameOf(drawable.grid, styles, 1920, 1080);
+        isOpaque ? opaqueStyles(workload.labels.table) : translucentStyles(workload.labels.table);
+    auto spec =
+        isOpaque ? makeFrameSpec(drawable.grid, styles, 1280, 720) : makeFrameSpec(drawable.grid, styles, 1920, 1080);
     if (!spec) return spec.error();
     return Frame{drawable, look, std::move(styles), std::move(*spec)};
 }
@@ -72,18 +73,18 @@ Json colorsJson(const ColorComparison& comparison) {
 
 class RenderBench {
 public:
-    RenderBench(const Scene& scene, const BenchOptions& options, Report& report)
-        : scene_(scene), options_(options), report_(report) {}
+    RenderBench(const Workload& workload, const BenchOptions& options, Report& report)
+        : workload_(workload), options_(options), report_(report) {}
 
     Result<void> run() {
-        const auto drawable = makeDrawable(scene_, gridSize(options_.isQuick));
+        const auto drawable = makeDrawable(workload_, gridSize(options_.isQuick));
         if (!drawable) return drawable.error();
         if (auto done = frames(*drawable, nullptr); !done) return done;
         if (auto done = edits(*drawable); !done) return done;
         if (auto done = illustrations(*drawable); !done) return done;
         if (auto done = wireframes(*drawable); !done) return done;
-        if (options_.isQuick || (scene_.name != kHouse && scene_.name != kTurnedHouse)) return {};
-        const auto larger = makeDrawable(scene_, kLargeGrid);
+        if (options_.isQuick || (workload_.name != kHouse && workload_.name != kTurnedHouse)) return {};
+        const auto larger = makeDrawable(workload_, kLargeGrid);
         return larger ? frames(*larger, &*drawable) : larger.error();
     }
 
@@ -91,7 +92,7 @@ private:
     Row newRow(const char* stage, std::string size) const {
         Row row;
         row.stage = stage;
-        row.input = scene_.name;
+        row.input = workload_.name;
         row.size = std::move(size);
         tell(fmt::format("{} {} {}", row.stage, row.input, row.size));
         return row;
@@ -112,7 +113,7 @@ private:
             dense = {drawable.grid.dimension(), std::move(*scalars)};
         }
         for (const Look look : {Look::Opaque, Look::Translucent}) {
-            const auto frame = makeFrame(scene_, drawable, look);
+            const auto frame = makeFrame(workload_, drawable, look);
             if (!frame) return frame.error();
             Row row = newRow(look == Look::Opaque ? "opaque frame" : "translucent frame",
                              fmt::format("{}, {} x {} pixels", sizeText(drawable.grid.dimension()), frame->spec.width,
@@ -162,7 +163,7 @@ private:
                                    }});
         render::FrameSpec smallerSpec;
         if (smaller != nullptr) {
-            auto smallerFrame = makeFrame(scene_, *smaller, frame.look);
+            auto smallerFrame = makeFrame(workload_, *smaller, frame.look);
             if (!smallerFrame) return smallerFrame.error();
             smallerSpec = std::move(smallerFrame->spec);
             contestants.push_back(
@@ -172,18 +173,18 @@ private:
         for (std::size_t m = 0; m < 2; ++m) measured[m].peakBytes += frame.drawable.bricks.sizeBytes();
         row.ours = measured[0];
         row.resultBytes = frame.drawable.bricks.sizeBytes();
-        row.beside.push_back({measured[1], "ambient light alone", Json::object(), false});
+        row.comparisons.push_back({measured[1], "ambient light alone", Json::object(), false});
         writePicture(row, "svt", ours->color);
         for (std::size_t p = 0; p < peers.size(); ++p) {
             if (peers[p]->usesLabels()) measured[p + 2].peakBytes += 2 * dense.scalars.size();
-            row.beside.push_back({measured[p + 2], sampling(peers[p]->samplesPerVoxel()),
-                                  picturesJson(frame, *ours, *peers[p], row), true});
+            row.comparisons.push_back({measured[p + 2], sampling(peers[p]->samplesPerVoxel()),
+                                       picturesJson(frame, *ours, *peers[p], row), true});
         }
         if (smaller != nullptr) {
             Measurement& last = measured.back();
             last.peakBytes += smaller->bricks.sizeBytes();
             row.extra["times_smaller_grid"] = measured[0].median / last.median;
-            row.beside.push_back({last, "the same frame", Json::object(), false});
+            row.comparisons.push_back({last, "the same frame", Json::object(), false});
         }
         return {};
     }
@@ -223,7 +224,7 @@ private:
     // time.
     Result<void> edits(const Drawable& drawable) {
         Row row = newRow("section frame", fmt::format("{}, 1280 x 720 pixels", sizeText(drawable.grid.dimension())));
-        auto spec = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
+        auto spec = makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720);
         if (!spec) return spec.error();
         const double height = drawable.grid.spacing().z * (drawable.grid.dimension().z - 1);
         const auto planeAt = [&](double share) {
@@ -247,8 +248,8 @@ private:
              }}};
         const auto measured = measureInTurns(contestants, options_.measure);
         row.ours = measured[0];
-        row.beside.push_back({measured[1], "nothing is rebuilt", Json::object(), false});
-        row.beside.push_back({measured[2], "nothing is rebuilt", Json::object(), false});
+        row.comparisons.push_back({measured[1], "nothing is rebuilt", Json::object(), false});
+        row.comparisons.push_back({measured[2], "nothing is rebuilt", Json::object(), false});
         report_.rows.push_back(std::move(row));
         return {};
     }
@@ -256,7 +257,7 @@ private:
     // A lens over the solid model, and a highlight with the rest as ghost; the same with another lens position and
     // another highlighted object before each frame; and the plain frame with as many pixels.
     Result<void> illustrations(const Drawable& drawable) {
-        const auto plain = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
+        const auto plain = makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720);
         if (!plain) return plain.error();
         const Vec3d spacing = drawable.grid.spacing();
         const Vec3i dimension = drawable.grid.dimension();
@@ -301,8 +302,8 @@ private:
         for (const std::size_t first : {std::size_t{1}, std::size_t{3}}) {
             Row row = newRow(first == 1 ? "lens frame" : "highlight frame", size);
             row.ours = measured[first];
-            row.beside.push_back({measured[first + 1], "nothing is rebuilt", Json::object(), false});
-            row.beside.push_back({measured[0], "one pass, the model as it is", Json::object(), false});
+            row.comparisons.push_back({measured[first + 1], "nothing is rebuilt", Json::object(), false});
+            row.comparisons.push_back({measured[0], "one pass, the model as it is", Json::object(), false});
             report_.rows.push_back(std::move(row));
         }
         return {};
@@ -310,15 +311,15 @@ private:
 
     // The feature edges of all meshes, and of rooms alone, inside the volume; rooms are 5 % air, all else is opaque.
     Result<void> wireframes(const Drawable& drawable) {
-        auto plain = frameOf(drawable.grid, opaqueStyles(scene_.labels.table), 1280, 720);
+        auto plain = makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720);
         if (!plain) return plain.error();
         std::vector<render::Style>& styles = plain->passes[0].styles;
         for (std::size_t scalar = 1; scalar < styles.size(); ++scalar)
             if (styles[scalar].opacity == 0) styles[scalar].opacity = 0.05f;
-        const auto parts = pipeline::makeVectorParts(scene_.meshes, scene_.labels.labelOfObject, drawable.grid,
+        const auto parts = pipeline::makeVectorParts(workload_.meshes, workload_.labels.labelOfObject, drawable.grid,
                                                      {.edges = true, .meshes = false});
         if (!parts) return parts.error();
-        const auto& labels = scene_.labels.table.labels;
+        const auto& labels = workload_.labels.table.labels;
         render::LineSet all, rooms;
         for (const auto& segment : parts->segments) {
             const auto end = [&](std::size_t n) { return parts->position(segment.ends[n], drawable.grid.origin()); };
@@ -337,21 +338,21 @@ private:
         row.ours = measured[0];
         row.extra["edges"] = all.lines.size();
         row.extra["room_edges"] = rooms.lines.size();
-        row.beside.push_back({measured[1], "the edges of rooms alone", Json::object(), false});
-        row.beside.push_back({measured[2], "the same frame", Json::object(), false});
+        row.comparisons.push_back({measured[1], "the edges of rooms alone", Json::object(), false});
+        row.comparisons.push_back({measured[2], "the same frame", Json::object(), false});
         report_.rows.push_back(std::move(row));
         return {};
     }
 
-    const Scene& scene_;
+    const Workload& workload_;
     const BenchOptions& options_;
     Report& report_;
 };
 
 }  // namespace
 
-Result<void> benchRender(const Scene& scene, const BenchOptions& options, Report& report) {
-    return RenderBench(scene, options, report).run();
+Result<void> benchRender(const Workload& workload, const BenchOptions& options, Report& report) {
+    return RenderBench(workload, options, report).run();
 }
 
 }  // namespace svt::bench

@@ -24,24 +24,24 @@ MeasureOptions fewRuns(const BenchOptions& options) {
     MeasureOptions measure = options.measure;
     measure.leastRuns = 3;
     measure.mostRuns = 7;
-    measure.secondsInAll = 3;
+    measure.maxTotalSeconds = 3;
     return measure;
 }
 
-Result<Row> scalingRow(const Scene& scene, Vec3i dimension, const BenchOptions& options) {
-    tell(fmt::format("scaling {} {}", scene.name, sizeText(dimension)));
+Result<Row> scalingRow(const Workload& workload, Vec3i dimension, const BenchOptions& options) {
+    tell(fmt::format("scaling {} {}", workload.name, sizeText(dimension)));
     // In program order: from meshes to a frame. The memory is that of the whole.
     Drawable drawable;
     render::FrameSpec spec;
     Result<void> outcome;
     const std::uint64_t peak = peakMemoryOf([&] {
-        auto made = makeDrawable(scene, dimension);
+        auto made = makeDrawable(workload, dimension);
         if (!made) {
             outcome = made.error();
             return;
         }
         drawable = std::move(*made);
-        auto frame = frameOf(drawable.grid, opaqueStyles(scene.labels.table), kWidth, kHeight);
+        auto frame = makeFrameSpec(drawable.grid, opaqueStyles(workload.labels.table), kWidth, kHeight);
         if (!frame) {
             outcome = frame.error();
             return;
@@ -51,14 +51,14 @@ Result<Row> scalingRow(const Scene& scene, Vec3i dimension, const BenchOptions& 
     });
     if (!outcome) return outcome.error();
     const auto measured = measureInTurns(
-        {{"SVT", [&] { done(voxelize::voxelize(scene.meshes, drawable.grid, scene.labels.claims)); }},
+        {{"SVT", [&] { done(voxelize::voxelize(workload.meshes, drawable.grid, workload.labels.claims)); }},
          {"make bricks",
           [&] { done(volume::BrickVolume::fromColumns(drawable.columns, {.planes = drawable.planes})); }},
          {"opaque frame", [&] { done(render::castRays(drawable.bricks, drawable.grid, spec)); }}},
         fewRuns(options));
     Row row;
     row.stage = "scaling";
-    row.input = scene.name;
+    row.input = workload.name;
     row.size = sizeText(dimension);
     row.ours = measured[0];
     row.resultBytes = drawable.columns.sizeBytes();
@@ -88,7 +88,7 @@ Result<Built> buildAndCast(const Input& input) {
     if (!output) return output.error();
     auto bricks = volume::BrickVolume::fromColumns(output->volume.columns, {.planes = output->volume.planes});
     if (!bricks) return bricks.error();
-    auto spec = frameOf(output->volume.grid, opaqueStyles(output->volume.labels), kWidth, kHeight);
+    auto spec = makeFrameSpec(output->volume.grid, opaqueStyles(output->volume.labels), kWidth, kHeight);
     if (!spec) return spec.error();
     Built built{std::move(*output), std::move(*bricks), std::move(*spec)};
     const auto frame = render::castRays(built.bricks, built.output.volume.grid, built.spec);
@@ -98,12 +98,12 @@ Result<Built> buildAndCast(const Input& input) {
 
 }  // namespace
 
-Result<void> benchScaling(const Scene& scene, const BenchOptions& options, Report& report) {
+Result<void> benchScaling(const Workload& workload, const BenchOptions& options, Report& report) {
     std::vector<Vec3i> dimensions{{250, 219, 125}, {500, 438, 250}};
     if (!options.isQuick)
         dimensions.insert(dimensions.end(), {{1000, 875, 500}, {2000, 1750, 1000}, {4000, 3500, 2000}});
     for (const Vec3i dimension : dimensions) {
-        auto row = scalingRow(scene, dimension, options);
+        auto row = scalingRow(workload, dimension, options);
         if (!row) return row.error();
         report.rows.push_back(std::move(*row));
     }

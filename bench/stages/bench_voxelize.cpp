@@ -21,22 +21,22 @@ Json comparisonJson(const VoxelComparison& comparison) {
 
 // Only the closed objects, since the peers can fill no others.
 struct Solids {
-    mesh::MeshScene meshes;
+    mesh::MeshSet meshes;
     std::vector<voxelize::ObjectClaim> claims;
     std::vector<std::uint16_t> scalars;
     std::vector<std::uint32_t> order;  // in increasing priority
 };
 
-Solids solidsOf(const Scene& scene) {
+Solids solidsOf(const Workload& workload) {
     Solids solids;
-    solids.meshes.origin = scene.meshes.origin;
-    solids.meshes.planes = scene.meshes.planes;
-    solids.meshes.bounds = scene.meshes.bounds;
-    for (std::size_t o = 0; o < scene.meshes.objects.size(); ++o) {
-        if (!scene.meshes.objects[o].isSolid()) continue;
-        solids.meshes.objects.push_back(scene.meshes.objects[o]);
-        solids.claims.push_back(scene.labels.claims[o]);
-        solids.scalars.push_back(static_cast<std::uint16_t>(scene.labels.claims[o].scalar));
+    solids.meshes.origin = workload.meshes.origin;
+    solids.meshes.planes = workload.meshes.planes;
+    solids.meshes.bounds = workload.meshes.bounds;
+    for (std::size_t o = 0; o < workload.meshes.objects.size(); ++o) {
+        if (!workload.meshes.objects[o].isSolid()) continue;
+        solids.meshes.objects.push_back(workload.meshes.objects[o]);
+        solids.claims.push_back(workload.labels.claims[o]);
+        solids.scalars.push_back(static_cast<std::uint16_t>(workload.labels.claims[o].scalar));
     }
     solids.order = paintOrder(solids.meshes, solids.claims);
     return solids;
@@ -50,10 +50,10 @@ struct PeerRun {
     const char* note = "";
 };
 
-Result<Row> voxelizeRow(const Scene& scene, const Solids& solids, Vec3i dimension, bool withOpenVdb,
+Result<Row> voxelizeRow(const Workload& workload, const Solids& solids, Vec3i dimension, bool withOpenVdb,
                         const BenchOptions& options) {
-    tell(fmt::format("voxelize {} {}", scene.name, sizeText(dimension)));
-    const auto grid = gridOver(scene, dimension);
+    tell(fmt::format("voxelize {} {}", workload.name, sizeText(dimension)));
+    const auto grid = gridOver(workload, dimension);
     if (!grid) return grid.error();
 
     const auto run = [&](int threads, bool keepThinParts) {
@@ -67,7 +67,7 @@ Result<Row> voxelizeRow(const Scene& scene, const Solids& solids, Vec3i dimensio
 
     Row row;
     row.stage = "voxelize";
-    row.input = scene.name;
+    row.input = workload.name;
     row.size = sizeText(dimension);
     const Peer<SolidPeer> vtk = makeVtkStencils(), openVdb = withOpenVdb ? makeOpenVdb() : Peer<SolidPeer>{};
     std::vector<PeerRun> peerRuns;
@@ -106,30 +106,30 @@ Result<Row> voxelizeRow(const Scene& scene, const Solids& solids, Vec3i dimensio
     row.extra["objects"] = solids.meshes.objects.size();
     row.extra["triangles"] = solids.meshes.triangleCount();
     row.extra["thin_voxels"] = std::accumulate(ours->thinVoxels.begin(), ours->thinVoxels.end(), std::uint64_t{0});
-    row.beside.push_back({measured[1], "the same work on one core", Json::object(), false});
+    row.comparisons.push_back({measured[1], "the same work on one core", Json::object(), false});
     for (std::size_t p = 0; p < peerRuns.size(); ++p) {
-        Beside beside{measured[p + 2], peerRuns[p].note, Json::object(), true};
+        Comparison comparison{measured[p + 2], peerRuns[p].note, Json::object(), true};
         const bool isLastOfPeer = p + 1 == peerRuns.size() || peerRuns[p + 1].peer != peerRuns[p].peer;
         if (isLastOfPeer) {
             labels = {};
             peerRuns[p].peer->run(SolidStep::Labels, solids.order, solids.scalars, &labels);
-            beside.extra["agreement"] = comparisonJson(compareVoxels(centersOnly->columns, labels));
+            comparison.extra["agreement"] = comparisonJson(compareVoxels(centersOnly->columns, labels));
         }
-        row.beside.push_back(std::move(beside));
+        row.comparisons.push_back(std::move(comparison));
     }
     return row;
 }
 
 }  // namespace
 
-Result<void> benchVoxelize(const Scene& scene, const BenchOptions& options, Report& report) {
-    const Solids solids = solidsOf(scene);
+Result<void> benchVoxelize(const Workload& workload, const BenchOptions& options, Report& report) {
+    const Solids solids = solidsOf(workload);
     // OpenVDB computes distances, which takes seconds; one row is sufficient.
-    const bool isHouse = scene.name == kHouse;
+    const bool isHouse = workload.name == kHouse;
     std::vector<Vec3i> sizes{gridSize(options.isQuick)};
     if (isHouse && !options.isQuick) sizes.insert(sizes.begin(), kSmallGrid);
     for (const Vec3i dimension : sizes) {
-        auto row = voxelizeRow(scene, solids, dimension, isHouse && dimension == kSmallGrid, options);
+        auto row = voxelizeRow(workload, solids, dimension, isHouse && dimension == kSmallGrid, options);
         if (!row) return row.error();
         report.rows.push_back(std::move(*row));
     }

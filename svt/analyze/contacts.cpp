@@ -43,7 +43,7 @@ private:
 };
 
 // The faces of one pair of labels in a cell that have the same direction.
-struct Side {
+struct DirectedFaces {
     std::uint32_t count = 0;
     std::array<std::uint8_t, 3> low{255, 255, 255}, high{};  // bounds of the voxels above the faces, in the cell
 };
@@ -51,7 +51,7 @@ struct Side {
 struct CellPair {
     std::uint64_t pair = 0;
     std::int32_t cell = 0;
-    std::array<Side, 6> sides{};  // index 2 axis + (1 if the label with the lower number is below the face)
+    std::array<DirectedFaces, 6> faces{};  // index 2 axis + (1 if the label with the lower number is below the face)
 };
 
 // The surface between two labels in a cell, from its faces: their area across each axis, and their arrangement.
@@ -59,15 +59,15 @@ class CellShape {
 public:
     CellShape(const CellPair& pair, const std::array<double, 3>& faceArea) noexcept {
         for (std::size_t s = 0; s < 6; ++s) {
-            const Side& side = pair.sides[s];
+            const DirectedFaces& faces = pair.faces[s];
             const std::size_t axis = s / 2;
-            if (side.count == 0) continue;
-            count_[axis] += side.count;
-            area_[axis] += side.count * faceArea[axis];
-            isFlat_[axis] = isFlat_[axis] && side.low[axis] == side.high[axis];
+            if (faces.count == 0) continue;
+            count_[axis] += faces.count;
+            area_[axis] += faces.count * faceArea[axis];
+            isFlat_[axis] = isFlat_[axis] && faces.low[axis] == faces.high[axis];
             for (std::size_t along = 0; along < 3; ++along) {
-                reach_[axis][along] = std::max(reach_[axis][along], side.high[along] - side.low[along] + 1);
-                if (side.low[along] == 0 || side.high[along] == kCell - 1) goesOn_[axis][along] = true;
+                reach_[axis][along] = std::max(reach_[axis][along], faces.high[along] - faces.low[along] + 1);
+                if (faces.low[along] == 0 || faces.high[along] == kCell - 1) reachesCellSide_[axis][along] = true;
             }
         }
     }
@@ -94,7 +94,8 @@ private:
         for (const std::size_t a : axes) {
             if (!isFlat_[a]) return false;
             for (const std::size_t b : axes)
-                if (a != b && !((reach_[a][b] >= 2 || goesOn_[a][b]) && (reach_[a][b] >= 2 || reach_[b][a] >= 2)))
+                if (a != b &&
+                    !((reach_[a][b] >= 2 || reachesCellSide_[a][b]) && (reach_[a][b] >= 2 || reach_[b][a] >= 2)))
                     return false;
         }
         return true;
@@ -111,8 +112,8 @@ private:
     std::array<std::uint32_t, 3> count_{};
     std::array<double, 3> area_{};
     std::array<bool, 3> isFlat_{true, true, true};
-    std::array<std::array<int, 3>, 3> reach_{};    // extent of faces across the first axis along the second, voxels
-    std::array<std::array<bool, 3>, 3> goesOn_{};  // whether they reach a side of the cell there
+    std::array<std::array<int, 3>, 3> reach_{};  // extent of faces across the first axis along the second, voxels
+    std::array<std::array<bool, 3>, 3> reachesCellSide_{};  // whether they reach a side of the cell there
 };
 
 // Measures footprints: 8 x 8 columns, with those to their west and south.
@@ -139,7 +140,7 @@ public:
         for (const CellPair& pair : pairs_) {
             Contact& contact = contacts.of(pair.pair);
             for (std::size_t axis = 0; axis < 3; ++axis)
-                contact.faces[axis] += times * (pair.sides[2 * axis].count + pair.sides[2 * axis + 1].count);
+                contact.faces[axis] += times * (pair.faces[2 * axis].count + pair.faces[2 * axis + 1].count);
             contact.area += double(times) * CellShape(pair, faceArea_).area();
         }
     }
@@ -177,13 +178,13 @@ private:
         const std::size_t s = std::size_t(2 * axis) + (low < high ? 1 : 0);
         while (begin < end) {
             const std::uint32_t cell = begin / kCell, stop = std::min(end, (cell + 1) * kCell);
-            Side& side = pairIn(static_cast<std::int32_t>(cell), pairOf(low, high)).sides[s];
-            side.count += stop - begin;
+            DirectedFaces& faces = pairIn(static_cast<std::int32_t>(cell), pairOf(low, high)).faces[s];
+            faces.count += stop - begin;
             const auto x = static_cast<std::uint8_t>(at[0]), y = static_cast<std::uint8_t>(at[1]);
             const auto z0 = static_cast<std::uint8_t>(begin % kCell),
                        z1 = static_cast<std::uint8_t>((stop - 1) % kCell);
-            side.low = {std::min(side.low[0], x), std::min(side.low[1], y), std::min(side.low[2], z0)};
-            side.high = {std::max(side.high[0], x), std::max(side.high[1], y), std::max(side.high[2], z1)};
+            faces.low = {std::min(faces.low[0], x), std::min(faces.low[1], y), std::min(faces.low[2], z0)};
+            faces.high = {std::max(faces.high[0], x), std::max(faces.high[1], y), std::max(faces.high[2], z1)};
             begin = stop;
         }
     }
@@ -246,8 +247,8 @@ std::vector<Contact> contactsOfRegion(const volume::ColumnVolume& columns, Vec3i
 
 }  // namespace
 
-std::vector<Contact> contactsOf(const volume::ColumnVolume& columns, const volume::Grid& grid,
-                                const volume::LabelTable& labels, int threads) {
+std::vector<Contact> findContacts(const volume::ColumnVolume& columns, const volume::Grid& grid,
+                                  const volume::LabelTable& labels, int threads) {
     const std::vector<std::uint32_t> labelOf = labels.labelOfScalar();
     const auto across = static_cast<std::size_t>(columns.dimension().x / kRegion + 1);
     const auto down = static_cast<std::size_t>(columns.dimension().y / kRegion + 1);
@@ -274,7 +275,7 @@ std::vector<Contact> contactsOf(const volume::ColumnVolume& columns, const volum
     return contacts;
 }
 
-std::vector<Neighbor> neighborsOf(std::uint32_t label, const std::vector<Contact>& contacts) {
+std::vector<Neighbor> findNeighbors(std::uint32_t label, const std::vector<Contact>& contacts) {
     std::vector<Neighbor> neighbors;
     for (const std::size_t c : contactsWith(label, contacts))
         neighbors.push_back({contacts[c].a == label ? contacts[c].b : contacts[c].a, contacts[c].area});

@@ -47,8 +47,8 @@ struct Contact {
 /// over a label's contacts is its surface area.
 /// \param threads  0: all cores; the result does not depend on it
 /// Cost: O(runs of the distinct 9 x 9 footprints of columns in each tile). Memory: about twice the result.
-[[nodiscard]] std::vector<Contact> contactsOf(const volume::ColumnVolume& columns, const volume::Grid& grid,
-                                              const volume::LabelTable& labels, int threads = 0);
+[[nodiscard]] std::vector<Contact> findContacts(const volume::ColumnVolume& columns, const volume::Grid& grid,
+                                                const volume::LabelTable& labels, int threads = 0);
 
 /// A neighbour of a label, and the area of their contact.
 struct Neighbor {
@@ -58,7 +58,7 @@ struct Neighbor {
 };
 
 /// The neighbours of `label`, largest area first; those of equal area by label. Cost: O(contacts).
-[[nodiscard]] std::vector<Neighbor> neighborsOf(std::uint32_t label, const std::vector<Contact>& contacts);
+[[nodiscard]] std::vector<Neighbor> findNeighbors(std::uint32_t label, const std::vector<Contact>& contacts);
 
 /// Indices of the contacts of one label in `contacts`, ascending. Cost: O(contacts).
 [[nodiscard]] std::vector<std::size_t> contactsWith(std::uint32_t label, const std::vector<Contact>& contacts);

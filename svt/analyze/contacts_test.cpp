@@ -41,14 +41,14 @@ volume::ColumnVolume sample(Vec3i n, const std::function<volume::Scalar(Vec3d)>&
 // Surface of what `isInside` says, by contact with background.
 double surfaceOf(Vec3i n, const std::function<bool(Vec3d)>& isInside) {
     const volume::ColumnVolume columns = sample(n, [&](Vec3d p) { return isInside(p) ? 1u : 0u; });
-    const auto contacts = contactsOf(columns, gridOf(n), labelsFrom({1, 2}), 1);
+    const auto contacts = findContacts(columns, gridOf(n), labelsFrom({1, 2}), 1);
     return contacts.size() == 1 && contacts[0].b == volume::kNoLabel ? contacts[0].area : -1;
 }
 
 // Contact of the two sides of a face that cuts the volume.
 double contactAcross(Vec3i n, const std::function<bool(Vec3d)>& isAbove) {
     const volume::ColumnVolume columns = sample(n, [&](Vec3d p) { return isAbove(p) ? 2u : 1u; });
-    for (const Contact& contact : contactsOf(columns, gridOf(n), labelsFrom({1, 2, 3}), 1))
+    for (const Contact& contact : findContacts(columns, gridOf(n), labelsFrom({1, 2, 3}), 1))
         if (contact.a == 0 && contact.b == 1) return contact.area;
     return -1;
 }
@@ -92,7 +92,7 @@ TEST(Contacts, DiscsOfAnyTurnAreWithinTheirBound) {
         const volume::ColumnVolume columns = sample({72, 72, 72}, [&](Vec3d p) {
             return squared(p - center) > 32 * 32 ? 0u : dot(p - center, normal) > 0.3 ? 1u : 2u;
         });
-        const auto contacts = contactsOf(columns, gridOf({72, 72, 72}), labelsFrom({1, 2, 3}), 1);
+        const auto contacts = findContacts(columns, gridOf({72, 72, 72}), labelsFrom({1, 2, 3}), 1);
         const double exact = std::numbers::pi * (32 * 32 - 0.09);
         EXPECT_NEAR(contacts.at(0).area, exact, 0.015 * exact) << turn;
     }
@@ -125,7 +125,7 @@ TEST(Contacts, BoxesTurnedBy30DegreesAreWithinTheirBound) {
 TEST(Contacts, SpacingsCount) {
     const Vec3i n{24, 24, 24};
     const volume::ColumnVolume columns = sample(n, [](Vec3d p) { return p.x > 12 ? 1u : p.z > 12 ? 2u : 0u; });
-    const auto contacts = contactsOf(columns, gridOf(n, {0.1, 0.2, 0.5}), labelsFrom({1, 2, 3}), 1);
+    const auto contacts = findContacts(columns, gridOf(n, {0.1, 0.2, 0.5}), labelsFrom({1, 2, 3}), 1);
     ASSERT_EQ(contacts.size(), 3u);
     EXPECT_EQ(contacts[0].b, 1u);
     EXPECT_NEAR(contacts[0].area, 24 * 12 * 0.2 * 0.5, 1e-9);
@@ -137,7 +137,7 @@ TEST(Contacts, PhasesOfAPatternAreOneBody) {
     const Vec3i n{16, 16, 16};
     const volume::ColumnVolume columns =
         sample(n, [](Vec3d p) { return 1 + static_cast<volume::Scalar>(p.x + p.z) % 3; });
-    const auto contacts = contactsOf(columns, gridOf(n), labelsFrom({1, 4}), 1);
+    const auto contacts = findContacts(columns, gridOf(n), labelsFrom({1, 4}), 1);
     ASSERT_EQ(contacts.size(), 1u);
     EXPECT_NEAR(contacts[0].area, 6 * 256, 1e-9);
 }
@@ -234,7 +234,7 @@ TEST(Contacts, AreThoseOfEveryVoxel) {
         table.labels[4].count = 0;
         const volume::Grid grid = gridOf(n, {0.5, 0.25, 2});
         const auto expected = contactsByVoxels(columns, grid, table);
-        const auto contacts = contactsOf(columns, grid, table, 1);
+        const auto contacts = findContacts(columns, grid, table, 1);
         ASSERT_EQ(contacts.size(), expected.size());
         for (std::size_t c = 0; c < contacts.size(); ++c) {
             EXPECT_EQ(contacts[c].a, expected[c].a);
@@ -242,16 +242,16 @@ TEST(Contacts, AreThoseOfEveryVoxel) {
             EXPECT_EQ(contacts[c].faces, expected[c].faces);
             EXPECT_NEAR(contacts[c].area, expected[c].area, 1e-9 * expected[c].area);
         }
-        for (const int threads : {0, 3, 8}) EXPECT_EQ(contactsOf(columns, grid, table, threads), contacts);
+        for (const int threads : {0, 3, 8}) EXPECT_EQ(findContacts(columns, grid, table, threads), contacts);
     }
 }
 
 TEST(Contacts, NeighborsComeByArea) {
     const std::vector<Contact> contacts{
         {0, 1, 2.0, {}}, {0, 2, 5.0, {}}, {0, volume::kNoLabel, 2.0, {}}, {1, 2, 9.0, {}}};
-    EXPECT_EQ(neighborsOf(0, contacts), (std::vector<Neighbor>{{2, 5.0}, {1, 2.0}, {volume::kNoLabel, 2.0}}));
-    EXPECT_EQ(neighborsOf(2, contacts), (std::vector<Neighbor>{{1, 9.0}, {0, 5.0}}));
-    EXPECT_TRUE(neighborsOf(7, contacts).empty());
+    EXPECT_EQ(findNeighbors(0, contacts), (std::vector<Neighbor>{{2, 5.0}, {1, 2.0}, {volume::kNoLabel, 2.0}}));
+    EXPECT_EQ(findNeighbors(2, contacts), (std::vector<Neighbor>{{1, 9.0}, {0, 5.0}}));
+    EXPECT_TRUE(findNeighbors(7, contacts).empty());
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct LabelMeasure {
 };
 
 /// Measures all labels; entry l is label l.
-/// \param contacts  of the whole volume, see contactsOf()
+/// \param contacts  of the whole volume, see findContacts()
 /// Cost: that of scalarBoxes().
 [[nodiscard]] std::vector<LabelMeasure> measureLabels(const volume::SemanticVolume& volume,
                                                       const std::vector<Contact>& contacts);

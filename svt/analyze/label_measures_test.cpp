@@ -9,7 +9,7 @@ namespace {
 
 TEST(LabelMeasures, AreBoxAndSumOfContacts) {
     const volume::SemanticVolume volume = volume::test::sampleVolume();
-    const auto contacts = contactsOf(volume.columns, volume.grid, volume.labels, 1);
+    const auto contacts = findContacts(volume.columns, volume.grid, volume.labels, 1);
     const auto measures = measureLabels(volume, contacts);
     ASSERT_EQ(measures.size(), 5u);
     // The wall stands in the middle of 70 x 66 samples, in layers 1 to 7 of 9; voxels of 0.05 x 0.1 x 1/3 m.

@@ -79,7 +79,7 @@ struct Ownership {
 };
 
 /// Divides the components of `volume` between owners. The volume of a label is that of ownVolumes().
-/// \param contacts  of the whole volume, see contactsOf()
+/// \param contacts  of the whole volume, see findContacts()
 /// Cost: O(labels + contacts).
 [[nodiscard]] Ownership divideByOwners(const volume::SemanticVolume& volume, const std::vector<Contact>& contacts,
                                        const OwnerTable& table);

@@ -68,7 +68,7 @@ Ownership divide(const volume::SemanticVolume& volume, const char* text) {
     const auto table = parseOwners(text, "t.csv", volume.labels);
     EXPECT_TRUE(table) << table.error().toString();
     if (!table) return {};
-    return divideByOwners(volume, contactsOf(volume.columns, volume.grid, volume.labels, 1), *table);
+    return divideByOwners(volume, findContacts(volume.columns, volume.grid, volume.labels, 1), *table);
 }
 
 TEST(Owners, TheWallBetweenTwoIsHalfEachOnes) {

@@ -4,7 +4,7 @@
 
 namespace svt::analyze {
 
-std::vector<model::QueryRow> rowsOf(const volume::LabelTable& table) {
+std::vector<model::QueryRow> queryRows(const volume::LabelTable& table) {
     std::vector<model::QueryRow> rows;
     rows.reserve(table.labels.size());
     for (const volume::Label& label : table.labels)
@@ -16,7 +16,7 @@ std::vector<model::QueryRow> rowsOf(const volume::LabelTable& table) {
 Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& table, std::string_view text) {
     const auto query = model::Query::parse(text);
     if (!query) return query.error();
-    const std::vector<model::QueryRow> rows = rowsOf(table);
+    const std::vector<model::QueryRow> rows = queryRows(table);
     std::vector<std::uint32_t> selected = query->select(rows);
     if (!selected.empty()) return selected;
     const std::string reason = query->unknownValue(rows);

@@ -14,7 +14,7 @@
 namespace svt::analyze {
 
 /// The labels as rows for model::Query; row i is label i. The rows refer to `labels`, which must outlive them.
-[[nodiscard]] std::vector<model::QueryRow> rowsOf(const volume::LabelTable& labels);
+[[nodiscard]] std::vector<model::QueryRow> queryRows(const volume::LabelTable& labels);
 
 /// Labels that the query `text` selects.
 /// \return the labels, or BadQuery, or NothingSelected; the latter names the nearest existing value

@@ -12,6 +12,6 @@ namespace svt::illustrate {
 /// Hatch of each label, by its material if the model has one, else by class, kind and name: walls are masonry, slabs
 /// and beams reinforced concrete, rafters timber, ground earth. Spaces have none.
 /// \return entry l is label l
-[[nodiscard]] std::vector<render::Hatch> hatchesOf(const volume::LabelTable& labels);
+[[nodiscard]] std::vector<render::Hatch> labelHatches(const volume::LabelTable& labels);
 
 }  // namespace svt::illustrate

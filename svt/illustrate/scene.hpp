@@ -115,11 +115,11 @@ void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context
 void addCutaway(Scene& scene, const std::string& query, double margin);
 
 /// The forms that the passes of a scene draw, each once, in the order of first use. At least one.
-[[nodiscard]] std::vector<VolumeForm> formsOf(const Scene& scene);
-/// The frame that shows `scene` on `volume`. Pass::volume is an index into formsOf(scene).
+[[nodiscard]] std::vector<VolumeForm> volumeForms(const Scene& scene);
+/// The frame that shows `scene` on `volume`. Pass::volume is an index into volumeForms(scene).
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
 ///         BadArgument if lines or meshes are requested and the volume was built without them
-[[nodiscard]] Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume);
+[[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume);
 
 /// Reads the JSON form.
 /// \param name  of the file, for messages

@@ -32,7 +32,7 @@ public:
     ScenePainter(ScenePainter&&) noexcept;
 
     /// Draws `scene`, with its name tags.
-    /// \return picture and frame, or an error of frameOf(), extractShell() or castRays()
+    /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
     /// Cost: that of castRays(), and once that of each form.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
@@ -53,7 +53,7 @@ public:
 private:
     // The volume or a shell of it, with its bricks and levels of detail.
     struct Forms;
-    Result<Forms*> formsOf(std::optional<ShellLevel> shell);
+    Result<Forms*> findForms(std::optional<ShellLevel> shell);
     Result<Painting> finish(const Scene& scene, render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
                             const Draw& draw) const;
 

@@ -4,8 +4,8 @@
 ///
 /// The section of each brick is cut into convex pieces of one label: a brick of one label is one piece, a coded brick
 /// is split by its cuts and planes, a brick of voxels by its voxels. Pieces have the same corners where they meet, in
-/// integers (multiples of a quantum). When edges between equal labels are removed, borders remain that both neighbours
-/// share point by point. A border is straightened once, for both.
+/// integers (multiples of a drawing unit). When edges between equal labels are removed, borders remain that both
+/// neighbours share point by point. A border is straightened once, for both.
 
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_plane.hpp>
@@ -19,7 +19,7 @@
 
 namespace svt::illustrate {
 
-/// A point of the drawing, metres along the frame's u and v.
+/// A point of the drawing, metres along the axes u and v.
 struct PlanePoint {
     double u = 0, v = 0;
     friend bool operator==(const PlanePoint&, const PlanePoint&) = default;
@@ -29,7 +29,7 @@ struct PlanePoint {
 ///
 /// Horizontal planes are drawn as seen from above: u and v are the grid's x and y axes. All others are drawn as seen
 /// from the side that is cut away: v is the steepest upward direction in the plane, u points to the right.
-struct PlaneFrame {
+struct PlaneAxes {
     Vec3d origin{};  ///< the point of the plane nearest to the grid's lower corner
     Vec3d u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
 
@@ -41,7 +41,7 @@ struct PlaneFrame {
 };
 
 /// Coordinate system of a plane that cuts `grid`.
-[[nodiscard]] PlaneFrame frameOf(const SectionPlane& plane, const volume::Grid& grid);
+[[nodiscard]] PlaneAxes makePlaneAxes(const SectionPlane& plane, const volume::Grid& grid);
 
 /// A closed ring; the first point is not repeated at the end.
 using Ring = std::vector<PlanePoint>;
@@ -80,12 +80,12 @@ struct ClassArea {
 
 struct SectionDrawing {
     SectionPlane plane;
-    PlaneFrame frame;
+    PlaneAxes axes;
     std::vector<SectionComponent> components;  ///< by label, ascending; only those that the plane cuts
     std::vector<SectionBorder> borders;
     std::vector<ClassArea> classes;  ///< by name
     double area = 0;                 ///< of all components, m2
-    double quantum = 0;              ///< all coordinates are integer multiples of it, metres
+    double drawingUnit = 0;          ///< all coordinates are integer multiples of it, metres
     double tolerance = 0;            ///< the one used, metres
 };
 
@@ -102,8 +102,8 @@ struct SectionOptions {
 /// Cuts `volume` with `plane`. Labels that are left out become gaps, like background. Where the plane coincides with
 /// faces of voxels, the voxels on the kept side are cut.
 ///
-/// All coordinates are integer multiples of `quantum`, a power of two, at most 2^-28 of the largest coordinate that the
-/// grid can have. All phases of an object's pattern are one label. A drawing without components is no error.
+/// All coordinates are integer multiples of `drawingUnit`, a power of two, at most 2^-28 of the largest coordinate that
+/// the grid can have. All phases of an object's pattern are one label. A drawing without components is no error.
 /// \return the drawing, or
 ///         - BadSection               the plane's normal or point is not finite, or the normal is zero
 ///         - BadQuery, NothingSelected  of show and hide
@@ -119,12 +119,12 @@ struct SectionOptions {
                                                  const SectionOptions& options = {});
 
 /// A rectangle inside a polygon, for a text.
-struct LabelPlace {
+struct TextPlace {
     PlanePoint center;
     double width = 0, height = 0;  ///< metres
 };
 /// The largest rectangle for a text about twice as wide as high. The polygon is sampled on 32 levels of v, so details
 /// smaller than a level may be missed. Cost: O(32 points).
-[[nodiscard]] LabelPlace labelPlaceOf(const SectionPolygon& polygon);
+[[nodiscard]] TextPlace findTextPlace(const SectionPolygon& polygon);
 
 }  // namespace svt::illustrate

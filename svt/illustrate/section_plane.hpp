@@ -44,7 +44,7 @@ struct StoreyHeights {
 };
 
 /// All storeys with voxels, the lowest first; those of equal height by label.
-[[nodiscard]] std::vector<StoreyHeights> storeysOf(const volume::SemanticVolume& volume);
+[[nodiscard]] std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume);
 
 /// The default plane of a plan: 1.1 m above the floor of the lowest storey; or at half the volume's height, if there is
 /// no storey with voxels, or the volume ends below that.

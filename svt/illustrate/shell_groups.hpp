@@ -51,7 +51,7 @@ struct ShellStep {
 class ShellHierarchy {
 public:
     /// \param threads  0: all cores; the result does not depend on it
-    /// Cost: that of analyze::contactsOf, and O(labels + memberships).
+    /// Cost: that of analyze::findContacts, and O(labels + memberships).
     [[nodiscard]] static ShellHierarchy ofVolume(const volume::SemanticVolume& volume, int threads = 0);
 
     /// Entry l: the label that represents the group of label l at this level: its room, flat, storey or building, else

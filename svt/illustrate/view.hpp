@@ -13,7 +13,7 @@ namespace svt::illustrate {
 /// \param aspect  width / height of the picture, > 0
 /// \return a camera with eye and target, and a zoom of 1 unless it continues a parallel `now`; or BadQuery,
 ///         NothingSelected, BadCamera
-[[nodiscard]] Result<SceneCamera> viewOf(const std::string& query, const std::string& preset, const SceneCamera& now,
-                                         double aspect, const volume::SemanticVolume& volume);
+[[nodiscard]] Result<SceneCamera> makeView(const std::string& query, const std::string& preset, const SceneCamera& now,
+                                           double aspect, const volume::SemanticVolume& volume);
 
 }  // namespace svt::illustrate

@@ -131,24 +131,24 @@ double textWidth(std::string_view text, double height) {
     return width;
 }
 
-void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, const TextLook& look) {
-    const Coverage coverage = cover(x, y, text, look.height);
-    const auto reach = static_cast<std::int32_t>(std::ceil(look.haloWidth));
-    if (look.haloWidth > 0)
+void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, const TextStyle& style) {
+    const Coverage coverage = cover(x, y, text, style.height);
+    const auto reach = static_cast<std::int32_t>(std::ceil(style.haloWidth));
+    if (style.haloWidth > 0)
         for (std::int32_t j = 0; j < coverage.height; ++j)
             for (std::int32_t i = 0; i < coverage.width; ++i) {
                 if (!isIn(image, coverage.x + i, coverage.y + j)) continue;
                 double halo = 0;
                 for (std::int32_t dy = -reach; dy <= reach; ++dy)
                     for (std::int32_t dx = -reach; dx <= reach; ++dx) {
-                        const double far = std::clamp(look.haloWidth + 0.5 - std::hypot(dx, dy), 0.0, 1.0);
+                        const double far = std::clamp(style.haloWidth + 0.5 - std::hypot(dx, dy), 0.0, 1.0);
                         halo = std::max(halo, far * double(coverage.at(i + dx, j + dy)));
                     }
-                blend(image, coverage.x + i, coverage.y + j, look.halo, 0.85 * halo);
+                blend(image, coverage.x + i, coverage.y + j, style.halo, 0.85 * halo);
             }
     for (std::int32_t j = 0; j < coverage.height; ++j)
         for (std::int32_t i = 0; i < coverage.width; ++i)
-            blend(image, coverage.x + i, coverage.y + j, look.color, double(coverage.at(i, j)));
+            blend(image, coverage.x + i, coverage.y + j, style.color, double(coverage.at(i, j)));
 }
 
 void drawLine(Image<Rgba8>& image, double x0, double y0, double x1, double y1, const Stroke& look) {

@@ -10,7 +10,7 @@
 namespace svt::image {
 
 /// How a text looks.
-struct TextLook {
+struct TextStyle {
     double height = 14;    ///< line height, pixels; 4 to 512
     Vec3f color{0, 0, 0};  ///< sRGB, 0..1
     Vec3f halo{1, 1, 1};   ///< sRGB, 0..1; an outline of the letters, for legibility on any background
@@ -21,7 +21,7 @@ struct TextLook {
 [[nodiscard]] double textWidth(std::string_view text, double height);
 
 /// Draws `text` with its left end at `x`, vertically centred at `y`; clipped to the image. Cost: O(pixels covered).
-void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, const TextLook& look);
+void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, const TextStyle& style);
 
 /// Style of a line.
 struct Stroke {

@@ -2,7 +2,7 @@
 /// \file
 /// Feature edges of a mesh, as in a line drawing: creases and borders, without the edges of the triangulation.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 /// \file
 /// Small handmade building models, for tests of the meshes and of the steps after them.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/model/building_model.hpp>
 
 #include <algorithm>
@@ -85,9 +85,9 @@ inline model::FeatureIndex addBoxFeature(model::BuildingModel& model, const std:
 }
 
 /// The mesh of the feature with this id, or null.
-inline const mesh::ObjectMesh* meshOf(const model::BuildingModel& model, const mesh::MeshScene& scene,
+inline const mesh::ObjectMesh* meshOf(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                                       const std::string& id) {
-    for (const mesh::ObjectMesh& object : scene.objects)
+    for (const mesh::ObjectMesh& object : meshes.objects)
         if (model.features[object.feature].id == id) return &object;
     return nullptr;
 }

@@ -31,11 +31,11 @@ struct CellHash {
 
 }  // namespace
 
-void assignPlanes(MeshScene& scene, double distance) {
-    const Vec3d center = scene.bounds.isEmpty() ? Vec3d{} : scene.bounds.center();
+void assignPlanes(MeshSet& meshes, double distance) {
+    const Vec3d center = meshes.bounds.isEmpty() ? Vec3d{} : meshes.bounds.center();
     std::vector<Candidate> candidates;
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
-        ObjectMesh& object = scene.objects[o];
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        ObjectMesh& object = meshes.objects[o];
         for (std::uint32_t t = 0; t < object.triangles.size(); ++t) {
             Triangle& triangle = object.triangles[t];
             triangle.plane = kNoPlane;
@@ -62,7 +62,7 @@ void assignPlanes(MeshScene& scene, double distance) {
         return plane.slopeX * center.x + plane.slopeY * center.y + plane.offset;
     };
     for (const Candidate& candidate : candidates) {
-        ObjectMesh& object = scene.objects[candidate.object];
+        ObjectMesh& object = meshes.objects[candidate.object];
         Triangle& triangle = object.triangles[candidate.triangle];
         const double steepness = 1 + std::abs(candidate.plane.slopeX) + std::abs(candidate.plane.slopeY);
         const auto cellOf = [](double value, double cell) {
@@ -86,14 +86,14 @@ void assignPlanes(MeshScene& scene, double distance) {
                     const auto cell = cells.find({home.slopeX + dx, home.slopeY + dy, home.offset + dz});
                     if (cell == cells.end()) continue;
                     for (const std::uint32_t plane : cell->second)
-                        if (fits(scene.planes[plane])) {
+                        if (fits(meshes.planes[plane])) {
                             triangle.plane = plane;
                             break;
                         }
                 }
         if (triangle.plane != kNoPlane) continue;
-        triangle.plane = static_cast<std::uint32_t>(scene.planes.size());
-        scene.planes.push_back(candidate.plane);
+        triangle.plane = static_cast<std::uint32_t>(meshes.planes.size());
+        meshes.planes.push_back(candidate.plane);
         cells[home].push_back(triangle.plane);
     }
 }

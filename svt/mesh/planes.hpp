@@ -3,13 +3,13 @@
 /// Assigns shared planes: all coplanar triangles, in all objects, refer to one plane, so that solids that share a face
 /// get the same heights whatever their triangulation.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 
 namespace svt::mesh {
 
-/// Sets scene.planes, and Triangle::plane of all triangles that are not (nearly) vertical. Triangles are processed by
+/// Sets meshes.planes, and Triangle::plane of all triangles that are not (nearly) vertical. Triangles are processed by
 /// descending area, so that the largest ones define the planes. A triangle joins an existing plane if its corners are
 /// within `distance` metres of it, measured along z and scaled by the slope. Cost: O(triangles log triangles).
-void assignPlanes(MeshScene& scene, double distance);
+void assignPlanes(MeshSet& meshes, double distance);
 
 }  // namespace svt::mesh

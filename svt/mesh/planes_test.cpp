@@ -12,15 +12,15 @@ using test::meshOfRings;
 
 constexpr double kDistance = 2e-5;
 
-MeshScene sceneOf(std::vector<ObjectMesh> objects) {
-    MeshScene scene;
-    scene.objects = std::move(objects);
-    for (ObjectMesh& object : scene.objects) {
+MeshSet meshSetOf(std::vector<ObjectMesh> objects) {
+    MeshSet meshes;
+    meshes.objects = std::move(objects);
+    for (ObjectMesh& object : meshes.objects) {
         for (const Vec3d& vertex : object.vertices) object.bounds.add(vertex);
-        scene.bounds.add(object.bounds);
+        meshes.bounds.add(object.bounds);
     }
-    assignPlanes(scene, kDistance);
-    return scene;
+    assignPlanes(meshes, kDistance);
+    return meshes;
 }
 
 // The quad over [x0, x1] x [0, 3] on a roof plane, with noise on its heights; cut along either diagonal.
@@ -32,34 +32,34 @@ ObjectMesh roofPart(double x0, double x1, double lift, double noise, bool otherD
 }
 
 TEST(AssignPlanes, CoplanarFacesOfTwoObjectsShareOnePlane) {
-    const MeshScene scene =
-        sceneOf({roofPart(0, 4, 0, 1e-6, false), roofPart(4, 7, 0, 1e-6, true), roofPart(0, 4, 0, 0, true)});
-    ASSERT_EQ(scene.planes.size(), 1u);
-    for (const ObjectMesh& object : scene.objects)
+    const MeshSet meshes =
+        meshSetOf({roofPart(0, 4, 0, 1e-6, false), roofPart(4, 7, 0, 1e-6, true), roofPart(0, 4, 0, 0, true)});
+    ASSERT_EQ(meshes.planes.size(), 1u);
+    for (const ObjectMesh& object : meshes.objects)
         for (const Triangle& triangle : object.triangles) EXPECT_EQ(triangle.plane, 0u);
-    EXPECT_NEAR(scene.planes[0].slopeX, 0.7, 1e-5);
-    EXPECT_NEAR(scene.planes[0].slopeY, -0.2, 1e-5);
-    EXPECT_NEAR(scene.planes[0].offset, 2, 1e-5);
+    EXPECT_NEAR(meshes.planes[0].slopeX, 0.7, 1e-5);
+    EXPECT_NEAR(meshes.planes[0].slopeY, -0.2, 1e-5);
+    EXPECT_NEAR(meshes.planes[0].offset, 2, 1e-5);
 }
 
 TEST(AssignPlanes, ParallelPlanesAMillimetreApartAreTwo) {
-    const MeshScene scene = sceneOf({roofPart(0, 4, 0, 0, false), roofPart(0, 4, 1e-3, 0, false)});
-    EXPECT_EQ(scene.planes.size(), 2u);
-    EXPECT_NE(scene.objects[0].triangles[0].plane, scene.objects[1].triangles[0].plane);
+    const MeshSet meshes = meshSetOf({roofPart(0, 4, 0, 0, false), roofPart(0, 4, 1e-3, 0, false)});
+    EXPECT_EQ(meshes.planes.size(), 2u);
+    EXPECT_NE(meshes.objects[0].triangles[0].plane, meshes.objects[1].triangles[0].plane);
 }
 
 TEST(AssignPlanes, FacesThatLookUpAndDownShareTheirPlane) {
     ObjectMesh below = roofPart(0, 4, 0, 0, false), above = below;
     test::turnOver(above.triangles);
-    const MeshScene scene = sceneOf({below, above});
-    EXPECT_EQ(scene.planes.size(), 1u);
+    const MeshSet meshes = meshSetOf({below, above});
+    EXPECT_EQ(meshes.planes.size(), 1u);
 }
 
 TEST(AssignPlanes, VerticalAndFlatTrianglesHaveNone) {
-    const MeshScene scene =
-        sceneOf({meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}})});
-    EXPECT_TRUE(scene.planes.empty());
-    for (const Triangle& triangle : scene.objects[0].triangles) EXPECT_EQ(triangle.plane, kNoPlane);
+    const MeshSet meshes =
+        meshSetOf({meshOfRings({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}})});
+    EXPECT_TRUE(meshes.planes.empty());
+    for (const Triangle& triangle : meshes.objects[0].triangles) EXPECT_EQ(triangle.plane, kNoPlane);
 }
 
 TEST(AssignPlanes, FloorAtOneHeightIsOnePlaneHoweverFarApart) {
@@ -70,11 +70,11 @@ TEST(AssignPlanes, FloorAtOneHeightIsOnePlaneHoweverFarApart) {
         const double x = uniform(random), y = uniform(random);
         floors.push_back(meshOfRings({{x, y, 3.1}, {x + 1, y, 3.1}, {x + 1, y + 1, 3.1}}, {{0, 1, 2}}));
     }
-    const MeshScene scene = sceneOf(floors);
-    ASSERT_EQ(scene.planes.size(), 1u);
-    EXPECT_EQ(scene.planes[0].slopeX, 0);
-    EXPECT_EQ(scene.planes[0].slopeY, 0);
-    EXPECT_EQ(scene.planes[0].offset, 3.1);
+    const MeshSet meshes = meshSetOf(floors);
+    ASSERT_EQ(meshes.planes.size(), 1u);
+    EXPECT_EQ(meshes.planes[0].slopeX, 0);
+    EXPECT_EQ(meshes.planes[0].slopeY, 0);
+    EXPECT_EQ(meshes.planes[0].offset, 3.1);
 }
 
 TEST(AssignPlanes, EveryCornerLiesOnItsPlane) {
@@ -87,10 +87,10 @@ TEST(AssignPlanes, EveryCornerLiesOnItsPlane) {
         mesh.triangles.emplace_back();
         mesh.triangles.back().corners = {3 * n, 3 * n + 1, 3 * n + 2};
     }
-    const MeshScene scene = sceneOf({mesh});
-    for (const Triangle& triangle : scene.objects[0].triangles) {
+    const MeshSet meshes = meshSetOf({mesh});
+    for (const Triangle& triangle : meshes.objects[0].triangles) {
         if (triangle.plane == kNoPlane) continue;
-        const Plane& plane = scene.planes[triangle.plane];
+        const Plane& plane = meshes.planes[triangle.plane];
         for (const std::uint32_t corner : triangle.corners) {
             const Vec3d p = mesh.vertices[corner];
             EXPECT_NEAR(plane.slopeX * p.x + plane.slopeY * p.y + plane.offset, p.z,

@@ -2,7 +2,7 @@
 /// \file
 /// Thickness of the material behind each face of a solid, to distinguish thin panes from bodies.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 
 namespace svt::mesh {
 

@@ -65,22 +65,22 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
 }
 
 // Buildings in which only boundary surfaces can own the material between hull and rooms.
-std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshScene& scene, const Labelling& labelling) {
-    std::vector<std::uint32_t> objectOf(labelling.table.labels.size(), volume::kNoLabel);
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) objectOf[labelling.labelOfObject[o]] = o;
+std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshSet& meshes, const LabelledObjects& labelled) {
+    std::vector<std::uint32_t> objectOf(labelled.table.labels.size(), volume::kNoLabel);
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) objectOf[labelled.labelOfObject[o]] = o;
     std::vector<voxelize::BodyGroup> groups;
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
-        const std::uint32_t l = labelling.labelOfObject[o];
-        const volume::Label& building = labelling.table.labels[l];
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        const std::uint32_t l = labelled.labelOfObject[o];
+        const volume::Label& building = labelled.table.labels[l];
         if (model::classRank(building.className) != model::ClassRank::Building ||
-            scene.objects[o].closure == mesh::Closure::Surface)
+            meshes.objects[o].closure == mesh::Closure::Surface)
             continue;
         voxelize::BodyGroup group;
         group.from = building.first;
         bool hasRooms = false;
         for (std::uint32_t below = l + 1; below < building.subtreeEnd; ++below) {
             if (objectOf[below] == volume::kNoLabel) continue;
-            const volume::Label& label = labelling.table.labels[below];
+            const volume::Label& label = labelled.table.labels[below];
             hasRooms = hasRooms || model::classRank(label.className) == model::ClassRank::Room;
             if (!model::isBoundarySurface(label.className)) continue;
             group.surfaces.push_back(objectOf[below]);
@@ -104,10 +104,10 @@ bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_
     return false;
 }
 
-void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimPair>& pairs,
+void fillOverlaps(const LabelledObjects& labelled, const std::vector<voxelize::ClaimPair>& pairs,
                   volume::LabelTable& table) {
     for (const voxelize::ClaimPair& pair : pairs) {
-        const std::uint32_t a = labelling.labelOfObject[pair.a], b = labelling.labelOfObject[pair.b];
+        const std::uint32_t a = labelled.labelOfObject[pair.a], b = labelled.labelOfObject[pair.b];
         const bool isNested =
             isAncestor(table, a, b) || isAncestor(table, b, a) || isMember(table, a, b) || isMember(table, b, a);
         table.overlaps.push_back({a, b, pair.voxels, isNested});
@@ -118,27 +118,27 @@ void fillOverlaps(const Labelling& labelling, const std::vector<voxelize::ClaimP
 }
 
 // Whether the bounding box of an object, along the grid's axes, intersects the grid.
-bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshScene& scene, const volume::Grid& grid) {
+bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, const volume::Grid& grid) {
     Box3d box;
-    for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + scene.origin));
+    for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + meshes.origin));
     const Vec3i n = grid.dimension();
     return box.overlaps({{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}});
 }
 
 // Reports objects outside a grid that was made for another model; an error if all are outside.
-Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshScene& scene, const volume::Grid& grid,
+Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
                             Diagnostics* log) {
     std::size_t outside = 0;
-    for (const mesh::ObjectMesh& object : scene.objects) {
-        if (meetsGrid(object, scene, grid)) continue;
+    for (const mesh::ObjectMesh& object : meshes.objects) {
+        if (meetsGrid(object, meshes, grid)) continue;
         ++outside;
         const model::Feature& feature = model.features[object.feature];
         if (log != nullptr)
             log->add(Severity::Warning, Code::NoGeometry, "no part of it lies in the given grid",
                      {model.source, feature.line, 0, feature.id});
     }
-    if (outside < scene.objects.size()) return {};
-    const Vec3d low = scene.bounds.min + scene.origin, high = scene.bounds.max + scene.origin;
+    if (outside < meshes.objects.size()) return {};
+    const Vec3d low = meshes.bounds.min + meshes.origin, high = meshes.bounds.max + meshes.origin;
     return Error(
         Code::EmptyModel,
         fmt::format("no part of the model lies in the given grid: the model reaches from ({:.3f}, {:.3f}, "
@@ -167,14 +167,14 @@ Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> f
     return all;
 }
 
-Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions& options) {
+Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options) {
     if (options.grid) return *options.grid;
     Box3d box;
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-    if (options.frame == FrameKind::Building) {
+    if (options.axes == AxesKind::Building) {
         // All objects together, to find their dominant direction.
         mesh::ObjectMesh all;
-        for (const mesh::ObjectMesh& object : scene.objects) {
+        for (const mesh::ObjectMesh& object : meshes.objects) {
             const auto first = static_cast<std::uint32_t>(all.vertices.size());
             all.vertices.insert(all.vertices.end(), object.vertices.begin(), object.vertices.end());
             for (mesh::Triangle triangle : object.triangles) {
@@ -182,12 +182,12 @@ Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions
                 all.triangles.push_back(triangle);
             }
         }
-        axes = voxelize::dominantFrame(all).axes;
+        axes = voxelize::dominantAxes(all).directions;
         for (const Vec3d& vertex : all.vertices)
             box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
     } else {
-        box.min = scene.bounds.min + scene.origin;
-        box.max = scene.bounds.max + scene.origin;
+        box.min = meshes.bounds.min + meshes.origin;
+        box.max = meshes.bounds.max + meshes.origin;
     }
     Vec3d spacing = options.spacing.value_or(Vec3d{});
     if (!options.dimension && !options.spacing) {
@@ -197,7 +197,7 @@ Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions
     }
     auto grid = options.dimension ? volume::Grid::fromDimension(box, *options.dimension)
                                   : volume::Grid::fromSpacing(box, spacing);
-    if (grid && options.frame == FrameKind::Building) return grid->turned(axes, scene.origin);
+    if (grid && options.axes == AxesKind::Building) return grid->turned(axes, meshes.origin);
     return grid;
 }
 
@@ -209,17 +209,17 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     meshOptions.lod = options.lod;
     meshOptions.threads = options.threads;
     meshOptions.progress = options.progress;
-    const auto scene = mesh::buildMeshes(model, meshOptions, log);
-    if (!scene) return scene.error();
-    const auto grid = chooseGrid(*scene, options);
+    const auto meshes = mesh::buildMeshes(model, meshOptions, log);
+    if (!meshes) return meshes.error();
+    const auto grid = chooseGrid(*meshes, options);
     if (!grid) return grid.error();
     if (options.grid)
-        if (const auto checked = checkGivenGrid(model, *scene, *grid, log); !checked) return checked.error();
-    addCapFeatures(model, *scene);
+        if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
+    addCapFeatures(model, *meshes);
     std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
     if (options.style != nullptr) sheets.push_back(options.style);
-    auto labelling = makeLabels(model, *scene, sheets);
-    if (!labelling) return labelling.error();
+    auto labelled = makeLabels(model, *meshes, sheets);
+    if (!labelled) return labelled.error();
     report.seconds.mesh = secondsSince(start);
 
     start = Clock::now();
@@ -228,43 +228,43 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     voxelizeOptions.keepThinParts = options.keepThinParts;
     voxelizeOptions.threads = options.threads;
     voxelizeOptions.progress = options.progress;
-    auto voxels = voxelize::voxelize(*scene, *grid, labelling->claims, voxelizeOptions);
+    auto voxels = voxelize::voxelize(*meshes, *grid, labelled->claims, voxelizeOptions);
     if (!voxels) return voxels.error();
     std::vector<voxelize::BodyGroup> groups;
-    if (options.giveThematicBodies) groups = findBodyGroups(*scene, *labelling);
+    if (options.assignThematicBodies) groups = findBodyGroups(*meshes, *labelled);
     if (!groups.empty())
-        voxels->columns = voxelize::giveThematicBodies(voxels->columns, *grid, *scene, groups, options.threads);
-    if (!labelling->patterns.empty())
+        voxels->columns = voxelize::assignThematicBodies(voxels->columns, *grid, *meshes, groups, options.threads);
+    if (!labelled->patterns.empty())
         voxels->columns =
-            voxelize::layPatterns(voxels->columns, *grid, scene->origin, labelling->patterns, options.threads);
+            voxelize::layPatterns(voxels->columns, *grid, meshes->origin, labelled->patterns, options.threads);
     report.seconds.voxelize = secondsSince(start);
 
     start = Clock::now();
-    volume::LabelTable& table = labelling->table;
-    fillOverlaps(*labelling, voxels->overlaps, table);
+    volume::LabelTable& table = labelled->table;
+    fillOverlaps(*labelled, voxels->overlaps, table);
     const std::vector<std::uint64_t> counts = voxels->columns.countVoxels(table.scalarCount());
     for (volume::Label& label : table.labels)
         for (volume::Scalar s = 0; s < label.count; ++s) label.voxels += counts[label.first + s];
-    for (std::size_t o = 0; o < scene->objects.size(); ++o) {
-        volume::Label& label = table.labels[labelling->labelOfObject[o]];
+    for (std::size_t o = 0; o < meshes->objects.size(); ++o) {
+        volume::Label& label = table.labels[labelled->labelOfObject[o]];
         label.thinVoxels = voxels->thinVoxels[o];
         label.uncertainVoxels = voxels->uncertainVoxels[o];
-        const mesh::ObjectMesh& object = scene->objects[o];
+        const mesh::ObjectMesh& object = meshes->objects[o];
         if (object.closure != mesh::Closure::Surface && object.leakCount != 0) ++report.open;
         if (object.closure == mesh::Closure::TJunctions) ++report.tJunctions;
     }
     for (const voxelize::BodyGroup& group : groups)
         for (const std::uint32_t surface : group.surfaces) {
-            volume::Label& label = table.labels[labelling->labelOfObject[surface]];
+            volume::Label& label = table.labels[labelled->labelOfObject[surface]];
             label.filling = volume::Filling::Body;
             label.volume = double(label.voxels) * grid->voxelVolume();
         }
-    auto vectors = makeVectorParts(*scene, labelling->labelOfObject, *grid, options.vectors, options.threads);
+    auto vectors = makeVectorParts(*meshes, labelled->labelOfObject, *grid, options.vectors, options.threads);
     if (!vectors) return vectors.error();
     output.volume.vectors = std::move(*vectors);
-    output.volume.planes = voxelize::findFacePlanes(*scene, *grid);
-    report.objects = scene->objects.size();
-    report.triangles = scene->triangleCount();
+    output.volume.planes = voxelize::findFacePlanes(*meshes, *grid);
+    report.objects = meshes->objects.size();
+    report.triangles = meshes->triangleCount();
     output.volume.grid = *grid;
     output.volume.labels = std::move(table);
     output.volume.columns = std::move(voxels->columns);

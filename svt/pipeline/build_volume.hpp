@@ -5,7 +5,7 @@
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/model/building_model.hpp>
 #include <svt/pipeline/style_sheet.hpp>
 #include <svt/pipeline/vector_parts.hpp>
@@ -18,7 +18,7 @@
 
 namespace svt::pipeline {
 
-enum class FrameKind : std::uint8_t {
+enum class AxesKind : std::uint8_t {
     World,    ///< along the axes of the CRS
     Building  ///< rotated about z to the dominant horizontal edge of the model
 };
@@ -27,11 +27,11 @@ struct BuildOptions {
     std::optional<Vec3i> dimension;  ///< samples along x, y, z; overrides spacing
     std::optional<Vec3d> spacing;    ///< metres; without dimension and spacing the longest side gets kDefaultSamples
     static constexpr int kDefaultSamples = 400;
-    FrameKind frame = FrameKind::World;
-    std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and frame are then ignored
+    AxesKind axes = AxesKind::World;
+    std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and axes are then ignored
     model::LodChoice lod;
-    bool giveThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface
-    bool usePatterns = false;        ///< use the patterns of the built-in style
+    bool assignThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface
+    bool usePatterns = false;          ///< use the patterns of the built-in style
     voxelize::SheetMode sheets = voxelize::SheetMode::Thin;
     bool keepThinParts = true;
     VectorChoice vectors;               ///< content of SemanticVolume::vectors; empty by default
@@ -71,6 +71,6 @@ struct BuildOutput {
                                                       const Progress* progress, Diagnostics* log);
 
 /// The grid requested by `options` for the meshes.
-[[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshScene& scene, const BuildOptions& options);
+[[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options);
 
 }  // namespace svt::pipeline

@@ -173,7 +173,7 @@ TEST(BuildVolume, GridByDimensionSpacingOrLongestSide) {
 }
 
 TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
-    // A box of 8 x 4 m rotated by 30 degrees: in its own frame it fills the grid.
+    // A box of 8 x 4 m rotated by 30 degrees: along its own axes it fills the grid.
     const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
     const Vec3d world{458877, 5438353, 100};
     model::BuildingModel model;
@@ -182,7 +182,7 @@ TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
         for (Vec3d& p : polygon.points) p = Vec3d{c * p.x - s * p.y, s * p.x + c * p.y, p.z} + world;
     BuildOptions options = withSpacing(0.1);
     const BuildOutput straight = build(model, options);
-    options.frame = FrameKind::Building;
+    options.axes = AxesKind::Building;
     const BuildOutput turned = build(model, options);
     EXPECT_TRUE(straight.volume.grid.isAxisParallel());
     EXPECT_FALSE(turned.volume.grid.isAxisParallel());
@@ -197,7 +197,7 @@ TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
 TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
     BuildOptions options = withSpacing(0.037);  // no layer of samples at the centre of a wall
     const BuildOutput given = build(thematicHouse(), options);
-    options.giveThematicBodies = false;
+    options.assignThematicBodies = false;
     const BuildOutput kept = build(thematicHouse(), options);
     const auto solidVoxels = [](const BuildOutput& output) {
         std::uint64_t sum = labelOf(output, "house").voxels;

@@ -77,8 +77,8 @@ std::optional<Vec3f> materialColor(const model::BuildingModel& model, const mode
 
 }  // namespace
 
-void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene) {
-    for (const mesh::ObjectMesh& object : scene.objects) {
+void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes) {
+    for (const mesh::ObjectMesh& object : meshes.objects) {
         for (std::size_t c = 0; c < object.caps.size(); ++c) {
             model::Feature cap;
             cap.id = fmt::format("{}_cap_{}", model.features[object.feature].id, c + 1);
@@ -95,9 +95,9 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshScene& scene) {
     }
 }
 
-Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::MeshScene& scene,
-                             std::span<const StyleSheet* const> sheets) {
-    Labelling result;
+Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh::MeshSet& meshes,
+                                   std::span<const StyleSheet* const> sheets) {
+    LabelledObjects result;
     volume::LabelTable& table = result.table;
     const std::vector<std::uint32_t> labelOf = numberFeatures(model, table);
     std::vector<std::optional<Vec3f>> colors(table.labels.size());
@@ -105,15 +105,15 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
         if (labelOf[f] != volume::kNoLabel) colors[labelOf[f]] = materialColor(model, model.features[f]);
 
     std::vector<std::uint32_t> objectOf(table.labels.size(), volume::kNoLabel);
-    result.labelOfObject.resize(scene.objects.size());
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
-        const std::uint32_t l = labelOf[scene.objects[o].feature];
+    result.labelOfObject.resize(meshes.objects.size());
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        const std::uint32_t l = labelOf[meshes.objects[o].feature];
         objectOf[l] = o;
         result.labelOfObject[o] = l;
-        table.labels[l].filling = fillingOf(scene.objects[o].closure);
-        table.labels[l].volume = scene.objects[o].isSolid() ? scene.objects[o].volume : 0;
+        table.labels[l].filling = fillingOf(meshes.objects[o].closure);
+        table.labels[l].volume = meshes.objects[o].isSolid() ? meshes.objects[o].volume : 0;
     }
-    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::rowsOf(table), sheets, colors);
+    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::queryRows(table), sheets, colors);
 
     std::uint64_t next = 1;
     bool hasPattern = false;
@@ -132,8 +132,8 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
                                                       "patterns with fewer phases",
                                                       next, volume::kMaxScalarCount));
     if (hasPattern) table.phaseColors.resize(next);
-    result.claims.resize(scene.objects.size());
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
+    result.claims.resize(meshes.objects.size());
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
         const std::uint32_t l = result.labelOfObject[o];
         const volume::Label& label = table.labels[l];
         result.claims[o] = {label.first, static_cast<std::uint8_t>(model::classRank(label.className)), label.id};
@@ -142,7 +142,7 @@ Result<Labelling> makeLabels(const model::BuildingModel& model, const mesh::Mesh
                 table.phaseColors[label.first + s] =
                     s < styles[l].phaseColors.size() ? styles[l].phaseColors[s] : label.color;
         if (label.count > 1)
-            result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantFrame(scene.objects[o])});
+            result.patterns.push_back({label.first, styles[l].pattern, voxelize::dominantAxes(meshes.objects[o])});
     }
     return result;
 }

@@ -10,25 +10,25 @@ using model::FeatureIndex;
 using test::addBoxFeature;
 using test::addFeature;
 
-Labelling labelsOf(model::BuildingModel& model, const StyleSheet& style = defaultStyle(false)) {
-    const auto scene = mesh::buildMeshes(model);
-    EXPECT_TRUE(scene);
-    addCapFeatures(model, *scene);
+LabelledObjects labelsOf(model::BuildingModel& model, const StyleSheet& style = defaultStyle(false)) {
+    const auto meshes = mesh::buildMeshes(model);
+    EXPECT_TRUE(meshes);
+    addCapFeatures(model, *meshes);
     const StyleSheet* sheets[] = {&style};
-    auto labelling = makeLabels(model, *scene, sheets);
-    EXPECT_TRUE(labelling);
-    return *labelling;
+    auto labelled = makeLabels(model, *meshes, sheets);
+    EXPECT_TRUE(labelled);
+    return *labelled;
 }
 
-std::uint32_t indexOf(const Labelling& labelling, const std::string& id) {
-    for (std::uint32_t l = 0; l < labelling.table.labels.size(); ++l)
-        if (labelling.table.labels[l].id == id) return l;
+std::uint32_t indexOf(const LabelledObjects& labelled, const std::string& id) {
+    for (std::uint32_t l = 0; l < labelled.table.labels.size(); ++l)
+        if (labelled.table.labels[l].id == id) return l;
     ADD_FAILURE() << "no label " << id;
     return 0;
 }
 
-const volume::Label& labelOf(const Labelling& labelling, const std::string& id) {
-    return labelling.table.labels[indexOf(labelling, id)];
+const volume::Label& labelOf(const LabelledObjects& labelled, const std::string& id) {
+    return labelled.table.labels[indexOf(labelled, id)];
 }
 
 // A house with two storeys, two rooms in each, one of them with a table; and a shed. Not added in tree order.
@@ -47,47 +47,47 @@ model::BuildingModel village() {
 
 TEST(MakeLabels, TreeOrderGivesEverySubtreeOneRange) {
     model::BuildingModel model = village();
-    const Labelling labelling = labelsOf(model);
+    const LabelledObjects labelled = labelsOf(model);
     std::vector<std::string> ids;
-    for (const volume::Label& label : labelling.table.labels) ids.push_back(label.id);
+    for (const volume::Label& label : labelled.table.labels) ids.push_back(label.id);
     EXPECT_EQ(ids, (std::vector<std::string>{"house", "ground", "hall", "kitchen", "table", "upper", "attic", "shed"}));
-    EXPECT_EQ(labelOf(labelling, "house").subtreeEnd, 7u);
-    EXPECT_EQ(labelOf(labelling, "ground").subtreeEnd, 5u);
-    EXPECT_EQ(labelOf(labelling, "shed").subtreeEnd, 8u);
-    EXPECT_EQ(labelOf(labelling, "table").parent, indexOf(labelling, "kitchen"));
-    EXPECT_EQ(labelOf(labelling, "house").parent, volume::kNoLabel);
+    EXPECT_EQ(labelOf(labelled, "house").subtreeEnd, 7u);
+    EXPECT_EQ(labelOf(labelled, "ground").subtreeEnd, 5u);
+    EXPECT_EQ(labelOf(labelled, "shed").subtreeEnd, 8u);
+    EXPECT_EQ(labelOf(labelled, "table").parent, indexOf(labelled, "kitchen"));
+    EXPECT_EQ(labelOf(labelled, "house").parent, volume::kNoLabel);
     // Scalars of any subtree are contiguous and contain those of no other feature.
-    const auto& labels = labelling.table.labels;
+    const auto& labels = labelled.table.labels;
     volume::Scalar next = 1;
     for (const volume::Label& label : labels) {
         if (label.count == 0) continue;
         EXPECT_EQ(label.first, next) << label.id;
         next += label.count;
     }
-    EXPECT_EQ(next, labelling.table.scalarCount());
+    EXPECT_EQ(next, labelled.table.scalarCount());
 }
 
 TEST(MakeLabels, OnlyFeaturesWithGeometryOwnScalars) {
     model::BuildingModel model = village();
-    const Labelling labelling = labelsOf(model);
-    EXPECT_EQ(labelOf(labelling, "house").count, 0u);
-    EXPECT_EQ(labelOf(labelling, "house").filling, volume::Filling::None);
-    EXPECT_EQ(labelOf(labelling, "hall").first, 1u);
-    EXPECT_EQ(labelOf(labelling, "hall").filling, volume::Filling::Solid);
-    EXPECT_NEAR(labelOf(labelling, "hall").volume, 24, 1e-12);
-    EXPECT_EQ(labelling.table.scalarCount(), 6u);
-    ASSERT_EQ(labelling.claims.size(), 5u);
-    for (std::size_t o = 0; o < labelling.claims.size(); ++o)
-        EXPECT_EQ(labelling.claims[o].scalar, labelling.table.labels[labelling.labelOfObject[o]].first);
-    EXPECT_TRUE(labelling.patterns.empty());
-    EXPECT_TRUE(labelling.table.phaseColors.empty());
+    const LabelledObjects labelled = labelsOf(model);
+    EXPECT_EQ(labelOf(labelled, "house").count, 0u);
+    EXPECT_EQ(labelOf(labelled, "house").filling, volume::Filling::None);
+    EXPECT_EQ(labelOf(labelled, "hall").first, 1u);
+    EXPECT_EQ(labelOf(labelled, "hall").filling, volume::Filling::Solid);
+    EXPECT_NEAR(labelOf(labelled, "hall").volume, 24, 1e-12);
+    EXPECT_EQ(labelled.table.scalarCount(), 6u);
+    ASSERT_EQ(labelled.claims.size(), 5u);
+    for (std::size_t o = 0; o < labelled.claims.size(); ++o)
+        EXPECT_EQ(labelled.claims[o].scalar, labelled.table.labels[labelled.labelOfObject[o]].first);
+    EXPECT_TRUE(labelled.patterns.empty());
+    EXPECT_TRUE(labelled.table.phaseColors.empty());
 }
 
 TEST(MakeLabels, FurnitureComesBeforeRooms) {
     model::BuildingModel model = village();
-    const Labelling labelling = labelsOf(model);
+    const LabelledObjects labelled = labelsOf(model);
     std::map<std::string, int> rank;
-    for (const voxelize::ObjectClaim& claim : labelling.claims) rank[claim.id] = claim.rank;
+    for (const voxelize::ObjectClaim& claim : labelled.claims) rank[claim.id] = claim.rank;
     EXPECT_LT(rank["table"], rank["kitchen"]);
     EXPECT_LT(rank["kitchen"], rank["shed"]);
 }
@@ -99,28 +99,28 @@ TEST(MakeLabels, PatternGivesOneScalarPerPhase) {
         {"select": "id=house", "pattern": {"type": "brick"}}]})",
                                        {});
     ASSERT_TRUE(style);
-    const Labelling labelling = labelsOf(model, *style);
-    EXPECT_EQ(labelOf(labelling, "hall").first, 1u);
-    EXPECT_EQ(labelOf(labelling, "hall").count, 3u);
-    EXPECT_EQ(labelOf(labelling, "kitchen").first, 4u);
-    EXPECT_EQ(labelOf(labelling, "house").count, 0u);  // no geometry, so nothing to pattern
-    ASSERT_EQ(labelling.patterns.size(), 1u);
-    EXPECT_EQ(labelling.patterns[0].first, 1u);
-    ASSERT_EQ(labelling.table.phaseColors.size(), labelling.table.scalarCount());
-    EXPECT_EQ(labelling.table.phaseColors[1], (Vec3f{1, 0, 0}));
-    EXPECT_EQ(labelling.table.phaseColors[3], (Vec3f{0, 0, 1}));
-    EXPECT_EQ(labelling.table.phaseColors[4], (Vec3f{1, 1, 1}));
+    const LabelledObjects labelled = labelsOf(model, *style);
+    EXPECT_EQ(labelOf(labelled, "hall").first, 1u);
+    EXPECT_EQ(labelOf(labelled, "hall").count, 3u);
+    EXPECT_EQ(labelOf(labelled, "kitchen").first, 4u);
+    EXPECT_EQ(labelOf(labelled, "house").count, 0u);  // no geometry, so nothing to pattern
+    ASSERT_EQ(labelled.patterns.size(), 1u);
+    EXPECT_EQ(labelled.patterns[0].first, 1u);
+    ASSERT_EQ(labelled.table.phaseColors.size(), labelled.table.scalarCount());
+    EXPECT_EQ(labelled.table.phaseColors[1], (Vec3f{1, 0, 0}));
+    EXPECT_EQ(labelled.table.phaseColors[3], (Vec3f{0, 0, 1}));
+    EXPECT_EQ(labelled.table.phaseColors[4], (Vec3f{1, 1, 1}));
 }
 
 TEST(MakeLabels, MembersKnowTheirGroups) {
     model::BuildingModel model = village();
     const FeatureIndex unit = addFeature(model, "BuildingUnit", "flat", 0);
     model.memberships = {{unit, 6, ""}, {unit, 4, ""}, {unit, 6, "again"}};
-    const Labelling labelling = labelsOf(model);
-    const std::uint32_t flat = indexOf(labelling, "flat");
-    EXPECT_EQ(labelOf(labelling, "kitchen").groups, std::vector<std::uint32_t>{flat});
-    EXPECT_EQ(labelOf(labelling, "hall").groups, std::vector<std::uint32_t>{flat});
-    EXPECT_TRUE(labelOf(labelling, "attic").groups.empty());
+    const LabelledObjects labelled = labelsOf(model);
+    const std::uint32_t flat = indexOf(labelled, "flat");
+    EXPECT_EQ(labelOf(labelled, "kitchen").groups, std::vector<std::uint32_t>{flat});
+    EXPECT_EQ(labelOf(labelled, "hall").groups, std::vector<std::uint32_t>{flat});
+    EXPECT_TRUE(labelOf(labelled, "attic").groups.empty());
 }
 
 TEST(MakeLabels, MaterialOfMostPolygonsColoursTheObject) {
@@ -136,24 +136,24 @@ TEST(AddCapFeatures, CapIsAClosureSurfaceWithItsArea) {
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,
                {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop, test::kWest}))});
     addBoxFeature(model, "BuildingRoom", "next", {8, 0, 0}, {9, 1, 1});
-    Labelling labelling = labelsOf(model);
+    LabelledObjects labelled = labelsOf(model);
     // The top and the west side share an edge: they form one open loop that is not a planar hole.
-    EXPECT_EQ(labelOf(labelling, "room").filling, volume::Filling::Winding);
+    EXPECT_EQ(labelOf(labelled, "room").filling, volume::Filling::Winding);
     model = {};
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,
                {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop}))});
     addBoxFeature(model, "BuildingRoom", "next", {8, 0, 0}, {9, 1, 1});
-    labelling = labelsOf(model);
-    const volume::Label& cap = labelOf(labelling, "room_cap_1");
+    labelled = labelsOf(model);
+    const volume::Label& cap = labelOf(labelled, "room_cap_1");
     EXPECT_EQ(cap.className, "ClosureSurface");
     EXPECT_EQ(cap.count, 0u);
-    EXPECT_EQ(cap.parent, indexOf(labelling, "room"));
+    EXPECT_EQ(cap.parent, indexOf(labelled, "room"));
     ASSERT_EQ(cap.attributes.size(), 2u);
     EXPECT_EQ(cap.attributes[1].name, "area");
     EXPECT_NEAR(std::get<double>(cap.attributes[1].value), 12, 1e-12);
     EXPECT_EQ(cap.attributes[1].unit, "m2");
-    EXPECT_EQ(labelOf(labelling, "room").filling, volume::Filling::Capped);
-    EXPECT_EQ(labelOf(labelling, "room").subtreeEnd, 2u);
+    EXPECT_EQ(labelOf(labelled, "room").filling, volume::Filling::Capped);
+    EXPECT_EQ(labelOf(labelled, "room").subtreeEnd, 2u);
 }
 
 TEST(AddCapFeatures, ModelBuiltAgainGetsNoSecondCap) {

@@ -23,34 +23,34 @@ struct Verdict {
 };
 
 /// Compares samples of the voxelized model with the solids that contain their centers.
-Verdict consultOracle(model::BuildingModel& model, Vec3i dimension, int randomSamples, int columnStep) {
+Verdict compareWithOracle(model::BuildingModel& model, Vec3i dimension, int randomSamples, int columnStep) {
     Verdict verdict;
-    auto scene = mesh::buildMeshes(model);
-    EXPECT_TRUE(scene);
-    if (!scene) return verdict;
+    auto meshes = mesh::buildMeshes(model);
+    EXPECT_TRUE(meshes);
+    if (!meshes) return verdict;
     BuildOptions options;
     options.dimension = dimension;
-    const auto grid = chooseGrid(*scene, options);
+    const auto grid = chooseGrid(*meshes, options);
     const StyleSheet* sheets[] = {&defaultStyle(false)};
-    const auto labelling = makeLabels(model, *scene, sheets);
-    EXPECT_TRUE(grid && labelling);
-    const auto voxels = voxelize::voxelize(*scene, *grid, labelling->claims);
+    const auto labelled = makeLabels(model, *meshes, sheets);
+    EXPECT_TRUE(grid && labelled);
+    const auto voxels = voxelize::voxelize(*meshes, *grid, labelled->claims);
     EXPECT_TRUE(voxels);
     if (!voxels) return verdict;
 
     std::vector<test::SolidOracle> oracles;
-    for (const mesh::ObjectMesh& object : scene->objects) oracles.emplace_back(object);
+    for (const mesh::ObjectMesh& object : meshes->objects) oracles.emplace_back(object);
     const Vec3d spacing = grid->spacing();
     const auto check = [&](Vec3i v) {
-        const Vec3d local = grid->worldFromIndex({double(v.x), double(v.y), double(v.z)}) - scene->origin;
+        const Vec3d local = grid->worldFromIndex({double(v.x), double(v.y), double(v.z)}) - meshes->origin;
         const volume::Scalar found = voxels->columns.scalarAt(v.x, v.y, v.z);
         std::vector<volume::Scalar> containing;
         bool isSheetOrThin = false;
         for (std::size_t o = 0; o < oracles.size(); ++o) {
-            const mesh::ObjectMesh& object = scene->objects[o];
+            const mesh::ObjectMesh& object = meshes->objects[o];
             const Vec3d low = object.bounds.min - spacing * 1.1, high = object.bounds.max + spacing * 1.1;
             if (!Box3d{low, high}.contains(local)) continue;
-            const volume::Scalar scalar = labelling->claims[o].scalar;
+            const volume::Scalar scalar = labelled->claims[o].scalar;
             if (!object.isSolid()) {
                 isSheetOrThin = isSheetOrThin || (found == scalar && oracles[o].distance(local, spacing) <= 1.01);
                 continue;
@@ -90,7 +90,7 @@ Verdict consultOracle(model::BuildingModel& model, Vec3i dimension, int randomSa
 }
 
 void expectRight(model::BuildingModel& model, Vec3i dimension, int randomSamples, int columnStep, int atLeast) {
-    const Verdict verdict = consultOracle(model, dimension, randomSamples, columnStep);
+    const Verdict verdict = compareWithOracle(model, dimension, randomSamples, columnStep);
     EXPECT_EQ(verdict.wrong, 0) << verdict.first;
     EXPECT_GT(verdict.checked, atLeast);
     std::cout << verdict.checked << " samples checked, " << verdict.nearFaces << " too near to a face, "

@@ -23,11 +23,11 @@ struct MeshSection {
     double bound = 0;  ///< m2; error bound from half a voxel's extent across each triangle in the plane
 };
 
-MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illustrate::PlaneFrame& frame,
+MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illustrate::PlaneAxes& axes,
                     const volume::Grid& grid) {
     MeshSection section;
     const auto heightOf = [&](std::uint32_t v) {
-        return dot(object.vertices[v] + (meshOrigin - frame.origin), frame.normal);
+        return dot(object.vertices[v] + (meshOrigin - axes.origin), axes.normal);
     };
     for (const mesh::Triangle& triangle : object.triangles) {
         std::array<Vec3d, 2> ends;
@@ -37,14 +37,14 @@ MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illu
             const double ha = heightOf(a), hb = heightOf(b);
             if ((ha > 0) == (hb > 0)) continue;
             const Vec3d p = object.vertices[a] + (object.vertices[b] - object.vertices[a]) * (ha / (ha - hb));
-            ends[ha > 0 ? 0 : 1] = p + (meshOrigin - frame.origin);
+            ends[ha > 0 ? 0 : 1] = p + (meshOrigin - axes.origin);
             ++count;
         }
         if (count != 2) continue;
         // Counter-clockwise seen from outside: the segment begins where the edge goes down, and the inside is to the
         // left.
-        const double u0 = dot(ends[0], frame.u), v0 = dot(ends[0], frame.v);
-        const double u1 = dot(ends[1], frame.u), v1 = dot(ends[1], frame.v);
+        const double u0 = dot(ends[0], axes.u), v0 = dot(ends[0], axes.v);
+        const double u1 = dot(ends[1], axes.u), v1 = dot(ends[1], axes.v);
         section.area += 0.5 * (u0 * v1 - v0 * u1);
         const Vec3d normal =
             normalized(cross(object.vertices[triangle.corners[1]] - object.vertices[triangle.corners[0]],
@@ -52,7 +52,7 @@ MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illu
         double half = 0;
         for (int axis = 0; axis < 3; ++axis)
             half += 0.5 * grid.spacing()[axis] * std::abs(dot(normal, grid.axes()[static_cast<std::size_t>(axis)]));
-        const double sine = std::sqrt(std::max(1e-6, 1 - std::pow(dot(normal, frame.normal), 2)));
+        const double sine = std::sqrt(std::max(1e-6, 1 - std::pow(dot(normal, axes.normal), 2)));
         section.bound += std::hypot(u1 - u0, v1 - v0) * half / sine;
     }
     section.area = std::abs(section.area);
@@ -69,21 +69,21 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
               const std::vector<illustrate::SectionPlane>& planes) {
     Tally tally;
     model::BuildingModel copy = model;
-    const auto scene = mesh::buildMeshes(copy);
+    const auto meshes = mesh::buildMeshes(copy);
     const auto built = buildVolume(model, options);
-    EXPECT_TRUE(scene && built);
-    if (!scene || !built) return tally;
+    EXPECT_TRUE(meshes && built);
+    if (!meshes || !built) return tally;
     const volume::SemanticVolume& volume = built->volume;
     std::set<std::uint32_t> losers;
     for (const volume::Overlap& overlap : volume.labels.overlaps) losers.insert(overlap.b);
-    const bool hasSheets = !std::ranges::all_of(scene->objects, &mesh::ObjectMesh::isSolid);
+    const bool hasSheets = !std::ranges::all_of(meshes->objects, &mesh::ObjectMesh::isSolid);
     const auto bricks = *volume::BrickVolume::fromColumns(volume.columns);
     for (const illustrate::SectionPlane& relative : planes) {
         const illustrate::SectionPlane plane{normalized(relative.normal), volume.grid.origin() + relative.point};
         const auto drawing = illustrate::drawSection(volume, bricks, plane);
         EXPECT_TRUE(drawing);
         if (!drawing) return tally;
-        for (const mesh::ObjectMesh& object : scene->objects) {
+        for (const mesh::ObjectMesh& object : meshes->objects) {
             if (!object.isSolid() || object.isAssembled) continue;
             const std::string& id = copy.features[object.feature].id;
             const auto label =
@@ -94,7 +94,7 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
             if (hasSheets && model::isSpace(volume.labels.labels[number].className)) continue;
             // Parts thinner than a voxel are drawn one voxel thick.
             if (losers.contains(number) || volume.labels.labels[number].thinVoxels != 0) continue;
-            const MeshSection exact = cutMesh(object, scene->origin, drawing->frame, volume.grid);
+            const MeshSection exact = cutMesh(object, meshes->origin, drawing->axes, volume.grid);
             const auto found = std::ranges::find(drawing->components, number, &illustrate::SectionComponent::label);
             const double area = found == drawing->components.end() ? 0 : found->area;
             if (exact.area == 0 && area == 0) continue;

@@ -75,9 +75,9 @@ Result<void> readCells(const json& value, const std::string& path, const std::fi
     const std::filesystem::path file = folder / name;
     const std::string at = fmt::format("{}.file '{}'", path, name);
     if (pattern.kind == voxelize::PatternKind::Image) {
-        auto cells = voxelize::readPatternImage(file);
-        if (!cells) return atPath(at, cells.error());
-        pattern.cells = *cells;
+        auto texels = voxelize::readPatternImage(file);
+        if (!texels) return atPath(at, texels.error());
+        pattern.texels = *texels;
         return {};
     }
     if (pattern.kind != voxelize::PatternKind::Raw)
@@ -89,11 +89,11 @@ Result<void> readCells(const json& value, const std::string& path, const std::fi
         if (const double v = (*dimension)[axis]; !(v >= 1 && v <= 1024 && v == std::floor(v)))
             return badStyle(path + ".dimension",
                             fmt::format("{} is out of range; whole numbers from 1 to 1024 are possible", v));
-    auto cells = voxelize::readPatternRaw(
+    auto texels = voxelize::readPatternRaw(
         file, {static_cast<std::int32_t>(dimension->x), static_cast<std::int32_t>(dimension->y),
                static_cast<std::int32_t>(dimension->z)});
-    if (!cells) return atPath(at, cells.error());
-    pattern.cells = *cells;
+    if (!texels) return atPath(at, texels.error());
+    pattern.texels = *texels;
     return {};
 }
 
@@ -128,7 +128,7 @@ Result<void> readPattern(const json& value, const std::string& path, const std::
             return badStyle(path + ".seed", "expected a whole number from 0 to 4294967295");
         pattern.seed = static_cast<std::uint32_t>(value["seed"].get<std::uint64_t>());
     }
-    if (auto cells = readCells(value, path, folder, pattern); !cells) return cells.error();
+    if (auto texels = readCells(value, path, folder, pattern); !texels) return texels.error();
     auto made = voxelize::makePattern(std::move(pattern));
     if (!made) return atPath(path, made.error());
     if (value.contains("colors")) {
@@ -187,8 +187,8 @@ void apply(const StyleRule& rule, ResolvedStyle& style) {
     if (rule.pattern) {
         style.pattern = *rule.pattern;
         style.phaseColors = rule.patternColors;
-        if (style.phaseColors.empty() && style.pattern.cells != nullptr)
-            style.phaseColors = style.pattern.cells->colors;
+        if (style.phaseColors.empty() && style.pattern.texels != nullptr)
+            style.phaseColors = style.pattern.texels->colors;
     }
 }
 
@@ -233,11 +233,11 @@ Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
     if (!stream)
         return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
     std::string text;
-    constexpr std::size_t kMostBytes = std::size_t{16} << 20;
-    text.resize(kMostBytes + 1);
+    constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+    text.resize(kMaxBytes + 1);
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMostBytes)
+    if (text.size() > kMaxBytes)
         return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
     auto sheet = parseStyleSheet(text, file.parent_path());
     // An error in the file of a pattern keeps that file as its place.

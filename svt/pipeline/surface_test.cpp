@@ -13,10 +13,10 @@ namespace svt::pipeline {
 namespace {
 
 // Surface area of one object voxelized alone, m2.
-double surfaceByVoxels(const mesh::MeshScene& scene, const mesh::ObjectMesh& object, double spacing) {
-    mesh::MeshScene alone;
-    alone.origin = scene.origin;
-    alone.planes = scene.planes;
+double surfaceByVoxels(const mesh::MeshSet& meshes, const mesh::ObjectMesh& object, double spacing) {
+    mesh::MeshSet alone;
+    alone.origin = meshes.origin;
+    alone.planes = meshes.planes;
     alone.objects = {object};
     alone.bounds = object.bounds;
     BuildOptions options;
@@ -27,7 +27,7 @@ double surfaceByVoxels(const mesh::MeshScene& scene, const mesh::ObjectMesh& obj
     table.labels[0].first = table.labels[0].count = 1;
     const voxelize::ObjectClaim claim{1, 0, "only"};
     const auto voxels = voxelize::voxelize(alone, *grid, std::span(&claim, 1));
-    const auto contacts = analyze::contactsOf(voxels->columns, *grid, table);
+    const auto contacts = analyze::findContacts(voxels->columns, *grid, table);
     return contacts.size() == 1 ? contacts[0].area : -1;
 }
 
@@ -35,14 +35,14 @@ TEST(Surfaces, OfTheFzkHausAreThoseOfItsMeshes) {
     SVT_NEEDS_DATA(file, "fzk_haus_citygml3.gml");
     const auto model = readers::readModel(file);
     ASSERT_TRUE(model);
-    const auto scene = mesh::buildMeshes(*model);
-    ASSERT_TRUE(scene);
+    const auto meshes = mesh::buildMeshes(*model);
+    ASSERT_TRUE(meshes);
     int checked = 0, near = 0;
     double mesh = 0, voxels = 0;
-    for (const mesh::ObjectMesh& object : scene->objects) {
+    for (const mesh::ObjectMesh& object : meshes->objects) {
         // Rafters, doors and windows are a few voxels thin; walls, slabs, roofs and rooms are not.
         if (object.volume < 1) continue;
-        const double area = surfaceByVoxels(*scene, object, 0.03);
+        const double area = surfaceByVoxels(*meshes, object, 0.03);
         // The gables deviate most: 0.2 m thin, with slanted edges.
         EXPECT_NEAR(area, object.area, 0.07 * object.area) << model->features[object.feature].name;
         ++checked;

@@ -67,12 +67,12 @@ void append(const volume::VectorParts& from, std::uint32_t label, volume::Vector
 
 }  // namespace
 
-Result<volume::VectorParts> makeVectorParts(const mesh::MeshScene& scene, std::span<const std::uint32_t> labelOfObject,
+Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::span<const std::uint32_t> labelOfObject,
                                             const volume::Grid& grid, VectorChoice choice, int threads) {
     volume::VectorParts all;
     if (choice.isNone()) return all;
     std::vector<ObjectParts> objects;
-    for (const mesh::ObjectMesh& mesh : scene.objects) objects.emplace_back(mesh, scene.origin - grid.origin());
+    for (const mesh::ObjectMesh& mesh : meshes.objects) objects.emplace_back(mesh, meshes.origin - grid.origin());
     parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o) {
             if (choice.edges) objects[o].addEdges();

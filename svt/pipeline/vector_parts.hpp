@@ -3,7 +3,7 @@
 /// Lines and triangles of meshes, by label, stored alongside the voxels.
 
 #include <svt/core/result.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/grid.hpp>
 #include <svt/volume/vector_parts.hpp>
 
@@ -19,10 +19,10 @@ struct VectorChoice {
     [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
 };
 
-/// \param labelOfObject  per scene.objects
+/// \param labelOfObject  per meshes.objects
 /// \return the parts, in label order, or GridTooLarge if a point is over 200 km from the grid's origin
 /// Cost: that of the feature edges, parallel. The result does not depend on `threads`.
-[[nodiscard]] Result<volume::VectorParts> makeVectorParts(const mesh::MeshScene& scene,
+[[nodiscard]] Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes,
                                                           std::span<const std::uint32_t> labelOfObject,
                                                           const volume::Grid& grid, VectorChoice choice,
                                                           int threads = 0);

@@ -13,7 +13,7 @@ namespace svt::render {
 
 /// A ray in voxel space, and its direction in world space, for shading.
 struct CameraRay {
-    VoxelRay index;
+    VoxelRay voxelRay;
     Vec3d direction;    ///< world space; its component along the view direction is 1, so t is depth
     double metresPerT;  ///< length of `direction`
 };
@@ -32,18 +32,18 @@ public:
                                      : camera.orthographicHeight / 2;
         halfWidth_ = halfHeight_ * spec.width / spec.height;
         metresPerRow_ = 2 * halfHeight_ / spec.height;
-        eyeIndex_ = grid.indexFromWorld(camera.eye) + Vec3d{0.5, 0.5, 0.5};
-        forwardIndex_ = grid.indexFromWorldDirection(forward_);
-        rightIndex_ = grid.indexFromWorldDirection(right_);
-        upIndex_ = grid.indexFromWorldDirection(up_);
+        eyeVoxel_ = grid.indexFromWorld(camera.eye) + Vec3d{0.5, 0.5, 0.5};
+        forwardVoxel_ = grid.indexFromWorldDirection(forward_);
+        rightVoxel_ = grid.indexFromWorldDirection(right_);
+        upVoxel_ = grid.indexFromWorldDirection(up_);
     }
 
     /// \param u, v  -1..1 from left to right and from bottom to top of the picture
     [[nodiscard]] CameraRay at(double u, double v) const noexcept {
         const double x = u * halfWidth_, y = v * halfHeight_;
-        const Vec3d aside = rightIndex_ * x + upIndex_ * y;
-        if (!isPerspective_) return {VoxelRay(eyeIndex_ + aside, forwardIndex_), forward_, 1};
-        return {VoxelRay(eyeIndex_, forwardIndex_ + aside), forward_ + right_ * x + up_ * y,
+        const Vec3d aside = rightVoxel_ * x + upVoxel_ * y;
+        if (!isPerspective_) return {VoxelRay(eyeVoxel_ + aside, forwardVoxel_), forward_, 1};
+        return {VoxelRay(eyeVoxel_, forwardVoxel_ + aside), forward_ + right_ * x + up_ * y,
                 std::sqrt(1 + x * x + y * y)};
     }
 
@@ -59,14 +59,14 @@ public:
     }
     [[nodiscard]] bool isPerspective() const noexcept { return isPerspective_; }
 
-    /// The vectors from which at() makes rays; those named Index are in voxel space.
+    /// The vectors from which at() makes rays; those named Voxel are in voxel space.
     struct Basis {
         Vec3d forward, right, up;
         double halfWidth, halfHeight;
-        Vec3d eyeIndex, forwardIndex, rightIndex, upIndex;
+        Vec3d eyeVoxel, forwardVoxel, rightVoxel, upVoxel;
     };
     [[nodiscard]] Basis basis() const noexcept {
-        return {forward_, right_, up_, halfWidth_, halfHeight_, eyeIndex_, forwardIndex_, rightIndex_, upIndex_};
+        return {forward_, right_, up_, halfWidth_, halfHeight_, eyeVoxel_, forwardVoxel_, rightVoxel_, upVoxel_};
     }
 
     [[nodiscard]] Vec3d forward() const noexcept { return forward_; }
@@ -81,7 +81,7 @@ private:
     bool isPerspective_;
     Vec3d eye_, forward_, right_, up_;
     double halfWidth_, halfHeight_, metresPerRow_;
-    Vec3d eyeIndex_, forwardIndex_, rightIndex_, upIndex_;
+    Vec3d eyeVoxel_, forwardVoxel_, rightVoxel_, upVoxel_;
 };
 
 }  // namespace svt::render

@@ -87,19 +87,19 @@ private:
         ClipRegion::Mode mode;
     };
     // The interval of a ray inside a part of a region, and the faces at its ends.
-    struct Stretch {
+    struct PartInterval {
         double enter, exit;
         CapFace enterFace, exitFace;
         void meet(double from, double to, CapFace face) noexcept;
     };
-    using Stretches = std::array<Stretch, Pass::kMaxClipParts>;
+    using PartIntervals = std::array<PartInterval, Pass::kMaxClipParts>;
 
     struct Line {
         Vec3d origin, direction;
     };
-    static Stretch within(const Part& part, const Line& line) noexcept;
-    static void meetRound(const Round& round, const Line& line, Stretch& stretch) noexcept;
-    static std::size_t within(const Region& region, const Line& line, Stretches& stretches) noexcept;
+    static PartInterval within(const Part& part, const Line& line) noexcept;
+    static void meetRound(const Round& round, const Line& line, PartInterval& inside) noexcept;
+    static std::size_t within(const Region& region, const Line& line, PartIntervals& insides) noexcept;
 
     std::vector<Region> regions_;
 };

@@ -71,12 +71,12 @@ struct BorderLines {
 };
 
 /// Hatches are fixed to the cap, in metres from the grid's origin, independent of the view.
-struct HatchLook {
+struct HatchStyle {
     double spacing = 0.1;              ///< metres between the lines of Hatch::Masonry, > 0; others are multiples of it
     float width = 1;                   ///< pixels, 0..kMaxWidth of BorderLines
     float strength = 0.75f;            ///< 0..1
     Vec3f color{0.08f, 0.08f, 0.08f};  ///< sRGB, 0..1
-    friend bool operator==(const HatchLook&, const HatchLook&) = default;
+    friend bool operator==(const HatchStyle&, const HatchStyle&) = default;
 };
 
 /// A pass: which part of the volume is drawn, and how.
@@ -109,7 +109,7 @@ struct FrameSpec {
     Background background;
     std::vector<Pass> passes;
     BorderLines borders;
-    HatchLook hatches;
+    HatchStyle hatches;
     /// By scalar: its object. Between scalars of one object (the phases of its pattern) there is no border line and no
     /// surface. Each scalar beyond the end is an object by itself.
     std::vector<std::uint32_t> objectOfScalar;

@@ -37,6 +37,6 @@ struct HatchPen {
 };
 
 /// Coverage by ink at (u, v) of a cap, 0..1; u and v in metres. Where lines are closer than two pixels, their mean.
-[[nodiscard]] double hatchInk(Hatch hatch, double u, double v, const HatchPen& pen) noexcept;
+[[nodiscard]] double hatchCoverage(Hatch hatch, double u, double v, const HatchPen& pen) noexcept;
 
 }  // namespace svt::render

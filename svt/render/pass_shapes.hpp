@@ -23,11 +23,11 @@ struct PictureLine {
     double perSquaredLength;    ///< 1 / (dx^2 + dy^2)
     double depth, depthChange;  ///< at the start, and end minus start; of 1 / depth, or of depth if orthographic
     double length;              ///< pixels
-    std::uint32_t look;         ///< index into PassShapes::looks()
+    std::uint32_t style;        ///< index into PassShapes::lineStyles()
 };
 
-/// Look of a set of lines.
-struct LineLook {
+/// Style of a set of lines.
+struct LineStyle {
     Vec3d color;                ///< linear light
     double halfWidth, darkest;  ///< pixels; largest coverage
     double hiddenOpacity, dash, period;
@@ -66,7 +66,7 @@ public:
     /// Shapes that a ray through (u, v), see CameraRays::at(), may meet, ascending: lines, then triangles, whose
     /// numbers have kTriangle added. (u, v) may be up to 2 pixels outside the picture.
     [[nodiscard]] std::span<const std::uint32_t> near(double u, double v) const noexcept {
-        return inCell(cellX((u + 1) / 2 * width_), cellY((1 - v) / 2 * height_));
+        return inSquare(squareX((u + 1) / 2 * width_), squareY((1 - v) / 2 * height_));
     }
     static constexpr std::uint32_t kTriangle = 0x80000000u;
     /// Lines that any of the rays through (x[n], y[n]), pixels, may meet; each once, in any order.
@@ -76,14 +76,14 @@ public:
                                                            std::vector<std::uint32_t>& buffer) const {
         const auto [left, right] = rangeOf(x, kCount);
         const auto [top, bottom] = rangeOf(y, kCount);
-        return linesIn(cellX(left), cellY(top), cellX(right), cellY(bottom), buffer);
+        return linesIn(squareX(left), squareY(top), squareX(right), squareY(bottom), buffer);
     }
     /// Whether any of the rays through (u[n], v[n]), n < count, may meet a shape. False is certain.
     [[nodiscard]] bool hasAnyNear(const double* u, const double* v, std::size_t count) const noexcept {
         const auto [left, right] = rangeOf(u, count);
         const auto [bottom, top] = rangeOf(v, count);
-        return hasAnyIn(cellX((left + 1) / 2 * width_), cellY((1 - top) / 2 * height_), cellX((right + 1) / 2 * width_),
-                        cellY((1 - bottom) / 2 * height_));
+        return hasAnyIn(squareX((left + 1) / 2 * width_), squareY((1 - top) / 2 * height_),
+                        squareX((right + 1) / 2 * width_), squareY((1 - bottom) / 2 * height_));
     }
     [[nodiscard]] bool hasTriangles() const noexcept { return !triangles_.empty(); }
     [[nodiscard]] bool hasTriangles(double u, double v) const noexcept {
@@ -92,14 +92,14 @@ public:
     }
 
     [[nodiscard]] std::span<const PictureLine> lines() const noexcept { return lines_; }
-    [[nodiscard]] std::span<const LineLook> looks() const noexcept { return looks_; }
+    [[nodiscard]] std::span<const LineStyle> lineStyles() const noexcept { return lineStyles_; }
     [[nodiscard]] const PictureTriangle& triangle(std::uint32_t number) const noexcept { return triangles_[number]; }
     [[nodiscard]] double width() const noexcept { return width_; }
     [[nodiscard]] double height() const noexcept { return height_; }
 
 private:
     // Squares of 4 x 4 pixels, 8 x 8 of them in a tile.
-    static constexpr std::int32_t kCellPixels = 4, kTileCells = 8, kTilePixels = kCellPixels * kTileCells;
+    static constexpr std::int32_t kSquarePixels = 4, kTileSquares = 8, kTilePixels = kSquarePixels * kTileSquares;
     struct Tile {
         std::vector<std::uint32_t> starts;  // by square, x fastest, and the end; empty: each square has all shapes
         std::vector<std::uint32_t> shapes;
@@ -107,20 +107,20 @@ private:
     struct Square {
         double left, top, right, bottom;
     };
-    [[nodiscard]] std::int32_t cellOf(double pixel, std::int32_t count) const noexcept {
-        return std::clamp(static_cast<std::int32_t>((pixel + margin_) * (1.0 / kCellPixels)), 0, count - 1);
+    [[nodiscard]] std::int32_t squareOf(double pixel, std::int32_t count) const noexcept {
+        return std::clamp(static_cast<std::int32_t>((pixel + margin_) * (1.0 / kSquarePixels)), 0, count - 1);
     }
-    [[nodiscard]] std::int32_t cellX(double pixel) const noexcept { return cellOf(pixel, cellsX_); }
-    [[nodiscard]] std::int32_t cellY(double pixel) const noexcept { return cellOf(pixel, cellsY_); }
+    [[nodiscard]] std::int32_t squareX(double pixel) const noexcept { return squareOf(pixel, squaresX_); }
+    [[nodiscard]] std::int32_t squareY(double pixel) const noexcept { return squareOf(pixel, squaresY_); }
     /// First pixel of square or tile `number`, each `pixels` wide.
     [[nodiscard]] double beginOf(std::int32_t number, std::int32_t pixels) const noexcept {
         return double(number) * pixels - margin_;
     }
-    [[nodiscard]] std::span<const std::uint32_t> inCell(std::int32_t x, std::int32_t y) const noexcept {
-        const Tile& tile = tiles_[static_cast<std::size_t>(x / kTileCells + tilesX_ * (y / kTileCells))];
+    [[nodiscard]] std::span<const std::uint32_t> inSquare(std::int32_t x, std::int32_t y) const noexcept {
+        const Tile& tile = tiles_[static_cast<std::size_t>(x / kTileSquares + tilesX_ * (y / kTileSquares))];
         if (tile.starts.empty()) return tile.shapes;
-        const auto cell = static_cast<std::size_t>(x % kTileCells + kTileCells * (y % kTileCells));
-        return std::span(tile.shapes).subspan(tile.starts[cell], tile.starts[cell + 1] - tile.starts[cell]);
+        const auto square = static_cast<std::size_t>(x % kTileSquares + kTileSquares * (y % kTileSquares));
+        return std::span(tile.shapes).subspan(tile.starts[square], tile.starts[square + 1] - tile.starts[square]);
     }
     [[nodiscard]] static std::pair<double, double> rangeOf(const double* values, std::size_t count) noexcept {
         double least = values[0], most = values[0];
@@ -140,15 +140,15 @@ private:
     void addLine(Vec3d from, Vec3d to, const CameraRays& rays, double nearest);
     void addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest);
     [[nodiscard]] Result<void> sortIntoTiles(int threads);
-    void sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const;
+    void sortIntoSquares(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const;
     [[nodiscard]] std::pair<double, double> spanOf(const PictureLine& line, double top, double bottom) const noexcept;
     [[nodiscard]] Square boundsOf(std::uint32_t shape) const noexcept;
     [[nodiscard]] static Square boundsOf(const std::array<double, 6>& outline) noexcept;
     [[nodiscard]] bool touches(std::uint32_t shape, const Square& square) const noexcept;
 
     double width_ = 0, height_ = 0, reach_ = 0, margin_ = 0;  // pixels
-    std::int32_t cellsX_ = 0, cellsY_ = 0, tilesX_ = 0, tilesY_ = 0;
-    std::vector<LineLook> looks_;
+    std::int32_t squaresX_ = 0, squaresY_ = 0, tilesX_ = 0, tilesY_ = 0;
+    std::vector<LineStyle> lineStyles_;
     std::vector<PictureLine> lines_;
     std::vector<PictureTriangle> triangles_;
     // Projected corners, x and y each; all zero if a corner is behind the eye plane: the triangle may be anywhere.
@@ -157,6 +157,6 @@ private:
 };
 
 /// The pass with styles for its voxels: objects that are drawn as triangles are hidden.
-[[nodiscard]] Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar);
+[[nodiscard]] Pass makeVoxelPass(const Pass& pass, std::span<const std::uint32_t> objectOfScalar);
 
 }  // namespace svt::render

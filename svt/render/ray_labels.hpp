@@ -13,10 +13,10 @@
 namespace svt::render {
 
 /// An interval of a ray inside one label.
-struct RayStretch {
+struct LabelInterval {
     std::uint32_t label = 0;
     double enter = 0, leave = 0;  ///< metres from the ray's origin
-    friend bool operator==(const RayStretch&, const RayStretch&) = default;
+    friend bool operator==(const LabelInterval&, const LabelInterval&) = default;
 };
 
 /// The labels that a ray goes through, in order, without background. A label that the ray enters again is listed again.
@@ -26,8 +26,8 @@ struct RayStretch {
 /// \return the intervals, or BadArgument if a number is not finite or the direction is zero
 /// Faces between labels are those of the bricks: within half a voxel of the model's.
 /// Cost: O(boxes of one label along the ray).
-[[nodiscard]] Result<std::vector<RayStretch>> labelsAlong(const volume::BrickVolume& bricks, const volume::Grid& grid,
-                                                          const volume::LabelTable& labels, Vec3d origin,
-                                                          Vec3d direction);
+[[nodiscard]] Result<std::vector<LabelInterval>> labelsAlong(const volume::BrickVolume& bricks,
+                                                             const volume::Grid& grid, const volume::LabelTable& labels,
+                                                             Vec3d origin, Vec3d direction);
 
 }  // namespace svt::render

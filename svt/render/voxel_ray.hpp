@@ -56,38 +56,38 @@ struct VoxelRay {
     [[nodiscard]] double planeTime(int axis, std::int32_t plane) const noexcept {
         return (plane - planeOrigin[axis]) * inverse[axis];
     }
-    /// Time at which the ray leaves voxel `cell` along an axis.
-    [[nodiscard]] double leaveTime(int axis, std::int32_t cell) const noexcept {
-        return planeTime(axis, step[axis] < 0 ? cell : cell + 1);
+    /// Time at which the ray leaves `voxel` along an axis.
+    [[nodiscard]] double leaveTime(int axis, std::int32_t voxel) const noexcept {
+        return planeTime(axis, step[axis] < 0 ? voxel : voxel + 1);
     }
-    /// Time at which the ray entered voxel `cell` along an axis; only for axes with non-zero direction.
-    [[nodiscard]] double enterTime(int axis, std::int32_t cell) const noexcept {
-        return planeTime(axis, step[axis] < 0 ? cell + 1 : cell);
+    /// Time at which the ray entered `voxel` along an axis; only for axes with non-zero direction.
+    [[nodiscard]] double enterTime(int axis, std::int32_t voxel) const noexcept {
+        return planeTime(axis, step[axis] < 0 ? voxel + 1 : voxel);
     }
     /// The voxel that the ray is in from t on, along an axis of `count` voxels.
-    [[nodiscard]] std::int32_t cellAt(int axis, double t, std::int32_t count) const noexcept {
+    [[nodiscard]] std::int32_t voxelAt(int axis, double t, std::int32_t count) const noexcept {
         const double position = origin[axis] + t * direction[axis];
         const double guess = position > 0 ? std::min(position, static_cast<double>(count - 1)) : 0;  // 0 also for NaN
-        auto cell = static_cast<std::int32_t>(guess);
+        auto voxel = static_cast<std::int32_t>(guess);
         // Only next to a plane can the rounded position and planeTime() disagree.
-        const double inCell = guess - cell;
-        if (inCell > slack && inCell < 1 - slack) return cell;
+        const double inVoxel = guess - voxel;
+        if (inVoxel > slack && inVoxel < 1 - slack) return voxel;
         if (step[axis] > 0) {
-            while (cell + 1 < count && planeTime(axis, cell + 1) <= t) ++cell;
-            while (cell > 0 && planeTime(axis, cell) > t) --cell;
+            while (voxel + 1 < count && planeTime(axis, voxel + 1) <= t) ++voxel;
+            while (voxel > 0 && planeTime(axis, voxel) > t) --voxel;
         } else if (step[axis] < 0) {
-            while (cell > 0 && planeTime(axis, cell) <= t) --cell;
-            while (cell + 1 < count && planeTime(axis, cell + 1) > t) ++cell;
+            while (voxel > 0 && planeTime(axis, voxel) <= t) --voxel;
+            while (voxel + 1 < count && planeTime(axis, voxel + 1) > t) ++voxel;
         }
-        return cell;
+        return voxel;
     }
-    [[nodiscard]] Vec3i cellAt(double t, Vec3i count) const noexcept {
-        return {cellAt(0, t, count.x), cellAt(1, t, count.y), cellAt(2, t, count.z)};
+    [[nodiscard]] Vec3i voxelAt(double t, Vec3i count) const noexcept {
+        return {voxelAt(0, t, count.x), voxelAt(1, t, count.y), voxelAt(2, t, count.z)};
     }
-    /// The first axis whose plane the ray crosses at t when it enters `cell`; -1 if it crosses none at t.
-    [[nodiscard]] int entryAxis(double t, Vec3i cell) const noexcept {
+    /// The first axis whose plane the ray crosses at t when it enters `voxel`; -1 if it crosses none at t.
+    [[nodiscard]] int entryAxis(double t, Vec3i voxel) const noexcept {
         for (int axis = 0; axis < 3; ++axis)
-            if (step[axis] != 0 && enterTime(axis, cell[axis]) == t) return axis;
+            if (step[axis] != 0 && enterTime(axis, voxel[axis]) == t) return axis;
         return -1;
     }
 };

@@ -60,7 +60,7 @@ struct SampleComponent {
     std::string storey;  ///< id of the storey it belongs to, or empty
     std::string unit;    ///< id of the flat it belongs to, or empty
     double volume = 0;   ///< m3, exact to rounding; 0 for a storey or building, which have no geometry of their own
-    std::vector<std::vector<SamplePiece>> bodies;  ///< disjoint bodies; the pieces of each are applied in order
+    std::vector<std::vector<SamplePiece>> solids;  ///< disjoint solids; the pieces of each are applied in order
 
     /// True if `point` (world, metres) lies inside; undefined within a micrometre of the boundary.
     [[nodiscard]] bool contains(Vec3d point) const;

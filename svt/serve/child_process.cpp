@@ -28,8 +28,8 @@ void limit(int resource, std::uint64_t value) noexcept {
 }
 
 // Runs between fork and exec; nothing here allocates.
-[[noreturn]] void become(char* const* arguments, const char* folder, const ChildLimits& limits, int errors,
-                         pid_t parent) {
+[[noreturn]] void execChild(char* const* arguments, const char* folder, const ChildLimits& limits, int errors,
+                            pid_t parent) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(kCannotStart);
@@ -49,7 +49,7 @@ void limit(int resource, std::uint64_t value) noexcept {
 
 // Appends the available output.
 // \return false at the end
-bool gather(int from, std::string& messages) {
+bool readAvailable(int from, std::string& messages) {
     std::array<char, 4096> buffer;
     const ssize_t got = ::read(from, buffer.data(), buffer.size());
     if (got <= 0) return got < 0 && (errno == EAGAIN || errno == EINTR);
@@ -73,7 +73,7 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
     pointers.push_back(nullptr);
     const pid_t parent = ::getpid();
     const pid_t child = ::fork();
-    if (child == 0) become(pointers.data(), folder.c_str(), limits, pipe[1], parent);
+    if (child == 0) execChild(pointers.data(), folder.c_str(), limits, pipe[1], parent);
     ::close(pipe[1]);
     ::fcntl(pipe[0], F_SETFL, O_NONBLOCK);
 
@@ -84,7 +84,7 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
         constexpr int kPauseMs = 20;
         pollfd poll{isOpen ? pipe[0] : -1, POLLIN, 0};
         ::poll(&poll, 1, kPauseMs);
-        if (poll.revents != 0) isOpen = gather(pipe[0], result.messages);
+        if (poll.revents != 0) isOpen = readAvailable(pipe[0], result.messages);
         if (::waitpid(child, &status, WNOHANG) != 0) break;
         result.isTimeout = std::chrono::steady_clock::now() >= end;
         result.isCancelled = Progress::isCancelled(&stop);
@@ -97,7 +97,7 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
     if (child > 0) ::kill(-child, SIGKILL);  // its descendants
     while (isOpen && child > 0) {
         const std::size_t had = result.messages.size();
-        isOpen = gather(pipe[0], result.messages) && result.messages.size() != had;
+        isOpen = readAvailable(pipe[0], result.messages) && result.messages.size() != had;
     }
     ::close(pipe[0]);
     if (child > 0 && WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);

@@ -80,7 +80,7 @@ Route convertRoute(ConvertOptions options) {
     Route route;
     route.path = "/api/convert";
     route.maxBodyBytes = options.maxUploadBytes;
-    route.maxWaiting = 2;
+    route.queueLength = 2;
     route.isBodyInFile = true;
     route.handle = [options = std::move(options)](const Request& request, const Progress& stop) {
         return convert(options, request, stop);

@@ -172,7 +172,7 @@ Reply Reply::refusal(int status, std::string_view message) {
     return error(status, fmt::format("HTTP{}", status), message);
 }
 
-std::string_view reasonOf(int status) noexcept {
+std::string_view reasonPhrase(int status) noexcept {
     switch (status) {
         case 200: return "OK";
         case 206: return "Partial Content";

@@ -59,7 +59,7 @@ struct Reply {
 };
 
 /// Reason phrase, such as "Not Found".
-[[nodiscard]] std::string_view reasonOf(int status) noexcept;
+[[nodiscard]] std::string_view reasonPhrase(int status) noexcept;
 
 /// A parsed head, beyond the request itself.
 struct Head {

@@ -189,7 +189,8 @@ constexpr std::string_view kSafetyHeaders =
     "X-Content-Type-Options: nosniff\r\n";
 
 std::string headOf(const Reply& reply, bool isKept) {
-    std::string text = fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\n", reply.status, reasonOf(reply.status), dateNow());
+    std::string text =
+        fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\n", reply.status, reasonPhrase(reply.status), dateNow());
     if (!reply.type.empty()) text += fmt::format("Content-Type: {}\r\n", reply.type);
     if (reply.status != 304) text += fmt::format("Content-Length: {}\r\n", reply.body.data.size() + reply.skippedBody);
     for (const auto& [name, value] : reply.headers) text += fmt::format("{}: {}\r\n", name, value);
@@ -199,7 +200,7 @@ std::string headOf(const Reply& reply, bool isKept) {
 }
 
 // True if the call comes from a page of this server or from no page at all.
-bool isOwnCall(const Request& request) {
+bool isSameOrigin(const Request& request) {
     const std::string_view origin = request.header("origin"), site = request.header("sec-fetch-site");
     if (!site.empty() && site != "same-origin" && site != "none") return false;
     if (origin.empty()) return true;
@@ -271,7 +272,7 @@ public:
             wait();
             now_ = Clock::now();
             for (Connection& connection : connections_)
-                if (!connection.isEnded) advance(connection);
+                if (!connection.isEnded) progressConnection(connection);
             connections_.remove_if([](const Connection& connection) { return connection.isEnded; });
         }
         connections_.clear();
@@ -336,10 +337,10 @@ private:
                 if (errno == ECONNABORTED || errno == EINTR) continue;
                 if (errno == EAGAIN || errno == EWOULDBLOCK) return;
                 // Out of descriptors or memory: retrying at once would only waste CPU time.
-                if (!makeRoom()) acceptFrom_ = now_ + std::chrono::milliseconds(100);
+                if (!closeLongestWaiting()) acceptFrom_ = now_ + std::chrono::milliseconds(100);
                 return;
             }
-            if (connections_.size() >= options_.maxConnections && !makeRoom()) {
+            if (connections_.size() >= options_.maxConnections && !closeLongestWaiting()) {
                 refuse(socket);
                 continue;
             }
@@ -353,17 +354,17 @@ private:
 
     // Closes the connection that has waited longest for its client.
     // \return false if none is waiting
-    bool makeRoom() {
+    bool closeLongestWaiting() {
         auto longest = connections_.end();
         for (auto at = connections_.begin(); at != connections_.end(); ++at)
-            if (isWaitedFor(*at) && (longest == connections_.end() || at->since < longest->since)) longest = at;
+            if (isWaitingForClient(*at) && (longest == connections_.end() || at->since < longest->since)) longest = at;
         if (longest == connections_.end()) return false;
         release(*longest);
         connections_.erase(longest);
         return true;
     }
 
-    [[nodiscard]] bool isWaitedFor(const Connection& connection) const {
+    [[nodiscard]] bool isWaitingForClient(const Connection& connection) const {
         if (connection.state == State::Head || connection.state == State::Draining) return true;
         return connection.state != State::Working && now_ - connection.since > std::chrono::seconds(1);
     }
@@ -408,10 +409,10 @@ private:
     }
 
     // Does everything possible for a connection without blocking.
-    void advance(Connection& connection) {
+    void progressConnection(Connection& connection) {
         if (connection.isPipelined) {
             connection.isPipelined = false;
-            understand(connection);
+            parseRequest(connection);
         } else if (connection.state == State::Working) {
             takeReply(connection);
         } else if (connection.events != 0) {
@@ -448,11 +449,11 @@ private:
         connection.in.append(buffer.data(), got);
         if (had == 0 && connection.lastChance > now_ + seconds(options_.headSeconds))
             awaitHead(connection, options_.headSeconds);
-        understand(connection);
+        parseRequest(connection);
     }
 
     // Parses a request from the input, if it is complete.
-    void understand(Connection& connection) {
+    void parseRequest(Connection& connection) {
         std::string& in = connection.in;
         while (in.compare(0, 2, "\r\n") == 0) in.erase(0, 2);  // empty lines before a request are ignored
         const std::size_t end = in.find("\r\n\r\n");
@@ -491,14 +492,14 @@ private:
             refused.headers.emplace_back("Allow", "POST");
             return reply(connection, std::move(refused), false);
         }
-        if (!isOwnCall(request))
+        if (!isSameOrigin(request))
             return reply(connection, Reply::refusal(403, "pages of other sites may not call this"), false);
         if (connection.head.bodyBytes > worker.route.maxBodyBytes)
             return reply(connection,
                          Reply::refusal(413, fmt::format("the body has {} bytes, {} are the limit",
                                                          connection.head.bodyBytes, worker.route.maxBodyBytes)),
                          false);
-        if (worker.admitted > worker.route.maxWaiting) {
+        if (worker.admitted > worker.route.queueLength) {
             Reply refused = Reply::refusal(503, "too many of these are at work; try again");
             refused.headers.emplace_back("Retry-After", "2");
             return reply(connection, std::move(refused), false);

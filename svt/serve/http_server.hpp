@@ -23,7 +23,7 @@ struct Route {
     /// return value is then discarded.
     std::function<Reply(const Request& request, const Progress& stop)> handle;
     std::uint64_t maxBodyBytes = 1 << 20;
-    int maxWaiting = 4;         ///< queue length, beyond the request in progress; further requests get 503
+    int queueLength = 4;        ///< queue length, beyond the request in progress; further requests get 503
     bool isBodyInFile = false;  ///< the body is stored in Request::bodyFile, not in memory
 };
 
@@ -59,7 +59,7 @@ public:
     ~HttpServer();
 
     [[nodiscard]] int port() const noexcept;
-    /// Replies until stop(). Memory: 17 KiB per connection, plus the bodies of calls (`maxWaiting` + 1 per route).
+    /// Replies until stop(). Memory: 17 KiB per connection, plus the bodies of calls (`queueLength` + 1 per route).
     void run();
     /// Ends run() within stopSeconds plus the time handlers take to react to their `stop`. May be called from any
     /// thread and from a signal handler.

@@ -158,7 +158,7 @@ struct Slow {
     Route route() {
         Route route;
         route.path = "/api/slow";
-        route.maxWaiting = 2;
+        route.queueLength = 2;
         route.handle = [this](const Request&, const Progress& stop) {
             ++begun;
             while (!stop.cancel) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -63,8 +63,8 @@ enum class BrickFaces : std::uint8_t {
 class BrickVolume {
 public:
     static constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
-    static constexpr std::size_t kMostPlanes = 3;               ///< maximum of planes in a code
-    static constexpr std::size_t kMostSides = 3 + kMostPlanes;  ///< maximum of sides in a code: cuts and planes
+    static constexpr std::size_t kMaxPlanes = 3;              ///< maximum of planes in a code
+    static constexpr std::size_t kMaxSides = 3 + kMaxPlanes;  ///< maximum of sides in a code: cuts and planes
 
     static constexpr std::int32_t kBrickSize = 8;
     static constexpr std::uint64_t kMaxBricks = std::uint64_t{1} << 29;
@@ -112,7 +112,7 @@ public:
 
     /// Entry of brick (bx, by, bz), which must lie inside.
     [[nodiscard]] Entry entry(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
-        const std::size_t brick = placeOf(bx, by, bz);
+        const std::size_t brick = brickIndex(bx, by, bz);
         const std::uint32_t value = narrow_.empty() ? wide_[brick] : narrow_[brick];
         if (value < uniformBoxes_) return {value, 0};
         if (value < boxes_.size()) return {value | Entry::kCoded, patternOf(brick)};
@@ -131,7 +131,7 @@ public:
             const std::uint64_t* word = words_ + k;
             const int bit = i + 8 * j;
             std::uint32_t index = static_cast<std::uint32_t>(*word >> bit) & 1u;
-            for (std::uint32_t plane = 1; plane < planeCount_; ++plane)
+            for (std::uint32_t plane = 1; plane < bitPlaneCount_; ++plane)
                 index |= (static_cast<std::uint32_t>(word[8 * plane] >> bit) & 1u) << plane;
             return palette_[index];
         }
@@ -140,25 +140,25 @@ public:
         friend class BrickVolume;
         const std::uint64_t* words_ = nullptr;
         const Scalar* palette_ = nullptr;
-        std::uint32_t planeCount_ = 0;
+        std::uint32_t bitPlaneCount_ = 0;
     };
     [[nodiscard]] MixedBrick mixedBrick(Entry mixed) const noexcept {
         const PaletteBrick& brick = bricks_[mixed.pattern_];
         MixedBrick view;
-        view.words_ = planes_.data() + brick.planes;
+        view.words_ = bitPlanes_.data() + brick.bitPlanes;
         view.palette_ = palettes_.data() + brick.palette;
-        view.planeCount_ = brick.planeCount;
+        view.bitPlaneCount_ = brick.bitPlaneCount;
         return view;
     }
 
-    /// The code of a box of bricks: cuts, planes and the label of each cell between them. 24 bytes.
+    /// The code of a box of bricks: cuts, planes and the label of each side combination. 24 bytes.
     struct BoxCoding {
         std::array<std::uint16_t, 3> cut{};  ///< voxels of the volume below the cut, per axis
         std::uint16_t cutAxes = 0;           ///< bit a: the code has a cut across axis a
-        std::array<std::uint32_t, kMostPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< in oblique()
-        /// Offset in palettes of the scalars by cell. A cell number has one bit per existing cut (x, y, z) and plane,
+        std::array<std::uint32_t, kMaxPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< in planes()
+        /// Offset in palettes of the scalars by side combination. It has one bit per existing cut (x, y, z) and plane,
         /// in this order from the lowest; 1 means beyond the cut, or on the positive side of the plane.
-        std::uint32_t cells = 0;
+        std::uint32_t firstSideScalar = 0;
         [[nodiscard]] bool hasCut(int axis) const noexcept { return ((cutAxes >> axis) & 1u) != 0; }
         friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
     };
@@ -167,12 +167,12 @@ public:
         return boxes_[coded.value_ & ~Entry::kCoded];
     }
     [[nodiscard]] const BoxCoding& coding(Entry coded) const noexcept { return codes_[codedBox(coded).scalar]; }
-    /// Scalar of a cell, see BoxCoding::cells.
-    [[nodiscard]] Scalar cellScalar(const BoxCoding& coding, std::size_t cell) const noexcept {
-        return palettes_[coding.cells + cell];
+    /// Scalar of a side combination, see BoxCoding::firstSideScalar.
+    [[nodiscard]] Scalar sideScalar(const BoxCoding& coding, std::size_t sides) const noexcept {
+        return palettes_[coding.firstSideScalar + sides];
     }
     /// The planes used by all codes.
-    [[nodiscard]] std::span<const BrickPlane> oblique() const noexcept { return oblique_; }
+    [[nodiscard]] std::span<const BrickPlane> planes() const noexcept { return planes_; }
 
     /// A set of voxels of a brick: bit i + 8 j of word(k) stands for voxel (i, j, k).
     class VoxelMask {
@@ -199,11 +199,11 @@ public:
         const PaletteBrick& mixed = bricks_[brick.pattern_];
         if (mixed.paletteSize == 2) {  // the most frequent case
             const bool first = accepts(palettes_[mixed.palette]), second = accepts(palettes_[mixed.palette + 1]);
-            if (first != second) mask.words_ = planes_.data() + mixed.planes;
+            if (first != second) mask.words_ = bitPlanes_.data() + mixed.bitPlanes;
             mask.flip_ = first ? ~std::uint64_t{0} : 0;
             return mask;
         }
-        putTogether(mixed, accepts, scratch);
+        combineMask(mixed, accepts, scratch);
         mask.words_ = scratch.data();
         return mask;
     }
@@ -220,7 +220,7 @@ public:
     /// of boxes(), and `mixed(bx, number)` for each brick with palette brick `number`. Cost: O(runs + mixed bricks).
     template <class Uniform, class Mixed>
     void forRow(std::int32_t by, std::int32_t bz, const Uniform& uniform, const Mixed& mixed) const {
-        const std::size_t row = placeOf(0, by, bz);
+        const std::size_t row = brickIndex(0, by, bz);
         const std::uint32_t* coded = nullptr;  // palette brick of the next coded brick
         for (std::int32_t x = 0; x < brickCount_.x;) {
             const std::size_t brick = row + static_cast<std::size_t>(x);
@@ -247,9 +247,9 @@ public:
     }
     /// A palette brick as it is stored.
     struct PaletteBrick {
-        std::uint32_t palette = 0;     ///< offset of its scalars in palettes
-        std::uint32_t planes = 0;      ///< offset of its bit planes in words, 8 words each
-        std::uint32_t planeCount = 0;  ///< 1..9
+        std::uint32_t palette = 0;        ///< offset of its scalars in palettes
+        std::uint32_t bitPlanes = 0;      ///< offset of its bit planes in words, 8 words each
+        std::uint32_t bitPlaneCount = 0;  ///< 1..9
         std::uint32_t paletteSize = 0;
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
@@ -266,10 +266,10 @@ public:
         std::span<const PaletteBrick> bricks;
         std::span<const Scalar> palettes;
         std::span<const std::uint64_t> words;
-        std::span<const BrickPlane> oblique;
+        std::span<const BrickPlane> planes;
     };
     [[nodiscard]] Arrays arrays() const noexcept {
-        return {narrow_, wide_, uniformBoxes_, boxes_, codes_, bricks_, palettes_, planes_, oblique_};
+        return {narrow_, wide_, uniformBoxes_, boxes_, codes_, bricks_, palettes_, bitPlanes_, planes_};
     }
 
     /// 1 + the largest scalar.
@@ -286,14 +286,14 @@ private:
     static constexpr std::array<std::uint64_t, 8> kNoVoxels{};
 
     template <class Accepts>
-    void putTogether(const PaletteBrick& brick, const Accepts& accepts, MaskWords& mask) const {
-        const std::uint64_t* words = planes_.data() + brick.planes;
+    void combineMask(const PaletteBrick& brick, const Accepts& accepts, MaskWords& mask) const {
+        const std::uint64_t* words = bitPlanes_.data() + brick.bitPlanes;
         mask.fill(0);
         for (std::uint32_t e = 0; e < brick.paletteSize; ++e) {
             if (!accepts(palettes_[brick.palette + e])) continue;
             for (std::size_t k = 0; k < 8; ++k) {
                 std::uint64_t equal = ~std::uint64_t{0};
-                for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
+                for (std::uint32_t plane = 0; plane < brick.bitPlaneCount; ++plane) {
                     const std::uint64_t word = words[8 * plane + k];
                     equal &= ((e >> plane) & 1u) != 0 ? word : ~word;
                 }
@@ -302,7 +302,7 @@ private:
         }
     }
 
-    [[nodiscard]] std::size_t placeOf(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
+    [[nodiscard]] std::size_t brickIndex(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
         return static_cast<std::size_t>(bx) +
                static_cast<std::size_t>(brickCount_.x) *
                    (static_cast<std::size_t>(by) +
@@ -323,10 +323,10 @@ private:
     std::size_t uniformBoxes_ = 0;
     std::vector<SameLabelBox> boxes_;
     std::vector<BoxCoding> codes_;
-    std::vector<BrickPlane> oblique_;
+    std::vector<BrickPlane> planes_;
     std::vector<PaletteBrick> bricks_;
     std::vector<Scalar> palettes_;
-    std::vector<std::uint64_t> planes_;
+    std::vector<std::uint64_t> bitPlanes_;
     std::vector<std::uint64_t> codedBricks_;    // bit vector over the bricks: 1 = coded
     std::vector<std::uint32_t> codedBefore_;    // per word of codedBricks_: coded bricks before it
     std::vector<std::uint32_t> codedPatterns_;  // per coded brick, by rank: its palette brick

@@ -63,6 +63,6 @@ struct LodLevel {
 /// Mixture of a block with these voxel counts.
 /// \param counts  scalar and number of voxels (> 0), each scalar once, any order; background may be among them
 /// \param total   voxels of the block, the sum of all counts
-[[nodiscard]] Mixture mixtureOf(std::span<const std::pair<Scalar, std::uint64_t>> counts, std::uint64_t total);
+[[nodiscard]] Mixture makeMixture(std::span<const std::pair<Scalar, std::uint64_t>> counts, std::uint64_t total);
 
 }  // namespace svt::volume

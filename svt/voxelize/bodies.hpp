@@ -4,7 +4,7 @@
 /// outer hull and the rooms belongs to the building as a whole. Here every voxel of that material is assigned to the
 /// nearest boundary surface, so that each wall has a body of its own in a section.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
 
@@ -16,7 +16,7 @@ namespace svt::voxelize {
 /// One building: the scalar whose voxels are reassigned, and the surfaces that receive them.
 struct BodyGroup {
     volume::Scalar from = 0;              ///< scalar of the building's solid
-    std::vector<std::uint32_t> surfaces;  ///< objects of the scene: its boundary surfaces, in tree order
+    std::vector<std::uint32_t> surfaces;  ///< objects of the meshes: its boundary surfaces, in tree order
     std::vector<volume::Scalar> scalars;  ///< their scalars, same order
 };
 
@@ -24,9 +24,9 @@ struct BodyGroup {
 /// surface). Exact: octree blocks are split until one surface is nearest to the whole block, or down to single voxels.
 /// Surfaces too far from a block are discarded for all of its children.
 /// Cost: O(area between the bodies), not their volume. The result does not depend on `threads`.
-[[nodiscard]] volume::ColumnVolume giveThematicBodies(const volume::ColumnVolume& columns, const volume::Grid& grid,
-                                                      const mesh::MeshScene& scene,
-                                                      const std::vector<BodyGroup>& groups, int threads);
+[[nodiscard]] volume::ColumnVolume assignThematicBodies(const volume::ColumnVolume& columns, const volume::Grid& grid,
+                                                        const mesh::MeshSet& meshes,
+                                                        const std::vector<BodyGroup>& groups, int threads);
 
 /// Distance from `point` to the triangle a, b, c (Ericson 2005, Real-Time Collision Detection, 5.1.5).
 [[nodiscard]] double distanceToTriangle(Vec3d point, Vec3d a, Vec3d b, Vec3d c) noexcept;

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// The planes of the faces of a scene, in voxel space, with the offset of the samples that the voxelizer uses.
+/// The planes of the faces of a model's meshes, in voxel space, with the offset of the samples that the voxelizer uses.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/face_planes.hpp>
 #include <svt/volume/grid.hpp>
 
@@ -14,6 +14,6 @@ namespace svt::voxelize {
 /// of at least one square voxel. Coplanar faces (to 1/50 voxel) of all objects share a plane, whichever way they face.
 /// \return the planes, largest area first; planes whose faces lie outside the grid are left out
 /// Cost: O(triangles log triangles).
-[[nodiscard]] std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshScene& scene, const volume::Grid& grid);
+[[nodiscard]] std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshSet& meshes, const volume::Grid& grid);
 
 }  // namespace svt::voxelize

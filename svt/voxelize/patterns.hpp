@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Spatial patterns: solid textures in metres, placed in an object's own frame, repeated to fill its envelope and
+/// Spatial patterns: solid textures in metres, laid along an object's own axes, repeated to fill its envelope and
 /// masked by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three directions, so that every
 /// section shows them correctly.
 
 #include <svt/core/result.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
 
@@ -37,8 +37,8 @@ inline constexpr int kPatternKinds = 12;
 [[nodiscard]] std::string_view patternName(PatternKind kind) noexcept;  ///< "brick", "wood-grain", ...
 [[nodiscard]] bool patternFromName(std::string_view name, PatternKind& kind) noexcept;
 
-/// Cells of a pattern read from a file: x fastest, then y (rows bottom up), then z.
-struct PatternCells {
+/// Texels of a pattern read from a file: x fastest, then y (rows bottom up), then z.
+struct PatternTexels {
     Vec3i dimension{};
     std::uint32_t phaseCount = 1;
     std::vector<std::uint8_t> phases;
@@ -51,14 +51,14 @@ struct Pattern {
     Vec3d size{
         0, 0,
         0};  ///< of one unit along u, v, w; hatch, stripes, wood grain and concrete use w alone; 0: the kind's default
-    double line = 0;                            ///< width of joints and lines; 0: the kind's default
-    double angleDegrees = 45;                   ///< hatch: from u towards w
-    std::uint32_t seed = 1;                     ///< grains, rings
-    std::shared_ptr<const PatternCells> cells;  ///< image, raw
+    double line = 0;                              ///< width of joints and lines; 0: the kind's default
+    double angleDegrees = 45;                     ///< hatch: from u towards w
+    std::uint32_t seed = 1;                       ///< grains, rings
+    std::shared_ptr<const PatternTexels> texels;  ///< image, raw
 
     /// Number of scalars that an object with this pattern owns; 1 for None.
     [[nodiscard]] std::uint32_t phaseCount() const noexcept;
-    /// Phase at a point of the object's frame (metres from the lower corner of its envelope in that frame), 0 to
+    /// Phase at a point along the object's axes (metres from the lower corner of its envelope along them), 0 to
     /// phaseCount() - 1. Same result on every machine: of the math library only sqrt and floor are used.
     [[nodiscard]] std::uint32_t phaseAt(Vec3d uvw) const noexcept;
 };
@@ -67,34 +67,34 @@ struct Pattern {
 /// \return the pattern, or BadPattern that names the dimension and its valid range (1e-4 to 1e3 m)
 [[nodiscard]] Result<Pattern> makePattern(Pattern pattern);
 
-/// Reads a PNG as cells; colours are reduced to at most `maxColors` (2..64) by median cut. Limits: 4096 x 4096.
-[[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file,
-                                                                           int maxColors = 8);
-/// Reads a raw file of one byte per cell (x fastest). Its distinct values, at most 64, become phases in ascending
-/// order. Limit: 1024 cells along an axis.
-[[nodiscard]] Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file,
-                                                                         Vec3i dimension);
+/// Reads a PNG as texels; colours are reduced to at most `maxColors` (2..64) by median cut. Limits: 4096 x 4096.
+[[nodiscard]] Result<std::shared_ptr<const PatternTexels>> readPatternImage(const std::filesystem::path& file,
+                                                                            int maxColors = 8);
+/// Reads a raw file of one byte per texel (x fastest). Its distinct values, at most 64, become phases in ascending
+/// order. Limit: 1024 texels along an axis.
+[[nodiscard]] Result<std::shared_ptr<const PatternTexels>> readPatternRaw(const std::filesystem::path& file,
+                                                                          Vec3i dimension);
 
-/// An object's own frame: u along its dominant horizontal edge direction, w up; origin at the lower corner of its
+/// An object's own axes: u along its dominant horizontal edge direction, w up; origin at the lower corner of its
 /// envelope.
-struct ObjectFrame {
-    Vec3d origin{};  ///< local space of the scene
-    std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+struct ObjectAxes {
+    Vec3d origin{};  ///< local space
+    std::array<Vec3d, 3> directions{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 };
 /// Finds the dominant horizontal edge direction: the fullest bin of a length-weighted histogram of one-degree bins,
 /// refined to the mean direction of that bin.
-[[nodiscard]] ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept;
+[[nodiscard]] ObjectAxes dominantAxes(const mesh::ObjectMesh& mesh) noexcept;
 
 struct PatternedObject {
     volume::Scalar first = 0;  ///< its range is [first, first + pattern.phaseCount())
     Pattern pattern;
-    ObjectFrame frame;
+    ObjectAxes axes;
 };
 
 /// Applies the patterns: a voxel with scalar `first` of a patterned object becomes first + phase at its centre.
 /// Cost: O(voxels of patterned objects).
 [[nodiscard]] volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid,
-                                               Vec3d sceneOrigin, const std::vector<PatternedObject>& objects,
+                                               Vec3d localOrigin, const std::vector<PatternedObject>& objects,
                                                int threads);
 
 }  // namespace svt::voxelize

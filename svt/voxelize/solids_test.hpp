@@ -2,7 +2,7 @@
 /// \file
 /// Meshes with known answers, and an exact point-in-solid oracle, for tests of the voxelizer.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/planes.hpp>
 #include <svt/mesh/thickness.hpp>
 
@@ -95,12 +95,12 @@ inline ObjectMesh join(ObjectMesh a, const ObjectMesh& b, bool isVoid) {
     return a;
 }
 
-inline mesh::MeshScene sceneOf(std::vector<ObjectMesh> objects, Vec3d origin = {}) {
-    mesh::MeshScene scene;
-    scene.origin = origin;
-    scene.objects = std::move(objects);
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
-        ObjectMesh& object = scene.objects[o];
+inline mesh::MeshSet meshSetOf(std::vector<ObjectMesh> objects, Vec3d origin = {}) {
+    mesh::MeshSet meshes;
+    meshes.origin = origin;
+    meshes.objects = std::move(objects);
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        ObjectMesh& object = meshes.objects[o];
         object.feature = o;
         object.bounds = {};
         for (const Vec3d& v : object.vertices) object.bounds.add(v);
@@ -108,10 +108,10 @@ inline mesh::MeshScene sceneOf(std::vector<ObjectMesh> objects, Vec3d origin = {
             object.volume = mesh::signedVolume(object.vertices, object.triangles);
             mesh::measureThickness(object);
         }
-        scene.bounds.add(object.bounds);
+        meshes.bounds.add(object.bounds);
     }
-    mesh::assignPlanes(scene, 2e-5);
-    return scene;
+    mesh::assignPlanes(meshes, 2e-5);
+    return meshes;
 }
 
 /// Exact point-in-solid test: vertices and point are rounded to a lattice of 1 nm, and a ray is cast in 128-bit

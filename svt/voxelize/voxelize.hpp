@@ -11,7 +11,7 @@
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
 
@@ -56,19 +56,19 @@ struct VoxelizeResult {
     std::vector<ClaimPair> overlaps;             ///< ordered by (a, b); between solids only
 };
 
-/// Voxelizes all objects of `scene` into one volume.
+/// Voxelizes all objects of `meshes` into one volume.
 ///
 /// Solids are filled by signed crossings along z (inside = winding number > 0), open shells with solid meaning by the
 /// generalized winding number (Jacobson, Kavan & Sorkine 2013, evaluated after Martens & Bessmeltsev 2025), all other
 /// surfaces become sheets. An object left without voxels receives one inside the grid, unless that would take another
 /// object's last voxel.
 ///
-/// \param claims  one per scene.objects, same order
+/// \param claims  one per meshes.objects, same order
 /// \param grid    need not contain all objects; what lies outside is clipped
 /// \return the volume, or GridTooLarge, or Cancelled
 /// Cost: O(triangles * rows they cover + distinct columns); open shells O(samples evaluated * open edges + rows *
 /// triangles). Memory: the result and per thread one tile of 64 x 64 columns.
-[[nodiscard]] Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid,
+[[nodiscard]] Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid& grid,
                                               std::span<const ObjectClaim> claims, const VoxelizeOptions& options = {});
 
 }  // namespace svt::voxelize

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A section drawing as DXF (ASCII, version 2000), in metres of the drawing's plane: x is the frame's u, y its v.
+/// A section drawing as DXF (ASCII, version 2000), in metres of the drawing's plane: u of its axes is x, v is y.
 ///
 /// One layer per class, named after the class, and the layer TEXT for names. Each ring is a closed LWPOLYLINE,
 /// including holes; room names are TEXT entities. The transform back to the model's CRS is given in comments (group
@@ -17,7 +17,7 @@
 namespace svt::writers {
 
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
-[[nodiscard]] std::string dxfOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
+[[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 /// Writes the same as a file, all or nothing.
 /// \return bytes written, or CannotWrite or DiskFull

@@ -22,7 +22,7 @@ namespace svt::writers {
 
 /// The drawing as GeoJSON text, one feature per line. `volume` is the volume the drawing was made from. `area` is in m2
 /// in the section plane. Exterior rings of plans are counter-clockwise as seen from above.
-[[nodiscard]] std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
+[[nodiscard]] std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 /// Writes the same as a file, all or nothing.
 /// \return bytes written, or CannotWrite or DiskFull

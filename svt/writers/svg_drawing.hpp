@@ -25,11 +25,11 @@ struct SvgOptions {
 
 /// The drawing as SVG text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
 /// \return the text, or BadArgument if the scale is out of range or the drawing is empty
-[[nodiscard]] Result<std::string> svgOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                        const SvgOptions& options = {});
+[[nodiscard]] Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing,
+                                          const volume::SemanticVolume& volume, const SvgOptions& options = {});
 
 /// Writes the same as a file, all or nothing.
-/// \return bytes written, or the errors of svgOf, CannotWrite or DiskFull
+/// \return bytes written, or the errors of makeSvg, CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing,
                                              const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                              const SvgOptions& options = {});

@@ -161,7 +161,7 @@ Result<Reply> replyOf(Result<std::string> text) {
 }
 
 Result<Reply> along(const Arguments& arguments) {
-    return replyOf(stretchesOf(*session, arguments.number(0), arguments.number(1)));
+    return replyOf(intervalsOf(*session, arguments.number(0), arguments.number(1)));
 }
 Result<Reply> select(const Arguments& arguments) { return replyOf(selectionOf(*session, arguments.text(0))); }
 Result<Reply> properties(const Arguments& arguments) { return replyOf(propertiesOf(*session, arguments.text(0))); }
@@ -171,7 +171,7 @@ Result<Reply> view(const Arguments& arguments) {
     const auto now = illustrate::parseScene(Json{{"camera", arguments.at(2)}}.dump(), "camera");
     if (!now) return now.error();
     auto camera =
-        illustrate::viewOf(arguments.text(0), arguments.text(1), now->camera, session->aspect(), session->volume());
+        illustrate::makeView(arguments.text(0), arguments.text(1), now->camera, session->aspect(), session->volume());
     if (!camera) return camera.error();
     illustrate::Scene scene;
     scene.camera = std::move(*camera);
@@ -207,10 +207,10 @@ Result<Reply> drawing(const Arguments& arguments) {
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
     const std::string format = arguments.text(1);
-    if (format == "svg") return replyOf(writers::svgOf(*drawn, volume));
-    if (format == "dxf") return Reply(writers::dxfOf(*drawn, volume));
-    if (format == "geojson") return Reply(writers::geojsonOf(*drawn, volume));
-    if (format == "csv") return Reply(writers::sectionCsvOf(*drawn, volume));
+    if (format == "svg") return replyOf(writers::makeSvg(*drawn, volume));
+    if (format == "dxf") return Reply(writers::makeDxf(*drawn, volume));
+    if (format == "geojson") return Reply(writers::makeGeojson(*drawn, volume));
+    if (format == "csv") return Reply(writers::makeSectionCsv(*drawn, volume));
     return Error(Code::BadArgument,
                  fmt::format("there is no drawing as '{}'; possible are svg, dxf, geojson, csv", format));
 }

@@ -31,7 +31,7 @@ Json namesOf(const volume::Label& label) {
 
 Json storeysJson(const volume::SemanticVolume& volume) {
     Json list = Json::array();
-    for (const illustrate::StoreyHeights& storey : illustrate::storeysOf(volume)) {
+    for (const illustrate::StoreyHeights& storey : illustrate::findStoreys(volume)) {
         const volume::Label& label = volume.labels.labels[storey.label];
         list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.ceiling}});
     }
@@ -94,7 +94,7 @@ Box3d boxOf(Session& session, std::uint32_t index) {
 
 Json neighborsJson(Session& session, std::uint32_t index) {
     Json list = Json::array();
-    for (const analyze::Neighbor& neighbor : analyze::neighborsOf(index, session.contacts())) {
+    for (const analyze::Neighbor& neighbor : analyze::findNeighbors(index, session.contacts())) {
         if (neighbor.label == volume::kNoLabel) continue;
         Json row = namesOf(session.volume().labels.labels[neighbor.label]);
         row["area"] = neighbor.area;
@@ -154,14 +154,14 @@ std::string pickOf(Session& session, double x, double y) {
     return textOf(json);
 }
 
-Result<std::string> stretchesOf(Session& session, double x, double y) {
-    const auto stretches = session.along(x, y);
-    if (!stretches) return stretches.error();
+Result<std::string> intervalsOf(Session& session, double x, double y) {
+    const auto intervals = session.along(x, y);
+    if (!intervals) return intervals.error();
     Json list = Json::array();
-    for (const render::RayStretch& stretch : *stretches) {
-        Json row = namesOf(session.volume().labels.labels[stretch.label]);
-        row["from"] = stretch.enter;
-        row["to"] = stretch.leave;
+    for (const render::LabelInterval& interval : *intervals) {
+        Json row = namesOf(session.volume().labels.labels[interval.label]);
+        row["from"] = interval.enter;
+        row["to"] = interval.leave;
         list.push_back(std::move(row));
     }
     return textOf(list);

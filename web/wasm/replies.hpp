@@ -18,7 +18,7 @@ namespace svt::web {
 /// Pick or null
 [[nodiscard]] std::string pickOf(Session& session, double x, double y);
 /// Stretch[]
-[[nodiscard]] Result<std::string> stretchesOf(Session& session, double x, double y);
+[[nodiscard]] Result<std::string> intervalsOf(Session& session, double x, double y);
 /// string[]: ids
 [[nodiscard]] Result<std::string> selectionOf(const Session& session, const std::string& query);
 /// EngineError

@@ -55,9 +55,9 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
 }
 
 Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
-    auto spec = illustrate::frameOf(scene, volume_);
+    auto spec = illustrate::makeFrameSpec(scene, volume_);
     if (!spec) return spec.error();
-    const auto forms = illustrate::formsOf(scene);
+    const auto forms = illustrate::volumeForms(scene);
     const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
     if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty())
         return Error(Code::BadArgument, "names, shells and levels of detail are drawn by the CPU");
@@ -117,8 +117,8 @@ std::optional<Picked> Session::pick(double x, double y) {
                   ray.origin + ray.direction * double(pixel.depth) - volume_.grid.origin()};
 }
 
-Result<std::vector<render::RayStretch>> Session::along(double x, double y) {
-    if (!lastSpec_) return std::vector<render::RayStretch>{};
+Result<std::vector<render::LabelInterval>> Session::along(double x, double y) {
+    if (!lastSpec_) return std::vector<render::LabelInterval>{};
     const auto whole = painter_.form({{}, 0}, *lastSpec_);
     if (!whole) return whole.error();
     const auto ray = render::viewRay(*lastSpec_, volume_.grid, x, y);
@@ -126,7 +126,7 @@ Result<std::vector<render::RayStretch>> Session::along(double x, double y) {
 }
 
 const std::vector<analyze::Contact>& Session::contacts() {
-    if (!contacts_) contacts_ = analyze::contactsOf(volume_.columns, volume_.grid, volume_.labels);
+    if (!contacts_) contacts_ = analyze::findContacts(volume_.columns, volume_.grid, volume_.labels);
     return *contacts_;
 }
 

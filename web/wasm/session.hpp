@@ -60,8 +60,8 @@ public:
     /// \param x, y  fractions of the last picture's width and height
     /// \return the hit there, or nothing
     [[nodiscard]] std::optional<Picked> pick(double x, double y);
-    /// All stretches along the ray through a position of the last picture, nearest first.
-    [[nodiscard]] Result<std::vector<render::RayStretch>> along(double x, double y);
+    /// All intervals along the ray through a position of the last picture, nearest first.
+    [[nodiscard]] Result<std::vector<render::LabelInterval>> along(double x, double y);
 
     /// Contacts between features; computed on first use.
     [[nodiscard]] const std::vector<analyze::Contact>& contacts();

@@ -3,7 +3,7 @@
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ struct Arguments {
     bool json = false, verbose = false;
 };
 
-Json objectJson(const model::BuildingModel& model, const mesh::MeshScene& scene, const mesh::ObjectMesh& object) {
+Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object) {
     const model::Feature& feature = model.features[object.feature];
     Json json{{"id", feature.id}, {"class", feature.className}, {"name", feature.name}};
     if (feature.line != 0) json["line"] = feature.line;
@@ -41,7 +41,7 @@ Json objectJson(const model::BuildingModel& model, const mesh::MeshScene& scene,
     return json;
 }
 
-void printObject(const model::BuildingModel& model, const mesh::MeshScene& scene, const mesh::ObjectMesh& object) {
+void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object) {
     const model::Feature& feature = model.features[object.feature];
     fmt::print("{:<28} {:<13}", feature.className, mesh::closureName(object.closure));
     if (object.isSolid())

@@ -90,11 +90,11 @@ int runSection(const Arguments& arguments) {
     for (const std::filesystem::path& path : arguments.outputs)
         if (auto written = writeDrawing(*drawing, *volume, path, *scale); !written) return fail(written.error());
     for (const std::filesystem::path& path : arguments.tables) {
-        const std::string text = path.extension() == ".csv" ? writers::sectionCsvOf(*drawing, *volume)
-                                                            : writers::sectionJsonOf(*drawing, *volume);
+        const std::string text = path.extension() == ".csv" ? writers::makeSectionCsv(*drawing, *volume)
+                                                            : writers::makeSectionJson(*drawing, *volume);
         if (auto written = writeFileAtomically(path, text); !written) return fail(written.error());
     }
-    if (arguments.json) fmt::print("{}", writers::sectionJsonOf(*drawing, *volume));
+    if (arguments.json) fmt::print("{}", writers::makeSectionJson(*drawing, *volume));
     return kDone;
 }
 

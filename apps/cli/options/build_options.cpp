@@ -71,9 +71,9 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
         if (!triple) return triple.error();
         options.spacing = *triple;
     }
-    options.frame = axes == "building" ? pipeline::FrameKind::Building : pipeline::FrameKind::World;
+    options.axes = axes == "building" ? pipeline::AxesKind::Building : pipeline::AxesKind::World;
     options.lod.lod = lod;
-    options.giveThematicBodies = !noBodies;
+    options.assignThematicBodies = !noBodies;
     options.usePatterns = patterns;
     options.sheets = sheets == "thin" ? voxelize::SheetMode::Thin : voxelize::SheetMode::Conservative;
     options.keepThinParts = !noThin;

@@ -153,7 +153,7 @@ serve::Route pictureRoute(std::vector<serve::SiteModel> models, int threads) {
     serve::Route route;
     route.path = "/api/picture";
     route.maxBodyBytes = 256 * 1024;
-    route.maxWaiting = 4;
+    route.queueLength = 4;
     const auto pictures = std::make_shared<Pictures>(std::move(models), threads);
     route.handle = [pictures](const serve::Request& request, const Progress& stop) {
         return pictures->paint(request, stop);

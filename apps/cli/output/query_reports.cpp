@@ -43,7 +43,7 @@ void addBoxColumns(std::vector<Column>& columns) {
 
 std::vector<analyze::LabelMeasure> measure(const volume::SemanticVolume& volume, const With& with, int threads) {
     std::vector<analyze::Contact> contacts;
-    if (with.surface) contacts = analyze::contactsOf(volume.columns, volume.grid, volume.labels, threads);
+    if (with.surface) contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     if (!with.surface && !with.box) return {};
     return analyze::measureLabels(volume, contacts);
 }
@@ -134,7 +134,7 @@ Table neighborTable(const volume::SemanticVolume& volume, const Labels& selected
         double area;
     };
     std::vector<Neighbor> neighbors;
-    for (const analyze::Contact& contact : analyze::contactsOf(volume.columns, volume.grid, volume.labels, threads)) {
+    for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels, threads)) {
         if (isIn(selected, contact.a)) neighbors.push_back({contact.a, contact.b, contact.area});
         if (contact.b != volume::kNoLabel && isIn(selected, contact.b))
             neighbors.push_back({contact.b, contact.a, contact.area});
@@ -161,7 +161,7 @@ Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selec
     Table table;
     table.columns = {{"id", "id"},        {"class", "class"}, {"name", "name"},
                      {"enter", "from m"}, {"leave", "to m"},  {"length", "length m"}};
-    for (const render::RayStretch& stretch : *stretches) {
+    for (const render::LabelInterval& stretch : *stretches) {
         if (!isIn(selected, stretch.label)) continue;
         std::vector<Json> row;
         addNames(row, volume.labels, stretch.label);
@@ -230,7 +230,7 @@ Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& se
 
 OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& selected, const analyze::OwnerTable& owners,
                         int threads) {
-    const auto contacts = analyze::contactsOf(volume.columns, volume.grid, volume.labels, threads);
+    const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     const analyze::Ownership ownership = analyze::divideByOwners(volume, contacts, owners);
     OwnerReport report;
     report.totals.columns = {{"owner", "owner"},

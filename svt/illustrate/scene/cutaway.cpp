@@ -14,7 +14,7 @@ struct View {
     Vec3d forward, right, up;
 };
 
-View viewOf(const Camera& camera) {
+View makeView(const Camera& camera) {
     const Vec3d forward = normalized(camera.target - camera.eye);
     const Vec3d right = normalized(cross(forward, normalized(camera.up)));
     return {forward, right, cross(right, forward)};
@@ -23,7 +23,7 @@ View viewOf(const Camera& camera) {
 }  // namespace
 
 RoundBody viewBody(const Camera& camera, double aspect, double x, double y, double radius) {
-    const View view = viewOf(camera);
+    const View view = makeView(camera);
     const double u = (2 * x - 1) * aspect, v = 1 - 2 * y;
     if (camera.projection == Camera::Projection::Orthographic) {
         const double half = camera.orthographicHeight / 2;
@@ -57,7 +57,7 @@ RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const anal
         middle = middle + corners[c] / 8;
     }
     const bool isPerspective = camera.projection == Camera::Projection::Perspective;
-    const View view = viewOf(camera);
+    const View view = makeView(camera);
     const Vec3d away = isPerspective ? normalized(middle - camera.eye) : view.forward;
     const Vec3d right = normalized(view.right - away * dot(view.right, away)), up = cross(right, away);
     // Half extents of all corners, as seen.

@@ -41,8 +41,8 @@ constexpr Rule kRules[] = {
 
 }  // namespace
 
-std::vector<Hatch> hatchesOf(const volume::LabelTable& labels) {
-    const std::vector<model::QueryRow> rows = analyze::rowsOf(labels);
+std::vector<Hatch> labelHatches(const volume::LabelTable& labels) {
+    const std::vector<model::QueryRow> rows = analyze::queryRows(labels);
     std::vector<Hatch> hatches(labels.labels.size(), Hatch::None);
     for (const Rule& rule : kRules) {
         const auto query = model::Query::parse(rule.select);

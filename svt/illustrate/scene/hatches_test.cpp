@@ -27,9 +27,10 @@ TEST(Hatches, MaterialWinsOverNameAndNameOverClass) {
                     label("BuildingConstructiveElement", "something"),
                     label("BuildingRoom", "room"),
                     label("BuildingConstructiveElement", "layer", "insulation")};
-    EXPECT_EQ(hatchesOf(table), (std::vector<Hatch>{Hatch::Masonry, Hatch::ReinforcedConcrete,
-                                                    Hatch::ReinforcedConcrete, Hatch::ReinforcedConcrete, Hatch::Timber,
-                                                    Hatch::Steel, Hatch::General, Hatch::None, Hatch::Insulation}));
+    EXPECT_EQ(labelHatches(table),
+              (std::vector<Hatch>{Hatch::Masonry, Hatch::ReinforcedConcrete, Hatch::ReinforcedConcrete,
+                                  Hatch::ReinforcedConcrete, Hatch::Timber, Hatch::Steel, Hatch::General, Hatch::None,
+                                  Hatch::Insulation}));
 }
 
 TEST(Hatches, HaveNames) {

@@ -46,7 +46,7 @@ protected:
         scene.height = 300;
         scene.camera.preset = "front";
         scene.camera.isParallel = true;
-        spec_ = *frameOf(scene, volume_);
+        spec_ = *makeFrameSpec(scene, volume_);
         frame_ = *render::castRays(*volume::BrickVolume::fromColumns(volume_.columns), volume_.grid, spec_);
     }
     const volume::SemanticVolume volume_ = blocks();

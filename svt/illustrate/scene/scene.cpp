@@ -162,7 +162,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
     std::vector<LabelLook> looks;
     const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
-    if (hasHatches) hatches = hatchesOf(table);
+    if (hasHatches) hatches = labelHatches(table);
     for (std::size_t l = 0; l < table.labels.size(); ++l)
         looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
                          table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});
@@ -286,7 +286,7 @@ void addCutaway(Scene& scene, const std::string& query, double margin) {
     scene.passes = {around, target};
 }
 
-std::vector<VolumeForm> formsOf(const Scene& scene) {
+std::vector<VolumeForm> volumeForms(const Scene& scene) {
     std::vector<VolumeForm> forms;
     for (const ScenePass& pass : scene.passes)
         if (std::ranges::find(forms, pass.form) == forms.end()) forms.push_back(pass.form);
@@ -294,7 +294,7 @@ std::vector<VolumeForm> formsOf(const Scene& scene) {
     return forms;
 }
 
-Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolume& volume) {
+Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume) {
     render::FrameSpec spec;
     spec.width = scene.width;
     spec.height = scene.height;
@@ -309,7 +309,7 @@ Result<render::FrameSpec> frameOf(const Scene& scene, const volume::SemanticVolu
     spec.camera = *camera;
     spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundSpacing(11 * pixelOf(spec));
     const RegionContext context{volume, *camera, double(scene.width) / scene.height};
-    const std::vector<VolumeForm> forms = formsOf(scene);
+    const std::vector<VolumeForm> forms = volumeForms(scene);
     for (const ScenePass& wanted : scene.passes) {
         auto pass = passOf(scene, wanted, context);
         if (!pass) return pass.error();

@@ -40,7 +40,7 @@ ScenePainter::ScenePainter(const volume::SemanticVolume& volume, int threads) : 
 ScenePainter::~ScenePainter() = default;
 ScenePainter::ScenePainter(ScenePainter&&) noexcept = default;
 
-Result<ScenePainter::Forms*> ScenePainter::formsOf(std::optional<ShellLevel> shell) {
+Result<ScenePainter::Forms*> ScenePainter::findForms(std::optional<ShellLevel> shell) {
     for (const auto& forms : forms_)
         if (forms->level == shell) return forms.get();
     auto forms = std::make_unique<Forms>();
@@ -57,7 +57,7 @@ Result<ScenePainter::Forms*> ScenePainter::formsOf(std::optional<ShellLevel> she
 }
 
 Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const render::FrameSpec& spec) {
-    auto found = formsOf(wanted.shell);
+    auto found = findForms(wanted.shell);
     if (!found) return found.error();
     Forms& forms = **found;
     const volume::SemanticVolume& volume = *forms.volume;
@@ -84,10 +84,10 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
-    auto spec = frameOf(scene, volume_);
+    auto spec = makeFrameSpec(scene, volume_);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
-    for (const VolumeForm& wanted : illustrate::formsOf(scene)) {
+    for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
         const auto made = form(wanted, *spec);
         if (!made) return made.error();
         drawn.push_back(*made);
@@ -96,12 +96,12 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
-    auto spec = frameOf(scene, volume_);
+    auto spec = makeFrameSpec(scene, volume_);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
     std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
-    for (const VolumeForm& wanted : illustrate::formsOf(scene)) {
-        const auto forms = formsOf(wanted.shell);
+    for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
+        const auto forms = findForms(wanted.shell);
         if (!forms) return forms.error();
         const volume::SemanticVolume& volume = *(*forms)->volume;
         auto bricks = volume::BrickVolume::fromColumns(volume.columns,

@@ -34,7 +34,7 @@ volume::SemanticVolume house() {
 }
 
 render::FrameSpec frame(const Scene& scene) {
-    const auto spec = frameOf(scene, house());
+    const auto spec = makeFrameSpec(scene, house());
     EXPECT_TRUE(spec) << (spec ? "" : spec.error().toString());
     return spec ? *spec : render::FrameSpec{};
 }
@@ -118,7 +118,7 @@ TEST(Scene, PassesDrawFormsOfTheirOwn) {
     addHighlight(scene, {"id=room"}, Context::Shell);
     scene.passes[0].form.level = 3;
     scene.passes.push_back(scene.passes[0]);
-    EXPECT_EQ(formsOf(scene), (std::vector<VolumeForm>{{ShellLevel::Building, 3}, {}}));
+    EXPECT_EQ(volumeForms(scene), (std::vector<VolumeForm>{{ShellLevel::Building, 3}, {}}));
     const render::FrameSpec spec = frame(scene);
     ASSERT_EQ(spec.passes.size(), 3u);
     EXPECT_EQ(spec.passes[0].volume, 0u);
@@ -273,7 +273,7 @@ TEST(Scene, WhatCannotBeShownSaysWhy) {
     const auto codeOf = [](auto&& change) {
         Scene scene;
         change(scene);
-        const auto spec = frameOf(scene, house());
+        const auto spec = makeFrameSpec(scene, house());
         return spec ? Code::Internal : spec.error().code();
     };
     EXPECT_EQ(codeOf([](Scene& s) { s.width = 0; }), Code::BadFrame);

@@ -16,7 +16,7 @@ Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, con
     scene.camera = camera;
     scene.height = 1000;
     scene.width = static_cast<std::int32_t>(std::lround(scene.height * aspect));
-    const auto frame = frameOf(scene, volume);
+    const auto frame = makeFrameSpec(scene, volume);
     if (!frame) return frame.error();
     return frame->camera;
 }
@@ -36,8 +36,8 @@ Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volu
 
 }  // namespace
 
-Result<SceneCamera> viewOf(const std::string& query, const std::string& preset, const SceneCamera& now, double aspect,
-                           const volume::SemanticVolume& volume) {
+Result<SceneCamera> makeView(const std::string& query, const std::string& preset, const SceneCamera& now, double aspect,
+                             const volume::SemanticVolume& volume) {
     if (!(aspect > 0.01 && aspect < 100))
         return Error(Code::BadCamera, fmt::format("an aspect of {} is out of range; 0.01 to 100 are possible", aspect));
     const Vec3d origin = volume.grid.origin();

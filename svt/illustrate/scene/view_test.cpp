@@ -34,7 +34,7 @@ void expectSameView(const SceneCamera& camera, const SceneCamera& expected, cons
     Scene a, b;
     a.camera = camera;
     b.camera = expected;
-    const auto first = frameOf(a, volume), second = frameOf(b, volume);
+    const auto first = makeFrameSpec(a, volume), second = makeFrameSpec(b, volume);
     ASSERT_TRUE(first && second);
     EXPECT_LT(length(first->camera.eye - second->camera.eye), 1e-6);
     EXPECT_LT(length(first->camera.target - second->camera.target), 1e-6);
@@ -52,7 +52,7 @@ TEST(View, IsThatOfThePreset) {
         SceneCamera now;
         now.isParallel = isParallel;
         now.zoom = 3;
-        const auto view = viewOf("id=b", "front", now, 16.0 / 9, volume);
+        const auto view = makeView("id=b", "front", now, 16.0 / 9, volume);
         ASSERT_TRUE(view) << view.error().toString();
         ASSERT_TRUE(view->eye && view->target);
         expectSameView(*view, wanted, volume);
@@ -74,7 +74,7 @@ TEST(View, GoesOnFromWhereTheCameraLooks) {
         now.preset = "iso";
         now.target = Vec3d{3, 1, 1};
         now.eye = Vec3d{3, -9, 1};
-        const auto view = viewOf("id=a", "", now, 16.0 / 9, volume);
+        const auto view = makeView("id=a", "", now, 16.0 / 9, volume);
         ASSERT_TRUE(view) << view.error().toString();
         expectSameView(*view, expected, volume);
     }
@@ -82,9 +82,9 @@ TEST(View, GoesOnFromWhereTheCameraLooks) {
 
 TEST(View, TellsWhatIsWrong) {
     const auto volume = twoCubes();
-    EXPECT_EQ(viewOf("id=c", "front", {}, 1, volume).error().code(), Code::NothingSelected);
-    EXPECT_EQ(viewOf("", "sideways", {}, 1, volume).error().code(), Code::BadCamera);
-    EXPECT_EQ(viewOf("", "front", {}, 0, volume).error().code(), Code::BadCamera);
+    EXPECT_EQ(makeView("id=c", "front", {}, 1, volume).error().code(), Code::NothingSelected);
+    EXPECT_EQ(makeView("", "sideways", {}, 1, volume).error().code(), Code::BadCamera);
+    EXPECT_EQ(makeView("", "front", {}, 0, volume).error().code(), Code::BadCamera);
 }
 
 }  // namespace

@@ -39,16 +39,16 @@ public:
     DrawingMaker(const volume::SemanticVolume& volume, SectionDrawing drawing, double smallestArea)
         : volume_(volume), drawing_(std::move(drawing)), smallestArea_(smallestArea) {}
 
-    SectionDrawing make(const std::vector<QuantumBorder>& borders) {
+    SectionDrawing make(const std::vector<DrawingBorder>& borders) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> shown;  // label and border
-        for (const QuantumPolygon& polygon : polygonsOf(borders)) addPolygon(polygon, shown);
+        for (const DrawingPolygon& polygon : makePolygons(borders)) addPolygon(polygon, shown);
         // Borders of polygons that were left out as too small are not drawn.
         for (std::uint32_t b = 0; b < borders.size(); ++b) {
             SectionBorder border;
             border.left = shown.contains({borders[b].left, b}) ? borders[b].left : kNoLabel;
             border.right = shown.contains({borders[b].right, b}) ? borders[b].right : kNoLabel;
             if (border.left == border.right) continue;
-            for (const QuantumPoint p : borders[b].points) border.points.push_back(placed(p));
+            for (const DrawingPoint p : borders[b].points) border.points.push_back(placed(p));
             drawing_.borders.push_back(std::move(border));
         }
         addTotals();
@@ -56,15 +56,15 @@ public:
     }
 
 private:
-    [[nodiscard]] PlanePoint placed(QuantumPoint p) const noexcept {
-        return {p.u * drawing_.quantum, p.v * drawing_.quantum};
+    [[nodiscard]] PlanePoint placed(DrawingPoint p) const noexcept {
+        return {p.u * drawing_.drawingUnit, p.v * drawing_.drawingUnit};
     }
 
-    void addPolygon(const QuantumPolygon& polygon, std::set<std::pair<std::uint32_t, std::uint32_t>>& shown) {
+    void addPolygon(const DrawingPolygon& polygon, std::set<std::pair<std::uint32_t, std::uint32_t>>& shown) {
         SectionPolygon added;
         double bound = 0;
         for (const auto& ring : polygon.rings) {
-            added.area += 0.5 * twiceAreaOf(ring) * drawing_.quantum * drawing_.quantum;
+            added.area += 0.5 * twiceSignedArea(ring) * drawing_.drawingUnit * drawing_.drawingUnit;
             Ring& points = &ring == &polygon.rings.front() ? added.outer : added.holes.emplace_back();
             for (const RingPoint& p : ring) points.push_back(placed(p.point));
             bound += boundOf(points);
@@ -86,11 +86,11 @@ private:
         for (std::size_t n = 0; n < ring.size(); ++n) {
             const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
             // Normal of the edge in the plane, times the edge's length.
-            const Vec3d across = drawing_.frame.u * (b.v - a.v) - drawing_.frame.v * (b.u - a.u);
+            const Vec3d across = drawing_.axes.u * (b.v - a.v) - drawing_.axes.v * (b.u - a.u);
             for (int axis = 0; axis < 3; ++axis)
                 bound += 0.5 * volume_.grid.spacing()[axis] *
                          std::abs(dot(across, volume_.grid.axes()[static_cast<std::size_t>(axis)]));
-            bound += (drawing_.tolerance + drawing_.quantum) * length(across);
+            bound += (drawing_.tolerance + drawing_.drawingUnit) * length(across);
         }
         return bound;
     }
@@ -145,21 +145,21 @@ bool narrow(const std::vector<double>& level, double& from, double& to) {
 
 }  // namespace
 
-PlaneFrame frameOf(const SectionPlane& plane, const volume::Grid& grid) {
-    PlaneFrame frame;
+PlaneAxes makePlaneAxes(const SectionPlane& plane, const volume::Grid& grid) {
+    PlaneAxes axes;
     const Vec3d normal = normalized(plane.normal), up = grid.axes()[2];
-    frame.origin = grid.origin() + normal * dot(normal, plane.point - grid.origin());
+    axes.origin = grid.origin() + normal * dot(normal, plane.point - grid.origin());
     const double upright = dot(normal, up);
     if (std::abs(upright) > 1 - 1e-12) {
-        frame.u = grid.axes()[0];
-        frame.v = grid.axes()[1];
-        frame.normal = cross(frame.u, frame.v);
-        return frame;
+        axes.u = grid.axes()[0];
+        axes.v = grid.axes()[1];
+        axes.normal = cross(axes.u, axes.v);
+        return axes;
     }
-    frame.normal = normal;
-    frame.v = normalized(up - normal * upright);
-    frame.u = cross(frame.v, normal);
-    return frame;
+    axes.normal = normal;
+    axes.v = normalized(up - normal * upright);
+    axes.u = cross(axes.v, normal);
+    return axes;
 }
 
 Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
@@ -182,24 +182,24 @@ Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const v
     if (!labels) return labels.error();
     SectionDrawing drawing;
     drawing.plane = {normalized(plane.normal), plane.point};
-    drawing.frame = frameOf(plane, volume.grid);
-    const CutPlane cut(drawing.plane, drawing.frame, volume.grid);
+    drawing.axes = makePlaneAxes(plane, volume.grid);
+    const CutPlane cut(drawing.plane, drawing.axes, volume.grid);
     const Vec3d spacing = volume.grid.spacing();
-    drawing.quantum = cut.quantum();
+    drawing.drawingUnit = cut.drawingUnit();
     drawing.tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * std::min({spacing.x, spacing.y, spacing.z});
-    std::vector<QuantumBorder> borders = joinEdges(cutCells(bricks, cut, *labels));
-    // At least 1.5 quanta: rounded points may be off their line by a quantum.
-    straighten(borders, std::max(drawing.tolerance / drawing.quantum, 1.5));
+    std::vector<DrawingBorder> borders = joinEdges(cutPieces(bricks, cut, *labels));
+    // At least 1.5 drawing units: rounded points may be off their line by a drawing unit.
+    straighten(borders, std::max(drawing.tolerance / drawing.drawingUnit, 1.5));
     return DrawingMaker(volume, std::move(drawing), options.smallestArea).make(borders);
 }
 
-LabelPlace labelPlaceOf(const SectionPolygon& polygon) {
+TextPlace findTextPlace(const SectionPolygon& polygon) {
     constexpr std::size_t kLevels = 32;
     const auto [low, high] = std::ranges::minmax(polygon.outer, {}, &PlanePoint::v);
     const double step = (high.v - low.v) / kLevels;
     std::vector<std::vector<double>> levels;
     for (std::size_t n = 0; n < kLevels; ++n) levels.push_back(crossingsOf(polygon, low.v + step * (double(n) + 0.5)));
-    LabelPlace best;
+    TextPlace best;
     double bestScore = -1;
     for (std::size_t bottom = 0; bottom < kLevels; ++bottom)
         for (std::size_t n = 0; n + 1 < levels[bottom].size(); n += 2) {

@@ -99,9 +99,9 @@ std::vector<std::uint32_t> labelsAt(const SectionDrawing& drawing, PlanePoint p)
 /// What must hold for every drawing: orientation, sums, and each edge of a ring is an edge of just one neighbor, turned
 /// round, or none.
 void expectSound(const SectionDrawing& drawing) {
-    const PlaneFrame& frame = drawing.frame;
-    EXPECT_NEAR(dot(cross(frame.u, frame.v), frame.normal), 1, 1e-12);
-    EXPECT_NEAR(std::abs(dot(frame.normal, drawing.plane.normal)), 1, 1e-12);
+    const PlaneAxes& axes = drawing.axes;
+    EXPECT_NEAR(dot(cross(axes.u, axes.v), axes.normal), 1, 1e-12);
+    EXPECT_NEAR(std::abs(dot(axes.normal, drawing.plane.normal)), 1, 1e-12);
     std::map<std::tuple<double, double, double, double>, int> edges;
     double total = 0;
     for (const SectionComponent& component : drawing.components) {
@@ -320,9 +320,9 @@ TEST(SectionDrawing, EveryPointShowsItsVoxel) {
         ASSERT_TRUE(drawing);
         expectSound(*drawing);
         for (int n = 0; n < 1500; ++n) {
-            const PlanePoint p{3 * any(random) + drawing->frame.planeFromWorld(drawing->plane.point).u,
-                               3 * any(random) + drawing->frame.planeFromWorld(drawing->plane.point).v};
-            const Vec3d index = volume.grid.indexFromWorld(drawing->frame.worldFromPlane(p));
+            const PlanePoint p{3 * any(random) + drawing->axes.planeFromWorld(drawing->plane.point).u,
+                               3 * any(random) + drawing->axes.planeFromWorld(drawing->plane.point).v};
+            const Vec3d index = volume.grid.indexFromWorld(drawing->axes.worldFromPlane(p));
             const Vec3d low{index.x + 0.5, index.y + 0.5, index.z + 0.5};
             bool isClear = true;
             for (int axis = 0; axis < 3; ++axis) {
@@ -350,11 +350,11 @@ TEST(SectionDrawing, PlanesOfBricksStayWithinAVoxelOfTheirVoxels) {
     std::uniform_real_distribution<double> any(-1, 1);
     for (const Vec3d normal : {Vec3d{0, 0, 1}, Vec3d{1, 0, 0}, Vec3d{-0.5, 0.7, 0.4}}) {
         const auto drawing = draw(volume, planeAt(volume, normal, {2.4, 2.5, 1.31}));
-        const PlanePoint middle = drawing.frame.planeFromWorld(drawing.plane.point);
+        const PlanePoint middle = drawing.axes.planeFromWorld(drawing.plane.point);
         int checked = 0;
         for (int n = 0; n < 1500; ++n) {
             const PlanePoint p{3 * any(random) + middle.u, 3 * any(random) + middle.v};
-            const Vec3d index = volume.grid.indexFromWorld(drawing.frame.worldFromPlane(p));
+            const Vec3d index = volume.grid.indexFromWorld(drawing.axes.worldFromPlane(p));
             const Vec3i at{std::int32_t(std::lround(index.x)), std::int32_t(std::lround(index.y)),
                            std::int32_t(std::lround(index.z))};
             bool isClear = true;
@@ -511,22 +511,22 @@ TEST(SectionDrawing, FrameIsSeenFromTheSideThatIsCutAway) {
     const auto volume = volumeOf({}, {"WallSurface"}, boxAt);
     const volume::Grid& grid = volume.grid;
     for (const double sign : {1.0, -1.0}) {
-        const PlaneFrame plan = frameOf(planeAt(volume, {0, 0, sign}, {0, 0, 1}), grid);
+        const PlaneAxes plan = makePlaneAxes(planeAt(volume, {0, 0, sign}, {0, 0, 1}), grid);
         EXPECT_EQ(plan.u, (Vec3d{1, 0, 0}));
         EXPECT_EQ(plan.v, (Vec3d{0, 1, 0}));
-        const PlaneFrame front = frameOf(planeAt(volume, {0, sign, 0}, {0, 1, 0}), grid);
+        const PlaneAxes front = makePlaneAxes(planeAt(volume, {0, sign, 0}, {0, 1, 0}), grid);
         EXPECT_EQ(front.v, (Vec3d{0, 0, 1}));
         // Seen from the south (normal to -y), east is on the right.
         EXPECT_NEAR(front.u.x, -sign, 1e-12);
     }
     const auto plane = planeAt(volume, {0.3, 0.5, 0.6}, {1, 2, 1});
-    const PlaneFrame frame = frameOf(plane, grid);
-    EXPECT_GT(frame.v.z, 0);
-    EXPECT_NEAR(frame.u.z, 0, 1e-12);
-    const PlanePoint p = frame.planeFromWorld(frame.worldFromPlane({1.25, -0.5}));
+    const PlaneAxes axes = makePlaneAxes(plane, grid);
+    EXPECT_GT(axes.v.z, 0);
+    EXPECT_NEAR(axes.u.z, 0, 1e-12);
+    const PlanePoint p = axes.planeFromWorld(axes.worldFromPlane({1.25, -0.5}));
     EXPECT_NEAR(p.u, 1.25, 1e-8);
     EXPECT_NEAR(p.v, -0.5, 1e-8);
-    EXPECT_NEAR(dot(frame.worldFromPlane({1.25, -0.5}) - plane.point, plane.normal), 0, 1e-8);
+    EXPECT_NEAR(dot(axes.worldFromPlane({1.25, -0.5}) - plane.point, plane.normal), 0, 1e-8);
 }
 
 TEST(SectionDrawing, PlaneOnFacesOfVoxelsCutsWhatIsKept) {
@@ -607,13 +607,13 @@ TEST(SectionDrawing, SameForAnyNumberOfThreads) {
 TEST(SectionDrawing, TextStandsInTheLargestFreePlace) {
     SectionPolygon l;  // an L: 6 x 1 m below, 1.5 x 5 m above its left end
     l.outer = {{0, 0}, {6, 0}, {6, 1}, {1.5, 1}, {1.5, 6}, {0, 6}};
-    const LabelPlace place = labelPlaceOf(l);
+    const TextPlace place = findTextPlace(l);
     EXPECT_GT(place.width, 4);
     EXPECT_LT(place.center.v, 1);
     SectionPolygon ring;  // nothing stands in the hole
     ring.outer = {{0, 0}, {6, 0}, {6, 6}, {0, 6}};
     ring.holes = {{{2, 2}, {2, 4}, {4, 4}, {4, 2}}};
-    const LabelPlace beside = labelPlaceOf(ring);
+    const TextPlace beside = findTextPlace(ring);
     EXPECT_FALSE(isInside(ring.holes[0], beside.center));
     EXPECT_GT(beside.width, 5);
 }

@@ -75,9 +75,9 @@ Result<std::pair<double, double>> storeyHeights(const std::string& storey, const
     return heightsOf(storey, volume, analyze::labelBoxes(volume.columns, volume.labels));
 }
 
-std::vector<StoreyHeights> storeysOf(const volume::SemanticVolume& volume) {
+std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
     const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
-    const auto rows = analyze::rowsOf(volume.labels);
+    const auto rows = analyze::queryRows(volume.labels);
     std::vector<StoreyHeights> storeys;
     for (std::uint32_t l = 0; l < rows.size(); ++l) {
         if (!model::query::isStorey(rows[l])) continue;

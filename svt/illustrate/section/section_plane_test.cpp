@@ -57,7 +57,7 @@ TEST(SectionPlane, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
     empty.parent = 0;
     empty.subtreeEnd = 7;
     volume.labels.labels.push_back(empty);
-    const auto storeys = storeysOf(volume);
+    const auto storeys = findStoreys(volume);
     ASSERT_EQ(storeys.size(), 2u);
     EXPECT_EQ(storeys[0].label, 1u);
     EXPECT_EQ(storeys[1].label, 4u);

@@ -16,26 +16,26 @@ using volume::kNoLabel;
 struct Step {
     std::int64_t u = 0, v = 0;
 };
-Step operator-(QuantumPoint a, QuantumPoint b) noexcept { return {std::int64_t{a.u} - b.u, std::int64_t{a.v} - b.v}; }
+Step operator-(DrawingPoint a, DrawingPoint b) noexcept { return {std::int64_t{a.u} - b.u, std::int64_t{a.v} - b.v}; }
 std::int64_t cross(Step a, Step b) noexcept { return a.u * b.v - a.v * b.u; }
 std::int64_t dot(Step a, Step b) noexcept { return a.u * b.u + a.v * b.v; }
 
 // An edge between two labels; from < to.
 struct BorderEdge {
-    QuantumPoint from, to;
+    DrawingPoint from, to;
     std::uint32_t left = kNoLabel, right = kNoLabel;
 };
 
 // Finds the labels on both sides of each edge; edges between equal labels cancel.
-std::vector<BorderEdge> cancel(std::vector<CellEdge> edges) {
+std::vector<BorderEdge> cancel(std::vector<PieceEdge> edges) {
     struct Side {
-        QuantumPoint from, to;
+        DrawingPoint from, to;
         std::uint32_t label = 0;
         std::int32_t isLeft = 0;
     };
     std::vector<Side> sides;
     sides.reserve(edges.size());
-    for (const CellEdge& edge : edges) {
+    for (const PieceEdge& edge : edges) {
         const bool isForward = edge.from < edge.to;
         sides.push_back({isForward ? edge.from : edge.to, isForward ? edge.to : edge.from, edge.label, isForward});
     }
@@ -67,7 +67,7 @@ std::vector<BorderEdge> cancel(std::vector<CellEdge> edges) {
 
 // One end of an edge.
 struct EdgeEnd {
-    QuantumPoint point;
+    DrawingPoint point;
     std::uint32_t edge = 0;
     bool isStart = true;
 };
@@ -87,7 +87,7 @@ public:
         for (std::uint32_t n = 0; n < ends_.size(); ++n) endAt_[2 * ends_[n].edge + (ends_[n].isStart ? 0 : 1)] = n;
     }
 
-    std::vector<QuantumBorder> run() {
+    std::vector<DrawingBorder> run() {
         // Borders that start at nodes first; the rest are closed, and start at their smallest point, which is a corner.
         for (const bool isClosed : {false, true})
             for (std::uint32_t n = 0; n < ends_.size(); ++n)
@@ -118,7 +118,7 @@ private:
     }
 
     void follow(std::uint32_t n) {
-        QuantumBorder border;
+        DrawingBorder border;
         std::tie(border.left, border.right) = sidesFrom(n);
         border.points.push_back(ends_[n].point);
         while (n != kNoEnd && isUsed_[ends_[n].edge] == 0) {
@@ -135,11 +135,11 @@ private:
     std::vector<std::uint8_t> isUsed_;
     std::vector<EdgeEnd> ends_;         // by point
     std::vector<std::uint32_t> endAt_;  // 2 * edge + (start ? 0 : 1) -> index into ends_
-    std::vector<QuantumBorder> borders_;
+    std::vector<DrawingBorder> borders_;
 };
 
-// Squared distance of p from a line segment, square quanta.
-double squareDistance(QuantumPoint p, QuantumPoint a, QuantumPoint b) noexcept {
+// Squared distance of p from a line segment, square drawing units.
+double squareDistance(DrawingPoint p, DrawingPoint a, DrawingPoint b) noexcept {
     const Step along = b - a, to = p - a;
     const double length2 = static_cast<double>(dot(along, along));
     const double t = length2 > 0 ? std::clamp(static_cast<double>(dot(along, to)) / length2, 0.0, 1.0) : 0;
@@ -148,8 +148,8 @@ double squareDistance(QuantumPoint p, QuantumPoint a, QuantumPoint b) noexcept {
     return u * u + v * v;
 }
 
-void straighten(QuantumBorder& border, double tolerance) {
-    const std::vector<QuantumPoint>& points = border.points;
+void straighten(DrawingBorder& border, double tolerance) {
+    const std::vector<DrawingPoint>& points = border.points;
     const std::size_t last = points.size() - 1;
     std::vector<std::uint8_t> isKept(points.size(), 0);
     isKept[0] = isKept[last] = 1;
@@ -171,7 +171,7 @@ void straighten(QuantumBorder& border, double tolerance) {
         open.emplace_back(from, furthest);
         open.emplace_back(furthest, to);
     }
-    std::vector<QuantumPoint> kept;
+    std::vector<DrawingPoint> kept;
     for (std::size_t n = 0; n < points.size(); ++n)
         if (isKept[n] != 0) kept.push_back(points[n]);
     border.points = std::move(kept);
@@ -188,12 +188,12 @@ class OuterFinder {
 public:
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-    explicit OuterFinder(std::span<const QuantumPolygon> polygons) {
+    explicit OuterFinder(std::span<const DrawingPolygon> polygons) {
         std::size_t edges = 0;
         low_ = std::numeric_limits<std::int32_t>::max();
         std::int32_t high = std::numeric_limits<std::int32_t>::min();
-        for (const QuantumPolygon& polygon : polygons) {
-            areas_.push_back(twiceAreaOf(polygon.rings.front()));
+        for (const DrawingPolygon& polygon : polygons) {
+            areas_.push_back(twiceSignedArea(polygon.rings.front()));
             edges += polygon.rings.front().size();
             for (const RingPoint& p : polygon.rings.front()) {
                 low_ = std::min(low_, p.point.v);
@@ -232,7 +232,7 @@ public:
 
 private:
     struct Edge {
-        QuantumPoint from, to;
+        DrawingPoint from, to;
         std::size_t outer = 0;
     };
     [[nodiscard]] std::int64_t levelOf(std::int64_t v) const noexcept { return (v - low_) / step_; }
@@ -243,7 +243,7 @@ private:
     }
     // Whether a ray from (u, v) / 2 in the direction of u crosses the edge.
     static bool isCrossed(const Edge& edge, std::int64_t u, std::int64_t v) noexcept {
-        const QuantumPoint a = edge.from, b = edge.to;
+        const DrawingPoint a = edge.from, b = edge.to;
         const std::int64_t av = 2 * std::int64_t{a.v}, bv = 2 * std::int64_t{b.v};
         if ((av > v) == (bv > v)) return false;
         const std::int64_t side = (b - a).u * (v - av) - (u - 2 * std::int64_t{a.u}) * (b - a).v;
@@ -258,9 +258,9 @@ private:
 
 class RingMaker {
 public:
-    explicit RingMaker(const std::vector<QuantumBorder>& borders) : borders_(borders) {}
+    explicit RingMaker(const std::vector<DrawingBorder>& borders) : borders_(borders) {}
 
-    std::vector<QuantumPolygon> run() {
+    std::vector<DrawingPolygon> run() {
         struct Labelled {
             std::uint32_t label = 0;
             HalfBorder half;
@@ -283,7 +283,7 @@ public:
 private:
     using LabelRing = std::vector<RingPoint>;
 
-    [[nodiscard]] QuantumPoint pointOf(HalfBorder half, std::size_t n) const noexcept {
+    [[nodiscard]] DrawingPoint pointOf(HalfBorder half, std::size_t n) const noexcept {
         const auto& points = borders_[half.border].points;
         return points[half.isForward ? n : points.size() - 1 - n];
     }
@@ -315,7 +315,7 @@ private:
     [[nodiscard]] std::uint32_t nextOf(std::uint32_t h, const std::vector<std::uint32_t>& byStart,
                                        const std::vector<std::uint8_t>& isUsed) const {
         const std::size_t size = sizeOf(halves_[h]);
-        const QuantumPoint node = pointOf(halves_[h], size - 1);
+        const DrawingPoint node = pointOf(halves_[h], size - 1);
         const Step back = pointOf(halves_[h], size - 2) - node;
         const auto candidates = std::ranges::equal_range(
             byStart, node, {}, [&](std::uint32_t other) { return pointOf(halves_[other], 0); });
@@ -344,7 +344,7 @@ private:
 
     // Splits a walk at the points that it visits again into rings that touch there.
     void splitWalk(const LabelRing& walk) {
-        std::map<QuantumPoint, std::size_t> placeOf;
+        std::map<DrawingPoint, std::size_t> placeOf;
         LabelRing open;
         for (const RingPoint& step : walk) {
             if (const auto known = placeOf.find(step.point); known != placeOf.end()) {
@@ -360,7 +360,7 @@ private:
     }
 
     void addRing(LabelRing ring) {
-        if (ring.size() < 3 || twiceAreaOf(ring) == 0) return;
+        if (ring.size() < 3 || twiceSignedArea(ring) == 0) return;
         const auto lowest = std::ranges::min_element(ring, {}, &RingPoint::point);
         std::rotate(ring.begin(), lowest, ring.end());
         rings_.push_back(std::move(ring));
@@ -372,39 +372,41 @@ private:
         const std::size_t first = polygons_.size();
         std::vector<LabelRing> holes;
         for (LabelRing& ring : rings_) {
-            if (twiceAreaOf(ring) > 0)
+            if (twiceSignedArea(ring) > 0)
                 polygons_.push_back({label, {std::move(ring)}});
             else
                 holes.push_back(std::move(ring));
         }
         if (holes.empty()) return;
-        const OuterFinder finder(std::span<const QuantumPolygon>(polygons_).subspan(first));
+        const OuterFinder finder(std::span<const DrawingPolygon>(polygons_).subspan(first));
         for (LabelRing& hole : holes)
             if (const std::size_t outer = finder.find(hole); outer != OuterFinder::kNone)
                 polygons_[first + outer].rings.push_back(std::move(hole));
     }
 
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-    const std::vector<QuantumBorder>& borders_;
+    const std::vector<DrawingBorder>& borders_;
     std::vector<HalfBorder> halves_;  // of the current label
     std::vector<LabelRing> rings_;
-    std::vector<QuantumPolygon> polygons_;
+    std::vector<DrawingPolygon> polygons_;
 };
 
 }  // namespace
 
-std::vector<QuantumBorder> joinEdges(std::vector<CellEdge> edges) { return EdgeJoiner(cancel(std::move(edges))).run(); }
+std::vector<DrawingBorder> joinEdges(std::vector<PieceEdge> edges) {
+    return EdgeJoiner(cancel(std::move(edges))).run();
+}
 
-void straighten(std::vector<QuantumBorder>& borders, double tolerance) {
-    for (QuantumBorder& border : borders) straighten(border, tolerance);
-    std::erase_if(borders, [](const QuantumBorder& border) {
+void straighten(std::vector<DrawingBorder>& borders, double tolerance) {
+    for (DrawingBorder& border : borders) straighten(border, tolerance);
+    std::erase_if(borders, [](const DrawingBorder& border) {
         return border.points.size() < 4 && border.points.front() == border.points.back();
     });
 }
 
-std::vector<QuantumPolygon> polygonsOf(const std::vector<QuantumBorder>& borders) { return RingMaker(borders).run(); }
+std::vector<DrawingPolygon> makePolygons(const std::vector<DrawingBorder>& borders) { return RingMaker(borders).run(); }
 
-double twiceAreaOf(const std::vector<RingPoint>& ring) noexcept {
+double twiceSignedArea(const std::vector<RingPoint>& ring) noexcept {
     double area = 0;
     for (std::size_t n = 1; n + 1 < ring.size(); ++n)
         area += static_cast<double>(cross(ring[n].point - ring.front().point, ring[n + 1].point - ring.front().point));

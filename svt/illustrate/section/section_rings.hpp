@@ -20,7 +20,7 @@
 ///   which keeps the inside connected; a walk that meets itself is split into rings that touch there.
 /// - A hole belongs to the smallest outer ring around it, by counting crossings exactly, in integers.
 
-#include <svt/illustrate/section/section_cells.hpp>
+#include <svt/illustrate/section/section_pieces.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -29,34 +29,34 @@
 namespace svt::illustrate {
 
 /// A polyline between two labels, from node to node, or closed.
-struct QuantumBorder {
-    std::vector<QuantumPoint> points;  ///< a closed one repeats the first at the end
+struct DrawingBorder {
+    std::vector<DrawingPoint> points;  ///< a closed one repeats the first at the end
     std::uint32_t left = 0, right = 0;
 };
 
 /// A point of a ring, and the border that leads to the next point.
 struct RingPoint {
-    QuantumPoint point;
+    DrawingPoint point;
     std::uint32_t border = 0;
 };
 
 /// A polygon of one label: the outer ring counter-clockwise, then its holes clockwise.
-struct QuantumPolygon {
+struct DrawingPolygon {
     std::uint32_t label = 0;
     std::vector<std::vector<RingPoint>> rings;
 };
 
 /// Cancels edges between equal labels, and joins the rest to borders. Cost: O(n log n).
-[[nodiscard]] std::vector<QuantumBorder> joinEdges(std::vector<CellEdge> edges);
+[[nodiscard]] std::vector<DrawingBorder> joinEdges(std::vector<PieceEdge> edges);
 
-/// Simplifies borders (Douglas and Peucker 1973): drops points within `tolerance` quanta of the segment that replaces
-/// them. Ends of borders are kept. Closed borders without area are removed.
-void straighten(std::vector<QuantumBorder>& borders, double tolerance);
+/// Simplifies borders (Douglas and Peucker 1973): drops points within `tolerance` drawing units of the segment that
+/// replaces them. Ends of borders are kept. Closed borders without area are removed.
+void straighten(std::vector<DrawingBorder>& borders, double tolerance);
 
 /// Polygons of all labels, ordered by label, then by the smallest point of the outer ring.
-[[nodiscard]] std::vector<QuantumPolygon> polygonsOf(const std::vector<QuantumBorder>& borders);
+[[nodiscard]] std::vector<DrawingPolygon> makePolygons(const std::vector<DrawingBorder>& borders);
 
-/// Twice the signed area of a ring, square quanta.
-[[nodiscard]] double twiceAreaOf(const std::vector<RingPoint>& ring) noexcept;
+/// Twice the signed area of a ring, square drawing units.
+[[nodiscard]] double twiceSignedArea(const std::vector<RingPoint>& ring) noexcept;
 
 }  // namespace svt::illustrate

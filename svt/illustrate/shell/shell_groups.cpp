@@ -141,7 +141,7 @@ std::optional<ShellLevel> shellLevelFromName(std::string_view name) noexcept {
 }
 
 ShellHierarchy ShellHierarchy::ofVolume(const volume::SemanticVolume& volume, int threads) {
-    const std::vector<model::QueryRow> rows = analyze::rowsOf(volume.labels);
+    const std::vector<model::QueryRow> rows = analyze::queryRows(volume.labels);
     const auto count = static_cast<std::uint32_t>(rows.size());
     ShellHierarchy hierarchy;
     const std::vector<Holders> byTree = TreeHolders(rows).find();
@@ -163,7 +163,7 @@ ShellHierarchy ShellHierarchy::ofVolume(const volume::SemanticVolume& volume, in
         const std::size_t low = lowest(byTree[b]);
         if (low < kBuilding) touched[hierarchy.component_[a]].push_back(byTree[b][low]);
     };
-    for (const analyze::Contact& contact : analyze::contactsOf(volume.columns, volume.grid, volume.labels, threads)) {
+    for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels, threads)) {
         if (contact.b == kNoLabel) continue;
         touch(contact.a, contact.b);
         touch(contact.b, contact.a);

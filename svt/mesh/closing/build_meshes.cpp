@@ -1,6 +1,6 @@
 #include <svt/core/parallel.hpp>
 #include <svt/mesh/closing/closing.hpp>
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/planes.hpp>
 #include <svt/mesh/polygons/edges.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
@@ -23,7 +23,7 @@ using model::FeatureIndex;
 using model::SurfaceUse;
 
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
-constexpr std::size_t kMostLeaks = 100;
+constexpr std::size_t kMaxLeaks = 100;
 
 // The source of one mesh: a feature and the faces of its geometry.
 struct Source {
@@ -247,7 +247,7 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
     }
     mesh.leakCount = static_cast<std::uint32_t>(mesh.openEdges.size());
     for (const OpenEdge& edge : mesh.openEdges) {
-        if (mesh.leaks.size() == kMostLeaks) break;
+        if (mesh.leaks.size() == kMaxLeaks) break;
         mesh.leaks.push_back((mesh.vertices[edge.from] + mesh.vertices[edge.to]) * 0.5);
     }
     if (mesh.openEdges.empty()) mesh.closure = mesh.tJunctionCount != 0 ? Closure::TJunctions : Closure::Closed;
@@ -352,13 +352,13 @@ std::string_view closureName(Closure closure) noexcept {
     return "surface";
 }
 
-std::size_t MeshScene::triangleCount() const noexcept {
+std::size_t MeshSet::triangleCount() const noexcept {
     std::size_t count = 0;
     for (const ObjectMesh& object : objects) count += object.triangles.size();
     return count;
 }
 
-Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& options, Diagnostics* log) {
+Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& options, Diagnostics* log) {
     Progress::tell(options.progress, "mesh", 0);
     const std::vector<Source> sources = collectSources(model, options.lod, log);
     std::vector<std::uint8_t> isUsed(model.polygons.size(), 0);
@@ -368,13 +368,13 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while meshing");
     Progress::tell(options.progress, "mesh", 0.4);
 
-    MeshScene scene;
-    scene.origin = polygons.origin;
-    scene.objects.resize(sources.size());
+    MeshSet meshes;
+    meshes.origin = polygons.origin;
+    meshes.objects.resize(sources.size());
     std::vector<Work> work(sources.size());
     parallelFor(sources.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            ObjectMesh& mesh = scene.objects[i];
+            ObjectMesh& mesh = meshes.objects[i];
             mesh.feature = sources[i].feature;
             mesh.lod = sources[i].lod;
             mesh.isAssembled = sources[i].isAssembled;
@@ -384,8 +384,8 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
     });
 
     std::optional<FaceFinder> finder;
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        ObjectMesh& mesh = scene.objects[i];
+    for (std::size_t i = 0; i < meshes.objects.size(); ++i) {
+        ObjectMesh& mesh = meshes.objects[i];
         if (mesh.openEdges.empty() || !sources[i].hasSolidMeaning) continue;
         if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while closing shells");
         if (!finder) finder.emplace(polygons, model);
@@ -408,20 +408,20 @@ Result<MeshScene> buildMeshes(const BuildingModel& model, const MeshOptions& opt
     }
     Progress::tell(options.progress, "mesh", 0.7);
 
-    parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) finish(scene.objects[i]);
+    parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) finish(meshes.objects[i]);
     });
-    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        scene.bounds.add(scene.objects[i].bounds);
-        if (log != nullptr) report(model, scene.objects[i], work[i], scene.origin, *log);
+    for (std::size_t i = 0; i < meshes.objects.size(); ++i) {
+        meshes.bounds.add(meshes.objects[i].bounds);
+        if (log != nullptr) report(model, meshes.objects[i], work[i], meshes.origin, *log);
     }
-    std::erase_if(scene.objects, [](const ObjectMesh& mesh) { return mesh.triangles.empty(); });
-    if (scene.objects.empty())
+    std::erase_if(meshes.objects, [](const ObjectMesh& mesh) { return mesh.triangles.empty(); });
+    if (meshes.objects.empty())
         return Error(Code::EmptyModel, "no feature of the model has geometry that can be voxelized",
                      {model.source, 0, 0, {}});
-    assignPlanes(scene, options.weldDistance * 4);
+    assignPlanes(meshes, options.weldDistance * 4);
     Progress::tell(options.progress, "mesh", 1);
-    return scene;
+    return meshes;
 }
 
 }  // namespace svt::mesh

@@ -23,19 +23,19 @@ using test::surfaceOf;
 
 const Vec3d kLow{0, 0, 0}, kHigh{4, 3, 2};
 
-MeshScene meshesOf(const BuildingModel& model, Diagnostics* log = nullptr, const MeshOptions& options = {}) {
-    auto scene = buildMeshes(model, options, log);
-    EXPECT_TRUE(scene) << scene.error().toString();
-    return scene ? *scene : MeshScene{};
+MeshSet meshesOf(const BuildingModel& model, Diagnostics* log = nullptr, const MeshOptions& options = {}) {
+    auto meshes = buildMeshes(model, options, log);
+    EXPECT_TRUE(meshes) << meshes.error().toString();
+    return meshes ? *meshes : MeshSet{};
 }
 
 TEST(BuildMeshes, ClosedBoxIsASolidWithItsVolume) {
     BuildingModel model;
     addBoxFeature(model, "Building", "house", kLow, kHigh);
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    ASSERT_EQ(scene.objects.size(), 1u);
-    const ObjectMesh& mesh = scene.objects[0];
+    const MeshSet meshes = meshesOf(model, &log);
+    ASSERT_EQ(meshes.objects.size(), 1u);
+    const ObjectMesh& mesh = meshes.objects[0];
     EXPECT_EQ(mesh.closure, Closure::Closed);
     EXPECT_TRUE(mesh.isSolid());
     EXPECT_EQ(mesh.vertices.size(), 8u);
@@ -47,26 +47,26 @@ TEST(BuildMeshes, ClosedBoxIsASolidWithItsVolume) {
     EXPECT_FALSE(mesh.isAssembled);
     EXPECT_EQ(mesh.unmatchedEdges, 0u);
     EXPECT_TRUE(log.items().empty());
-    EXPECT_EQ(scene.triangleCount(), 12u);
-    EXPECT_EQ(scene.planes.size(), 2u);
+    EXPECT_EQ(meshes.triangleCount(), 12u);
+    EXPECT_EQ(meshes.planes.size(), 2u);
 }
 
 TEST(BuildMeshes, WorldOriginIsWholeMetresAndKeepsTheShape) {
     BuildingModel model;
     const Vec3d world{458877.25, 5438353.5, -1.5};
     addBoxFeature(model, "Building", "house", kLow + world, kHigh + world);
-    const MeshScene scene = meshesOf(model);
-    EXPECT_EQ(scene.origin, (Vec3d{458877, 5438353, -2}));
-    EXPECT_NEAR(scene.objects[0].volume, 24, 1e-9);
-    EXPECT_EQ(scene.objects[0].bounds.min, (Vec3d{0.25, 0.5, 0.5}));
+    const MeshSet meshes = meshesOf(model);
+    EXPECT_EQ(meshes.origin, (Vec3d{458877, 5438353, -2}));
+    EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-9);
+    EXPECT_EQ(meshes.objects[0].bounds.min, (Vec3d{0.25, 0.5, 0.5}));
 }
 
 TEST(BuildMeshes, BoxWithoutATopIsCapped) {
     BuildingModel model;
     addFeature(model, "BuildingRoom", "room", model::kNoFeature, {solidOf(addBox(model, kLow, kHigh, {test::kTop}))});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    const ObjectMesh& mesh = scene.objects[0];
+    const MeshSet meshes = meshesOf(model, &log);
+    const ObjectMesh& mesh = meshes.objects[0];
     EXPECT_EQ(mesh.closure, Closure::Capped);
     EXPECT_NEAR(mesh.volume, 24, 1e-12);
     EXPECT_NEAR(mesh.area, 52, 1e-12);
@@ -88,10 +88,10 @@ TEST(BuildMeshes, TwoHolesGetTwoCaps) {
     BuildingModel model;
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,
                {solidOf(addBox(model, kLow, kHigh, {test::kTop, test::kBottom}))});
-    const MeshScene scene = meshesOf(model);
-    EXPECT_EQ(scene.objects[0].closure, Closure::Capped);
-    EXPECT_EQ(scene.objects[0].caps.size(), 2u);
-    EXPECT_NEAR(scene.objects[0].volume, 24, 1e-12);
+    const MeshSet meshes = meshesOf(model);
+    EXPECT_EQ(meshes.objects[0].closure, Closure::Capped);
+    EXPECT_EQ(meshes.objects[0].caps.size(), 2u);
+    EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12);
 }
 
 TEST(BuildMeshes, HoleAlmostInAPlaneIsCappedOthersStayOpen) {
@@ -105,8 +105,8 @@ TEST(BuildMeshes, HoleAlmostInAPlaneIsCappedOthersStayOpen) {
             uses.push_back({addRings(model, {{plan[i], plan[(i + 1) % 4], top[(i + 1) % 4], top[i]}}), false});
         addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
         Diagnostics log;
-        const MeshScene scene = meshesOf(model, &log);
-        const ObjectMesh& mesh = scene.objects[0];
+        const MeshSet meshes = meshesOf(model, &log);
+        const ObjectMesh& mesh = meshes.objects[0];
         EXPECT_EQ(mesh.closure, closure) << lift;
         EXPECT_EQ(log.count(closure == Closure::Open ? Code::WindingFilled : Code::ShellCapped), 1u);
         EXPECT_EQ(mesh.openEdges.size(), closure == Closure::Open ? 4u : 0u);
@@ -123,14 +123,14 @@ TEST(BuildMeshes, FaceThatOnlyTheNeighbourListsIsBorrowed) {
     addFeature(model, "BuildingRoom", "hall", model::kNoFeature,
                {solidOf(addBox(model, {4, 0, 0}, {9, 3, 2}, {test::kWest}))});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    const ObjectMesh* hall = meshOf(model, scene, "hall");
+    const MeshSet meshes = meshesOf(model, &log);
+    const ObjectMesh* hall = meshOf(model, meshes, "hall");
     ASSERT_NE(hall, nullptr);
     EXPECT_EQ(hall->closure, Closure::Complemented);
     EXPECT_EQ(hall->complementedFaces, 1u);
     EXPECT_NEAR(hall->volume, 30, 1e-12);
     EXPECT_TRUE(hall->caps.empty());
-    EXPECT_EQ(meshOf(model, scene, "kitchen")->closure, Closure::Closed);
+    EXPECT_EQ(meshOf(model, meshes, "kitchen")->closure, Closure::Closed);
     EXPECT_EQ(log.count(Code::FacesComplemented), 1u);
 }
 
@@ -139,8 +139,8 @@ TEST(BuildMeshes, WhatNeighboursCannotCloseIsCapped) {
     addBoxFeature(model, "BuildingRoom", "kitchen", kLow, kHigh);
     addFeature(model, "BuildingRoom", "hall", model::kNoFeature,
                {solidOf(addBox(model, {4, 0, 0}, {9, 3, 2}, {test::kWest, test::kTop}))});
-    const MeshScene scene = meshesOf(model);
-    const ObjectMesh* hall = meshOf(model, scene, "hall");
+    const MeshSet meshes = meshesOf(model);
+    const ObjectMesh* hall = meshOf(model, meshes, "hall");
     EXPECT_EQ(hall->closure, Closure::Capped);
     EXPECT_EQ(hall->complementedFaces, 1u);
     EXPECT_EQ(hall->caps.size(), 1u);
@@ -152,8 +152,8 @@ TEST(BuildMeshes, BoundarySurfaceAloneIsASheet) {
     addFeature(model, "WallSurface", "wall", model::kNoFeature,
                {surfaceOf({{addRings(model, {boxRing(kLow, kHigh, test::kSouth)}), false}})});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    const ObjectMesh& mesh = scene.objects[0];
+    const MeshSet meshes = meshesOf(model, &log);
+    const ObjectMesh& mesh = meshes.objects[0];
     EXPECT_EQ(mesh.closure, Closure::Surface);
     EXPECT_FALSE(mesh.isSolid());
     EXPECT_TRUE(mesh.caps.empty());
@@ -170,8 +170,8 @@ TEST(BuildMeshes, FlatFootprintIsASheetWithoutCaps) {
         model, "Building", "house", model::kNoFeature,
         {surfaceOf({{addRings(model, {{{0, 0, 1}, {8, 0, 1}, {8, 3, 1}, {4, 3, 1}, {4, 6, 1}, {0, 6, 1}}}), false}},
                    0)});
-    const MeshScene scene = meshesOf(model);
-    const ObjectMesh& mesh = scene.objects[0];
+    const MeshSet meshes = meshesOf(model);
+    const ObjectMesh& mesh = meshes.objects[0];
     EXPECT_EQ(mesh.closure, Closure::Surface);
     EXPECT_TRUE(mesh.caps.empty());
     EXPECT_NEAR(mesh.area, 36, 1e-12);
@@ -193,18 +193,18 @@ TEST(BuildMeshes, BuildingOfBoundarySurfacesAloneIsAssembled) {
     }
     addFeature(model, "WindowSurface", "window", wall,
                {surfaceOf({{addRings(model, {{{1, 0, 0.5}, {2, 0, 0.5}, {2, 0, 1.5}, {1, 0, 1.5}}}), false}}, 2)});
-    const MeshScene scene = meshesOf(model);
-    ASSERT_EQ(scene.objects.size(), 8u);
-    EXPECT_EQ(model.features[scene.objects[0].feature].id, "house");  // tree order
-    const ObjectMesh* mesh = meshOf(model, scene, "house");
+    const MeshSet meshes = meshesOf(model);
+    ASSERT_EQ(meshes.objects.size(), 8u);
+    EXPECT_EQ(model.features[meshes.objects[0].feature].id, "house");  // tree order
+    const ObjectMesh* mesh = meshOf(model, meshes, "house");
     EXPECT_TRUE(mesh->isAssembled);
     EXPECT_EQ(mesh->closure, Closure::Closed);
     EXPECT_NEAR(mesh->volume, 24, 1e-12);
     EXPECT_NEAR(mesh->area, 52, 1e-12);
     EXPECT_EQ(mesh->lod, 2);
     for (int side = 0; side < 6; ++side)
-        EXPECT_EQ(meshOf(model, scene, "side-" + std::to_string(side))->closure, Closure::Surface);
-    EXPECT_EQ(meshOf(model, scene, "window")->closure, Closure::Surface);
+        EXPECT_EQ(meshOf(model, meshes, "side-" + std::to_string(side))->closure, Closure::Surface);
+    EXPECT_EQ(meshOf(model, meshes, "window")->closure, Closure::Surface);
 }
 
 TEST(BuildMeshes, FinestLevelOfEachFeatureIsTaken) {
@@ -212,14 +212,14 @@ TEST(BuildMeshes, FinestLevelOfEachFeatureIsTaken) {
     addFeature(model, "Building", "house", model::kNoFeature,
                {solidOf(addBox(model, kLow, {8, 8, 8}), 1), solidOf(addBox(model, kLow, kHigh), 2.2)});
     addFeature(model, "Building", "shed", model::kNoFeature, {solidOf(addBox(model, {10, 0, 0}, {11, 1, 1}), 1)});
-    MeshScene scene = meshesOf(model);
-    EXPECT_NEAR(meshOf(model, scene, "house")->volume, 24, 1e-12);
-    EXPECT_EQ(meshOf(model, scene, "house")->lod, 2.2);
-    EXPECT_EQ(meshOf(model, scene, "shed")->lod, 1);
+    MeshSet meshes = meshesOf(model);
+    EXPECT_NEAR(meshOf(model, meshes, "house")->volume, 24, 1e-12);
+    EXPECT_EQ(meshOf(model, meshes, "house")->lod, 2.2);
+    EXPECT_EQ(meshOf(model, meshes, "shed")->lod, 1);
     MeshOptions coarse;
     coarse.lod.lod = 1;
-    scene = meshesOf(model, nullptr, coarse);
-    EXPECT_NEAR(meshOf(model, scene, "house")->volume, 512, 1e-12);
+    meshes = meshesOf(model, nullptr, coarse);
+    EXPECT_NEAR(meshOf(model, meshes, "house")->volume, 512, 1e-12);
 }
 
 TEST(BuildMeshes, CoarserSurfacesOfTheSameClassAreLeftOut) {
@@ -233,10 +233,10 @@ TEST(BuildMeshes, CoarserSurfacesOfTheSameClassAreLeftOut) {
     add("WallSurface", "wall-3", test::kSouth, 3);
     add("RoofSurface", "roof-2", test::kTop, 2);
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    EXPECT_EQ(meshOf(model, scene, "wall-2"), nullptr);
-    EXPECT_NE(meshOf(model, scene, "wall-3"), nullptr);
-    EXPECT_NE(meshOf(model, scene, "roof-2"), nullptr);  // no finer roof
+    const MeshSet meshes = meshesOf(model, &log);
+    EXPECT_EQ(meshOf(model, meshes, "wall-2"), nullptr);
+    EXPECT_NE(meshOf(model, meshes, "wall-3"), nullptr);
+    EXPECT_NE(meshOf(model, meshes, "roof-2"), nullptr);  // no finer roof
     EXPECT_EQ(log.count(Code::NoGeometry), 1u);
 }
 
@@ -248,9 +248,9 @@ TEST(BuildMeshes, SharedWallIsOnePolygonUsedInBothDirections) {
     addFeature(model, "BuildingRoom", "kitchen", model::kNoFeature, {solidOf(kitchen)});
     addFeature(model, "BuildingRoom", "hall", model::kNoFeature, {solidOf(hall)});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    EXPECT_EQ(meshOf(model, scene, "hall")->closure, Closure::Closed);
-    EXPECT_NEAR(meshOf(model, scene, "hall")->volume, 30, 1e-12);
+    const MeshSet meshes = meshesOf(model, &log);
+    EXPECT_EQ(meshOf(model, meshes, "hall")->closure, Closure::Closed);
+    EXPECT_NEAR(meshOf(model, meshes, "hall")->volume, 30, 1e-12);
     EXPECT_TRUE(log.items().empty());
 }
 
@@ -262,9 +262,9 @@ TEST(BuildMeshes, PolygonUsedInBothDirectionsInOneShellCancels) {
     for (const SurfaceUse& use : addBox(model, {4, 0, 0}, {9, 3, 2}, {test::kWest})) uses.push_back(use);
     uses.push_back(shared);
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
-    const MeshScene scene = meshesOf(model);
-    EXPECT_EQ(scene.objects[0].closure, Closure::Closed);
-    EXPECT_NEAR(scene.objects[0].volume, 54, 1e-12);
+    const MeshSet meshes = meshesOf(model);
+    EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+    EXPECT_NEAR(meshes.objects[0].volume, 54, 1e-12);
 }
 
 TEST(BuildMeshes, DuplicateFacesAreUsedOnce) {
@@ -277,10 +277,10 @@ TEST(BuildMeshes, DuplicateFacesAreUsedOnce) {
         if (kind != 0) uses.push_back({addRings(model, {top}), false});       // its twin
         addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
         Diagnostics log;
-        const MeshScene scene = meshesOf(model, &log);
-        EXPECT_EQ(scene.objects[0].closure, Closure::Closed) << kind;
-        EXPECT_NEAR(scene.objects[0].volume, 24, 1e-12) << kind;
-        EXPECT_NEAR(scene.objects[0].area, 52, 1e-12) << kind;
+        const MeshSet meshes = meshesOf(model, &log);
+        EXPECT_EQ(meshes.objects[0].closure, Closure::Closed) << kind;
+        EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12) << kind;
+        EXPECT_NEAR(meshes.objects[0].area, 52, 1e-12) << kind;
         EXPECT_EQ(log.count(Code::DuplicateFace), 1u) << kind;
     }
 }
@@ -291,11 +291,11 @@ TEST(BuildMeshes, FaceThatLooksInwardsIsTurned) {
     uses[test::kTop].isReversed = true;
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    EXPECT_EQ(scene.objects[0].closure, Closure::Closed);
-    EXPECT_EQ(scene.objects[0].flippedFaces, 2u);
-    EXPECT_EQ(scene.objects[0].leakCount, 0u);
-    EXPECT_NEAR(scene.objects[0].volume, 24, 1e-12);
+    const MeshSet meshes = meshesOf(model, &log);
+    EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+    EXPECT_EQ(meshes.objects[0].flippedFaces, 2u);
+    EXPECT_EQ(meshes.objects[0].leakCount, 0u);
+    EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12);
     EXPECT_EQ(log.count(Code::FaceFlipped), 1u);
 }
 
@@ -305,9 +305,9 @@ TEST(BuildMeshes, ShellInsideOutIsTurned) {
     for (SurfaceUse& use : uses) use.isReversed = true;
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    EXPECT_NEAR(scene.objects[0].volume, 24, 1e-12);
-    EXPECT_EQ(scene.objects[0].flippedFaces, 12u);
+    const MeshSet meshes = meshesOf(model, &log);
+    EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12);
+    EXPECT_EQ(meshes.objects[0].flippedFaces, 12u);
     EXPECT_EQ(log.count(Code::FaceFlipped), 1u);
 }
 
@@ -322,10 +322,10 @@ TEST(BuildMeshes, VoidsAreTakenAwayWhicheverWayTheShellsFace) {
             geometry.solids[0].interiors.push_back(hole);
             addFeature(model, "Building", "house", model::kNoFeature, {geometry});
             Diagnostics log;
-            const MeshScene scene = meshesOf(model, &log);
-            EXPECT_EQ(scene.objects[0].closure, Closure::Closed);
-            EXPECT_NEAR(scene.objects[0].volume, 23, 1e-12);
-            EXPECT_EQ(scene.objects[0].flippedFaces, (isExteriorReversed ? 12u : 0u) + (isVoidReversed ? 0u : 12u));
+            const MeshSet meshes = meshesOf(model, &log);
+            EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+            EXPECT_NEAR(meshes.objects[0].volume, 23, 1e-12);
+            EXPECT_EQ(meshes.objects[0].flippedFaces, (isExteriorReversed ? 12u : 0u) + (isVoidReversed ? 0u : 12u));
             EXPECT_EQ(log.count(Code::FaceFlipped), isVoidReversed && !isExteriorReversed ? 0u : 1u);
         }
 }
@@ -338,8 +338,8 @@ TEST(BuildMeshes, EdgesThatMatchOnlyInPartsAreTJunctions) {
     uses.push_back({addRings(model, {{{1.7, 0, 0}, {4, 0, 0}, {4, 0, 2}, {1.7, 0, 2}}}), false});
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     Diagnostics log;
-    const MeshScene scene = meshesOf(model, &log);
-    const ObjectMesh& mesh = scene.objects[0];
+    const MeshSet meshes = meshesOf(model, &log);
+    const ObjectMesh& mesh = meshes.objects[0];
     EXPECT_EQ(mesh.closure, Closure::TJunctions);
     EXPECT_EQ(mesh.tJunctionCount, 2u);
     EXPECT_EQ(mesh.unmatchedEdges, 6u);
@@ -360,9 +360,9 @@ TEST(BuildMeshes, RoundedCornersAreStillClosed) {
         uses.push_back({addRings(model, {ring}), false});
     }
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
-    const MeshScene scene = meshesOf(model);
-    EXPECT_EQ(scene.objects[0].closure, Closure::Closed);
-    EXPECT_EQ(scene.objects[0].vertices.size(), 8u);
+    const MeshSet meshes = meshesOf(model);
+    EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+    EXPECT_EQ(meshes.objects[0].vertices.size(), 8u);
 }
 
 TEST(BuildMeshes, BadCoordinatesCostTheirPolygonOnly) {
@@ -374,12 +374,12 @@ TEST(BuildMeshes, BadCoordinatesCostTheirPolygonOnly) {
         addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
         addBoxFeature(model, "Building", "shed", {10, 0, 0}, {11, 1, 1});
         Diagnostics log;
-        const MeshScene scene = meshesOf(model, &log);
+        const MeshSet meshes = meshesOf(model, &log);
         EXPECT_EQ(log.count(Code::BadCoordinate), 1u);
-        EXPECT_EQ(meshOf(model, scene, "house")->closure, Closure::Capped);
-        EXPECT_NEAR(meshOf(model, scene, "house")->volume, 24, 1e-12);
-        EXPECT_EQ(meshOf(model, scene, "shed")->closure, Closure::Closed);
-        EXPECT_EQ(scene.bounds, (Box3d{{0, 0, 0}, {11, 3, 2}}));
+        EXPECT_EQ(meshOf(model, meshes, "house")->closure, Closure::Capped);
+        EXPECT_NEAR(meshOf(model, meshes, "house")->volume, 24, 1e-12);
+        EXPECT_EQ(meshOf(model, meshes, "shed")->closure, Closure::Closed);
+        EXPECT_EQ(meshes.bounds, (Box3d{{0, 0, 0}, {11, 3, 2}}));
     }
 }
 
@@ -399,9 +399,9 @@ TEST(BuildMeshes, DoorIsABodyWhereItsGeometryIsASolid) {
     addFeature(model, "Door", "body", model::kNoFeature, {solidOf(addBox(model, kLow, kHigh, {test::kTop}))});
     addFeature(model, "Door", "leaf", model::kNoFeature,
                {surfaceOf(addBox(model, {10, 0, 0}, {11, 1, 1}, {test::kTop}))});
-    const MeshScene scene = meshesOf(model);
-    EXPECT_EQ(meshOf(model, scene, "body")->closure, Closure::Capped);
-    EXPECT_EQ(meshOf(model, scene, "leaf")->closure, Closure::Surface);
+    const MeshSet meshes = meshesOf(model);
+    EXPECT_EQ(meshOf(model, meshes, "body")->closure, Closure::Capped);
+    EXPECT_EQ(meshOf(model, meshes, "leaf")->closure, Closure::Surface);
 }
 
 TEST(BuildMeshes, CancelStopsWithoutResult) {
@@ -411,9 +411,9 @@ TEST(BuildMeshes, CancelStopsWithoutResult) {
     progress.cancel = true;
     MeshOptions options;
     options.progress = &progress;
-    const auto scene = buildMeshes(model, options);
-    ASSERT_FALSE(scene);
-    EXPECT_EQ(scene.error().code(), Code::Cancelled);
+    const auto meshes = buildMeshes(model, options);
+    ASSERT_FALSE(meshes);
+    EXPECT_EQ(meshes.error().code(), Code::Cancelled);
 }
 
 TEST(BuildMeshes, SameForAnyNumberOfThreads) {
@@ -431,7 +431,7 @@ TEST(BuildMeshes, SameForAnyNumberOfThreads) {
     one.threads = 1;
     many.threads = 4;
     Diagnostics oneLog, manyLog;
-    const MeshScene a = meshesOf(model, &oneLog, one), b = meshesOf(model, &manyLog, many);
+    const MeshSet a = meshesOf(model, &oneLog, one), b = meshesOf(model, &manyLog, many);
     ASSERT_EQ(a.objects.size(), b.objects.size());
     for (std::size_t o = 0; o < a.objects.size(); ++o) {
         const ObjectMesh &s = a.objects[o], &t = b.objects[o];

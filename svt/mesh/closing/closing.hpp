@@ -3,7 +3,7 @@
 /// Ways to close an open shell, in the order in which they are tried (paper, section 4.1): faces of adjoining features,
 /// then planar caps.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
 
 #include <memory>

@@ -2,7 +2,7 @@
 /// \file
 /// The closing test (does every edge have a partner?), and repairs of edges and orientation.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 /// The polygons of the model in local space, triangulated once, with canonical coordinates: heights, corners and planes
 /// that are meant to be equal are equal, bit for bit, in all objects.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 
 #include <span>
 #include <vector>

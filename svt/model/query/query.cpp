@@ -84,10 +84,10 @@ bool classHolds(const Node& node, const QueryRow& row) {
 }
 
 /// Descendants of each row: by the tree and by group membership.
-struct Below {
+struct Descendants {
     std::vector<std::uint32_t> begins, rows;  ///< below row i: rows[begins[i]] .. rows[begins[i + 1]]
 
-    explicit Below(Rows all) : begins(all.size() + 1, 0) {
+    explicit Descendants(Rows all) : begins(all.size() + 1, 0) {
         const auto forEachAbove = [&](std::size_t i, const auto& visit) {
             if (all[i].parent < all.size()) visit(all[i].parent);
             for (const std::uint32_t group : all[i].groups)
@@ -131,7 +131,7 @@ Mask selectUnder(const Node& node, Rows rows) {
     const Mask starts = rowsWhere(rows, [&](const QueryRow& row) {
         return row.id == node.value || (!row.name.empty() && row.name == node.value);
     });
-    Mask mask = Below(rows).reachedFrom(starts);
+    Mask mask = Descendants(rows).reachedFrom(starts);
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= starts[i];
     return mask;
 }
@@ -147,7 +147,7 @@ Mask selectStorey(const Node& node, Rows rows) {
         };
         return (matches(row.id) || (hasName && matches(row.name))) == isWanted;
     });
-    return Below(rows).reachedFrom(starts);
+    return Descendants(rows).reachedFrom(starts);
 }
 
 Mask selectCompare(const Node& node, Rows rows) {

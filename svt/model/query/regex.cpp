@@ -10,13 +10,13 @@
 namespace svt::model {
 namespace {
 
-constexpr char32_t kStrayByte = 0x110000;  ///< + byte: an invalid UTF-8 byte, equal only to itself
+constexpr char32_t kInvalidByte = 0x110000;  ///< + byte: an invalid UTF-8 byte, equal only to itself
 constexpr std::int32_t kMaxRepeats = 1000;
 
 /// Decodes the character at `position` and advances `position`.
 char32_t nextCharacter(std::string_view text, std::size_t& position) noexcept {
     const Utf8Character character = firstCharacter(text.substr(position));
-    if (character.size == 0) return kStrayByte + static_cast<unsigned char>(text[position++]);
+    if (character.size == 0) return kInvalidByte + static_cast<unsigned char>(text[position++]);
     position += character.size;
     return character.code;
 }
@@ -54,7 +54,7 @@ Ranges complement(const Ranges& sorted) {
         if (first > next) result.emplace_back(next, first - 1);
         next = last + 1;
     }
-    result.emplace_back(next, kStrayByte + 0xFF);
+    result.emplace_back(next, kInvalidByte + 0xFF);
     return result;
 }
 

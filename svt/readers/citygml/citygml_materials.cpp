@@ -71,7 +71,7 @@ void applyMaterials(Part& part, const References& references, GeometryResolver& 
             continue;
         }
         std::vector<model::FeatureIndex> open{application.index};
-        while (!open.empty() && resolver.spend(1)) {
+        while (!open.empty() && resolver.chargeBudget(1)) {
             const model::FeatureIndex feature = open.back();
             open.pop_back();
             for (const FeatureGeometry* geometry = geometries.begin(feature); geometry != geometries.end(feature);

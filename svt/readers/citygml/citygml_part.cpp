@@ -8,7 +8,7 @@ namespace {
 
 using model::FeatureIndex;
 
-constexpr std::size_t kKeptNames = 64;  // limit on distinct srsNames or unknown elements
+constexpr std::size_t kMaxNames = 64;  // limit on distinct srsNames or unknown elements
 
 template <class T>
 void append(std::vector<T>& to, std::vector<T>&& from) {
@@ -42,14 +42,14 @@ void Findings::add(Severity severity, Code code, std::string message, std::uint6
 }
 
 void Part::addUnknown(std::string_view name, std::uint64_t offset) {
-    if (unknownNames.size() >= kKeptNames) return;
+    if (unknownNames.size() >= kMaxNames) return;
     if (std::find(unknownNames.begin(), unknownNames.end(), name) != unknownNames.end()) return;
     unknownNames.emplace_back(name);
     unknownOffsets.push_back(offset);
 }
 
 void Part::addCrsName(std::string_view name, std::uint64_t offset) {
-    if (name.empty() || crsNames.size() >= kKeptNames) return;
+    if (name.empty() || crsNames.size() >= kMaxNames) return;
     for (const CrsName& known : crsNames)
         if (known.name == name) return;
     crsNames.push_back({std::string(name), offset});

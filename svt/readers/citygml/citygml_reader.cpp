@@ -22,7 +22,7 @@ using std::string_view;
 // Chunks parsed in one batch. Fixed, so that memory and results do not depend on the number of threads.
 constexpr std::size_t kBatchChunks = 64;
 // Deeper recursion could overflow the stack of a thread, whatever limit the caller sets.
-constexpr std::uint32_t kDeepest = 1000;
+constexpr std::uint32_t kMaxDepth = 1000;
 constexpr string_view kCityGml04 = "http://www.citygml.org/citygml/1/0/0";
 
 // Line number at the start of each chunk.
@@ -107,7 +107,7 @@ public:
           fileName_(std::move(fileName)),
           options_(options),
           diagnostics_(diagnostics),
-          scanner_(document, fileName_, std::min(options.maxDepth, kDeepest)),
+          scanner_(document, fileName_, std::min(options.maxDepth, kMaxDepth)),
           lines_(document) {}
 
     Result<model::BuildingModel> run() {
@@ -211,8 +211,8 @@ Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, strin
                      {fileName, 0, 0, {}});
     const Result<xml::Utf8Text> text = xml::toUtf8(bytes, name);
     if (!text) return text.error();
-    Diagnostics unheard;
-    return Reading(text->view(), std::move(fileName), options, diagnostics != nullptr ? *diagnostics : unheard).run();
+    Diagnostics ignored;
+    return Reading(text->view(), std::move(fileName), options, diagnostics != nullptr ? *diagnostics : ignored).run();
 }
 
 }  // namespace svt::readers

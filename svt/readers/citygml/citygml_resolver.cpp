@@ -19,7 +19,7 @@ using model::SurfaceUse;
 using std::string_view;
 
 // The scanner limits inline nesting; a chain of references could still overflow the stack.
-constexpr std::uint32_t kDeepestWalk = 2000;
+constexpr std::uint32_t kMaxReferenceDepth = 2000;
 constexpr std::uint64_t kCostPerPlacedPoint = 10;
 
 Vec3d place(const Placement& placement, Vec3d p) noexcept {
@@ -76,18 +76,18 @@ Resolved GeometryResolver::resolve(NodeIndex node, double lod, string_view featu
     return resolved;
 }
 
-bool GeometryResolver::spend(std::uint64_t amount) {
+bool GeometryResolver::chargeBudget(std::uint64_t amount) {
     spent_ += amount;
     return spent_ <= budget_;
 }
 
 void GeometryResolver::walk(NodeIndex index, bool isReversed, Resolved& into) {
-    if (!spend(1)) return;
+    if (!chargeBudget(1)) return;
     const Node& node = part_.nodes[index];
-    if (depth_ >= kDeepestWalk) {
+    if (depth_ >= kMaxReferenceDepth) {
         report_(Severity::Warning, Code::InputTooBig,
-                fmt::format("references lead deeper than {} levels; the rest is left out", kDeepestWalk), node.offset,
-                featureId_);
+                fmt::format("references lead deeper than {} levels; the rest is left out", kMaxReferenceDepth),
+                node.offset, featureId_);
         return;
     }
     ++depth_;
@@ -112,7 +112,7 @@ void GeometryResolver::walkChildren(NodeIndex node, bool isReversed, Resolved& i
         walk(child, isReversed, into);
 }
 
-void GeometryResolver::surfacesOf(NodeIndex node, bool isReversed, std::vector<SurfaceUse>& into) {
+void GeometryResolver::collectSurfaces(NodeIndex node, bool isReversed, std::vector<SurfaceUse>& into) {
     Resolved below;
     walkChildren(node, isReversed, below);
     if (into.empty() && below.solids.empty())
@@ -127,17 +127,17 @@ void GeometryResolver::walkSolid(NodeIndex index, Resolved& into) {
     for (NodeIndex child = part_.nodes[index].firstChild; child != kNone; child = part_.nodes[child].nextSibling) {
         if (part_.nodes[child].kind == NodeKind::Interior) {
             solid.interiors.emplace_back();
-            surfacesOf(child, false, solid.interiors.back());
+            collectSurfaces(child, false, solid.interiors.back());
             if (solid.interiors.back().empty()) solid.interiors.pop_back();
         } else {
-            surfacesOf(child, false, solid.exterior);
+            collectSurfaces(child, false, solid.exterior);
         }
     }
     into.solids.push_back(std::move(solid));
 }
 
 // The geometry of the level being resolved, else the finest.
-const FeatureGeometry* GeometryResolver::geometryOf(FeatureIndex feature) const {
+const FeatureGeometry* GeometryResolver::findGeometry(FeatureIndex feature) const {
     const FeatureGeometry* best = nullptr;
     for (const FeatureGeometry* geometry = geometries_.begin(feature); geometry != geometries_.end(feature);
          ++geometry) {
@@ -155,7 +155,7 @@ NodeIndex GeometryResolver::follow(NodeIndex reference) {
     const Target target = references_.geometry(href);
     if (target.kind == Target::Kind::Node) return target.index;
     if (target.kind == Target::Kind::Feature) {
-        if (const FeatureGeometry* geometry = geometryOf(target.index)) return geometry->node;
+        if (const FeatureGeometry* geometry = findGeometry(target.index)) return geometry->node;
         report_(Severity::Warning, Code::DanglingReference,
                 fmt::format("'{}' refers to a {} that has no geometry", shown, part_.features[target.index].className),
                 node.offset, featureId_);
@@ -221,7 +221,7 @@ PolygonIndex GeometryResolver::placed(PolygonIndex index, const Placement& place
                                       std::unordered_map<PolygonIndex, PolygonIndex>& known) {
     const auto [entry, isNew] = known.emplace(index, index);
     const Polygon& prototype = part_.polygons[index];
-    if (!isNew || !spend(kCostPerPlacedPoint * (prototype.points.size() + 4))) return entry->second;
+    if (!isNew || !chargeBudget(kCostPerPlacedPoint * (prototype.points.size() + 4))) return entry->second;
     Polygon polygon = prototype;
     for (Vec3d& point : polygon.points) point = place(placement, point);
     placed_.push_back(std::move(polygon));
@@ -235,7 +235,7 @@ void GeometryResolver::forEachPolygon(NodeIndex start, const std::function<void(
     while (!open.empty()) {
         const NodeIndex index = open.back();
         open.pop_back();
-        if (visitedBy_[index] == visit_ || !spend(1)) continue;
+        if (visitedBy_[index] == visit_ || !chargeBudget(1)) continue;
         visitedBy_[index] = visit_;
         const Node& node = part_.nodes[index];
         if (node.kind == NodeKind::Polygon) visit(node.payload);

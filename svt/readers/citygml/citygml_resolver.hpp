@@ -56,7 +56,7 @@ public:
     [[nodiscard]] std::vector<model::Polygon>& placedPolygons() noexcept { return placed_; }
 
     /// Adds to the work done; false once the budget is exceeded.
-    bool spend(std::uint64_t amount);
+    bool chargeBudget(std::uint64_t amount);
     [[nodiscard]] bool isOverBudget() const noexcept { return spent_ > budget_; }
 
 private:
@@ -65,8 +65,8 @@ private:
     void walkSolid(NodeIndex node, Resolved& into);
     void walkReference(NodeIndex node, bool isReversed, Resolved& into);
     void walkImplicit(NodeIndex node, bool isReversed, Resolved& into);
-    void surfacesOf(NodeIndex node, bool isReversed, std::vector<model::SurfaceUse>& into);
-    const FeatureGeometry* geometryOf(model::FeatureIndex feature) const;
+    void collectSurfaces(NodeIndex node, bool isReversed, std::vector<model::SurfaceUse>& into);
+    const FeatureGeometry* findGeometry(model::FeatureIndex feature) const;
     NodeIndex follow(NodeIndex reference);
     model::PolygonIndex placed(model::PolygonIndex polygon, const Placement& placement,
                                std::unordered_map<model::PolygonIndex, model::PolygonIndex>& known);

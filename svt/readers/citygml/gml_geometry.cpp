@@ -15,7 +15,7 @@ using citygml::Placement;
 using std::string_view;
 using xml::Vocabulary;
 
-constexpr int kDeepestCurve = 16;
+constexpr int kMaxCurveDepth = 16;
 
 constexpr std::pair<string_view, Shape> kShapes[] = {
     {"Polygon", Shape::Polygon},
@@ -55,7 +55,7 @@ constexpr std::pair<string_view, Shape> kShapes[] = {
 };
 
 // Members of a surface that are not faces.
-bool isNoFace(string_view property) noexcept {
+bool isNotFace(string_view property) noexcept {
     return property == "stopLines" || property == "breakLines" || property == "maxLength" ||
            property == "controlPoint" || property == "name" || property == "description" ||
            property == "metaDataProperty" || property == "boundedBy" || property == "identifier";
@@ -195,7 +195,7 @@ NodeIndex GeometryReader::readElement(const Element& element, Shape shape, int d
 
 void GeometryReader::readMembers(const Element& element, NodeIndex parent, int dimension) {
     scope_.forEachChild(element.node, [&](const Element& property) {
-        if (isNoFace(property.localName)) return;
+        if (isNotFace(property.localName)) return;
         const pugi::xml_node first = xml::firstChildElement(property.node);
         if (!first) {
             const ElementAttributes attributes = attributesOf(scope_, property.node);
@@ -294,7 +294,7 @@ bool GeometryReader::readRing(const Element& property, int dimension, model::Pol
 
 // A boundary made of curves: the positions of their segments, concatenated.
 void GeometryReader::readCurve(const Element& element, int dimension, int depth) {
-    if (depth > kDeepestCurve) return;
+    if (depth > kMaxCurveDepth) return;
     const ElementAttributes attributes = attributesOf(scope_, element.node);
     const std::size_t first = points_.size();
     bool hasPositions = false;

@@ -17,8 +17,8 @@ void readMetadata(const std::optional<json::element>& metadata, model::BuildingM
                         {std::string(file), 0, 0, {}});
         return;
     }
-    if (const auto title = memberOf(*object, "title")) model.name = asString(*title).value_or(std::string_view());
-    if (const auto system = memberOf(*object, "referenceSystem")) {
+    if (const auto title = findMember(*object, "title")) model.name = asString(*title).value_or(std::string_view());
+    if (const auto system = findMember(*object, "referenceSystem")) {
         model.crs.name = asString(*system).value_or(std::string_view());
         model.crs.epsg = gml::epsgCode(model.crs.name);
     }

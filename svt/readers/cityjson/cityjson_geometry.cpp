@@ -19,9 +19,9 @@ constexpr double kMaxCoordinate = 1e10;
 using Matrix = std::array<double, 16>;  ///< row-major, world = matrix * (x, y, z, 1) + anchor
 
 /// Iterates an array parallel to another one; yields nothing where the file has null or too few values.
-class Beside {
+class ParallelArray {
 public:
-    Beside(std::optional<json::element> value, bool& hasBadNesting) {
+    ParallelArray(std::optional<json::element> value, bool& hasBadNesting) {
         if (!value) return;
         if (const auto array = asArray(*value)) {
             next_ = array->begin();
@@ -50,9 +50,9 @@ struct Values {
 };
 
 /// Both arrays of values, iterated in parallel with the boundaries.
-class BesideValues {
+class ParallelValues {
 public:
-    BesideValues(const Values& values, bool& hasBadNesting)
+    ParallelValues(const Values& values, bool& hasBadNesting)
         : semantics_(values.semantics, hasBadNesting), material_(values.material, hasBadNesting) {}
     Values next() {
         const auto semantics = semantics_.next();
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    Beside semantics_, material_;
+    ParallelArray semantics_, material_;
 };
 
 /// True if at least three of the points are distinct.
@@ -106,12 +106,12 @@ private:
     }
 
     static std::string_view textMember(json::object object, std::string_view key) {
-        const auto value = memberOf(object, key);
+        const auto value = findMember(object, key);
         return value ? asString(*value).value_or(std::string_view()) : std::string_view();
     }
 
     void readInstance(json::object instance) {
-        const auto number = memberOf(instance, "template");
+        const auto number = findMember(instance, "template");
         const auto index = number ? asInteger(*number) : std::nullopt;
         const TemplateSet& templates = *context_.templates;
         if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= templates.geometries.size())
@@ -132,7 +132,7 @@ private:
     }
 
     bool readAnchor(json::object instance) {
-        const auto boundaries = memberOf(instance, "boundaries");
+        const auto boundaries = findMember(instance, "boundaries");
         const auto array = boundaries ? asArray(*boundaries) : std::nullopt;
         json::element first;
         const bool hasFirst = array && array->at(0).get(first) == simdjson::SUCCESS;
@@ -149,7 +149,7 @@ private:
 
     bool readMatrix(json::object instance) {
         matrix_ = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        const auto value = memberOf(instance, "transformationMatrix");
+        const auto value = findMember(instance, "transformationMatrix");
         if (!value) return true;
         const auto array = asArray(*value);
         std::size_t count = 0;
@@ -175,7 +175,7 @@ private:
                 report(Code::UnknownElement, fmt::format("has the unknown type '{}'; left out", shortened(type)));
             return;
         }
-        const auto boundaries = memberOf(geometry, "boundaries");
+        const auto boundaries = findMember(geometry, "boundaries");
         const auto parts = boundaries ? asArray(*boundaries) : std::nullopt;
         if (!parts) return report(Code::BadJson, "has no array 'boundaries'; left out");
 
@@ -190,7 +190,7 @@ private:
         if (isSurface) {
             readSurfaces(*parts, values, result.surfaces);
         } else if (isSolidList) {
-            BesideValues beside(values, hasBadNestingOfValues_);
+            ParallelValues beside(values, hasBadNestingOfValues_);
             for (const json::element part : *parts) {
                 const Values inner = beside.next();
                 if (const auto shells = asArray(part))
@@ -213,7 +213,7 @@ private:
     }
 
     double readLod(json::object geometry) {
-        const auto value = memberOf(geometry, "lod");
+        const auto value = findMember(geometry, "lod");
         if (!value || value->is_null()) return -1;
         double lod = -1;
         if (const auto text = asString(*value)) {
@@ -229,7 +229,7 @@ private:
 
     void readSolid(json::array shells, const Values& values, std::vector<model::Solid>& solids) {
         model::Solid solid;
-        BesideValues beside(values, hasBadNestingOfValues_);
+        ParallelValues beside(values, hasBadNestingOfValues_);
         bool isExterior = true;
         for (const json::element shell : shells) {
             const Values inner = beside.next();
@@ -249,7 +249,7 @@ private:
 
     void readSurfaces(json::array surfaces, const Values& values, std::vector<model::SurfaceUse>& uses) {
         uses.reserve(surfaces.size());
-        BesideValues beside(values, hasBadNestingOfValues_);
+        ParallelValues beside(values, hasBadNestingOfValues_);
         for (const json::element surface : surfaces) {
             const Values own = beside.next();
             model::Polygon polygon;
@@ -337,7 +337,7 @@ private:
 
     std::optional<json::element> materialValues(json::object geometry) {
         uniformMaterial_ = -1;
-        const auto value = memberOf(geometry, "material");
+        const auto value = findMember(geometry, "material");
         const auto themes = value ? asObject(*value) : std::nullopt;
         if (!themes) return std::nullopt;
         std::optional<json::object> chosen;
@@ -353,9 +353,9 @@ private:
             if (isDefault) break;
         }
         if (!chosen) return std::nullopt;
-        const auto uniform = memberOf(*chosen, "value");
+        const auto uniform = findMember(*chosen, "value");
         if (uniform && !uniform->is_null()) uniformMaterial_ = materialOf(*uniform);
-        return memberOf(*chosen, "values");
+        return findMember(*chosen, "values");
     }
 
     std::int32_t materialOf(const std::optional<json::element>& value) {
@@ -381,10 +381,10 @@ private:
         drafts_.clear();
         semanticValues_.reset();
         lod_ = lod;
-        const auto value = memberOf(geometry, "semantics");
+        const auto value = findMember(geometry, "semantics");
         if (!value || value->is_null()) return;
         const auto semantics = asObject(*value);
-        const auto list = semantics ? memberOf(*semantics, "surfaces") : std::nullopt;
+        const auto list = semantics ? findMember(*semantics, "surfaces") : std::nullopt;
         const auto surfaces = list ? asArray(*list) : std::nullopt;
         if (!surfaces) return report(Code::BadValue, "has 'semantics' without an array 'surfaces'; left out");
         for (const json::element item : *surfaces) {
@@ -393,7 +393,7 @@ private:
             drafts_.push_back({members.value_or(json::object()), kNoSurface, false, {}});
             if (!members) drafts_.back().parent = kNotAnObject;
         }
-        semanticValues_ = memberOf(*semantics, "values");
+        semanticValues_ = findMember(*semantics, "values");
         readSurfaceParents();
     }
 
@@ -406,7 +406,7 @@ private:
         std::vector<std::int32_t> parents(drafts_.size(), kNoSurface);
         for (std::size_t i = 0; i < drafts_.size(); ++i) {
             if (drafts_[i].parent == kNotAnObject) continue;
-            const auto value = memberOf(drafts_[i].members, "parent");
+            const auto value = findMember(drafts_[i].members, "parent");
             if (!value || value->is_null()) continue;
             const auto index = asInteger(*value);
             if (isUsable(index))
@@ -416,7 +416,7 @@ private:
         }
         for (std::size_t i = 0; i < drafts_.size(); ++i) {
             if (drafts_[i].parent == kNotAnObject) continue;
-            const auto value = memberOf(drafts_[i].members, "children");
+            const auto value = findMember(drafts_[i].members, "children");
             const auto children = value ? asArray(*value) : std::nullopt;
             if (!children) continue;
             for (const json::element child : *children) {
@@ -565,13 +565,13 @@ private:
 std::uint64_t instancedBytes(json::element cityObject, const TemplateSet& templates) {
     if (templates.geometries.empty()) return 0;
     const auto object = asObject(cityObject);
-    const auto geometry = object ? memberOf(*object, "geometry") : std::nullopt;
+    const auto geometry = object ? findMember(*object, "geometry") : std::nullopt;
     const auto geometries = geometry ? asArray(*geometry) : std::nullopt;
     if (!geometries) return 0;
     std::uint64_t bytes = 0;
     for (const json::element item : *geometries) {
         const auto members = asObject(item);
-        const auto number = members ? memberOf(*members, "template") : std::nullopt;
+        const auto number = members ? findMember(*members, "template") : std::nullopt;
         const auto index = number ? asInteger(*number) : std::nullopt;
         if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < templates.textBytes.size())
             bytes += templates.textBytes[static_cast<std::size_t>(*index)];

@@ -221,9 +221,9 @@ private:
 };
 
 /// Line and column of offsets queried in ascending order, in one pass.
-class PlaceFinder {
+class LocationFinder {
 public:
-    PlaceFinder(std::string_view text, const TextOrigin& origin)
+    LocationFinder(std::string_view text, const TextOrigin& origin)
         : text_(text), file_(origin.file), line_(origin.firstLine) {}
 
     Place at(std::size_t offset) {
@@ -270,7 +270,7 @@ Result<json::element> JsonText::parse(std::string_view text, const TextOrigin& o
 Result<json::element> JsonText::parseAgain(std::string_view text, const TextOrigin& origin, std::uint32_t maxDepth,
                                            simdjson::error_code error, Diagnostics& diagnostics) {
     if (error == simdjson::MEMALLOC) throw std::bad_alloc();
-    PlaceFinder places(text, origin);
+    LocationFinder places(text, origin);
     std::vector<TextRange> outOfRange;
     if (const auto fault = findJsonFault(text, maxDepth, outOfRange))
         return Error(fault->code, fmt::format("at byte {}: {}", fault->offset, fault->message),
@@ -334,7 +334,7 @@ std::optional<std::int64_t> asInteger(json::element value) noexcept {
     return static_cast<std::int64_t>(*number);
 }
 
-std::optional<json::element> memberOf(json::object object, std::string_view key) noexcept {
+std::optional<json::element> findMember(json::object object, std::string_view key) noexcept {
     json::element value;
     if (object.at_key(key).get(value) != simdjson::SUCCESS) return std::nullopt;
     return value;

@@ -69,6 +69,6 @@ private:
 /// An integer, also if written as 3.0.
 [[nodiscard]] std::optional<std::int64_t> asInteger(json::element value) noexcept;
 /// The first member `key` of `object`.
-[[nodiscard]] std::optional<json::element> memberOf(json::object object, std::string_view key) noexcept;
+[[nodiscard]] std::optional<json::element> findMember(json::object object, std::string_view key) noexcept;
 
 }  // namespace svt::readers::cityjson

@@ -26,12 +26,12 @@ public:
             features += object.surfaces.size();
             polygons += object.polygons.size();
         }
-        constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
-        if (features > kMost || polygons > kMost)
-            return Error(
-                Code::InputTooBig,
-                fmt::format("{} features with {} polygons; at most {} of each can be read", features, polygons, kMost),
-                {std::string(file_), 0, 0, {}});
+        constexpr std::size_t kMaxCount = std::numeric_limits<std::int32_t>::max();
+        if (features > kMaxCount || polygons > kMaxCount)
+            return Error(Code::InputTooBig,
+                         fmt::format("{} features with {} polygons; at most {} of each can be read", features, polygons,
+                                     kMaxCount),
+                         {std::string(file_), 0, 0, {}});
         model_.features.reserve(features);
         model_.polygons.reserve(polygons);
         findParents();

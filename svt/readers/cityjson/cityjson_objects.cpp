@@ -82,8 +82,8 @@ std::optional<AttributeValue> scalarOf(json::element value) {
 
 /// {"value": 22.3, "uom": "m"} is one measure, not two attributes.
 bool appendMeasure(const std::string& name, json::object object, std::vector<Attribute>& attributes) {
-    const auto value = memberOf(object, "value");
-    const auto unit = memberOf(object, "uom");
+    const auto value = findMember(object, "value");
+    const auto unit = findMember(object, "uom");
     if (!value || !unit || !value->is_number() || !unit->is_string() || object.size() != 2) return false;
     attributes.push_back({name, *scalarOf(*value), std::string(*asString(*unit))});
     return true;
@@ -107,7 +107,7 @@ void appendValue(std::string name, json::element value, int parts, std::vector<A
 
 std::vector<std::string> readIds(json::object object, std::string_view key, ParsedObject& parsed, const Place& place) {
     std::vector<std::string> ids;
-    const auto value = memberOf(object, key);
+    const auto value = findMember(object, key);
     if (!value || value->is_null()) return ids;
     const auto array = asArray(*value);
     if (!array) {
@@ -128,7 +128,7 @@ std::vector<std::string> readIds(json::object object, std::string_view key, Pars
 /// `children_roles` is parallel to `children`, so an entry that is not text is kept as an empty role.
 std::vector<std::string> readRoles(json::object object) {
     std::vector<std::string> roles;
-    const auto value = memberOf(object, "children_roles");
+    const auto value = findMember(object, "children_roles");
     const auto array = value ? asArray(*value) : std::nullopt;
     if (!array) return roles;
     for (const json::element item : *array) roles.emplace_back(asString(item).value_or(std::string_view()));
@@ -150,7 +150,7 @@ void readAddresses(json::element value, std::vector<Attribute>& attributes) {
 }
 
 void readType(json::object object, ParsedObject& parsed, const Place& place) {
-    const auto value = memberOf(object, "type");
+    const auto value = findMember(object, "type");
     const auto type = value ? asString(*value) : std::nullopt;
     if (!type || type->empty()) {
         parsed.diagnostics.add(Severity::Warning, Code::BadValue,

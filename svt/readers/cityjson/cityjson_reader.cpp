@@ -110,7 +110,7 @@ std::vector<Vec3d> readVertices(json::array array, const Transform& transform) {
 std::vector<model::Material> readMaterials(const std::optional<json::element>& appearance) {
     std::vector<model::Material> materials;
     const auto members = appearance ? asObject(*appearance) : std::nullopt;
-    const auto list = members ? memberOf(*members, "materials") : std::nullopt;
+    const auto list = members ? findMember(*members, "materials") : std::nullopt;
     const auto array = list ? asArray(*list) : std::nullopt;
     if (!array) return materials;
     const auto toUnit = [](double value) { return static_cast<float>(value >= 0 ? std::min(value, 1.0) : 0.0); };
@@ -118,11 +118,11 @@ std::vector<model::Material> readMaterials(const std::optional<json::element>& a
         model::Material& material = materials.emplace_back();
         const auto object = asObject(item);
         if (!object) continue;
-        if (const auto name = memberOf(*object, "name")) material.name = asString(*name).value_or(std::string_view());
-        const auto diffuse = memberOf(*object, "diffuseColor");
+        if (const auto name = findMember(*object, "name")) material.name = asString(*name).value_or(std::string_view());
+        const auto diffuse = findMember(*object, "diffuseColor");
         if (const auto color = diffuse ? readVec3(*diffuse) : std::nullopt)
             material.diffuse = {toUnit(color->x), toUnit(color->y), toUnit(color->z)};
-        if (const auto value = memberOf(*object, "transparency"))
+        if (const auto value = findMember(*object, "transparency"))
             material.transparency = toUnit(asNumber(*value).value_or(0));
     }
     return materials;
@@ -130,7 +130,7 @@ std::vector<model::Material> readMaterials(const std::optional<json::element>& a
 
 std::string_view readTheme(const std::optional<json::element>& appearance) {
     const auto members = appearance ? asObject(*appearance) : std::nullopt;
-    const auto theme = members ? memberOf(*members, "default-theme-material") : std::nullopt;
+    const auto theme = members ? findMember(*members, "default-theme-material") : std::nullopt;
     return theme ? asString(*theme).value_or(std::string_view()) : std::string_view();
 }
 
@@ -263,8 +263,8 @@ private:
             return {};
         }
         const auto object = asObject(*value);
-        const auto scale = object ? memberOf(*object, "scale") : std::nullopt;
-        const auto translate = object ? memberOf(*object, "translate") : std::nullopt;
+        const auto scale = object ? findMember(*object, "scale") : std::nullopt;
+        const auto translate = object ? findMember(*object, "translate") : std::nullopt;
         const auto scaleValues = scale ? readVec3(*scale) : std::nullopt;
         const auto translateValues = translate ? readVec3(*translate) : std::nullopt;
         if (!scaleValues || !translateValues || scaleValues->x == 0 || scaleValues->y == 0 || scaleValues->z == 0)
@@ -279,8 +279,8 @@ private:
     void readTemplates(const std::optional<json::element>& value) {
         const auto object = value ? asObject(*value) : std::nullopt;
         if (!object) return;
-        const auto geometries = memberOf(*object, "templates");
-        const auto vertices = memberOf(*object, "vertices-templates");
+        const auto geometries = findMember(*object, "templates");
+        const auto vertices = findMember(*object, "vertices-templates");
         if (const auto array = geometries ? asArray(*geometries) : std::nullopt)
             for (const json::element geometry : *array) {
                 templates_.geometries.push_back(geometry);
@@ -427,13 +427,13 @@ bool looksLikeCityJson(std::span<const std::byte> head) noexcept {
 
 Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std::string_view name,
                                           const ReadOptions& options, Diagnostics* diagnostics) {
-    Diagnostics unheard;
+    Diagnostics ignored;
     if (bytes.size() > options.maxBytes)
         return Error(Code::InputTooBig, fmt::format("{} bytes; at most {} are read", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    return CityJsonReader(text, name, options, diagnostics != nullptr ? *diagnostics : unheard).read();
+    return CityJsonReader(text, name, options, diagnostics != nullptr ? *diagnostics : ignored).read();
 }
 
 }  // namespace svt::readers

@@ -49,7 +49,7 @@ Result<void> checkLook(const FrameSpec& spec) {
     const BorderLines& borders = spec.borders;
     if (!isShare(borders.strength) || !isColor(borders.color))
         return Error(Code::BadFrame, "strength and colour of border lines must be 0 to 1");
-    const HatchLook& hatches = spec.hatches;
+    const HatchStyle& hatches = spec.hatches;
     if (!isShare(hatches.strength) || !isColor(hatches.color))
         return Error(Code::BadFrame, "strength and colour of hatches must be 0 to 1");
     if (!isWidth(borders.width) || !isWidth(borders.cutWidth) || !isWidth(hatches.width))

@@ -98,7 +98,7 @@ double strokes(double u, double v, const HatchPen& pen) noexcept {
 
 }  // namespace
 
-double hatchInk(Hatch hatch, double u, double v, const HatchPen& pen) noexcept {
+double hatchCoverage(Hatch hatch, double u, double v, const HatchPen& pen) noexcept {
     if (hatch == Hatch::None) return 0;
     // Too dense to resolve: the mean.
     if (pen.spacing < 2 * pen.pixel) return std::min(0.5, 0.7 * pen.lineWidth / pen.spacing);

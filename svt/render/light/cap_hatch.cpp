@@ -8,8 +8,8 @@ namespace svt::render {
 void hatchCap(const PreparedFrame& frame, std::size_t pass, double u, double v, Sample& sample) noexcept {
     const auto& styles = frame.spec.passes[pass].styles;
     const Hatch hatch = sample.label < styles.size() ? styles[sample.label].hatch : Hatch::None;
-    const HatchLook& look = frame.spec.hatches;
-    if (hatch == Hatch::None || !(look.strength > 0)) return;
+    const HatchStyle& style = frame.spec.hatches;
+    if (hatch == Hatch::None || !(style.strength > 0)) return;
     const Vec3d normal{sample.normal.x, sample.normal.y, sample.normal.z};
     const volume::Grid& grid = frame.volumes.front().grid;
     // The hatch's vertical axis is the grid's up direction projected onto the face; on nearly horizontal faces, north.
@@ -22,9 +22,9 @@ void hatchCap(const PreparedFrame& frame, std::size_t pass, double u, double v, 
     const double pixel = frame.rays().pixelSize(depth);
     // At a grazing angle a pixel covers more of the face.
     const double facing = std::max(std::abs(dot(normal, frame.rays().forward())), 0.15);
-    const HatchPen pen{look.spacing, static_cast<double>(look.width) * pixel,
+    const HatchPen pen{style.spacing, static_cast<double>(style.width) * pixel,
                        pixel / (facing * std::sqrt(double(frame.spec.samplesPerPixel)))};
-    const auto ink = static_cast<float>(hatchInk(hatch, dot(point, right), dot(point, up), pen)) * look.strength;
+    const auto ink = static_cast<float>(hatchCoverage(hatch, dot(point, right), dot(point, up), pen)) * style.strength;
     sample.color = sample.color * (1 - ink) + frame.hatchColor * (ink * sample.alpha);
 }
 

@@ -43,8 +43,8 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, const double* u, 
     const std::span<const std::uint32_t> near = shapes.linesNear(x, y, near_);
     if (near.empty()) return {};
     if (lineHits_.size() < kLineRays * near.size()) lineHits_.resize(2 * kLineRays * near.size());
-    const std::size_t count =
-        render::findLines(viewOf(pass), shapes.lines().data(), shapes.looks().data(), near, x, y, lineHits_.data());
+    const std::size_t count = render::findLines(viewOf(pass), shapes.lines().data(), shapes.lineStyles().data(), near,
+                                                x, y, lineHits_.data());
     for (std::size_t h = 0; h < count; ++h) ++starts[lineHits_[h].ray + 1];
     for (std::size_t n = 0; n < kLineRays; ++n) starts[n + 1] += starts[n];
     if (sortedHits_.size() < count) sortedHits_.resize(2 * count);
@@ -62,7 +62,7 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, double u, double 
     for (const std::uint32_t shape : shapes.near(u, v)) {
         if (shape >= PassShapes::kTriangle) break;
         const PictureLine& line = shapes.lines()[shape];
-        if (findLine(view, line, shapes.looks()[line.look], shape, x, y, hit)) lineHits_.push_back(hit);
+        if (findLine(view, line, shapes.lineStyles()[line.style], shape, x, y, hit)) lineHits_.push_back(hit);
     }
     return lineHits_;
 }
@@ -94,8 +94,8 @@ void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragmen
             joined.hidden = std::max(joined.hidden, hits[end].hidden);
         }
         begin = end;
-        const LineLook& look = shapes.looks()[shapes.lines()[joined.line].look];
-        fragments.items.push_back({joined.depth, joined.opacity, joined.hidden, look.color});
+        const LineStyle& style = shapes.lineStyles()[shapes.lines()[joined.line].style];
+        fragments.items.push_back({joined.depth, joined.opacity, joined.hidden, style.color});
     }
 }
 
@@ -146,10 +146,10 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
     double end = kInfinity;
     for (const DrawnInterval& interval : drawn) {
         if (!interval.cap) continue;
-        const PictureTriangle* body = cutOpen(shapes, interval.from);
+        const PictureTriangle* body = findCutBody(shapes, interval.from);
         if (body == nullptr || body->style.kind != Kind::Opaque) continue;
         const Vec3d up = interval.cap.normalAt(frame_.volumeOf(pass).grid.worldFromIndex(
-            ray.index.origin + ray.index.direction * interval.from - Vec3d{0.5, 0.5, 0.5}));
+            ray.voxelRay.origin + ray.voxelRay.direction * interval.from - Vec3d{0.5, 0.5, 0.5}));
         addSurface(pass, ray, *body, interval.from, dot(up, ray.direction) > 0 ? -up : up, true, fragments);
         end = interval.from;
         break;
@@ -168,7 +168,7 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
 
 // Finds the body that the ray is inside at a depth, the one entered last; null if in none. An object that the ray does
 // not enter as often as it leaves it is an open sheet, not a body.
-const PictureTriangle* FragmentFinder::cutOpen(const PassShapes& shapes, double depth) {
+const PictureTriangle* FragmentFinder::findCutBody(const PassShapes& shapes, double depth) {
     bodies_.clear();
     for (const Hit& hit : hits_) {
         const std::uint32_t object = shapes.triangle(hit.triangle).style.object;
@@ -191,8 +191,8 @@ void FragmentFinder::addSurface(std::size_t pass, const CameraRay& ray, const Pi
                                 Vec3d normal, bool isCap, Fragments& fragments) {
     const LinearStyle& style = triangle.style;
     const SurfaceLight lights(frame_, pass, cache_);
-    const double lit =
-        lights.on(style, normal, normalized(-ray.direction), ray.index.origin + ray.index.direction * depth);
+    const double lit = lights.lightSurface(style, normal, normalized(-ray.direction),
+                                           ray.voxelRay.origin + ray.voxelRay.direction * depth);
     const double light = 1 + (lit - 1) * double(style.surface);
     const auto number = static_cast<std::int32_t>(fragments.surfaces.size());
     fragments.surfaces.push_back({style.label, style.object, normal, isCap});

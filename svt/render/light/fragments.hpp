@@ -18,7 +18,7 @@
 namespace svt::render {
 
 /// A triangle, or the cap of a mesh, that a ray meets.
-struct MetSurface {
+struct SurfaceFragment {
     volume::Scalar label;
     std::uint32_t object;
     Vec3d normal;        ///< world space, unit length, towards the viewer
@@ -39,7 +39,7 @@ struct Fragment {
 /// The fragments of a ray, or of all rays of a packet.
 struct Fragments {
     std::vector<Fragment> items;  ///< those of one ray are contiguous, by ascending depth
-    std::vector<MetSurface> surfaces;
+    std::vector<SurfaceFragment> surfaces;
     void clear() noexcept {
         items.clear();
         surfaces.clear();
@@ -104,7 +104,7 @@ private:
     void sortHits(const PassShapes& shapes);
     void addSurface(std::size_t pass, const CameraRay& ray, const PictureTriangle& triangle, double depth, Vec3d normal,
                     bool isCap, Fragments& fragments);
-    const PictureTriangle* cutOpen(const PassShapes& shapes, double depth);
+    const PictureTriangle* findCutBody(const PassShapes& shapes, double depth);
 
     const PreparedFrame& frame_;
     NormalCache cache_;

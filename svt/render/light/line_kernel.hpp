@@ -26,7 +26,7 @@ struct LineView {
     bool isPerspective;
     double samplesPerPixel;  ///< along a side
     double pixelSize;        ///< metres at depth 1; at any depth if orthographic
-    double before;           ///< constant depth bias towards the viewer, metres
+    double depthBias;        ///< constant depth bias towards the viewer, metres
 };
 
 /// Additional depth bias, in half widths of the line: beside the line, its surface may be nearer to the viewer.
@@ -34,30 +34,30 @@ inline constexpr double kHalfWidthsBefore = 4;
 
 /// Makes a hit, with the line's opacity where it is hidden.
 /// \param along  place on the line, 0..1 from its start
-inline LineHit lineHit(const PictureLine& line, const LineLook& look, std::uint32_t number, std::uint32_t ray,
+inline LineHit lineHit(const PictureLine& line, const LineStyle& style, std::uint32_t number, std::uint32_t ray,
                        double coverage, double along, double depth) noexcept {
-    double hidden = look.hidden == HiddenLines::None ? 0 : coverage * look.hiddenOpacity;
-    if (look.hidden == HiddenLines::Dashed) {
+    double hidden = style.hidden == HiddenLines::None ? 0 : coverage * style.hiddenOpacity;
+    if (style.hidden == HiddenLines::Dashed) {
         const double pixels = along * line.length;
-        if (pixels - std::floor(pixels / look.period) * look.period > look.dash) hidden = 0;
+        if (pixels - std::floor(pixels / style.period) * style.period > style.dash) hidden = 0;
     }
     return {depth, coverage, hidden, number, ray};
 }
 
 /// Whether the ray through (x, y), pixels, meets the line; if so, sets `hit`.
-inline bool findLine(const LineView& view, const PictureLine& line, const LineLook& look, std::uint32_t number,
+inline bool findLine(const LineView& view, const PictureLine& line, const LineStyle& style, std::uint32_t number,
                      double x, double y, LineHit& hit) noexcept {
     const double asideX = x - line.x, asideY = y - line.y;
     const double along = std::min(std::max((asideX * line.dx + asideY * line.dy) * line.perSquaredLength, 0.0), 1.0);
     const double offX = asideX - along * line.dx, offY = asideY - along * line.dy;
     const double distance = std::sqrt(offX * offX + offY * offY);
-    const double coverage = std::min((look.halfWidth - distance) * view.samplesPerPixel + 0.5, look.darkest);
+    const double coverage = std::min((style.halfWidth - distance) * view.samplesPerPixel + 0.5, style.darkest);
     if (!(coverage > 0)) return false;
     const double place = line.depth + line.depthChange * along;
     const double depth = view.isPerspective ? 1 / place : place;
     const double pixelSize = view.isPerspective ? view.pixelSize * depth : view.pixelSize;
-    const double before = view.before + kHalfWidthsBefore * look.halfWidth * pixelSize;
-    hit = lineHit(line, look, number, 0, coverage, along, std::max(depth - before, 0.0));
+    const double before = view.depthBias + kHalfWidthsBefore * style.halfWidth * pixelSize;
+    hit = lineHit(line, style, number, 0, coverage, along, std::max(depth - before, 0.0));
     return true;
 }
 
@@ -67,7 +67,7 @@ inline constexpr std::size_t kLineRays = 8;
 /// findLine() for the rays through (x[n], y[n]), n < kLineRays, and all lines of `numbers`.
 /// \param hits  room for kLineRays * numbers.size() hits
 /// \return number of hits
-std::size_t findLines(const LineView& view, const PictureLine* lines, const LineLook* looks,
+std::size_t findLines(const LineView& view, const PictureLine* lines, const LineStyle* styles,
                       std::span<const std::uint32_t> numbers, const double* x, const double* y, LineHit* hits) noexcept;
 
 }  // namespace svt::render

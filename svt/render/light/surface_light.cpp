@@ -13,65 +13,66 @@ std::uint64_t part(std::int32_t c, int shift) noexcept { return static_cast<std:
 }  // namespace
 
 Surface SurfaceLight::at(const LinearStyle& style, const SurfaceHit& hit) const {
-    Surface surface = facing(style, hit);
+    Surface surface = findNormal(style, hit);
     const bool isOpen = !style.isBody || surface.isAroundEye || frame_.spec.light.ambientOcclusion <= 0;
     const Vec3d point = hit.origin + hit.direction * hit.from;
-    surface.light = lightOn(surface.normal, hit.view, isOpen ? 1 : openness(point, surface.away, surface.crease));
+    surface.light =
+        lightOn(surface.normal, hit.view, isOpen ? 1 : openness(point, surface.outwardIndex, surface.cavity));
     return surface;
 }
 
-double SurfaceLight::on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept {
+double SurfaceLight::lightSurface(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept {
     const bool isOpen = !style.isBody || frame_.spec.light.ambientOcclusion <= 0;
-    return lightOn(normal, view, isOpen ? 1 : openness(point, volume_.directions.away(normal), 0));
+    return lightOn(normal, view, isOpen ? 1 : openness(point, volume_.directions.outwardIndex(normal), 0));
 }
 
-Surface SurfaceLight::facing(const LinearStyle& style, const SurfaceHit& hit) const {
+Surface SurfaceLight::findNormal(const LinearStyle& style, const SurfaceHit& hit) const {
     Surface surface;
     DirectionTable::Directions found;
     bool isAway = false;
     if (hit.cap) {
         found.normal =
             hit.cap.normalAt(volume_.grid.worldFromIndex(hit.origin + hit.direction * hit.from - Vec3d{0.5, 0.5, 0.5}));
-        found.away = volume_.directions.away(found.normal);
+        found.outwardIndex = volume_.directions.outwardIndex(found.normal);
         isAway = dot(found.normal, hit.view) < 0;
         surface.isCap = true;
     } else if (hit.plane != volume::BrickVolume::kNoPlane) {
         found = volume_.directions.plane(hit.plane);
-        isAway = dot(volume_.bricks.oblique()[hit.plane].normal, hit.direction) > 0;
+        isAway = dot(volume_.bricks.planes()[hit.plane].normal, hit.direction) > 0;
     } else if (hit.axis < 0) {
         found.normal = hit.view;
         surface.isAroundEye = true;
     } else if (style.isBody && hit.isVoxel) {
-        const SurfaceNormal& fitted = normalAt(hit.cell, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
+        const SurfaceNormal& fitted = normalAt(hit.voxel, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
         found = volume_.directions.directions(toDouble(fitted.indexNormal));
-        surface.crease =
-            std::clamp((double(fitted.coverage) - double(SurfaceNormal::kPlaneCoverage) - 0.05) * 2.5, 0.0, 1.0);
+        surface.cavity =
+            std::clamp((double(fitted.filledShare) - double(SurfaceNormal::kPlaneFilledShare) - 0.05) * 2.5, 0.0, 1.0);
     } else {
         found = volume_.directions.axis(hit.axis);
         isAway = hit.direction[hit.axis] > 0;
     }
     surface.normal = isAway ? -found.normal : found.normal;
-    surface.away = isAway ? -found.away : found.away;
+    surface.outwardIndex = isAway ? -found.outwardIndex : found.outwardIndex;
     return surface;
 }
 
-const SurfaceNormal& SurfaceLight::normalAt(Vec3i cell, int axis, int sign) const {
+const SurfaceNormal& SurfaceLight::normalAt(Vec3i voxel, int axis, int sign) const {
     // 17 bits per coordinate, 3 for the face, 6 for the pass.
-    const std::uint64_t key = part(cell.x, 0) | part(cell.y, 17) | part(cell.z, 34) |
+    const std::uint64_t key = part(voxel.x, 0) | part(voxel.y, 17) | part(voxel.z, 34) |
                               part(2 * axis + (sign > 0 ? 1 : 0), 51) | part(std::int32_t(passNumber_), 54);
     NormalCache::Slot& slot = cache_.slot(key);
     if (slot.key != key) {
         slot.key = key;
         const PassTable& table = pass_.table;
-        slot.normal = surfaceNormal(volume_.bricks, cell, axis, sign,
+        slot.normal = surfaceNormal(volume_.bricks, voxel, axis, sign,
                                     [&](volume::Scalar scalar) { return table[scalar].isBody; });
     }
     return slot.normal;
 }
 
 // 1 where nothing occludes, less in corners.
-double SurfaceLight::openness(Vec3d point, Vec3d away, double crease) const noexcept {
-    const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, away) + 0.35 * crease);
+double SurfaceLight::openness(Vec3d point, Vec3d outwardIndex, double cavity) const noexcept {
+    const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, outwardIndex) + 0.35 * cavity);
     return 1 - double(frame_.spec.light.ambientOcclusion) * occlusion;
 }
 

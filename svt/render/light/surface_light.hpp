@@ -13,7 +13,7 @@ struct SurfaceHit {
     double from;              ///< t of the ray
     Vec3d origin, direction;  ///< of the ray, voxel space
     Vec3d view;               ///< world space, unit length, towards the viewer
-    Vec3i cell;               ///< voxel that the ray enters
+    Vec3i voxel;              ///< voxel that the ray enters
     int axis;                 ///< axis of the voxel face that it crosses there, or -1
     std::uint32_t plane;      ///< oblique plane that it crosses there, or BrickVolume::kNoPlane
     bool isVoxel;             ///< the brick is one of voxels only
@@ -22,10 +22,10 @@ struct SurfaceHit {
 
 /// The surface at the start of a run, and its lighting.
 struct Surface {
-    Vec3d normal{};     ///< world space, unit length
-    Vec3d away{};       ///< the same direction in index space, scaled to a longest component of 1
-    double crease = 0;  ///< how deep in a concave corner of voxels, 0..1
-    double light = 1;   ///< factor of the color
+    Vec3d normal{};        ///< world space, unit length
+    Vec3d outwardIndex{};  ///< the same direction in index space, scaled to a longest component of 1
+    double cavity = 0;     ///< how deep in a concave corner of voxels, 0..1
+    double light = 1;      ///< factor of the color
     bool isCap = false;
     bool isAroundEye = false;  ///< the eye is inside the label; there is no surface
 };
@@ -37,20 +37,20 @@ public:
         : frame_(frame), pass_(frame.passes[pass]), passNumber_(pass), volume_(frame.volumeOf(pass)), cache_(cache) {}
 
     /// The surface has the normal of the plane or voxel face that the ray crosses. For a body in a brick of voxels
-    /// only, the normal is fitted to the voxels around, from which the crease factor comes as well.
+    /// only, the normal is fitted to the voxels around, from which the cavity factor comes as well.
     [[nodiscard]] Surface at(const LinearStyle& style, const SurfaceHit& hit) const;
     /// The same without lighting.
-    [[nodiscard]] Surface facing(const LinearStyle& style, const SurfaceHit& hit) const;
+    [[nodiscard]] Surface findNormal(const LinearStyle& style, const SurfaceHit& hit) const;
     /// Light on a surface that is not of voxels.
     /// \param normal  world space, unit length, towards the viewer
     /// \param view    direction to the viewer, world space, unit length
     /// \param point   voxel space
-    [[nodiscard]] double on(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept;
+    [[nodiscard]] double lightSurface(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept;
 
 private:
-    [[nodiscard]] const SurfaceNormal& normalAt(Vec3i cell, int axis, int sign) const;
+    [[nodiscard]] const SurfaceNormal& normalAt(Vec3i voxel, int axis, int sign) const;
     [[nodiscard]] double lightOn(Vec3d normal, Vec3d view, double open) const noexcept;
-    [[nodiscard]] double openness(Vec3d point, Vec3d away, double crease) const noexcept;
+    [[nodiscard]] double openness(Vec3d point, Vec3d outwardIndex, double cavity) const noexcept;
 
     const PreparedFrame& frame_;
     const PreparedPass& pass_;

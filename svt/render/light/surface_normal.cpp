@@ -254,13 +254,13 @@ bool isFlatFace(const VoxelWindow& window, int axis, int sign) noexcept {
 
 }  // namespace
 
-SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept {
+SurfaceNormal fitNormal(const VoxelWindow& window, int faceAxis, int faceSign) noexcept {
     const VoxelWindow body = inBall(window);
     SurfaceNormal normal{axisNormal(faceAxis, faceSign), 0};
     std::int32_t voxels = 0;
     const PlaceSums sums(body);
     for (int digit = 0; digit < 3; ++digit) voxels += count(sums.digits[digit]) * (1 << digit);
-    normal.coverage = static_cast<float>(voxels) / kBallVoxels;
+    normal.filledShare = static_cast<float>(voxels) / kBallVoxels;
     if (isFlatFace(window, faceAxis, faceSign)) return normal;
 
     Heights heights(layersAlong(window, faceAxis, faceSign));

@@ -68,11 +68,12 @@ template <class Accepts>
 
 /// Normal of a body's surface.
 struct SurfaceNormal {
-    Vec3f indexNormal;   ///< index space (a covector); not normalized, never zero
-    float coverage = 0;  ///< share of body voxels in a ball around the voxel in front of the surface: kPlaneCoverage on
-                         ///< a plane, more in concave corners
+    Vec3f indexNormal;  ///< index space (a covector); not normalized, never zero
+    /// Share of body voxels in a ball around the voxel in front of the surface: kPlaneFilledShare on a plane, more in
+    /// concave corners.
+    float filledShare = 0;
 
-    static constexpr float kPlaneCoverage = 71.0f / 179;
+    static constexpr float kPlaneFilledShare = 71.0f / 179;
 };
 
 /// Normal of the surface next to the centre of a window. The window is centred on the voxel in front of the surface, so
@@ -85,14 +86,14 @@ struct SurfaceNormal {
 /// that of the least-squares plane through the heights. Where these are steep or few, heights over the axis of the
 /// longest component of the body's first moment in a ball are taken instead. If they are too few as well, the normal is
 /// the moment, reversed; if all else fails, the face's.
-[[nodiscard]] SurfaceNormal normalOf(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
+[[nodiscard]] SurfaceNormal fitNormal(const VoxelWindow& window, int faceAxis, int faceSign) noexcept;
 
-/// Normal of the surface of all voxels with accepts(scalar), where a ray enters voxel `cell` through a face.
+/// Normal of the surface of all voxels with accepts(scalar), where a ray enters `voxel` through a face.
 template <class Accepts>
-[[nodiscard]] SurfaceNormal surfaceNormal(const volume::BrickVolume& volume, Vec3i cell, int faceAxis, int faceSign,
+[[nodiscard]] SurfaceNormal surfaceNormal(const volume::BrickVolume& volume, Vec3i voxel, int faceAxis, int faceSign,
                                           const Accepts& accepts) {
-    cell[faceAxis] += faceSign;
-    return normalOf(voxelWindow(volume, cell, accepts), faceAxis, faceSign);
+    voxel[faceAxis] += faceSign;
+    return fitNormal(voxelWindow(volume, voxel, accepts), faceAxis, faceSign);
 }
 
 /// Direct-mapped cache of normals of hit voxels: neighbouring rays often hit the same voxel.

@@ -1,5 +1,5 @@
 #include <svt/render/light/surface_normal.hpp>
-#include <svt/render/scene_test.hpp>
+#include <svt/render/test_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -106,9 +106,9 @@ TEST(SurfaceNormal, CornersAreMoreCoveredThanPlanes) {
     const TestVolume plane = makeVolume({32, 32, 32}, {1, 1, 1}, [](auto, auto, auto k) { return k < 16 ? 1u : 0u; });
     const TestVolume corner =
         makeVolume({32, 32, 32}, {1, 1, 1}, [](auto i, auto, auto k) { return k < 16 || i < 16 ? 1u : 0u; });
-    const float flat = surfaceNormal(plane.bricks, {16, 16, 15}, 2, 1, kBody).coverage;
-    EXPECT_FLOAT_EQ(flat, SurfaceNormal::kPlaneCoverage);
-    EXPECT_GT(surfaceNormal(corner.bricks, {16, 16, 15}, 2, 1, kBody).coverage, flat + 0.1f);
+    const float flat = surfaceNormal(plane.bricks, {16, 16, 15}, 2, 1, kBody).filledShare;
+    EXPECT_FLOAT_EQ(flat, SurfaceNormal::kPlaneFilledShare);
+    EXPECT_GT(surfaceNormal(corner.bricks, {16, 16, 15}, 2, 1, kBody).filledShare, flat + 0.1f);
 }
 
 }  // namespace

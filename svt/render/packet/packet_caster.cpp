@@ -39,9 +39,10 @@ PacketPasses::PacketPasses(const PreparedFrame& frame) {
     for (const PreparedVolume& volume : frame.volumes) {
         auto& faces = faces_.emplace_back();
         const auto addSides = [&](const DirectionTable::Directions& found) {
-            const auto& [normal, away] = found;
-            faces.push_back({{normal.x, normal.y, normal.z}, {away.x, away.y, away.z}, {}});
-            faces.push_back({{-normal.x, -normal.y, -normal.z}, {-away.x, -away.y, -away.z}, {}});
+            const auto& [normal, outwardIndex] = found;
+            faces.push_back({{normal.x, normal.y, normal.z}, {outwardIndex.x, outwardIndex.y, outwardIndex.z}, {}});
+            faces.push_back(
+                {{-normal.x, -normal.y, -normal.z}, {-outwardIndex.x, -outwardIndex.y, -outwardIndex.z}, {}});
         };
         for (int axis = 0; axis < 3; ++axis) addSides(volume.directions.axis(axis));
         for (const DirectionTable::Directions& plane : volume.directions.planes()) addSides(plane);
@@ -91,7 +92,7 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
     bool isAnyMet = false;
     for (std::size_t pass = 0; pass < frame_.passes.size(); ++pass) {
         const PassShapes& shapes = frame_.passes[pass].shapes;
-        visible_[pass] = frame_.passes[pass].hull.around({*left, *right, *low, *high});
+        visible_[pass] = frame_.passes[pass].hull.spanOf({*left, *right, *low, *high});
         isAnyMet = isAnyMet || visible_[pass].from < visible_[pass].to ||
                    (!shapes.isEmpty() && shapes.hasAnyNear(rays_.u.data(), rays_.v.data(), count_));
     }
@@ -110,7 +111,7 @@ void PacketCaster::cast(bool withColor, std::span<Sample> samples) {
 
 bool PacketCaster::isAnyIn(const ViewRect& rect) const noexcept {
     for (std::size_t pass = 0; pass < frame_.passes.size(); ++pass) {
-        const RaySpan visible = frame_.passes[pass].hull.around(rect);
+        const RaySpan visible = frame_.passes[pass].hull.spanOf(rect);
         if (visible.from < visible.to || !frame_.passes[pass].shapes.isEmpty()) return true;
     }
     return false;
@@ -162,8 +163,8 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
 void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
     pass_ = pass;
     PacketPass packetPass = prepared;
-    packetPass.surface = &PacketCaster::surfaceOf;
-    packetPass.fragment = &PacketCaster::fragmentOf;
+    packetPass.surface = &PacketCaster::shadeSurface;
+    packetPass.fragment = &PacketCaster::blendFragment;
     withColor_ = packetPass.withColor;
     // All other members are read only where depth is finite.
     for (auto& color : seen_.color) color.fill(0);
@@ -177,7 +178,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
         fragments_.clear();
         rayFragments_.fill({});
     }
-    if (hasShapes_ || !frame_.passes[pass].clipper.isEmpty()) return castParts(packetPass);
+    if (hasShapes_ || !frame_.passes[pass].clipper.isEmpty()) return castIntervals(packetPass);
     caps_.fill({});
     spans_.from = rays_.from;
     spans_.to = rays_.to;
@@ -186,7 +187,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
 }
 
 // Casts the intervals that the clips leave: in round n, interval n of each ray.
-void PacketCaster::castParts(PacketPass& packetPass) {
+void PacketCaster::castIntervals(PacketPass& packetPass) {
     parts_.clear();
     std::size_t most = 0;
     const PassShapes& shapes = frame_.passes[pass_].shapes;
@@ -208,10 +209,10 @@ void PacketCaster::castParts(PacketPass& packetPass) {
         return;
     }
     for (std::size_t n = 0; n < count_; ++n) {
-        rayParts_[n].next = parts_.size();
-        findParts(n);
-        rayParts_[n].end = parts_.size();
-        most = std::max(most, rayParts_[n].end - rayParts_[n].next);
+        rayIntervals_[n].next = parts_.size();
+        findIntervals(n);
+        rayIntervals_[n].end = parts_.size();
+        most = std::max(most, rayIntervals_[n].end - rayIntervals_[n].next);
     }
     packetPass.hasFragments = hasShapes_ && !fragments_.items.empty();
     for (std::size_t part = 0; part < most; ++part) {
@@ -219,8 +220,8 @@ void PacketCaster::castParts(PacketPass& packetPass) {
         spans_.to.fill(0);
         spans_.capped.fill(0);
         for (std::size_t n = 0; n < count_; ++n) {
-            if (part >= rayParts_[n].end - rayParts_[n].next) continue;
-            const DrawnInterval& interval = parts_[rayParts_[n].next + part];
+            if (part >= rayIntervals_[n].end - rayIntervals_[n].next) continue;
+            const DrawnInterval& interval = parts_[rayIntervals_[n].next + part];
             spans_.from[n] = interval.from;
             spans_.to[n] = interval.to;
             caps_[n] = interval.cap;
@@ -266,7 +267,7 @@ void PacketCaster::findLines(std::size_t block) {
 }
 
 // Finds the intervals that the clips leave of a ray, up to the first opaque triangle.
-void PacketCaster::findParts(std::size_t ray) {
+void PacketCaster::findIntervals(std::size_t ray) {
     const RaySpan span{rays_.from[ray], rays_.to[ray]};
     if (!(span.from < span.to)) return;
     const Clipper& clipper = frame_.passes[pass_].clipper;
@@ -296,7 +297,9 @@ double PacketCaster::findSurfaces(std::size_t ray, std::span<const DrawnInterval
     return end;
 }
 
-void PacketCaster::fragmentOf(void* context, std::size_t ray) { static_cast<PacketCaster*>(context)->addFragment(ray); }
+void PacketCaster::blendFragment(void* context, std::size_t ray) {
+    static_cast<PacketCaster*>(context)->addFragment(ray);
+}
 
 // As RunShader::addFragment().
 void PacketCaster::addFragment(std::size_t ray) {
@@ -310,7 +313,7 @@ void PacketCaster::addFragment(std::size_t ray) {
     const double opacity = 1 - seen_.transmittance[ray];
     const bool hasHit = seen_.depth[ray] < std::numeric_limits<double>::infinity();
     if (!fragment.isLine() && !hasHit && opacity > double(frame_.options.labelAt)) {
-        const MetSurface& surface = fragments_.surfaces[static_cast<std::size_t>(fragment.surface)];
+        const SurfaceFragment& surface = fragments_.surfaces[static_cast<std::size_t>(fragment.surface)];
         seen_.label[ray] = surface.label;
         seen_.object[ray] = surface.object;
         seen_.depth[ray] = fragment.depth;
@@ -343,7 +346,7 @@ void PacketCaster::writeSample(std::size_t ray, Sample& sample) const noexcept {
     if (sample.isCap) hatchCap(frame_, pass_, rays_.u[ray], rays_.v[ray], sample);
 }
 
-Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
+Surface PacketCaster::shadeSurface(void* context, const PacketSurface& surface) {
     auto& caster = *static_cast<PacketCaster*>(context);
     const std::size_t n = surface.lane;
     const PacketRays& rays = caster.rays_;
@@ -354,13 +357,13 @@ Surface PacketCaster::surfaceOf(void* context, const PacketSurface& surface) {
                          of(rays.origin),
                          of(rays.direction),
                          of(rays.view),
-                         surface.cell,
+                         surface.voxel,
                          surface.axis,
                          static_cast<std::uint32_t>(surface.plane),
                          surface.isVoxel,
                          surface.from == caster.spans_.from[n] ? caster.caps_[n] : CapFace{}};
     // Opaque surfaces are lit by the kernel.
-    return style.kind == Kind::Opaque ? light.facing(style, hit) : light.at(style, hit);
+    return style.kind == Kind::Opaque ? light.findNormal(style, hit) : light.at(style, hit);
 }
 
 }  // namespace svt::render

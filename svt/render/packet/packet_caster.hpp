@@ -57,16 +57,16 @@ private:
     void setUpRays(std::size_t volume);
     void castPasses(bool withColor, std::span<Sample> samples);
     void castPass(std::size_t pass, const PacketPass& packetScene);
-    void castParts(PacketPass& pass);
+    void castIntervals(PacketPass& pass);
     void findLines(std::size_t block);
     void walkVisible(const PacketPass& pass);
     void addLastFragments();
-    void findParts(std::size_t ray);
+    void findIntervals(std::size_t ray);
     double findSurfaces(std::size_t ray, std::span<const DrawnInterval> drawn);
     void writeSample(std::size_t ray, Sample& sample) const noexcept;
     void addFragment(std::size_t ray);
-    static void fragmentOf(void* context, std::size_t ray);
-    [[nodiscard]] static Surface surfaceOf(void* context, const PacketSurface& surface);
+    static void blendFragment(void* context, std::size_t ray);
+    [[nodiscard]] static Surface shadeSurface(void* context, const PacketSurface& surface);
 
     const PreparedFrame& frame_;
     const PacketPasses& passes_;
@@ -87,7 +87,7 @@ private:
     struct Range {
         std::size_t next = 0, end = 0;
     };
-    std::array<Range, kPacketRays> rayParts_{}, rayFragments_{};
+    std::array<Range, kPacketRays> rayIntervals_{}, rayFragments_{};
     bool withColor_ = true, hasShapes_ = false;
 };
 

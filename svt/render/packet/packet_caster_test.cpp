@@ -1,5 +1,5 @@
 #include <svt/render/camera_presets.hpp>
-#include <svt/render/scene_test.hpp>
+#include <svt/render/test_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(PacketCaster, GivesItWhereFacesMeetByThrees) {
     ASSERT_GT(std::count_if(codes.begin(), codes.end(),
                             [](const auto& code) { return code.plane[2] != volume::BrickVolume::kNoPlane; }),
               10);
-    EXPECT_LE(volume.bricks.oblique().size(), faces.size());
+    EXPECT_LE(volume.bricks.planes().size(), faces.size());
     expectThePictureOfThePlainCaster(volume);
 }
 

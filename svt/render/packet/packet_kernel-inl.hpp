@@ -1,6 +1,6 @@
 /// \file
-/// The packet kernel for one set of instructions: SVT_KERNEL_TARGET, a target of Highway. Each is a source file of its own
-/// (packet_kernel_avx2.cpp, ...), because compiling one takes as long as all else of this folder.
+/// The packet kernel for one set of instructions: SVT_KERNEL_TARGET, a target of Highway. Each is a source file of its
+/// own (packet_kernel_avx2.cpp, ...), because compiling one takes as long as all else of this folder.
 
 #ifndef SVT_KERNEL_TARGET
 #error "define SVT_KERNEL_TARGET before including this file"
@@ -43,8 +43,8 @@ public:
         : Packet(pass, rays, spans, context, samples, std::make_index_sequence<kGroups>()) {}
 
     HWY_INLINE void walk() {
-        Vec3i cell;
-        while (findLast(cell)) crossAt(cell);
+        Vec3i voxel;
+        while (findRearmostVoxel(voxel)) crossAt(voxel);
         for (Group& group : groups_) finish(group);
     }
 
@@ -60,11 +60,11 @@ private:
         bool isShaded = false;
 
         HWY_INLINE Group(const PacketPass& pass, const PacketRays& rays, const PacketSpans& spans, void* context,
-                         PacketSamples& samples, const bool (&goBack)[3], std::size_t first)
+                         PacketSamples& samples, const bool (&isNegative)[3], std::size_t first)
             : vectors(pass, rays, first),
               walk(pass, rays, vectors, first, changes),
               shader(pass, rays, vectors, first, context, samples) {
-            vectors.isPlain = vectors.go(goBack);
+            vectors.isPlain = vectors.hasDirections(isNegative);
             changes.clear();
             walk.begin(spans.from, spans.to, samples.isDone);
         }
@@ -75,9 +75,9 @@ private:
                       PacketSamples& samples, std::index_sequence<kNumbers...>)
         : pass_(pass),
           spans_(spans),
-          goBack_{rays.direction[0][0] < 0, rays.direction[1][0] < 0, rays.direction[2][0] < 0},
-          mostChanges_(pass.withColor ? ChangeRows::kFull : 1),
-          groups_{Group(pass, rays, spans, context, samples, goBack_, kNumbers * hn::MaxLanes(D()))...} {}
+          isNegative_{rays.direction[0][0] < 0, rays.direction[1][0] < 0, rays.direction[2][0] < 0},
+          shadeAtRows_(pass.withColor ? ChangeRows::kShadeAt : 1),
+          groups_{Group(pass, rays, spans, context, samples, isNegative_, kNumbers * hn::MaxLanes(D()))...} {}
 
     // Shades the group's change rows; rays that the shader ends leave the walk.
     HWY_NOINLINE void shade(Group& group) {
@@ -95,7 +95,7 @@ private:
     }
 
     // Finds the voxel of the ray with the smallest t; false if all rays have ended.
-    HWY_INLINE bool findLast(Vec3i& cell) const {
+    HWY_INLINE bool findRearmostVoxel(Vec3i& voxel) const {
         const D d;
         V least = groups_[0].walk.times();
         for (std::size_t n = 1; n < kGroups; ++n) least = hn::Min(least, groups_[n].walk.times());
@@ -104,20 +104,20 @@ private:
         // If all are infinite, MinOfLanes() of Highway's portable targets returns the largest finite number.
         if (!(t < std::numeric_limits<double>::max())) return false;
         for (const Group& group : groups_) {
-            const M isLast = hn::Eq(group.walk.times(), least);
-            if (!any(isLast)) continue;
-            cell = group.walk.cell(hn::FindKnownFirstTrue(d, isLast), t);
+            const M isRearmost = hn::Eq(group.walk.times(), least);
+            if (!any(isRearmost)) continue;
+            voxel = group.walk.voxel(hn::FindKnownFirstTrue(d, isRearmost), t);
             break;
         }
         return true;
     }
 
-    HWY_INLINE void crossAt(Vec3i cell) {
+    HWY_INLINE void crossAt(Vec3i voxel) {
         const volume::BrickVolume::Arrays& volume = pass_.volume;
         const auto bricksX = static_cast<std::size_t>(pass_.bricksX), bricksY = static_cast<std::size_t>(pass_.bricksY);
         const std::size_t place =
-            static_cast<std::size_t>(cell.x >> 3) +
-            bricksX * (static_cast<std::size_t>(cell.y >> 3) + bricksY * static_cast<std::size_t>(cell.z >> 3));
+            static_cast<std::size_t>(voxel.x >> 3) +
+            bricksX * (static_cast<std::size_t>(voxel.y >> 3) + bricksY * static_cast<std::size_t>(voxel.z >> 3));
         const std::size_t entry = volume.narrow.empty() ? volume.wide[place] : volume.narrow[place];
         Bounds bounds;
         if (entry < volume.boxes.size()) {
@@ -130,7 +130,7 @@ private:
             return crossCoded(bounds, volume.codes[box.scalar]);
         }
         for (int axis = 0; axis < 3; ++axis) {
-            bounds.low[axis] = cell[axis] & ~7;
+            bounds.low[axis] = voxel[axis] & ~7;
             bounds.high[axis] = bounds.low[axis] + 8;
         }
         crossVoxels(bounds, volume.bricks[entry - volume.boxes.size()]);
@@ -139,14 +139,14 @@ private:
     template <class Cross>
     HWY_INLINE void crossAll(Bounds& bounds, const Cross& cross) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            bounds.ahead[axis] = goBack_[axis] ? bounds.low[axis] : bounds.high[axis];
-            bounds.behind[axis] = goBack_[axis] ? bounds.high[axis] : bounds.low[axis];
+            bounds.ahead[axis] = isNegative_[axis] ? bounds.low[axis] : bounds.high[axis];
+            bounds.behind[axis] = isNegative_[axis] ? bounds.high[axis] : bounds.low[axis];
         }
         for (Group& group : groups_) {
             const Walk::Inside inside = group.walk.findInside(bounds);
             if (!any(inside.lanes)) continue;
             cross(group.walk, inside);
-            if (group.changes.count() >= mostChanges_) shade(group);
+            if (group.changes.count() >= shadeAtRows_) shade(group);
         }
     }
     HWY_INLINE void crossUniform(Bounds& bounds, std::int64_t scalar) {
@@ -161,8 +161,8 @@ private:
 
     const PacketPass& pass_;
     const PacketSpans& spans_;
-    bool goBack_[3];  // by axis: ray 0 has a negative direction; nearly always all rays agree
-    std::size_t mostChanges_;
+    bool isNegative_[3];  // by axis: ray 0 has a negative direction; nearly always all rays agree
+    std::size_t shadeAtRows_;
     std::array<Group, kGroups> groups_;
 };
 
@@ -175,8 +175,8 @@ void setUp(const CameraRays& camera, Vec3i count, PacketRays& rays) {
     for (std::size_t i = 0; i < kPacketRays; i += hn::Lanes(d)) {
         const V x = hn::Mul(hn::Load(d, rays.u.data() + i), hn::Set(d, basis.halfWidth));
         const V y = hn::Mul(hn::Load(d, rays.v.data() + i), hn::Set(d, basis.halfHeight));
-        const V3 aside = sum(times(broadcast(basis.rightIndex), x), times(broadcast(basis.upIndex), y));
-        V3 origin = broadcast(basis.eyeIndex), direction = broadcast(basis.forwardIndex);
+        const V3 aside = sum(times(broadcast(basis.rightVoxel), x), times(broadcast(basis.upVoxel), y));
+        V3 origin = broadcast(basis.eyeVoxel), direction = broadcast(basis.forwardVoxel);
         V3 world = broadcast(basis.forward);
         V metres = one;
         if (camera.isPerspective()) {

@@ -88,14 +88,14 @@ struct PacketSurface {
     std::size_t lane;
     std::int64_t scalar, plane;
     double from;
-    Vec3i cell;
+    Vec3i voxel;
     int axis;  ///< axis of the voxel face that the ray crosses there, or -1
     bool isVoxel;
 };
 
-/// Surface::normal and Surface::away of one side of a plane.
+/// Surface::normal and Surface::outwardIndex of one side of a plane.
 struct PacketFace {
-    double normal[3], away[3], unused[2];
+    double normal[3], outwardIndex[3], unused[2];
 };
 
 /// View of an OcclusionField::Level.
@@ -112,7 +112,7 @@ struct PacketPass {
     const PacketStyle* styles = nullptr;  ///< by scalar; element styleCount is hidden and stands for all larger scalars
     std::int64_t styleCount = 0;
     /// Elements 2 a and 2 a + 1: voxel faces across axis a, for rays in the negative and in the positive direction.
-    /// Elements 6 + 2 p and 7 + 2 p: plane p of volume.oblique, seen from its positive and from its negative side.
+    /// Elements 6 + 2 p and 7 + 2 p: plane p of volume.planes, seen from its positive and from its negative side.
     const PacketFace* faces = nullptr;
     std::array<PacketOcclusion, OcclusionField::kLevels> occlusion;
     double ambientOcclusion = 0;

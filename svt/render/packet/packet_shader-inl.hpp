@@ -64,10 +64,10 @@ public:
             lines_ = hn::Load(d, samples_.lines.data() + first_);
             hasFragments_ = any(hn::Lt(hn::Load(d, samples_.nextFragment.data() + first_), hn::Set(d, kInfinity)));
         }
-        runScalar_ = object_ = crossed_ = hn::Set(di, -1);
-        runStart_ = labelStart_ = crease_ = t_ = zero;
+        runScalar_ = object_ = crossedPlane_ = hn::Set(di, -1);
+        runStart_ = labelStart_ = cavity_ = t_ = zero;
         light_ = hn::Set(d, 1.0);
-        normal_ = away_ = {zero, zero, zero};
+        normal_ = outwardIndex_ = {zero, zero, zero};
         isRunTranslucent_ = isOpaque_ = isUnlit_ = isOnCap_ = isAroundEye_ = hn::Lt(zero, zero);
     }
 
@@ -78,7 +78,7 @@ public:
             const M changed = andNot(isDone_, row.lanes());
             if (!any(changed)) continue;
             t_ = row.t;
-            crossed_ = row.plane();
+            crossedPlane_ = row.plane();
             if (kWithFragments && hasFragments_) addFragments(changed, t_);
             const M leaving = hn::And(kWithFragments ? andNot(isDone_, changed) : changed, isRunTranslucent_);
             if (any(leaving)) leave(leaving, t_);
@@ -105,22 +105,22 @@ public:
     }
 
 private:
-    HWY_INLINE V3 cells() const { return vectors_.cells(t_); }
-    HWY_INLINE Looks looksOf(VI scalar, M lanes) const { return styles_.looksOf(scalar, lanes); }
+    HWY_INLINE V3 voxels() const { return vectors_.voxels(t_); }
+    HWY_INLINE StyleRef styleOf(VI scalar, M lanes) const { return styles_.find(scalar, lanes); }
     template <std::size_t kMember>
-    HWY_INLINE V number(const Looks& looks) const {
-        return styles_.template number<kMember>(looks);
+    HWY_INLINE V number(const StyleRef& style) const {
+        return styles_.template number<kMember>(style);
     }
     template <std::size_t kMember>
-    HWY_INLINE VI integer(const Looks& looks) const {
-        return styles_.template integer<kMember>(looks);
+    HWY_INLINE VI integer(const StyleRef& style) const {
+        return styles_.template integer<kMember>(style);
     }
 
     // As RunShader::add(); `share`: how much of the light is stopped.
-    HWY_INLINE void add(M lanes, V share, V from, const Looks& looks) {
+    HWY_INLINE void add(M lanes, V share, V from, const StyleRef& style) {
         const D d;
         const V one = hn::Set(d, 1.0);
-        const V surface = number<offsetof(PacketStyle, surface)>(looks);
+        const V surface = number<offsetof(PacketStyle, surface)>(style);
         const V light = hn::Add(one, hn::Mul(hn::Sub(light_, one), surface));
         V weight = hn::Mul(share, light);
         if constexpr (kWithFragments) weight = hn::Mul(weight, lines_);
@@ -128,8 +128,8 @@ private:
         const auto addColor = [&](V color, V ofLabel) {
             return hn::IfThenElse(lanes, hn::Add(color, hn::Mul(ofLabel, weight)), color);
         };
-        color_ = {addColor(color_.x, number<kRed>(looks)), addColor(color_.y, number<kRed + kNext>(looks)),
-                  addColor(color_.z, number<kRed + 2 * kNext>(looks))};
+        color_ = {addColor(color_.x, number<kRed>(style)), addColor(color_.y, number<kRed + kNext>(style)),
+                  addColor(color_.z, number<kRed + 2 * kNext>(style))};
         transmittance_ = hn::IfThenElse(lanes, hn::Sub(transmittance_, share), transmittance_);
         const V opacity = hn::Sub(one, transmittance_);
         const V depth = hn::Load(d, samples_.depth.data() + first_);
@@ -148,8 +148,8 @@ private:
                 hn::Store(hn::IfThenElse(toInts(isHit), value, hn::Load(di, lanesOf.data() + first_)), di,
                           lanesOf.data() + first_);
             };
-            keepInt(integer<offsetof(PacketStyle, label)>(looks), samples_.label);
-            keepInt(integer<offsetof(PacketStyle, object)>(looks), samples_.object);
+            keepInt(integer<offsetof(PacketStyle, label)>(style), samples_.label);
+            keepInt(integer<offsetof(PacketStyle, object)>(style), samples_.object);
             keepInt(hn::IfThenElseZero(toInts(isOnCap_), hn::Set(DI(), 1)), samples_.isCap);
         }
     }
@@ -160,10 +160,10 @@ private:
     HWY_INLINE void leave(M lanes, V to) {
         const D d;
         const V one = hn::Set(d, 1.0);
-        const Looks looks = looksOf(runScalar_, lanes);
-        const V density = number<offsetof(PacketStyle, density)>(looks);
+        const StyleRef style = styleOf(runScalar_, lanes);
+        const V density = number<offsetof(PacketStyle, density)>(style);
         const V stopped = hn::Sub(one, expOfMinus(hn::Mul(hn::Mul(density, hn::Sub(to, runStart_)), metresPerT_)));
-        add(lanes, hn::Mul(transmittance_, stopped), kWithFragments ? labelStart_ : runStart_, looks);
+        add(lanes, hn::Mul(transmittance_, stopped), kWithFragments ? labelStart_ : runStart_, style);
         if (pass_.withColor) {
             markDone(hn::And(lanes, hn::Ge(hn::Sub(one, transmittance_), hn::Set(d, pass_.opaqueAt))));
         } else {
@@ -204,12 +204,12 @@ private:
     // As RunShader::enter().
     HWY_INLINE void enter(M lanes, VI scalar, M isVoxel) {
         const DI di;
-        const Looks looks = looksOf(scalar, lanes);
+        const StyleRef style = styleOf(scalar, lanes);
         runScalar_ = hn::IfThenElse(toInts(lanes), scalar, runScalar_);
         runStart_ = hn::IfThenElse(lanes, t_, runStart_);
         if constexpr (kWithFragments) labelStart_ = hn::IfThenElse(lanes, t_, labelStart_);
-        const VI kind = integer<offsetof(PacketStyle, kind)>(looks);
-        const VI object = integer<offsetof(PacketStyle, object)>(looks);
+        const VI kind = integer<offsetof(PacketStyle, kind)>(style);
+        const VI object = integer<offsetof(PacketStyle, object)>(style);
         const M visible = hn::And(lanes, toDoubles(isSet(kind, PacketKind::kVisible)));
         const M isNew = hn::And(visible, toDoubles(hn::Ne(object, object_)));
         object_ = hn::IfThenElse(toInts(lanes), hn::IfThenElse(toInts(visible), object, hn::Set(di, -1)), object_);
@@ -225,7 +225,7 @@ private:
     HWY_NOINLINE void addOpaque() {
         const M unlit = hn::And(isOpaque_, isUnlit_);
         if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(openness()), light_);
-        add(isOpaque_, transmittance_, runStart_, looksOf(runScalar_, isOpaque_));
+        add(isOpaque_, transmittance_, runStart_, styleOf(runScalar_, isOpaque_));
     }
 
     // As SurfaceLight::openness().
@@ -241,7 +241,7 @@ private:
             occlusion = hn::Add(
                 occlusion,
                 hn::Mul(hn::Set(d, level.weight), hn::Min(one, hn::Mul(sample(level, point), hn::Set(d, level.gain)))));
-        occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, 0.35), crease_)));
+        occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, 0.35), cavity_)));
         const V open = hn::Sub(one, hn::Mul(hn::Set(d, pass_.ambientOcclusion), occlusion));
         return hn::IfThenElse(isAroundEye_, one, open);
     }
@@ -251,17 +251,17 @@ private:
         const D d;
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0), size = hn::Set(d, level.cellSize);
         M inside = isOpaque_;
-        const auto place = [&](V from, V away, double count, V& low) {
-            const V p =
-                hn::Add(hn::Mul(hn::Add(from, hn::Mul(away, size)), hn::Set(d, level.perVoxel)), hn::Set(d, 0.5));
+        const auto place = [&](V from, V outwardIndex, double count, V& low) {
+            const V p = hn::Add(hn::Mul(hn::Add(from, hn::Mul(outwardIndex, size)), hn::Set(d, level.perVoxel)),
+                                hn::Set(d, 0.5));
             inside = hn::And(inside, hn::And(hn::Gt(p, zero), hn::Lt(p, hn::Set(d, count + 1))));
             low = hn::Floor(p);
             return hn::Sub(p, low);
         };
         V3 low;
-        const V fx = place(point.x, away_.x, level.count[0], low.x);
-        const V fy = place(point.y, away_.y, level.count[1], low.y);
-        const V fz = place(point.z, away_.z, level.count[2], low.z);
+        const V fx = place(point.x, outwardIndex_.x, level.count[0], low.x);
+        const V fy = place(point.y, outwardIndex_.y, level.count[1], low.y);
+        const V fz = place(point.z, outwardIndex_.z, level.count[2], low.z);
         if (!any(inside)) return zero;
         const double nextY = level.count[0] + 2, nextZ = nextY * (level.count[1] + 2);
         const V first = hn::Add(hn::Add(low.x, hn::Mul(low.y, hn::Set(d, nextY))), hn::Mul(low.z, hn::Set(d, nextZ)));
@@ -289,13 +289,13 @@ private:
                                         hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
     }
 
-    // As SurfaceLight::facing(); also lights what is not opaque.
+    // As SurfaceLight::findNormal(); also lights what is not opaque.
     HWY_INLINE void findSurfaces(M lanes, M opaque, M isBody, VI scalar, M isVoxel) {
         const D d;
         const DI di;
         const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
         const M isCap = hn::And(isCapped_, hn::Eq(t_, from_));
-        M isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+        M isOblique = toDoubles(hn::Gt(crossedPlane_, hn::Set(di, -1)));
         M isNowhere = hn::Lt(zero, zero);
         V faceAxis = hn::Set(d, -1.0);
         VI face = hn::Zero(di);  // index into PacketPass::faces
@@ -319,48 +319,49 @@ private:
             const M atSide = hn::And(onGrid, hn::Eq(hn::Floor(fraction), fraction));
             const M atSeam = hn::And(andNot(isNowhere, atSide), hn::Gt(t_, from_));
             if (any(atSeam)) {
-                crossed_ = seamPlanes(atSeam, faceAxis);
-                isOblique = toDoubles(hn::Gt(crossed_, hn::Set(di, -1)));
+                crossedPlane_ = seamPlanes(atSeam, faceAxis);
+                isOblique = toDoubles(hn::Gt(crossedPlane_, hn::Set(di, -1)));
             }
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
         if (any(onPlane)) {
-            const auto* planes = reinterpret_cast<const double*>(pass_.volume.oblique.data());
+            const auto* planes = reinterpret_cast<const double*>(pass_.volume.planes.data());
             V3 normal;  // voxel space
             std::int64_t first = 0;
-            if (isSame(crossed_, onPlane, first)) {
+            if (isSame(crossedPlane_, onPlane, first)) {
                 const double* same = planes + 4 * first;
                 normal = broadcast({same[0], same[1], same[2]});
             } else {
-                const VI plane = hn::ShiftLeft<5>(hn::IfThenElseZero(toInts(onPlane), crossed_));
+                const VI plane = hn::ShiftLeft<5>(hn::IfThenElseZero(toInts(onPlane), crossedPlane_));
                 const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(planes + n, plane)); };
                 normal = {part(0), part(1), part(2)};
             }
             const M isAway =
                 hn::Gt(dot(normal, {vectors_.x.direction, vectors_.y.direction, vectors_.z.direction}), zero);
-            const VI front = hn::Add(hn::Add(crossed_, crossed_), hn::Set(di, 6));
+            const VI front = hn::Add(hn::Add(crossedPlane_, crossedPlane_), hn::Set(di, 6));
             const VI side = hn::IfThenElse(toInts(isAway), hn::Add(front, hn::Set(di, 1)), front);
             face = hn::IfThenElse(toInts(onPlane), side, face);
         }
-        // As Surface::normal and Surface::away.
-        V3 normal, away;
+        // As Surface::normal and Surface::outwardIndex.
+        V3 normal, outwardIndex;
         std::int64_t first = 0;
         if (isSame(face, lanes, first)) {
             const PacketFace& same = pass_.faces[first];
             normal = broadcast({same.normal[0], same.normal[1], same.normal[2]});
-            away = broadcast({same.away[0], same.away[1], same.away[2]});
+            outwardIndex = broadcast({same.outwardIndex[0], same.outwardIndex[1], same.outwardIndex[2]});
         } else {
             static_assert(sizeof(PacketFace) == 64);
             const VI place = hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), face));
             const auto* numbers = reinterpret_cast<const double*>(pass_.faces);
             const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(numbers + n, place)); };
             normal = {part(0), part(1), part(2)};
-            away = {part(3), part(4), part(5)};
+            outwardIndex = {part(3), part(4), part(5)};
         }
         const auto keep = [&](V value, V known) { return hn::IfThenElse(lanes, value, known); };
         normal_ = {keep(normal.x, normal_.x), keep(normal.y, normal_.y), keep(normal.z, normal_.z)};
-        away_ = {keep(away.x, away_.x), keep(away.y, away_.y), keep(away.z, away_.z)};
-        crease_ = keep(zero, crease_);
+        outwardIndex_ = {keep(outwardIndex.x, outwardIndex_.x), keep(outwardIndex.y, outwardIndex_.y),
+                         keep(outwardIndex.z, outwardIndex_.z)};
+        cavity_ = keep(zero, cavity_);
         isOnCap_ = andNot(lanes, isOnCap_);
         isAroundEye_ = andNot(lanes, isAroundEye_);
         isUnlit_ = hn::Or(isUnlit_, hn::And(lanes, opaque));
@@ -369,7 +370,7 @@ private:
         const M special = hn::And(lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, needsNormal)));
         const M glass = andNot(opaque, lanes);
         if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(one), light_);
-        if (any(special)) askForSurfaces(special, scalar, isVoxel, faceAxis);
+        if (any(special)) shadeSpecialSurfaces(special, scalar, isVoxel, faceAxis);
     }
 
     // Which index entries are below `end`, see BrickVolume::Arrays.
@@ -405,21 +406,21 @@ private:
             toInts(coded),
             shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(pass_.volume.boxes.data()) + 8, box)));
         const VI place = hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code));
-        static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMostPlanes == 3);
+        static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMaxPlanes == 3);
         const auto* codes = reinterpret_cast<const std::byte*>(pass_.volume.codes.data());
         const VI both = gatherBytes(codes + 8, place), rest = gatherBytes(codes + 16, place);
         const auto known = [&](VI planes) { return hn::IfThenElse(toInts(coded), planes, none); };
         return {known(lowHalf(both)), known(shiftRight<32>(both)), known(lowHalf(rest))};
     }
 
-    // As seamPlane(): the plane for each lane of the mask, crossed_ for the others.
+    // As seamPlane(): the plane for each lane of the mask, crossedPlane_ for the others.
     HWY_NOINLINE VI seamPlanes(M lanes, V faceAxis) const {
         const D d;
         const DI di;
         const V3 point{hn::Add(vectors_.x.origin, hn::Mul(vectors_.x.direction, t_)),
                        hn::Add(vectors_.y.origin, hn::Mul(vectors_.y.direction, t_)),
                        hn::Add(vectors_.z.origin, hn::Mul(vectors_.z.direction, t_))};
-        VI found = crossed_;
+        VI found = crossedPlane_;
         const auto look = [&](VI plane) {
             const VI none = hn::Set(di, std::int64_t{volume::BrickVolume::kNoPlane});
             const M isThere = hn::And(lanes, toDoubles(hn::Ne(plane, none)));
@@ -427,7 +428,7 @@ private:
             const VI offset = hn::IfThenElseZero(toInts(isThere), hn::ShiftLeft<5>(plane));
             const auto number = [&](int n) {
                 return hn::BitCast(
-                    d, gatherBytes(reinterpret_cast<const double*>(pass_.volume.oblique.data()) + n, offset));
+                    d, gatherBytes(reinterpret_cast<const double*>(pass_.volume.planes.data()) + n, offset));
             };
             const V3 normal{number(0), number(1), number(2)};
             const V distance = hn::Add(dot(normal, point), number(3));
@@ -439,71 +440,71 @@ private:
             lanes = andNot(isNear, lanes);
         };
         const V eighth = hn::Set(d, 0.125), one = hn::Set(d, 1.0);
-        const auto brickOf = [&](V voxel) { return hn::Floor(hn::Mul(voxel, eighth)); };
-        const V3 cell = cells();
+        const auto brickOf = [&](V at) { return hn::Floor(hn::Mul(at, eighth)); };
+        const V3 voxel = voxels();
         const auto lookAll = [&](const Planes& planes) {
             look(planes.first);
             look(planes.second);
             look(planes.third);
         };
-        lookAll(planesOf(lanes, {brickOf(cell.x), brickOf(cell.y), brickOf(cell.z)}));
+        lookAll(planesOf(lanes, {brickOf(voxel.x), brickOf(voxel.y), brickOf(voxel.z)}));
         if (!any(lanes)) return found;
-        const auto brickBefore = [&](const Axis& axis, V voxel, double number) {
-            const V before = hn::IfThenElse(axis.isNegative, hn::Add(voxel, one), hn::Sub(voxel, one));
-            return brickOf(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, voxel));
+        const auto brickBefore = [&](const Axis& axis, V at, double number) {
+            const V before = hn::IfThenElse(axis.isNegative, hn::Add(at, one), hn::Sub(at, one));
+            return brickOf(hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, number)), before, at));
         };
-        lookAll(planesOf(lanes, {brickBefore(vectors_.x, cell.x, 0), brickBefore(vectors_.y, cell.y, 1),
-                                 brickBefore(vectors_.z, cell.z, 2)}));
+        lookAll(planesOf(lanes, {brickBefore(vectors_.x, voxel.x, 0), brickBefore(vectors_.y, voxel.y, 1),
+                                 brickBefore(vectors_.z, voxel.z, 2)}));
         return found;
     }
 
     // Asks PacketPass::surface for the surfaces of some lanes, ray by ray.
-    HWY_NOINLINE void askForSurfaces(M lanes, VI scalars, M isVoxel, V faceAxis) {
+    HWY_NOINLINE void shadeSpecialSurfaces(M lanes, VI scalars, M isVoxel, V faceAxis) {
         const D d;
         const DI di;
-        constexpr std::size_t kMost = hn::MaxLanes(D());
-        alignas(64) double t[kMost], axis[kMost], cell[3][kMost], light[kMost], crease[kMost], normal[3][kMost],
-            away[3][kMost];
-        alignas(64) std::int64_t scalar[kMost], plane[kMost], wanted[kMost], voxel[kMost], cap[kMost] = {},
-                                                                                           eye[kMost] = {};
+        constexpr std::size_t kMaxLanes = hn::MaxLanes(D());
+        alignas(64) double t[kMaxLanes], axis[kMaxLanes], voxel[3][kMaxLanes], light[kMaxLanes], cavity[kMaxLanes],
+            normal[3][kMaxLanes], outwardIndex[3][kMaxLanes];
+        alignas(64) std::int64_t scalar[kMaxLanes], plane[kMaxLanes], wanted[kMaxLanes], voxelOnly[kMaxLanes],
+            cap[kMaxLanes] = {}, eye[kMaxLanes] = {};
         hn::Store(t_, d, t);
         hn::Store(faceAxis, d, axis);
         hn::Store(light_, d, light);
-        hn::Store(crease_, d, crease);
-        const auto storeV3 = [&](const V3& v, double(&to)[3][kMost]) {
+        hn::Store(cavity_, d, cavity);
+        const auto storeV3 = [&](const V3& v, double(&to)[3][kMaxLanes]) {
             hn::Store(v.x, d, to[0]);
             hn::Store(v.y, d, to[1]);
             hn::Store(v.z, d, to[2]);
         };
-        storeV3(cells(), cell);
+        storeV3(voxels(), voxel);
         storeV3(normal_, normal);
-        storeV3(away_, away);
+        storeV3(outwardIndex_, outwardIndex);
         hn::Store(scalars, di, scalar);
-        hn::Store(crossed_, di, plane);
+        hn::Store(crossedPlane_, di, plane);
         hn::Store(hn::IfThenElseZero(toInts(lanes), hn::Set(di, 1)), di, wanted);
-        hn::Store(hn::IfThenElseZero(toInts(isVoxel), hn::Set(di, 1)), di, voxel);
+        hn::Store(hn::IfThenElseZero(toInts(isVoxel), hn::Set(di, 1)), di, voxelOnly);
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
             if (wanted[lane] == 0) continue;
-            const Vec3i at{static_cast<std::int32_t>(cell[0][lane]), static_cast<std::int32_t>(cell[1][lane]),
-                           static_cast<std::int32_t>(cell[2][lane])};
+            const Vec3i at{static_cast<std::int32_t>(voxel[0][lane]), static_cast<std::int32_t>(voxel[1][lane]),
+                           static_cast<std::int32_t>(voxel[2][lane])};
             const Surface found = pass_.surface(context_, {first_ + lane, scalar[lane], plane[lane], t[lane], at,
-                                                           static_cast<int>(axis[lane]), voxel[lane] != 0});
+                                                           static_cast<int>(axis[lane]), voxelOnly[lane] != 0});
             light[lane] = found.light;
-            crease[lane] = found.crease;
+            cavity[lane] = found.cavity;
             for (int a = 0; a < 3; ++a) {
                 normal[a][lane] = found.normal[a];
-                away[a][lane] = found.away[a];
+                outwardIndex[a][lane] = found.outwardIndex[a];
             }
             cap[lane] = found.isCap ? 1 : 0;
             eye[lane] = found.isAroundEye ? 1 : 0;
         }
-        const auto loadBack = [&](const double(&from)[3][kMost]) {
+        const auto loadBack = [&](const double(&from)[3][kMaxLanes]) {
             return V3{hn::Load(d, from[0]), hn::Load(d, from[1]), hn::Load(d, from[2])};
         };
         light_ = hn::Load(d, light);
-        crease_ = hn::Load(d, crease);
+        cavity_ = hn::Load(d, cavity);
         normal_ = loadBack(normal);
-        away_ = loadBack(away);
+        outwardIndex_ = loadBack(outwardIndex);
         isOnCap_ = hn::Or(isOnCap_, toDoubles(hn::Ne(hn::Load(di, cap), hn::Zero(di))));
         isAroundEye_ = hn::Or(isAroundEye_, toDoubles(hn::Ne(hn::Load(di, eye), hn::Zero(di))));
     }
@@ -517,9 +518,9 @@ private:
     PacketSamples& samples_;
     V metresPerT_;
     V t_, from_, end_, runStart_, labelStart_;
-    VI runScalar_, object_, crossed_;  // crossed_: the oblique plane that the ray crosses at t_, or -1
-    V light_, crease_;
-    V3 normal_, away_;
+    VI runScalar_, object_, crossedPlane_;  // crossedPlane_: the oblique plane that the ray crosses at t_, or -1
+    V light_, cavity_;
+    V3 normal_, outwardIndex_;
     V3 color_;
     V transmittance_, lines_;
     bool hasFragments_ = false;

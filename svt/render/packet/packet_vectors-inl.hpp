@@ -103,7 +103,7 @@ HWY_INLINE V3 times(const V3& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s)
 // One axis of the rays of a vector; members as in VoxelRay.
 struct Axis {
     V origin, direction, inverse, planeOrigin, count;
-    M isNegative, isMoving;
+    M isNegative, isNonZero;
 
     HWY_INLINE V planeTime(V plane) const { return hn::Mul(hn::Sub(plane, planeOrigin), inverse); }
     HWY_INLINE V at(V t) const { return hn::Add(origin, hn::Mul(t, direction)); }
@@ -119,24 +119,24 @@ HWY_INLINE bool isSame(VI numbers, M lanes, std::int64_t& first) {
 struct RayVectors {
     Axis x, y, z;
     V slack;
-    bool areMoving;        // no ray has a zero direction on any axis
-    bool isPlain = false;  // besides, the signs of its directions are those of the packet's ray 0, see go()
+    bool areNonZero;       // no ray has a zero direction on any axis
+    bool isPlain = false;  // besides, the signs of its directions are those of the packet's ray 0, see hasDirections()
 
     HWY_INLINE RayVectors(const PacketPass& pass, const PacketRays& rays, std::size_t first)
         : x(axisOf(pass, rays, first, 0)),
           y(axisOf(pass, rays, first, 1)),
           z(axisOf(pass, rays, first, 2)),
           slack(hn::Load(D(), rays.slack.data() + first)) {
-        areMoving = hn::AllTrue(D(), hn::And(hn::And(x.isMoving, y.isMoving), z.isMoving));
+        areNonZero = hn::AllTrue(D(), hn::And(hn::And(x.isNonZero, y.isNonZero), z.isNonZero));
     }
 
-    // Whether all directions are non-zero, and negative exactly on the axes of `goBack`.
-    HWY_INLINE bool go(const bool (&goBack)[3]) const {
+    // Whether all directions are non-zero, and negative exactly on the axes of `isNegative`.
+    HWY_INLINE bool hasDirections(const bool (&isNegative)[3]) const {
         const auto isSo = [&](const Axis& axis, bool back) {
-            return hn::AllTrue(D(), axis.isMoving) &&
+            return hn::AllTrue(D(), axis.isNonZero) &&
                    (back ? hn::AllTrue(D(), axis.isNegative) : hn::AllFalse(D(), axis.isNegative));
         };
-        return isSo(x, goBack[0]) && isSo(y, goBack[1]) && isSo(z, goBack[2]);
+        return isSo(x, isNegative[0]) && isSo(y, isNegative[1]) && isSo(z, isNegative[2]);
     }
 
     // The voxel plane nearest to a ray at t, and the time at which the ray crosses it.
@@ -147,20 +147,20 @@ struct RayVectors {
         const V position = axis.at(t), plane = hn::Round(position);
         return {position, plane, axis.planeTime(plane)};
     }
-    // The voxels that the rays are in at t, see VoxelRay::cellAt(). Undefined for rays that have ended.
-    HWY_INLINE V3 cells(V t) const {
-        const auto cellOf = [&](const Axis& axis) {
+    // The voxels that the rays are in at t, see VoxelRay::voxelAt(). Undefined for rays that have ended.
+    HWY_INLINE V3 voxels(V t) const {
+        const auto voxelOf = [&](const Axis& axis) {
             const D d;
             const V one = hn::Set(d, 1.0);
             const NearPlane near = nearPlane(axis, t);
             // Next to a plane, the crossing time decides, not the rounded position.
-            const M isBeside = hn::And(axis.isMoving, hn::Le(hn::Abs(hn::Sub(near.position, near.plane)), slack));
+            const M isBeside = hn::And(axis.isNonZero, hn::Le(hn::Abs(hn::Sub(near.position, near.plane)), slack));
             const M isBelow = hn::Not(hn::Xor(hn::Le(near.time, t), axis.isNegative));
             const V decided = hn::IfThenElse(isBelow, hn::Sub(near.plane, one), near.plane);
-            const V cell = hn::IfThenElse(isBeside, decided, hn::Floor(near.position));
-            return hn::Min(hn::Max(cell, hn::Zero(d)), hn::Sub(axis.count, one));
+            const V voxel = hn::IfThenElse(isBeside, decided, hn::Floor(near.position));
+            return hn::Min(hn::Max(voxel, hn::Zero(d)), hn::Sub(axis.count, one));
         };
-        return {cellOf(x), cellOf(y), cellOf(z)};
+        return {voxelOf(x), voxelOf(y), voxelOf(z)};
     }
 
 private:
@@ -173,13 +173,13 @@ private:
         axis.planeOrigin = hn::Load(d, rays.planeOrigin[a].data() + first);
         axis.count = hn::Set(d, pass.count[a]);
         axis.isNegative = hn::Lt(axis.direction, hn::Zero(d));
-        axis.isMoving = hn::Ne(axis.direction, hn::Zero(d));
+        axis.isNonZero = hn::Ne(axis.direction, hn::Zero(d));
         return axis;
     }
 };
 
 // Reference to the style of each lane.
-struct Looks {
+struct StyleRef {
     const PacketStyle* same;  // the style of all lanes; null if they differ, and then
     VI offset;                // byte offset of each lane's style
 };
@@ -189,7 +189,7 @@ class Styles {
 public:
     HWY_INLINE explicit Styles(const PacketPass& pass) : styles_(pass.styles), count_(pass.styleCount) {}
 
-    HWY_INLINE Looks looksOf(VI scalar, M lanes) const {
+    HWY_INLINE StyleRef find(VI scalar, M lanes) const {
         const DI di;
         std::int64_t first = 0;
         if (isSame(scalar, lanes, first)) return {styles_ + std::min(first, count_), hn::Zero(di)};
@@ -197,17 +197,17 @@ public:
         return {nullptr, hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), known))};
     }
     template <std::size_t kMember>
-    HWY_INLINE V number(const Looks& looks) const {
-        if (looks.same != nullptr) {
+    HWY_INLINE V number(const StyleRef& style) const {
+        if (style.same != nullptr) {
             double value;
-            std::memcpy(&value, reinterpret_cast<const std::byte*>(looks.same) + kMember, sizeof value);
+            std::memcpy(&value, reinterpret_cast<const std::byte*>(style.same) + kMember, sizeof value);
             return hn::Set(D(), value);
         }
-        return hn::BitCast(D(), gatherBytes(reinterpret_cast<const std::byte*>(styles_) + kMember, looks.offset));
+        return hn::BitCast(D(), gatherBytes(reinterpret_cast<const std::byte*>(styles_) + kMember, style.offset));
     }
     template <std::size_t kMember>
-    HWY_INLINE VI integer(const Looks& looks) const {
-        return hn::BitCast(DI(), number<kMember>(looks));
+    HWY_INLINE VI integer(const StyleRef& style) const {
+        return hn::BitCast(DI(), number<kMember>(style));
     }
 
 private:
@@ -218,8 +218,8 @@ private:
 // Changes of label of the rays of a group, in rows: at most one change per ray and row, in ascending order of t by ray.
 class ChangeRows {
 public:
-    // A walk through one box adds fewer than kOfOneBox rows, so rows must be emptied once there are kFull.
-    static constexpr std::size_t kFull = 24, kOfOneBox = 24, kMost = kFull + kOfOneBox;
+    // A walk through one box adds fewer than kMaxRowsPerBox rows, so rows must be emptied once there are kShadeAt.
+    static constexpr std::size_t kShadeAt = 24, kMaxRowsPerBox = 24, kMaxRows = kShadeAt + kMaxRowsPerBox;
 
     HWY_INLINE void clear() {
         count_ = 0;
@@ -264,8 +264,8 @@ private:
 
     std::size_t count_ = 0;
     VI next_;  // by lane: the row after its last one
-    alignas(64) double t_[kMost][kLanes];
-    alignas(64) std::int64_t changes_[kMost][kLanes];
+    alignas(64) double t_[kMaxRows][kLanes];
+    alignas(64) std::int64_t changes_[kMaxRows][kLanes];
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 /// Walks the rays of a group through boxes of bricks: the vector version of walkRuns().
 ///
 /// A box of one label is left in one step. A coded box has up to three cuts and three planes; for each, one bit tells
-/// on which side a ray is, and the bits form the number of a cell, whose label comes from a table (crossSides(), with
-/// no branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and Woo (1987): the voxel
-/// is kept as a bit and a word of the brick's bit planes. Each step masks off the lanes that have left the box.
+/// on which side a ray is, and the bits form a side combination, whose label comes from a table (crossSides(), with no
+/// branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and Woo (1987): the voxel is
+/// kept as a bit and a word of the brick's bit planes. Each step masks off the lanes that have left the box.
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
@@ -34,7 +34,7 @@ public:
         end_ = hn::Load(d, to.data() + first_);
         const M isOver = toDoubles(hn::Ne(hn::Load(DI(), isDone.data() + first_), hn::Zero(DI())));
         t_ = hn::IfThenElse(andNot(isOver, hn::Lt(t_, end_)), t_, hn::Set(d, kInfinity));
-        runScalar_ = crossed_ = hn::Set(DI(), -1);
+        runScalar_ = crossedPlane_ = hn::Set(DI(), -1);
     }
 
     // Ends the rays of a mask.
@@ -42,10 +42,10 @@ public:
 
     // Current t of the rays; infinity for those that have ended.
     HWY_INLINE V times() const { return t_; }
-    // The voxel that one ray is in at t, see VoxelRay::cellAt().
-    HWY_INLINE Vec3i cell(std::size_t lane, double t) const {
+    // The voxel that one ray is in at t, see VoxelRay::voxelAt().
+    HWY_INLINE Vec3i voxel(std::size_t lane, double t) const {
         const std::size_t ray = first_ + lane;
-        Vec3i cell;
+        Vec3i voxel;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double along = rays_.direction[axis][ray], position = rays_.origin[axis][ray] + t * along;
             const auto plane = static_cast<std::int64_t>(position + 0.5);
@@ -57,9 +57,9 @@ public:
             const std::int64_t decided = plane - std::int64_t{(time <= t) == (along < 0)};
             const std::int64_t at = isBeside ? decided : inner;
             const auto last = static_cast<std::int64_t>(pass_.count[axis]) - 1;
-            cell[static_cast<int>(axis)] = static_cast<std::int32_t>(std::clamp<std::int64_t>(at, 0, last));
+            voxel[static_cast<int>(axis)] = static_cast<std::int32_t>(std::clamp<std::int64_t>(at, 0, last));
         }
-        return cell;
+        return voxel;
     }
 
     // The lanes that are inside a box, and the time at which they leave it.
@@ -84,14 +84,14 @@ public:
     HWY_INLINE void crossUniform(const Inside& inside, std::int64_t scalar) {
         const DI di;
         const M lanes = change(inside.lanes, hn::Set(di, scalar), false);
-        crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+        crossedPlane_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossedPlane_);
         advance(lanes, inside.exit);
     }
 
     // Crosses a coded box, from one cut or plane to the next.
     HWY_INLINE void crossCoded(const Inside& inside, const volume::BrickVolume::BoxCoding& code) {
         const D d;
-        Side sides[volume::BrickVolume::kMostSides];
+        Side sides[volume::BrickVolume::kMaxSides];
         std::size_t count = 0;
         const auto addCut = [&](const Axis& axis, std::size_t number) {
             if (((code.cutAxes >> number) & 1u) == 0) return;
@@ -100,8 +100,8 @@ public:
             side.time = axis.planeTime(place);
             side.isBeyondAfter = hn::Not(axis.isNegative);
             // Rays with a zero direction on this axis stay on one side.
-            if (!vectors_.areMoving)
-                side.isBeyondAfter = hn::And(side.isBeyondAfter, hn::Or(axis.isMoving, hn::Lt(axis.origin, place)));
+            if (!vectors_.areNonZero)
+                side.isBeyondAfter = hn::And(side.isBeyondAfter, hn::Or(axis.isNonZero, hn::Lt(axis.origin, place)));
             side.plane = -1;
         };
         addCut(vectors_.x, 0);
@@ -110,10 +110,10 @@ public:
         for (const std::uint32_t number : code.plane) {
             if (number == volume::BrickVolume::kNoPlane) continue;
             Side& side = sides[count++];
-            findCrossing(pass_.volume.oblique[number], side.time, side.isBeyondAfter);
+            findCrossing(pass_.volume.planes[number], side.time, side.isBeyondAfter);
             side.plane = number;
         }
-        const volume::Scalar* scalars = pass_.volume.palettes.data() + code.cells;
+        const volume::Scalar* scalars = pass_.volume.palettes.data() + code.firstSideScalar;
         switch (count) {
             case 1: return crossSides<1>(inside, sides, scalars);
             case 2: return crossSides<2>(inside, sides, scalars);
@@ -130,28 +130,28 @@ public:
         const D d;
         const DI di;
         const V one = hn::Set(d, 1.0);
-        const std::uint64_t* words = pass_.volume.words.data() + brick.planes;
+        const std::uint64_t* words = pass_.volume.words.data() + brick.bitPlanes;
         const volume::Scalar* scalars = pass_.volume.palettes.data() + brick.palette;
         M lanes = inside.lanes;
-        const V3 cell = vectors_.cells(t_);
+        const V3 voxel = vectors_.voxels(t_);
         const auto local = [&](V at, int axis) {
             return hn::IfThenElseZero(lanes, hn::Sub(at, hn::Set(d, box.low[axis])));
         };
         // Bit and word of the voxel in each bit plane.
-        VI bit = toInt(hn::Add(local(cell.x, 0), hn::Mul(local(cell.y, 1), hn::Set(d, 8.0))));
-        VI word = toInt(local(cell.z, 2));
+        VI bit = toInt(hn::Add(local(voxel.x, 0), hn::Mul(local(voxel.y, 1), hn::Set(d, 8.0))));
+        VI word = toInt(local(voxel.z, 2));
         // The planes by which the rays leave the current voxel; they advance by one voxel.
         const auto sign = [&](const Axis& axis) { return hn::IfThenElse(axis.isNegative, hn::Neg(one), one); };
         const V3 step{sign(vectors_.x), sign(vectors_.y), sign(vectors_.z)};
         const auto faceAhead = [&](const Axis& axis, V at) {
             return hn::IfThenElse(axis.isNegative, at, hn::Add(at, one));
         };
-        V3 far{faceAhead(vectors_.x, cell.x), faceAhead(vectors_.y, cell.y), faceAhead(vectors_.z, cell.z)};
+        V3 far{faceAhead(vectors_.x, voxel.x), faceAhead(vectors_.y, voxel.y), faceAhead(vectors_.z, voxel.z)};
         const VI stepX = toInt(step.x), stepY = hn::ShiftLeft<3>(toInt(step.y)), stepZ = toInt(step.z);
-        crossed_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossed_);
+        crossedPlane_ = hn::IfThenElse(toInts(lanes), hn::Set(di, -1), crossedPlane_);
         while (true) {
             VI index = hn::Zero(di);
-            for (std::uint32_t plane = 0; plane < brick.planeCount; ++plane) {
+            for (std::uint32_t plane = 0; plane < brick.bitPlaneCount; ++plane) {
                 const VI bits = shiftRightBy(lookUp(words + std::size_t{8} * plane, word), bit);
                 index = hn::Or(index, hn::IfThenElseZero(isSet(bits, 1), hn::Set(di, std::int64_t{1} << plane)));
             }
@@ -182,7 +182,7 @@ private:
             const V leave = axis.planeTime(hn::IfThenElse(axis.isNegative, low, high));
             const V enter = axis.planeTime(hn::IfThenElse(axis.isNegative, high, low));
             const M isIn = hn::And(hn::Le(enter, t_), hn::Lt(t_, leave));
-            const M stays = andNot(axis.isMoving, hn::And(hn::Ge(axis.origin, low), hn::Lt(axis.origin, high)));
+            const M stays = andNot(axis.isNonZero, hn::And(hn::Ge(axis.origin, low), hn::Lt(axis.origin, high)));
             inside.lanes = hn::And(inside.lanes, hn::Or(isIn, stays));
             return leave;
         };
@@ -198,24 +198,25 @@ private:
         std::int64_t plane;  // its number; -1: a cut
     };
 
-    // Crosses a box with kCount sides; side s gives bit s of the cell number.
+    // Crosses a box with kCount sides; side s gives bit s of the side combination.
     template <std::size_t kCount>
     HWY_INLINE void crossSides(const Inside& inside, const Side* sides, const volume::Scalar* scalars) {
         const DI di;
         M lanes = inside.lanes;
         while (true) {
-            VI cell = hn::Zero(di), nextPlane = hn::Set(di, -1);
+            VI combination = hn::Zero(di), nextPlane = hn::Set(di, -1);
             V next = inside.exit;
             for (std::size_t s = 0; s < kCount; ++s) {
                 const M isAfter = hn::Ge(t_, sides[s].time);
                 const M isNotBeyond = hn::Xor(isAfter, sides[s].isBeyondAfter);
-                cell = hn::Or(cell, hn::IfThenZeroElse(toInts(isNotBeyond), hn::Set(di, std::int64_t{1} << s)));
+                combination =
+                    hn::Or(combination, hn::IfThenZeroElse(toInts(isNotBeyond), hn::Set(di, std::int64_t{1} << s)));
                 const M isNext = andNot(isAfter, hn::Lt(sides[s].time, next));
                 next = hn::IfThenElse(isNext, sides[s].time, next);
                 nextPlane = hn::IfThenElse(toInts(isNext), hn::Set(di, sides[s].plane), nextPlane);
             }
-            lanes = change(lanes, lookUp(scalars, std::size_t{1} << kCount, cell), false);
-            crossed_ = hn::IfThenElse(toInts(lanes), nextPlane, crossed_);
+            lanes = change(lanes, lookUp(scalars, std::size_t{1} << kCount, combination), false);
+            crossedPlane_ = hn::IfThenElse(toInts(lanes), nextPlane, crossedPlane_);
             lanes = hn::And(advance(lanes, next), hn::Lt(next, inside.exit));
             if (!any(lanes)) return;
         }
@@ -247,9 +248,9 @@ private:
         const M changed = hn::And(lanes, toDoubles(hn::Ne(scalar, runScalar_)));
         if (!any(changed)) return lanes;
         runScalar_ = hn::IfThenElse(toInts(changed), scalar, runScalar_);
-        changes_.add(changed, t_, scalar, crossed_, isVoxel);
+        changes_.add(changed, t_, scalar, crossedPlane_, isVoxel);
         if (pass_.hasOpaque) {
-            const VI kind = styles_.integer<offsetof(PacketStyle, kind)>(styles_.looksOf(scalar, changed));
+            const VI kind = styles_.integer<offsetof(PacketStyle, kind)>(styles_.find(scalar, changed));
             const M ending = hn::And(changed, toDoubles(isSet(kind, PacketKind::kOpaque)));
             end(ending);
             lanes = andNot(ending, lanes);
@@ -264,7 +265,7 @@ private:
     std::size_t first_;
     ChangeRows& changes_;
     V t_, end_;
-    VI runScalar_, crossed_;  // crossed_: the oblique plane that the ray crosses at t_, or -1
+    VI runScalar_, crossedPlane_;  // crossedPlane_: the oblique plane that the ray crosses at t_, or -1
 };
 
 }  // namespace

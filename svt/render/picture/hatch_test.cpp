@@ -1,7 +1,7 @@
 #include <svt/render/hatch.hpp>
 
 #include <svt/render/camera_presets.hpp>
-#include <svt/render/scene_test.hpp>
+#include <svt/render/test_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,8 @@ double meanInk(Hatch hatch, const HatchPen& pen) {
     double sum = 0;
     constexpr int kSteps = 800;
     for (int y = 0; y < kSteps; ++y)
-        for (int x = 0; x < kSteps; ++x) sum += hatchInk(hatch, (x + 0.5) * 4 / kSteps, (y + 0.5) * 4 / kSteps, pen);
+        for (int x = 0; x < kSteps; ++x)
+            sum += hatchCoverage(hatch, (x + 0.5) * 4 / kSteps, (y + 0.5) * 4 / kSteps, pen);
     return sum / (kSteps * kSteps);
 }
 
@@ -47,16 +48,16 @@ TEST(Hatch, EachIsSeenAndLeavesPaper) {
 
 TEST(Hatch, LinesRiseToTheRight) {
     const HatchPen pen{1, 0.1, 0.01};
-    for (double s = 0; s < 3; s += 0.1) EXPECT_EQ(hatchInk(Hatch::Masonry, s, s, pen), 1) << s;
-    EXPECT_EQ(hatchInk(Hatch::Masonry, 0.7, 0, pen), 0);
+    for (double s = 0; s < 3; s += 0.1) EXPECT_EQ(hatchCoverage(Hatch::Masonry, s, s, pen), 1) << s;
+    EXPECT_EQ(hatchCoverage(Hatch::Masonry, 0.7, 0, pen), 0);
 }
 
 TEST(Hatch, TooDenseIsGray) {
     const HatchPen pen{0.01, 0.004, 0.1};
-    const double first = hatchInk(Hatch::Masonry, 0, 0, pen);
+    const double first = hatchCoverage(Hatch::Masonry, 0, 0, pen);
     EXPECT_GT(first, 0.1);
     EXPECT_LE(first, 0.5);
-    for (double u = 0; u < 1; u += 0.03) EXPECT_EQ(hatchInk(Hatch::Masonry, u, 0, pen), first);
+    for (double u = 0; u < 1; u += 0.03) EXPECT_EQ(hatchCoverage(Hatch::Masonry, u, 0, pen), first);
 }
 
 // A cube of one label, seen from above.

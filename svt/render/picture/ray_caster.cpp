@@ -81,11 +81,12 @@ Result<PreparedPass> preparedPass(const Pass& pass, const PreparedFrame& frame, 
     const FrameSpec& spec = frame.spec;
     const PreparedVolume& volume = frame.volumes[pass.volume];
     const int threads = frame.options.threads;
-    PreparedPass prepared{tableOf(pass.triangles.empty() ? pass : voxelsOf(pass, spec.objectOfScalar), spec, drawn),
-                          Clipper(pass.clips, volume.grid),
-                          {},
-                          pass.join,
-                          static_cast<std::uint8_t>(pass.volume)};
+    PreparedPass prepared{
+        tableOf(pass.triangles.empty() ? pass : makeVoxelPass(pass, spec.objectOfScalar), spec, drawn),
+        Clipper(pass.clips, volume.grid),
+        {},
+        pass.join,
+        static_cast<std::uint8_t>(pass.volume)};
     auto shapes = PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, frame.lineSamples,
                                    SampleLayout(spec).blockMargin(frame.isAdaptive), threads);
     if (!shapes) return shapes.error();

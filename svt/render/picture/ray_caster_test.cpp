@@ -1,7 +1,7 @@
 #include <svt/image/color.hpp>
 #include <svt/render/camera_presets.hpp>
 #include <svt/render/ray_caster.hpp>
-#include <svt/render/scene_test.hpp>
+#include <svt/render/test_volume_test.hpp>
 
 #include <gtest/gtest.h>
 

@@ -55,10 +55,10 @@ public:
         const bool isNewObject = style.object != previousObject_;
         previousObject_ = style.object;
         if (withColor_ && isNewObject)
-            surface_ =
-                surfaceLight_.at(style, {from, ray_.index.origin, ray_.index.direction, normalized(-ray_.direction),
-                                         start.cell, ray_.index.entryAxis(from, start.cell), start.plane, start.isVoxel,
-                                         from == interval_->from ? interval_->cap : CapFace{}});
+            surface_ = surfaceLight_.at(
+                style, {from, ray_.voxelRay.origin, ray_.voxelRay.direction, normalized(-ray_.direction), start.voxel,
+                        ray_.voxelRay.entryAxis(from, start.voxel), start.plane, start.isVoxel,
+                        from == interval_->from ? interval_->cap : CapFace{}});
         if (style.kind == Kind::Translucent) return false;
         add(style, 1, from);
         hasEnded_ = true;
@@ -108,7 +108,7 @@ private:
         const Fragment& fragment = fragments_[next_++];
         blend(fragment, color_, transmittance_, lines_);
         if (!fragment.isLine() && !sample_.hasHit() && 1 - transmittance_ > double(frame_.options.labelAt)) {
-            const MetSurface& surface = surfaces_[static_cast<std::size_t>(fragment.surface)];
+            const SurfaceFragment& surface = surfaces_[static_cast<std::size_t>(fragment.surface)];
             sample_.label = surface.label;
             sample_.object = surface.object;
             sample_.depth = static_cast<float>(fragment.depth);
@@ -137,7 +137,7 @@ private:
     SurfaceLight surfaceLight_;
     const CameraRay& ray_;
     std::span<const Fragment> fragments_;
-    std::span<const MetSurface> surfaces_;
+    std::span<const SurfaceFragment> surfaces_;
     std::size_t next_ = 0;  // the first fragment that is not blended yet
     bool withColor_;
     bool hasEnded_ = false;
@@ -163,8 +163,8 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
         const PreparedPass& pass = frame_.passes[n];
         const PreparedVolume& volume = frame_.volumes[pass.volume];
         const CameraRay ray = volume.rays.at(u, v);
-        const RaySpan span = spanInVolume(ray.index, volume.bricks.dimension());
-        const DrawnIntervals drawn = pass.clipper.cut(ray.index, span);
+        const RaySpan span = spanInVolume(ray.voxelRay, volume.bricks.dimension());
+        const DrawnIntervals drawn = pass.clipper.cut(ray.voxelRay, span);
         fragments_->clear();
         double end = std::numeric_limits<double>::infinity();
         if (!pass.shapes.isEmpty()) {
@@ -177,9 +177,9 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
             if (!(interval.from < interval.to)) break;
             shader.beginInterval(interval);
             if (frame_.isReference)
-                walkRunsReference(volume.bricks, ray.index, interval.from, interval.to, shader);
+                walkRunsReference(volume.bricks, ray.voxelRay, interval.from, interval.to, shader);
             else
-                walkRuns(volume.bricks, ray.index, interval.from, interval.to, shader);
+                walkRuns(volume.bricks, ray.voxelRay, interval.from, interval.to, shader);
             if (shader.isDone()) break;
         }
         shader.finish();

@@ -43,7 +43,7 @@ Clipper::Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid) {
 }
 
 // Intersects the interval with [from, to], whose ends are on `face`.
-void Clipper::Stretch::meet(double from, double to, CapFace face) noexcept {
+void Clipper::PartInterval::meet(double from, double to, CapFace face) noexcept {
     if (from > enter) {
         enter = from;
         enterFace = face;
@@ -55,7 +55,7 @@ void Clipper::Stretch::meet(double from, double to, CapFace face) noexcept {
 }
 
 // Intersects the interval with a round body: the solutions of a t^2 + 2 b t + c < 0; of a cone, only one nappe.
-void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) noexcept {
+void Clipper::meetRound(const Round& round, const Line& line, PartInterval& inside) noexcept {
     const RoundBody& body = round.body;
     const Vec3d from = line.origin - body.center;
     const auto inFrame = [&](Vec3d v) {
@@ -69,60 +69,60 @@ void Clipper::meetRound(const Round& round, const Line& line, Stretch& stretch) 
     const CapFace face{nullptr, round.source};
     if (a == 0) {
         // Parallel to a cylinder's axis or to a generator of a cone.
-        if (b == 0 ? !(c < 0) : along >= 0) return stretch.meet(kInfinity, -kInfinity, face);
+        if (b == 0 ? !(c < 0) : along >= 0) return inside.meet(kInfinity, -kInfinity, face);
         const double t = b == 0 ? 0 : -c / (2 * b);
         const double low = b > 0 ? -kInfinity : b < 0 ? t : -kInfinity, high = b > 0 ? t : kInfinity;
         if (along < 0 && !(o.z + d.z * (b == 0 ? 0 : t + (b > 0 ? -1 : 1)) > 0))
-            return stretch.meet(kInfinity, -kInfinity, face);
-        return stretch.meet(low, high, face);
+            return inside.meet(kInfinity, -kInfinity, face);
+        return inside.meet(low, high, face);
     }
     const double square = b * b - a * c;
     // Without two roots the line misses the body. But with a < 0 it always meets the cone: its roots coincide only at
     // the apex.
-    if (!(square > 0) && !(a < 0)) return stretch.meet(kInfinity, -kInfinity, face);
+    if (!(square > 0) && !(a < 0)) return inside.meet(kInfinity, -kInfinity, face);
     // The root of larger magnitude first; the other from it, without cancellation.
     const double sum = -(b + std::copysign(std::sqrt(std::max(square, 0.0)), b));
     double t0 = sum / a, t1 = sum != 0 ? c / sum : t0;
     if (t1 < t0) std::swap(t0, t1);
-    if (a < 0) return d.z > 0 ? stretch.meet(t1, kInfinity, face) : stretch.meet(-kInfinity, t0, face);
-    if (along < 0 && !(o.z + d.z * (t0 + t1) / 2 > 0)) return stretch.meet(kInfinity, -kInfinity, face);
-    stretch.meet(t0, t1, face);
+    if (a < 0) return d.z > 0 ? inside.meet(t1, kInfinity, face) : inside.meet(-kInfinity, t0, face);
+    if (along < 0 && !(o.z + d.z * (t0 + t1) / 2 > 0)) return inside.meet(kInfinity, -kInfinity, face);
+    inside.meet(t0, t1, face);
 }
 
-Clipper::Stretch Clipper::within(const Part& part, const Line& line) noexcept {
-    Stretch stretch{-kInfinity, kInfinity, {}, {}};
+Clipper::PartInterval Clipper::within(const Part& part, const Line& line) noexcept {
+    PartInterval inside{-kInfinity, kInfinity, {}, {}};
     for (const Plane& plane : part.planes) {
         const double at = dot(plane.normal, line.origin) + plane.offset;
         const double slope = dot(plane.normal, line.direction);
         const CapFace face{plane.source, nullptr};
         if (slope == 0)
-            stretch.meet(-kInfinity, at > 0 ? kInfinity : -kInfinity, face);
+            inside.meet(-kInfinity, at > 0 ? kInfinity : -kInfinity, face);
         else if (slope > 0)
-            stretch.meet(-at / slope, kInfinity, face);
+            inside.meet(-at / slope, kInfinity, face);
         else
-            stretch.meet(-kInfinity, -at / slope, face);
+            inside.meet(-kInfinity, -at / slope, face);
     }
-    for (const Round& round : part.rounds) meetRound(round, line, stretch);
-    return stretch;
+    for (const Round& round : part.rounds) meetRound(round, line, inside);
+    return inside;
 }
 
 // Finds the intervals inside any part of a region, merged and ascending. Returns their count.
-std::size_t Clipper::within(const Region& region, const Line& line, Stretches& stretches) noexcept {
+std::size_t Clipper::within(const Region& region, const Line& line, PartIntervals& insides) noexcept {
     std::size_t count = 0;
     for (const Part& part : region.parts) {
-        const Stretch stretch = within(part, line);
-        if (!(stretch.enter < stretch.exit)) continue;
+        const PartInterval inside = within(part, line);
+        if (!(inside.enter < inside.exit)) continue;
         std::size_t at = count++;
-        for (; at > 0 && stretches[at - 1].enter > stretch.enter; --at) stretches[at] = stretches[at - 1];
-        stretches[at] = stretch;
+        for (; at > 0 && insides[at - 1].enter > inside.enter; --at) insides[at] = insides[at - 1];
+        insides[at] = inside;
     }
     std::size_t kept = 0;
     for (std::size_t n = 0; n < count; ++n) {
-        if (kept == 0 || stretches[n].enter > stretches[kept - 1].exit) {
-            stretches[kept++] = stretches[n];
-        } else if (stretches[n].exit > stretches[kept - 1].exit) {
-            stretches[kept - 1].exit = stretches[n].exit;
-            stretches[kept - 1].exitFace = stretches[n].exitFace;
+        if (kept == 0 || insides[n].enter > insides[kept - 1].exit) {
+            insides[kept++] = insides[n];
+        } else if (insides[n].exit > insides[kept - 1].exit) {
+            insides[kept - 1].exit = insides[n].exit;
+            insides[kept - 1].exitFace = insides[n].exitFace;
         }
     }
     return kept;
@@ -132,24 +132,24 @@ DrawnIntervals Clipper::cut(Vec3d origin, Vec3d direction, RaySpan span) const n
     const Line line{origin, direction};
     DrawnIntervals drawn;
     drawn.add({span.from, span.to, {}});
-    Stretches stretches;
+    PartIntervals insides;
     for (const Region& region : regions_) {
         if (drawn.isEmpty()) break;
-        const std::size_t count = within(region, line, stretches);
+        const std::size_t count = within(region, line, insides);
         DrawnIntervals next;
         for (const DrawnInterval& interval : drawn) {
             DrawnInterval rest = interval;
             for (std::size_t n = 0; n < count; ++n) {
-                const Stretch& stretch = stretches[n];
-                if (stretch.exit <= rest.from) continue;
+                const PartInterval& inside = insides[n];
+                if (inside.exit <= rest.from) continue;
                 if (region.mode == ClipRegion::Mode::KeepOnly) {
                     DrawnInterval kept = rest;
-                    if (stretch.enter > kept.from) kept = {stretch.enter, rest.to, stretch.enterFace};
-                    kept.to = std::min(kept.to, stretch.exit);
+                    if (inside.enter > kept.from) kept = {inside.enter, rest.to, inside.enterFace};
+                    kept.to = std::min(kept.to, inside.exit);
                     next.add(kept);
                 } else {
-                    next.add({rest.from, std::min(rest.to, stretch.enter), rest.cap});
-                    rest = {stretch.exit, rest.to, stretch.exitFace};
+                    next.add({rest.from, std::min(rest.to, inside.enter), rest.cap});
+                    rest = {inside.exit, rest.to, inside.exitFace};
                 }
             }
             if (region.mode == ClipRegion::Mode::CutAway) next.add(rest);

@@ -11,8 +11,8 @@ DirectionTable::DirectionTable(const volume::BrickVolume& volume, const volume::
         index[axis] = 1;
         axes_[static_cast<std::size_t>(axis)] = directions(index);
     }
-    planes_.reserve(volume.oblique().size());
-    for (const volume::BrickPlane& plane : volume.oblique()) planes_.push_back(directions(plane.normal));
+    planes_.reserve(volume.planes().size());
+    for (const volume::BrickPlane& plane : volume.planes()) planes_.push_back(directions(plane.normal));
 }
 
 DirectionTable::Directions DirectionTable::directions(Vec3d index) const noexcept {
@@ -21,11 +21,11 @@ DirectionTable::Directions DirectionTable::directions(Vec3d index) const noexcep
     for (int axis = 0; axis < 3; ++axis)
         normal = normal + grid_.axes()[static_cast<std::size_t>(axis)] * (index[axis] / grid_.spacing()[axis]);
     found.normal = normalized(normal);
-    found.away = away(found.normal);
+    found.outwardIndex = outwardIndex(found.normal);
     return found;
 }
 
-Vec3d DirectionTable::away(Vec3d normal) const noexcept {
+Vec3d DirectionTable::outwardIndex(Vec3d normal) const noexcept {
     const Vec3d index = grid_.indexFromWorldDirection(normal);
     const double longest = std::max({std::abs(index.x), std::abs(index.y), std::abs(index.z)});
     return longest > 0 ? index / longest : index;

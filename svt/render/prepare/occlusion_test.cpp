@@ -1,5 +1,5 @@
 #include <svt/render/occlusion.hpp>
-#include <svt/render/scene_test.hpp>
+#include <svt/render/test_volume_test.hpp>
 
 #include <gtest/gtest.h>
 

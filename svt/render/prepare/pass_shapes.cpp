@@ -30,7 +30,7 @@ bool isOutside(double x, double y, double dx, double dy, double middleX, double 
 
 }  // namespace
 
-Pass voxelsOf(const Pass& pass, std::span<const std::uint32_t> objectOfScalar) {
+Pass makeVoxelPass(const Pass& pass, std::span<const std::uint32_t> objectOfScalar) {
     const auto objectOf = [&](std::size_t scalar) {
         return scalar < objectOfScalar.size() ? objectOfScalar[scalar] : static_cast<std::uint32_t>(scalar);
     };
@@ -50,14 +50,14 @@ Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, con
     if (pass.lines.empty() && pass.triangles.empty()) return shapes;
     shapes.width_ = spec.width;
     shapes.height_ = spec.height;
-    shapes.margin_ = std::fmod(margin, kCellPixels);
+    shapes.margin_ = std::fmod(margin, kSquarePixels);
     // Near clipping distance: a millionth of the distance to the camera's target.
     const double nearest = 1e-6 * length(spec.camera.target - spec.camera.eye);
     for (const LineSet& set : pass.lines) {
         const double half = double(set.width) / 2;
-        shapes.looks_.push_back({toDouble(image::linearFromSrgb(set.color)), half,
-                                 std::min(1.0, 2 * half * samplesPerPixel), double(set.hiddenOpacity), double(set.dash),
-                                 double(set.dash) + double(set.gap), set.hidden});
+        shapes.lineStyles_.push_back({toDouble(image::linearFromSrgb(set.color)), half,
+                                      std::min(1.0, 2 * half * samplesPerPixel), double(set.hiddenOpacity),
+                                      double(set.dash), double(set.dash) + double(set.gap), set.hidden});
         shapes.reach_ = std::max(shapes.reach_, half + 0.5);
     }
     shapes.addLines(pass, spec, rays, grid, clipper);
@@ -70,8 +70,8 @@ Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, con
 void PassShapes::addLines(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, const volume::Grid& grid,
                           const Clipper& clipper) {
     const double nearest = 1e-6 * length(spec.camera.target - spec.camera.eye);
-    for (std::uint32_t look = 0; look < pass.lines.size(); ++look) {
-        const LineSet& set = pass.lines[look];
+    for (std::uint32_t style = 0; style < pass.lines.size(); ++style) {
+        const LineSet& set = pass.lines[style];
         const std::size_t first = lines_.size();
         for (const Line& line : set.lines) {
             const bool isShown = line.scalar < pass.styles.size() && pass.styles[line.scalar].opacity > 0;
@@ -88,7 +88,7 @@ void PassShapes::addLines(const Pass& pass, const FrameSpec& spec, const CameraR
             for (const DrawnInterval& part : clipper.cut(ray, {0, 1}))
                 addLine(fromEye + along * part.from, fromEye + along * part.to, rays, nearest);
         }
-        for (std::size_t l = first; l < lines_.size(); ++l) lines_[l].look = look;
+        for (std::size_t l = first; l < lines_.size(); ++l) lines_[l].style = style;
     }
 }
 
@@ -161,14 +161,14 @@ bool PassShapes::hasAnyIn(std::int32_t x0, std::int32_t y0, std::int32_t x1, std
     if (x1 - x0 > kMany || y1 - y0 > kMany) return true;
     for (std::int32_t y = y0; y <= y1; ++y)
         for (std::int32_t x = x0; x <= x1; ++x)
-            if (!inCell(x, y).empty()) return true;
+            if (!inSquare(x, y).empty()) return true;
     return false;
 }
 
 std::span<const std::uint32_t> PassShapes::linesIn(std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1,
                                                    std::vector<std::uint32_t>& buffer) const {
     const auto linesOf = [&](std::int32_t x, std::int32_t y) {
-        auto shapes = inCell(x, y);
+        auto shapes = inSquare(x, y);
         while (!shapes.empty() && shapes.back() >= kTriangle) shapes = shapes.first(shapes.size() - 1);
         return shapes;
     };
@@ -187,7 +187,7 @@ std::span<const std::uint32_t> PassShapes::linesIn(std::int32_t x0, std::int32_t
 PassShapes::Square PassShapes::boundsOf(std::uint32_t shape) const noexcept {
     if (shape < kTriangle) {
         const PictureLine& line = lines_[shape];
-        const double reach = looks_[line.look].halfWidth + 0.5;
+        const double reach = lineStyles_[line.style].halfWidth + 0.5;
         return {std::min(line.x, line.x + line.dx) - reach, std::min(line.y, line.y + line.dy) - reach,
                 std::max(line.x, line.x + line.dx) + reach, std::max(line.y, line.y + line.dy) + reach};
     }
@@ -208,7 +208,7 @@ bool PassShapes::touches(std::uint32_t shape, const Square& square) const noexce
     const double halfX = (square.right - square.left) / 2, halfY = (square.bottom - square.top) / 2;
     if (shape < kTriangle) {
         const PictureLine& line = lines_[shape];
-        const double reach = looks_[line.look].halfWidth + 0.5;
+        const double reach = lineStyles_[line.style].halfWidth + 0.5;
         return !isOutside(line.x, line.y, line.dx, line.dy, middleX, middleY, halfX + reach, halfY + reach);
     }
     const std::array<double, 6>& o = outlines_[shape - kTriangle];
@@ -228,10 +228,10 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
     const auto up = [](double pixels, std::int32_t step) {
         return (static_cast<std::int32_t>(pixels) + step - 1) / step;
     };
-    cellsX_ = up(std::ceil(width_ + margin_), kCellPixels);
-    cellsY_ = up(std::ceil(height_ + margin_), kCellPixels);
-    tilesX_ = up(cellsX_, kTileCells);
-    tilesY_ = up(cellsY_, kTileCells);
+    squaresX_ = up(std::ceil(width_ + margin_), kSquarePixels);
+    squaresY_ = up(std::ceil(height_ + margin_), kSquarePixels);
+    tilesX_ = up(squaresX_, kTileSquares);
+    tilesY_ = up(squaresY_, kTileSquares);
     tiles_.resize(static_cast<std::size_t>(tilesX_) * static_cast<std::size_t>(tilesY_));
     std::size_t entries = 0;
     const auto add = [&](std::uint32_t shape) {
@@ -264,8 +264,8 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
     const std::size_t most = kMaxEntries / tiles_.size();
     parallelFor(tiles_.size(), 16, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t)
-            sortIntoCells(tiles_[t], static_cast<std::int32_t>(t) % tilesX_, static_cast<std::int32_t>(t) / tilesX_,
-                          most);
+            sortIntoSquares(tiles_[t], static_cast<std::int32_t>(t) % tilesX_, static_cast<std::int32_t>(t) / tilesX_,
+                            most);
     });
     return {};
 }
@@ -273,7 +273,7 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
 // Range of x that a line covers between two rows of pixels; empty if first > second.
 std::pair<double, double> PassShapes::spanOf(const PictureLine& line, double top, double bottom) const noexcept {
     constexpr double kRounding = 0.01;
-    const double reach = looks_[line.look].halfWidth + 0.5 + kRounding;
+    const double reach = lineStyles_[line.style].halfWidth + 0.5 + kRounding;
     double begin = 0, end = 1;
     if (std::abs(line.dy) > 1e-9) {
         const double a = (top - reach - line.y) / line.dy, b = (bottom + reach - line.y) / line.dy;
@@ -286,54 +286,55 @@ std::pair<double, double> PassShapes::spanOf(const PictureLine& line, double top
 }
 
 // Bins the shapes of a tile into its squares. Squares at the border of the picture also serve rays outside of it.
-void PassShapes::sortIntoCells(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const {
-    constexpr std::size_t kCells = std::size_t{kTileCells} * kTileCells;
-    if (tile.shapes.empty() || tile.shapes.size() * kCells > std::max<std::size_t>(most, kCells)) return;
+void PassShapes::sortIntoSquares(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const {
+    constexpr std::size_t kSquares = std::size_t{kTileSquares} * kTileSquares;
+    if (tile.shapes.empty() || tile.shapes.size() * kSquares > std::max<std::size_t>(most, kSquares)) return;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // square, shape
     for (const std::uint32_t shape : tile.shapes) {
         const Square bounds = boundsOf(shape);
-        const auto cellAt = [this](double pixel, std::int32_t tileAt) {
-            return static_cast<std::int32_t>(
-                std::clamp(std::floor((pixel - beginOf(tileAt, kTilePixels)) / kCellPixels), 0.0, kTileCells - 1.0));
+        const auto squareAt = [this](double pixel, std::int32_t tileAt) {
+            return static_cast<std::int32_t>(std::clamp(
+                std::floor((pixel - beginOf(tileAt, kTilePixels)) / kSquarePixels), 0.0, kTileSquares - 1.0));
         };
-        const std::int32_t endX = cellAt(bounds.right + kMargin, tileX), endY = cellAt(bounds.bottom + kMargin, tileY);
+        const std::int32_t endX = squareAt(bounds.right + kMargin, tileX),
+                           endY = squareAt(bounds.bottom + kMargin, tileY);
         if (shape < kTriangle) {
             // Row by row of squares.
             const double left = beginOf(tileX, kTilePixels), right = left + kTilePixels;
-            for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y) {
-                const std::int32_t row = tileY * kTileCells + y;
-                const double cellTop = beginOf(row, kCellPixels) - (row == 0 ? kMargin : 0);
-                const double cellBottom = beginOf(row + 1, kCellPixels) + (row >= cellsY_ - 1 ? kMargin : 0);
-                const auto [first, last] = spanOf(lines_[shape], cellTop, cellBottom);
+            for (std::int32_t y = squareAt(bounds.top - kMargin, tileY); y <= endY; ++y) {
+                const std::int32_t row = tileY * kTileSquares + y;
+                const double squareTop = beginOf(row, kSquarePixels) - (row == 0 ? kMargin : 0);
+                const double squareBottom = beginOf(row + 1, kSquarePixels) + (row >= squaresY_ - 1 ? kMargin : 0);
+                const auto [first, last] = spanOf(lines_[shape], squareTop, squareBottom);
                 if (!(last >= left - kMargin && first <= right + kMargin)) continue;
-                const std::int32_t end = cellAt(last, tileX);
-                for (std::int32_t x = cellAt(first, tileX); x <= end; ++x)
-                    found.emplace_back(static_cast<std::uint32_t>(x + kTileCells * y), shape);
+                const std::int32_t end = squareAt(last, tileX);
+                for (std::int32_t x = squareAt(first, tileX); x <= end; ++x)
+                    found.emplace_back(static_cast<std::uint32_t>(x + kTileSquares * y), shape);
             }
             continue;
         }
-        for (std::int32_t y = cellAt(bounds.top - kMargin, tileY); y <= endY; ++y)
-            for (std::int32_t x = cellAt(bounds.left - kMargin, tileX); x <= endX; ++x) {
-                Square square{beginOf(tileX * kTileCells + x, kCellPixels),
-                              beginOf(tileY * kTileCells + y, kCellPixels), 0, 0};
-                square.right = square.left + kCellPixels;
-                square.bottom = square.top + kCellPixels;
-                const std::int32_t cellX = tileX * kTileCells + x, cellY = tileY * kTileCells + y;
-                if (cellX == 0) square.left -= kMargin;
-                if (cellY == 0) square.top -= kMargin;
-                if (cellX >= cellsX_ - 1) square.right += kMargin;
-                if (cellY >= cellsY_ - 1) square.bottom += kMargin;
+        for (std::int32_t y = squareAt(bounds.top - kMargin, tileY); y <= endY; ++y)
+            for (std::int32_t x = squareAt(bounds.left - kMargin, tileX); x <= endX; ++x) {
+                Square square{beginOf(tileX * kTileSquares + x, kSquarePixels),
+                              beginOf(tileY * kTileSquares + y, kSquarePixels), 0, 0};
+                square.right = square.left + kSquarePixels;
+                square.bottom = square.top + kSquarePixels;
+                const std::int32_t squareX = tileX * kTileSquares + x, squareY = tileY * kTileSquares + y;
+                if (squareX == 0) square.left -= kMargin;
+                if (squareY == 0) square.top -= kMargin;
+                if (squareX >= squaresX_ - 1) square.right += kMargin;
+                if (squareY >= squaresY_ - 1) square.bottom += kMargin;
                 const bool isApart = bounds.right < square.left || bounds.left > square.right ||
                                      bounds.bottom < square.top || bounds.top > square.bottom;
                 if (!isApart && touches(shape, square))
-                    found.emplace_back(static_cast<std::uint32_t>(x + kTileCells * y), shape);
+                    found.emplace_back(static_cast<std::uint32_t>(x + kTileSquares * y), shape);
             }
     }
-    tile.starts.assign(kCells + 1, 0);
-    for (const auto& [cell, shape] : found) ++tile.starts[cell + 1];
-    for (std::size_t cell = 0; cell < kCells; ++cell) tile.starts[cell + 1] += tile.starts[cell];
+    tile.starts.assign(kSquares + 1, 0);
+    for (const auto& [square, shape] : found) ++tile.starts[square + 1];
+    for (std::size_t square = 0; square < kSquares; ++square) tile.starts[square + 1] += tile.starts[square];
     std::vector<std::uint32_t> at(tile.starts.begin(), tile.starts.end() - 1), sorted(found.size());
-    for (const auto& [cell, shape] : found) sorted[at[cell]++] = shape;
+    for (const auto& [square, shape] : found) sorted[at[square]++] = shape;
     tile.shapes = std::move(sorted);
 }
 

@@ -77,7 +77,7 @@ struct PreparedFrame {
     /// since most pixels then have one sample.
     double lineSamples = 1;
 
-    /// The camera's rays, for all that does not depend on the volume: not for CameraRay::index.
+    /// The camera's rays, for all that does not depend on the volume: not for CameraRay::voxelRay.
     [[nodiscard]] const CameraRays& rays() const noexcept { return volumes.front().rays; }
     [[nodiscard]] const PreparedVolume& volumeOf(std::size_t pass) const noexcept {
         return volumes[passes[pass].volume];

@@ -47,13 +47,13 @@ std::vector<Vec3d> directionsOfPlanes(const BrickVolume::Arrays& volume) {
         std::size_t boxes;
     };
     constexpr double kSame = 0.999;  // cosine; 2.6 degrees
-    std::vector<std::size_t> boxesOf(volume.oblique.size());
+    std::vector<std::size_t> boxesOf(volume.planes.size());
     for (const BrickVolume::BoxCoding& code : volume.codes)
         for (const std::uint32_t plane : code.plane)
             if (plane != BrickVolume::kNoPlane) ++boxesOf[plane];
     std::vector<Direction> found;
     for (std::size_t plane = 0; plane < boxesOf.size(); ++plane) {
-        const Vec3d normal = normalized(volume.oblique[plane].normal);
+        const Vec3d normal = normalized(volume.planes[plane].normal);
         const auto same = std::find_if(found.begin(), found.end(), [&](const Direction& other) {
             return std::abs(dot(other.normal, normal)) > kSame;
         });
@@ -82,7 +82,7 @@ std::vector<std::uint8_t> findVisible(const BrickVolume::Arrays& volume, const P
         visible.push_back(table[volume.boxes[box].scalar].kind != LinearStyle::Kind::Hidden);
     for (std::size_t box = volume.uniformBoxes; box < volume.boxes.size(); ++box) {
         const BrickVolume::BoxCoding& code = volume.codes[volume.boxes[box].scalar];
-        visible.push_back(isAny(code.cells, std::size_t{1} << sideCount(code)));
+        visible.push_back(isAny(code.firstSideScalar, std::size_t{1} << sideCount(code)));
     }
     for (const BrickVolume::PaletteBrick& brick : volume.bricks)
         visible.push_back(isAny(brick.palette, brick.paletteSize));
@@ -164,12 +164,12 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     if (extents.low[0] > extents.high[0]) return;
     isEmpty_ = false;
     const CameraRays::Basis basis = rays.basis();
-    const Vec3d right = basis.rightIndex * basis.halfWidth, up = basis.upIndex * basis.halfHeight;
+    const Vec3d right = basis.rightVoxel * basis.halfWidth, up = basis.upVoxel * basis.halfHeight;
     for (std::size_t n = 0; n < directions.size(); ++n) {
         // The directions as rounded to float.
         const Vec3d along{double(extents.x[n]), double(extents.y[n]), double(extents.z[n])};
-        rise_.middle[n] = dot(along, basis.forwardIndex);
-        height_.middle[n] = dot(along, basis.eyeIndex);
+        rise_.middle[n] = dot(along, basis.forwardVoxel);
+        height_.middle[n] = dot(along, basis.eyeVoxel);
         Linear& moved = rays.isPerspective() ? rise_ : height_;
         moved.byU[n] = dot(along, right);
         moved.byV[n] = dot(along, up);
@@ -178,7 +178,7 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     }
 }
 
-RaySpan VisibleHull::around(const ViewRect& rect) const noexcept {
+RaySpan VisibleHull::spanOf(const ViewRect& rect) const noexcept {
     if (isEmpty_) return {0, 0};
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double u = (rect.left + rect.right) / 2, v = (rect.low + rect.high) / 2;

@@ -30,7 +30,7 @@ public:
 
     /// An interval of t outside of which no ray through `rect` meets anything visible (conservative); empty if none
     /// does. Cost: some hundred cycles.
-    [[nodiscard]] RaySpan around(const ViewRect& rect) const noexcept;
+    [[nodiscard]] RaySpan spanOf(const ViewRect& rect) const noexcept;
 
     static constexpr std::size_t kSlabs = 24;
 

@@ -1,5 +1,5 @@
 #include <svt/render/prepare/visible_hull.hpp>
-#include <svt/render/scene_test.hpp>
+#include <svt/render/test_volume_test.hpp>
 #include <svt/render/walk/run_walk.hpp>
 
 #include <gtest/gtest.h>
@@ -54,13 +54,13 @@ void expectHeld(const TestVolume& volume, const FrameSpec& spec) {
     for (int square = 0; square < kSquares; ++square) {
         const double u = place(random), v = place(random), side = square % 2 == 0 ? 0.02 : size(random);
         const ViewRect rect{u, u + side, v, v + side};
-        const RaySpan span = hull.around(rect);
+        const RaySpan span = hull.spanOf(rect);
         for (int n = 0; n < 20; ++n) {
             const double s = n == 0 ? 0 : n == 1 ? 1 : (place(random) + 1) / 2, t = n < 2 ? s : (place(random) + 1) / 2;
             const CameraRay ray = rays.at(u + s * side, v + t * side);
-            const RaySpan inside = spanInVolume(ray.index, volume.bricks.dimension());
+            const RaySpan inside = spanInVolume(ray.voxelRay, volume.bricks.dimension());
             Extent extent(table);
-            if (inside.from < inside.to) walkRuns(volume.bricks, ray.index, inside.from, inside.to, extent);
+            if (inside.from < inside.to) walkRuns(volume.bricks, ray.voxelRay, inside.from, inside.to, extent);
             if (!(extent.first < extent.last)) continue;
             EXPECT_LT(span.from, extent.first) << rect.left << ' ' << rect.low;
             EXPECT_GT(span.to, extent.last) << rect.left << ' ' << rect.low;
@@ -100,7 +100,7 @@ TEST(VisibleHull, IsTightAroundATurnedWall) {
             bool isShown = false;
             for (int n = 0; n < kSide * kSide; ++n)
                 isShown = isShown || frame.label.at(x + n % kSide, y + n / kSide) != 0;
-            const RaySpan span = hull.around({2.0 * x / spec.width - 1, 2.0 * (x + kSide) / spec.width - 1,
+            const RaySpan span = hull.spanOf({2.0 * x / spec.width - 1, 2.0 * (x + kSide) / spec.width - 1,
                                               1 - 2.0 * (y + kSide) / spec.height, 1 - 2.0 * y / spec.height});
             shown += isShown ? 1 : 0;
             told += span.from < span.to ? 1 : 0;
@@ -119,7 +119,7 @@ TEST(VisibleHull, HoldsWhatIsVisibleAlone) {
     const VisibleHull hull(volume.bricks, PassTable(spec.passes[0], {}, 3), rays, 1);
     const auto isAnyAt = [&](double x) {  // metres
         const double u = (x - 3.2) / (4 * 320.0 / 240);
-        const RaySpan span = hull.around({u - 1e-3, u + 1e-3, -1e-3, 1e-3});
+        const RaySpan span = hull.spanOf({u - 1e-3, u + 1e-3, -1e-3, 1e-3});
         return span.from < span.to;
     };
     EXPECT_FALSE(isAnyAt(0.4)) << "hidden";
@@ -127,7 +127,7 @@ TEST(VisibleHull, HoldsWhatIsVisibleAlone) {
     EXPECT_TRUE(isAnyAt(4.4));
     EXPECT_FALSE(isAnyAt(4.9));
     const PassTable nothing({std::vector<Style>(3, Style{{}, 0}), {}, Pass::Join::Over}, {}, 3);
-    const RaySpan span = VisibleHull(volume.bricks, nothing, rays, 1).around({-1, 1, -1, 1});
+    const RaySpan span = VisibleHull(volume.bricks, nothing, rays, 1).spanOf({-1, 1, -1, 1});
     EXPECT_FALSE(span.from < span.to);
 }
 

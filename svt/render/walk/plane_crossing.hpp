@@ -43,24 +43,24 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
     const Vec3d point = ray.origin + ray.direction * t;
     for (const std::uint32_t number : planes) {
         if (number == volume::BrickVolume::kNoPlane) continue;
-        const volume::BrickPlane& plane = volume.oblique()[number];
+        const volume::BrickPlane& plane = volume.planes()[number];
         const double distance = dot(plane.normal, point) + plane.offset;
         if (std::abs(distance) < 0.75 && std::abs(plane.normal[axis]) > 0.2) return number;
     }
     return volume::BrickVolume::kNoPlane;
 }
-/// The plane of the seam at which a ray enters `cell` at t, of the brick entered or of the one left;
+/// The plane of the seam at which a ray enters `voxel` at t, of the brick entered or of the one left;
 /// BrickVolume::kNoPlane if this is not on a face of a brick, or no plane is near.
 [[nodiscard]] inline std::uint32_t seamPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t,
-                                             Vec3i cell) noexcept {
-    const int axis = ray.entryAxis(t, cell);
+                                             Vec3i voxel) noexcept {
+    const int axis = ray.entryAxis(t, voxel);
     if (axis < 0) return volume::BrickVolume::kNoPlane;
-    const std::int32_t face = ray.step[axis] < 0 ? cell[axis] + 1 : cell[axis];
+    const std::int32_t face = ray.step[axis] < 0 ? voxel[axis] + 1 : voxel[axis];
     if ((face & 7) != 0) return volume::BrickVolume::kNoPlane;
-    const BrickPlanes entered = planesOf(volume, volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3));
+    const BrickPlanes entered = planesOf(volume, volume.entry(voxel.x >> 3, voxel.y >> 3, voxel.z >> 3));
     const std::uint32_t plane = nearPlane(volume, ray, t, axis, entered);
     if (plane != volume::BrickVolume::kNoPlane) return plane;
-    Vec3i left = cell;
+    Vec3i left = voxel;
     left[axis] -= ray.step[axis];
     return nearPlane(volume, ray, t, axis, planesOf(volume, volume.entry(left.x >> 3, left.y >> 3, left.z >> 3)));
 }

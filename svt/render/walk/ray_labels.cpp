@@ -10,25 +10,25 @@ namespace {
 
 struct Collector {
     const std::vector<std::uint32_t>& labelOf;
-    std::vector<RayStretch> stretches;
+    std::vector<LabelInterval> intervals;
 
     bool enter(volume::Scalar, double, const RunStart&) const noexcept { return false; }
     // Consecutive runs of one label (the phases of its pattern) are one interval.
     bool leave(volume::Scalar scalar, double from, double to) {
         const std::uint32_t label = labelOf[scalar];
         if (label == volume::kNoLabel || !(from < to)) return false;
-        if (!stretches.empty() && stretches.back().label == label && stretches.back().leave == from)
-            stretches.back().leave = to;
+        if (!intervals.empty() && intervals.back().label == label && intervals.back().leave == from)
+            intervals.back().leave = to;
         else
-            stretches.push_back({label, from, to});
+            intervals.push_back({label, from, to});
         return false;
     }
 };
 
 }  // namespace
 
-Result<std::vector<RayStretch>> labelsAlong(const volume::BrickVolume& bricks, const volume::Grid& grid,
-                                            const volume::LabelTable& labels, Vec3d origin, Vec3d direction) {
+Result<std::vector<LabelInterval>> labelsAlong(const volume::BrickVolume& bricks, const volume::Grid& grid,
+                                               const volume::LabelTable& labels, Vec3d origin, Vec3d direction) {
     if (!isFinite(origin) || !isFinite(direction) || !(length(direction) > 0))
         return Error(Code::BadArgument,
                      fmt::format("a ray from ({}, {}, {}) along ({}, {}, {}): expected finite numbers and a direction "
@@ -37,11 +37,11 @@ Result<std::vector<RayStretch>> labelsAlong(const volume::BrickVolume& bricks, c
     const VoxelRay ray(grid.indexFromWorld(origin) + Vec3d{0.5, 0.5, 0.5},
                        grid.indexFromWorldDirection(normalized(direction)));
     const RaySpan span = spanInVolume(ray, bricks.dimension());
-    if (!(span.from < span.to)) return std::vector<RayStretch>{};
+    if (!(span.from < span.to)) return std::vector<LabelInterval>{};
     const std::vector<std::uint32_t> labelOf = labels.labelOfScalar();
     Collector collector{labelOf, {}};
     walkRuns(bricks, ray, span.from, span.to, collector);
-    return std::move(collector.stretches);
+    return std::move(collector.intervals);
 }
 
 }  // namespace svt::render

@@ -35,9 +35,9 @@ TEST(RayLabels, AreThoseAlongAnAxisInMetres) {
                                        {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
     const auto along = labelsAlong(*bricks, grid, twoLabels(), {98.75, 202, 302}, {3, 0, 0});
     ASSERT_TRUE(along);
-    // The grid's voxels begin at 99.75; both scalars of label 0 are one stretch.
+    // The grid's voxels begin at 99.75; both scalars of label 0 are one interval.
     ASSERT_EQ(along->size(), 3u);
-    const RayStretch expected[] = {{0, 2.5, 5.5}, {1, 5.5, 7}, {0, 8.5, 11}};
+    const LabelInterval expected[] = {{0, 2.5, 5.5}, {1, 5.5, 7}, {0, 8.5, 11}};
     for (std::size_t s = 0; s < 3; ++s) {
         EXPECT_EQ((*along)[s].label, expected[s].label);
         EXPECT_NEAR((*along)[s].enter, expected[s].enter, 1e-12);

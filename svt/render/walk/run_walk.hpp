@@ -22,7 +22,7 @@ namespace svt::render {
 /// The start of a run: its voxel; the oblique plane that the ray crosses there, or whose seam it is on; and whether the
 /// brick is one of voxels only.
 struct RunStart {
-    Vec3i cell;
+    Vec3i voxel;
     std::uint32_t plane = volume::BrickVolume::kNoPlane;
     bool isVoxel = false;
 };
@@ -45,9 +45,9 @@ public:
           runStart_(from) {}
 
     void walk() {
-        cell_ = ray_.cellAt(t_, count_);
+        voxel_ = ray_.voxelAt(t_, count_);
         while (true) {
-            const volume::BrickVolume::Entry entry = volume_.entry(cell_.x >> 3, cell_.y >> 3, cell_.z >> 3);
+            const volume::BrickVolume::Entry entry = volume_.entry(voxel_.x >> 3, voxel_.y >> 3, voxel_.z >> 3);
             const bool isDone = !entry.isMixed()  ? crossBox(entry)
                                 : entry.isCoded() ? crossCoded(entry)
                                                   : crossVoxels(entry);
@@ -62,11 +62,11 @@ private:
     bool moveTo(volume::Scalar scalar, std::uint32_t plane = volume::BrickVolume::kNoPlane, bool isVoxel = false) {
         if (!isFirst_ && scalar == runScalar_) return false;
         if (!isFirst_ && visitor_.leave(runScalar_, runStart_, t_)) return true;
-        if (!isFirst_ && plane == volume::BrickVolume::kNoPlane) plane = seamPlane(volume_, ray_, t_, cell_);
+        if (!isFirst_ && plane == volume::BrickVolume::kNoPlane) plane = seamPlane(volume_, ray_, t_, voxel_);
         isFirst_ = false;
         runScalar_ = scalar;
         runStart_ = t_;
-        return visitor_.enter(scalar, t_, RunStart{cell_, plane, isVoxel});
+        return visitor_.enter(scalar, t_, RunStart{voxel_, plane, isVoxel});
     }
 
     // Where the ray leaves the voxels [min, max): by axis the time and the plane, and the earliest of the times.
@@ -89,8 +89,8 @@ private:
         t_ = exit.time;
         if (!(t_ < to_)) return;
         forEachAxis([&](auto axis) {
-            cell_[axis] = exit.leave[axis] == t_ ? exit.plane[axis] - (ray_.step[axis] < 0 ? 1 : 0)
-                                                 : ray_.cellAt(axis, t_, count_[axis]);
+            voxel_[axis] = exit.leave[axis] == t_ ? exit.plane[axis] - (ray_.step[axis] < 0 ? 1 : 0)
+                                                  : ray_.voxelAt(axis, t_, count_[axis]);
         });
     }
 
@@ -107,48 +107,48 @@ private:
         const volume::BrickVolume::BoxCoding& coding = volume_.coding(entry);
         const Exit exit = exitOf([&](int axis) { return std::int32_t{box.min[static_cast<std::size_t>(axis)]}; },
                                  [&](int axis) { return std::int32_t{box.max[static_cast<std::size_t>(axis)]}; });
-        // The cuts and planes, in the order of the bits of a cell's number: when the ray crosses each, and whether it
-        // is beyond it after or before that time.
+        // The cuts and planes, in the order of the bits of a side combination: when the ray crosses each, and whether
+        // it is beyond it after or before that time.
         struct Side {
             double time;
             bool isBeyondAfter;
             int axis;
             std::uint32_t plane;
         };
-        std::array<Side, volume::BrickVolume::kMostSides> sides;
+        std::array<Side, volume::BrickVolume::kMaxSides> sides;
         std::size_t count = 0;
         forEachAxis([&](auto axis) {
             if (!coding.hasCut(axis)) return;
             const std::int32_t place = coding.cut[static_cast<std::size_t>(axis)];
             Side side{ray_.planeTime(axis, place), ray_.step[axis] > 0, axis, volume::BrickVolume::kNoPlane};
             // A ray with zero direction on this axis stays on one side.
-            if (ray_.step[axis] == 0) side.isBeyondAfter = cell_[axis] < place;
+            if (ray_.step[axis] == 0) side.isBeyondAfter = voxel_[axis] < place;
             sides[count++] = side;
         });
         for (const std::uint32_t plane : coding.plane) {
             if (plane == volume::BrickVolume::kNoPlane) continue;
-            const PlaneCrossing crossing(volume_.oblique()[plane], ray_);
+            const PlaneCrossing crossing(volume_.planes()[plane], ray_);
             sides[count++] = {crossing.time, crossing.isRising, -1, plane};
         }
         std::uint32_t crossed = volume::BrickVolume::kNoPlane;
         while (true) {
-            std::size_t cell = 0;
+            std::size_t combination = 0;
             double next = exit.time;
             const Side* nextSide = nullptr;
             for (std::size_t s = 0; s < count; ++s) {
                 const bool isAfter = t_ >= sides[s].time;
-                cell |= std::size_t{isAfter == sides[s].isBeyondAfter} << s;
+                combination |= std::size_t{isAfter == sides[s].isBeyondAfter} << s;
                 if (!isAfter && sides[s].time < next) {
                     next = sides[s].time;
                     nextSide = &sides[s];
                 }
             }
-            if (moveTo(volume_.cellScalar(coding, cell), crossed)) return true;
+            if (moveTo(volume_.sideScalar(coding, combination), crossed)) return true;
             if (nextSide == nullptr) break;
             t_ = next;
             if (!(t_ < to_)) return false;
             crossed = nextSide->plane;
-            forEachAxis([&](auto axis) { cell_[axis] = ray_.cellAt(axis, t_, count_[axis]); });
+            forEachAxis([&](auto axis) { voxel_[axis] = ray_.voxelAt(axis, t_, count_[axis]); });
         }
         leaveBy(exit);
         return false;
@@ -156,20 +156,20 @@ private:
 
     bool crossVoxels(volume::BrickVolume::Entry entry) {
         const volume::BrickVolume::MixedBrick mixed = volume_.mixedBrick(entry);
-        const Vec3i brick{cell_.x >> 3, cell_.y >> 3, cell_.z >> 3};
-        Vec3d leave{ray_.leaveTime(0, cell_.x), ray_.leaveTime(1, cell_.y), ray_.leaveTime(2, cell_.z)};
+        const Vec3i brick{voxel_.x >> 3, voxel_.y >> 3, voxel_.z >> 3};
+        Vec3d leave{ray_.leaveTime(0, voxel_.x), ray_.leaveTime(1, voxel_.y), ray_.leaveTime(2, voxel_.z)};
         do {
-            if (moveTo(mixed.scalarAt(cell_.x & 7, cell_.y & 7, cell_.z & 7), volume::BrickVolume::kNoPlane, true))
+            if (moveTo(mixed.scalarAt(voxel_.x & 7, voxel_.y & 7, voxel_.z & 7), volume::BrickVolume::kNoPlane, true))
                 return true;
             t_ = std::min({leave.x, leave.y, leave.z});
             if (!(t_ < to_)) return false;
             forEachAxis([&](auto axis) {
                 while (leave[axis] <= t_) {
-                    cell_[axis] += ray_.step[axis];
-                    leave[axis] = ray_.leaveTime(axis, cell_[axis]);
+                    voxel_[axis] += ray_.step[axis];
+                    leave[axis] = ray_.leaveTime(axis, voxel_[axis]);
                 }
             });
-        } while ((((cell_.x >> 3) ^ brick.x) | ((cell_.y >> 3) ^ brick.y) | ((cell_.z >> 3) ^ brick.z)) == 0);
+        } while ((((voxel_.x >> 3) ^ brick.x) | ((voxel_.y >> 3) ^ brick.y) | ((voxel_.z >> 3) ^ brick.z)) == 0);
         return false;
     }
 
@@ -177,7 +177,7 @@ private:
     const VoxelRay& ray_;
     Vec3i count_;
     Visitor& visitor_;
-    Vec3i cell_{};
+    Vec3i voxel_{};
     double t_, to_, runStart_;
     volume::Scalar runScalar_ = 0;
     bool isFirst_ = true;
@@ -193,23 +193,24 @@ void walkRuns(const volume::BrickVolume& volume, const VoxelRay& ray, double fro
 template <class Visitor>
 void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, double from, double to,
                        Visitor& visitor) {
-    Vec3i cell = ray.cellAt(from, volume.dimension());
+    Vec3i voxel = ray.voxelAt(from, volume.dimension());
     double t = from, runStart = from;
     volume::Scalar runScalar = 0;
     bool isFirst = true;
     const auto moveTo = [&](volume::Scalar scalar, std::uint32_t plane, bool isVoxel) {
         if (!isFirst && scalar == runScalar) return false;
         if (!isFirst && visitor.leave(runScalar, runStart, t)) return true;
-        if (!isFirst && plane == volume::BrickVolume::kNoPlane) plane = seamPlane(volume, ray, t, cell);
+        if (!isFirst && plane == volume::BrickVolume::kNoPlane) plane = seamPlane(volume, ray, t, voxel);
         isFirst = false;
         runScalar = scalar;
         runStart = t;
-        return visitor.enter(scalar, t, RunStart{cell, plane, isVoxel});
+        return visitor.enter(scalar, t, RunStart{voxel, plane, isVoxel});
     };
     std::uint32_t crossed = volume::BrickVolume::kNoPlane;
     while (true) {
-        const double leave = std::min({ray.leaveTime(0, cell.x), ray.leaveTime(1, cell.y), ray.leaveTime(2, cell.z)});
-        const volume::BrickVolume::Entry entry = volume.entry(cell.x >> 3, cell.y >> 3, cell.z >> 3);
+        const double leave =
+            std::min({ray.leaveTime(0, voxel.x), ray.leaveTime(1, voxel.y), ray.leaveTime(2, voxel.z)});
+        const volume::BrickVolume::Entry entry = volume.entry(voxel.x >> 3, voxel.y >> 3, voxel.z >> 3);
         double next = leave;
         if (planesOf(volume, entry) != kNoPlanes) {
             const volume::BrickVolume::BoxCoding& coding = volume.coding(entry);
@@ -217,11 +218,11 @@ void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, d
             int bit = 0;
             for (int axis = 0; axis < 3; ++axis)
                 if (coding.hasCut(axis))
-                    side |= std::size_t{cell[axis] >= coding.cut[static_cast<std::size_t>(axis)]} << bit++;
+                    side |= std::size_t{voxel[axis] >= coding.cut[static_cast<std::size_t>(axis)]} << bit++;
             std::uint32_t nextPlane = volume::BrickVolume::kNoPlane;
             for (const std::uint32_t plane : coding.plane) {
                 if (plane == volume::BrickVolume::kNoPlane) continue;
-                const PlaneCrossing crossing(volume.oblique()[plane], ray);
+                const PlaneCrossing crossing(volume.planes()[plane], ray);
                 side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
                 // A plane may be crossed exactly where the ray leaves the voxel; then it counts as crossed, too.
                 const bool isFirstPlane = nextPlane == volume::BrickVolume::kNoPlane;
@@ -230,20 +231,20 @@ void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, d
                     nextPlane = plane;
                 }
             }
-            if (moveTo(volume.cellScalar(coding, side), crossed, false)) return;
+            if (moveTo(volume.sideScalar(coding, side), crossed, false)) return;
             crossed = nextPlane;
         } else {
             const bool isVoxel = entry.isMixed() && !entry.isCoded();
-            if (moveTo(volume.scalarAt(cell.x, cell.y, cell.z), volume::BrickVolume::kNoPlane, isVoxel)) return;
+            if (moveTo(volume.scalarAt(voxel.x, voxel.y, voxel.z), volume::BrickVolume::kNoPlane, isVoxel)) return;
             crossed = volume::BrickVolume::kNoPlane;
         }
         t = next;
         if (!(t < to)) break;
         if (t < leave) continue;
-        const Vec3i brick{cell.x >> 3, cell.y >> 3, cell.z >> 3};
+        const Vec3i brick{voxel.x >> 3, voxel.y >> 3, voxel.z >> 3};
         for (int axis = 0; axis < 3; ++axis)
-            while (ray.leaveTime(axis, cell[axis]) <= t) cell[axis] += ray.step[axis];
-        if (brick != Vec3i{cell.x >> 3, cell.y >> 3, cell.z >> 3}) crossed = volume::BrickVolume::kNoPlane;
+            while (ray.leaveTime(axis, voxel[axis]) <= t) voxel[axis] += ray.step[axis];
+        if (brick != Vec3i{voxel.x >> 3, voxel.y >> 3, voxel.z >> 3}) crossed = volume::BrickVolume::kNoPlane;
     }
     visitor.leave(runScalar, runStart, to);
 }

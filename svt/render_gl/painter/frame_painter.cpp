@@ -200,12 +200,12 @@ void FramePainter::setView(Program& program) const {
     const Vec3d middle = toDouble(parts_->textures.middle);
     const double depth = middleDepthOf(spec.camera, rays, grid, parts_->textures.middle);
     const bool isPerspective = rays.isPerspective();
-    const Vec3d right = basis.rightIndex * basis.halfWidth, up = basis.upIndex * basis.halfHeight;
+    const Vec3d right = basis.rightVoxel * basis.halfWidth, up = basis.upVoxel * basis.halfHeight;
     const double reach = isPerspective ? depth : 1, turn = isPerspective ? 1 : 0;
-    program.set("rayMiddle", basis.eyeIndex + basis.forwardIndex * depth - middle);
+    program.set("rayMiddle", basis.eyeVoxel + basis.forwardVoxel * depth - middle);
     program.set("rayRight", right * reach);
     program.set("rayUp", up * reach);
-    program.set("directionAhead", basis.forwardIndex);
+    program.set("directionAhead", basis.forwardVoxel);
     program.set("directionRight", right * turn);
     program.set("directionUp", up * turn);
     program.set("worldAhead", basis.forward);
@@ -216,7 +216,7 @@ void FramePainter::setView(Program& program) const {
     program.set("worldOriginRight", basis.right * (basis.halfWidth * reach));
     program.set("worldOriginUp", basis.up * (basis.halfHeight * reach));
     // 1e-4 voxel, converted to depth.
-    program.set("clipSlack", 1e-4 / length(basis.forwardIndex));
+    program.set("clipSlack", 1e-4 / length(basis.forwardVoxel));
 
     const render::Light& light = spec.light;
     program.set("towardsLight", towardsLight(light, rays));
@@ -292,20 +292,20 @@ void FramePainter::resolve(const PixelTile& tile, const PixelTile& window) {
     glDisable(GL_SCISSOR_TEST);
 }
 
-void FramePainter::readMiddles(const PixelTile& tile, const TakeHit& taken) {
+void FramePainter::readCenters(const PixelTile& tile, const HitCallback& taken) {
     // A single sample is at the pixel's centre.
     if (side_ > 1) return pick(tile, taken);
     targets_[last_].bind({color_[last_].name(), hit_[last_].name()});
     readHits(margin_, tile, taken);
 }
 
-void FramePainter::pick(const PixelTile& tile, const TakeHit& taken) {
+void FramePainter::pick(const PixelTile& tile, const HitCallback& taken) {
     castGrid({double(tile.x), double(tile.y), 1, tile.width, tile.height});
     readHits(0, tile, taken);
 }
 
 // Reads hits from the bound targets, from sample (first, first) on.
-void FramePainter::readHits(std::int32_t first, const PixelTile& tile, const TakeHit& taken) {
+void FramePainter::readHits(std::int32_t first, const PixelTile& tile, const HitCallback& taken) {
     std::vector<std::array<std::uint32_t, 4>> hits(static_cast<std::size_t>(tile.width) *
                                                    static_cast<std::size_t>(tile.height));
     glReadBuffer(GL_COLOR_ATTACHMENT1);

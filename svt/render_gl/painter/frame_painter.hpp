@@ -45,11 +45,11 @@ public:
     /// Resolves the samples cast last to the pixels of `tile`, in the bound framebuffer, which covers `window`.
     void resolve(const PixelTile& tile, const PixelTile& window);
     /// Receives label and depth of the ray through a pixel's centre; x and y are relative to the tile's upper left.
-    using TakeHit = std::function<void(std::int32_t, std::int32_t, const PickedPixel&)>;
+    using HitCallback = std::function<void(std::int32_t, std::int32_t, const PickedPixel&)>;
     /// Reads the hits of the tile whose samples were cast last.
-    void readMiddles(const PixelTile& tile, const TakeHit& taken);
+    void readCenters(const PixelTile& tile, const HitCallback& taken);
     /// Casts and reads the hits of any tile.
-    void pick(const PixelTile& tile, const TakeHit& taken);
+    void pick(const PixelTile& tile, const HitCallback& taken);
 
 private:
     // Features that the shader of a pass needs, as bits.
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] Result<void> prepareCast(unsigned needs);
     [[nodiscard]] Result<void> prepareResolve();
     void castGrid(const SampleGrid& grid);
-    void readHits(std::int32_t first, const PixelTile& tile, const TakeHit& taken);
+    void readHits(std::int32_t first, const PixelTile& tile, const HitCallback& taken);
     void scissorTo(const SampleGrid& samples) const;
     void setView(Program& program) const;
     void setHatches(Program& program, int side) const;

@@ -16,15 +16,15 @@ namespace svt::render_gl {
 namespace {
 
 /// Restores the framebuffer bindings at the end of its scope.
-class KeptBindings {
+class FramebufferGuard {
 public:
-    KeptBindings() {
+    FramebufferGuard() {
         glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
         glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
     }
-    KeptBindings(const KeptBindings&) = delete;
-    KeptBindings& operator=(const KeptBindings&) = delete;
-    ~KeptBindings() {
+    FramebufferGuard(const FramebufferGuard&) = delete;
+    FramebufferGuard& operator=(const FramebufferGuard&) = delete;
+    ~FramebufferGuard() {
         bindDraw();
         glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
     }
@@ -93,7 +93,7 @@ struct GlRenderer::Parts {
             painter.resolve(tile, tile);
             readPixels(tile, frame.color);
             if (withLabels) {
-                painter.readMiddles(tile, [&](std::int32_t x, std::int32_t y, const PickedPixel& hit) {
+                painter.readCenters(tile, [&](std::int32_t x, std::int32_t y, const PickedPixel& hit) {
                     frame.label.at(tile.x + x, tile.y + y) = hit.label;
                     frame.depth.at(tile.x + x, tile.y + y) = hit.depth;
                 });
@@ -127,7 +127,7 @@ Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
         return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels is larger than a framebuffer of this "
                                                  "graphics driver, {} pixels; draw a smaller one",
                                                  spec.width, spec.height, most));
-    const KeptBindings bindings;
+    const FramebufferGuard bindings;
     if (auto prepared = parts_->prepare(spec); !prepared) return prepared;
     FramePainter& painter = parts_->painter;
     auto drawn = forTiles(spec, painter.tilePixels(), [&](const PixelTile& tile) -> Result<void> {
@@ -142,14 +142,14 @@ Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
 
 Result<render::Frame> GlRenderer::read(const render::FrameSpec& spec) {
     render::Frame frame;
-    const KeptBindings bindings;
+    const FramebufferGuard bindings;
     if (auto drawn = parts_->readTiles(spec, frame, true); !drawn) return drawn.error();
     return frame;
 }
 
 Result<image::Image<image::Rgba8>> GlRenderer::readColor(const render::FrameSpec& spec) {
     render::Frame frame;
-    const KeptBindings bindings;
+    const FramebufferGuard bindings;
     if (auto drawn = parts_->readTiles(spec, frame, false); !drawn) return drawn.error();
     return std::move(frame.color);
 }
@@ -158,7 +158,7 @@ Result<PickedPixel> GlRenderer::pick(const render::FrameSpec& spec, std::int32_t
     if (x < 0 || y < 0 || x >= spec.width || y >= spec.height)
         return Error(Code::BadArgument,
                      fmt::format("pixel ({}, {}) lies outside of a picture of {} x {}", x, y, spec.width, spec.height));
-    const KeptBindings bindings;
+    const FramebufferGuard bindings;
     if (auto prepared = parts_->prepare(spec); !prepared) return prepared.error();
     PickedPixel picked;
     parts_->painter.pick({x, y, 1, 1}, [&](std::int32_t, std::int32_t, const PickedPixel& hit) { picked = hit; });

@@ -163,7 +163,7 @@ std::vector<render::MeshTriangle> octahedra(const Model& model) {
     return triangles;
 }
 
-const std::vector<Look>& looks() {
+const std::vector<Look>& lineStyles() {
     static const std::vector<Look> all{
         {"Opaque", [](const Model& m) { return frameOf(m); }},
         {"OpaqueWithoutOcclusion",
@@ -400,7 +400,7 @@ void expectSame(const Model& model, GlRenderer& renderer, const Look& look, cons
 void expectAllSame(const Model& model, const std::string& name) {
     auto renderer = GlRenderer::make(model.bricks, model.grid);
     ASSERT_TRUE(renderer) << renderer.error().toString();
-    for (const Look& look : looks()) {
+    for (const Look& look : lineStyles()) {
         SCOPED_TRACE(look.name);
         expectSame(model, *renderer, look, name + look.name);
     }
@@ -435,8 +435,8 @@ TEST(GlRenderer, DrawsAVolumeOfVoxelsAsTheCpu) {
                       bodies()->grid};
     auto renderer = GlRenderer::make(model.bricks, model.grid);
     ASSERT_TRUE(renderer) << renderer.error().toString();
-    expectSame(model, *renderer, looks()[0], "voxelsOpaque");
-    expectSame(model, *renderer, looks()[9], "voxelsMixed");
+    expectSame(model, *renderer, lineStyles()[0], "voxelsOpaque");
+    expectSame(model, *renderer, lineStyles()[9], "voxelsMixed");
 }
 
 // Wider than a tile, with lines that reach from one into the next.

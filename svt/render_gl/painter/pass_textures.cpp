@@ -49,9 +49,9 @@ Result<void> PassTextures::update(const render::Pass& pass, const render::FrameS
                                   const volume::BrickVolume& volume, const volume::Grid& grid, Vec3i middle,
                                   const GlLimits& limits, int threads) {
     // Objects drawn as triangles are not drawn as voxels.
-    auto styles = pass.triangles.empty()
-                      ? updateStyles(pass, spec, volume.scalarCount(), limits)
-                      : updateStyles(render::voxelsOf(pass, spec.objectOfScalar), spec, volume.scalarCount(), limits);
+    auto styles = pass.triangles.empty() ? updateStyles(pass, spec, volume.scalarCount(), limits)
+                                         : updateStyles(render::makeVoxelPass(pass, spec.objectOfScalar), spec,
+                                                        volume.scalarCount(), limits);
     if (!styles) return styles;
     if (auto updated = updateClips(pass, grid, middle, limits); !updated) return updated;
     if (auto updated = shapes_.update(pass, spec, grid, middle, limits, threads); !updated) return updated;

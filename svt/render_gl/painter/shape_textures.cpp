@@ -22,12 +22,12 @@ public:
     void add(const render::PictureLine& line) {
         addFloats(line.x, line.y, line.dx, line.dy);
         addFloats(line.perSquaredLength, line.depth, line.depthChange, line.length);
-        words_.insert(words_.end(), {line.look, 0u, 0u, 0u});
+        words_.insert(words_.end(), {line.style, 0u, 0u, 0u});
     }
-    void add(const render::LineLook& look) {
-        addFloats(look.color.x, look.color.y, look.color.z, look.halfWidth);
-        addFloats(look.darkest, look.hiddenOpacity, look.dash, look.period);
-        words_.insert(words_.end(), {static_cast<std::uint32_t>(look.hidden), 0u, 0u, 0u});
+    void add(const render::LineStyle& style) {
+        addFloats(style.color.x, style.color.y, style.color.z, style.halfWidth);
+        addFloats(style.darkest, style.hiddenOpacity, style.dash, style.period);
+        words_.insert(words_.end(), {static_cast<std::uint32_t>(style.hidden), 0u, 0u, 0u});
     }
     /// \param from  origin of the corners, relative to the eye, metres
     void add(const render::PictureTriangle& triangle, Vec3d from, std::uint32_t hatch) {
@@ -52,7 +52,7 @@ private:
 /// The shapes near each square of 4 x 4 pixels.
 struct SortedShapes {
     std::uint32_t countX, countY;
-    std::vector<std::uint32_t> cells;  ///< by square: first in the list, lines, triangles, 0
+    std::vector<std::uint32_t> squares;  ///< by square: first in the list, lines, triangles, 0
     std::vector<std::uint32_t> list;
     std::uint32_t triangleCount = 0;
 
@@ -68,14 +68,14 @@ struct SortedShapes {
 private:
     void add(std::span<const std::uint32_t> near, std::unordered_map<const std::uint32_t*, std::uint32_t>& known) {
         if (near.empty()) {
-            cells.insert(cells.end(), {0u, 0u, 0u, 0u});
+            squares.insert(squares.end(), {0u, 0u, 0u, 0u});
             return;
         }
         const auto firstTriangle = std::lower_bound(near.begin(), near.end(), PassShapes::kTriangle);
         const auto lines = static_cast<std::uint32_t>(firstTriangle - near.begin());
         const auto [place, isNew] = known.try_emplace(near.data(), static_cast<std::uint32_t>(list.size()));
         if (isNew) list.insert(list.end(), near.begin(), near.end());
-        cells.insert(cells.end(), {place->second, lines, static_cast<std::uint32_t>(near.size()) - lines, 0u});
+        squares.insert(squares.end(), {place->second, lines, static_cast<std::uint32_t>(near.size()) - lines, 0u});
         if (firstTriangle != near.end())
             triangleCount = std::max(triangleCount, (near.back() & ~PassShapes::kTriangle) + 1);
     }
@@ -99,12 +99,12 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
     isPerspective_ = rays.isPerspective();
 
     const SortedShapes sorted(*shapes, spec);
-    cellsX_ = sorted.countX;
-    cellsY_ = sorted.countY;
+    squaresX_ = sorted.countX;
+    squaresY_ = sorted.countY;
     ShapeTable table;
     for (const render::PictureLine& line : shapes->lines()) table.add(line);
-    looksFirst_ = table.texels();
-    for (const render::LineLook& look : shapes->looks()) table.add(look);
+    lineStylesFirst_ = table.texels();
+    for (const render::LineStyle& style : shapes->lineStyles()) table.add(style);
     trianglesFirst_ = table.texels();
     const Vec3d from = rays.forward() * middleDepthOf(spec.camera, rays, grid, middle);
     for (std::uint32_t n = 0; n < sorted.triangleCount; ++n) {
@@ -113,22 +113,23 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
     }
     isEmpty_ = false;
     hasTriangles_ = sorted.triangleCount > 0;
-    if (auto set = cells_.setArray(GL_RGBA32UI, sorted.cells.data(), sorted.cells.size() / 4, limits); !set) return set;
+    if (auto set = squares_.setArray(GL_RGBA32UI, sorted.squares.data(), sorted.squares.size() / 4, limits); !set)
+        return set;
     if (auto set = list_.setArray(GL_R32UI, sorted.list.data(), sorted.list.size(), limits); !set) return set;
     return table_.setArray(GL_RGBA32UI, table.words().data(), table.texels(), limits);
 }
 
 void ShapeTextures::setUniforms(Program& program) const {
-    program.bind("shapeCells", cells_);
+    program.bind("shapeSquares", squares_);
     program.bind("shapeList", list_);
     program.bind("shapeTable", table_);
-    program.setPair("shapeCellCount", static_cast<GLint>(cellsX_), static_cast<GLint>(cellsY_));
-    program.set("looksFirst", GLuint{looksFirst_});
+    program.setPair("shapeSquareCount", static_cast<GLint>(squaresX_), static_cast<GLint>(squaresY_));
+    program.set("lineStylesFirst", GLuint{lineStylesFirst_});
     program.set("trianglesFirst", GLuint{trianglesFirst_});
     program.set("lineSamples", lineSamples_);
     program.set("linePixelPerDepth", isPerspective_ ? pixelSize_ : 0.0);
     program.set("linePixelSize", isPerspective_ ? 0.0 : pixelSize_);
-    program.set("lineBefore", 1.5 * voxelSize_);
+    program.set("depthBias", 1.5 * voxelSize_);
     program.set("lineTogether", 2 * voxelSize_);
 }
 

@@ -22,9 +22,9 @@ public:
     [[nodiscard]] bool hasTriangles() const noexcept { return !isEmpty_ && hasTriangles_; }
 
 private:
-    Texture cells_, list_, table_;
+    Texture squares_, list_, table_;
     bool isEmpty_ = true, hasTriangles_ = false, isPerspective_ = true;
-    std::uint32_t cellsX_ = 0, cellsY_ = 0, looksFirst_ = 0, trianglesFirst_ = 0;
+    std::uint32_t squaresX_ = 0, squaresY_ = 0, lineStylesFirst_ = 0, trianglesFirst_ = 0;
     double lineSamples_ = 1, pixelSize_ = 1, voxelSize_ = 1;
 };
 

@@ -60,7 +60,7 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
         isNarrow
             ? std::any_of(arrays.narrow.begin(), arrays.narrow.begin() + static_cast<std::ptrdiff_t>(count), isVoxels)
             : std::any_of(arrays.wide.begin(), arrays.wide.begin() + static_cast<std::ptrdiff_t>(count), isVoxels);
-    const std::vector<float> planes = planesFrom(made.middle, arrays.oblique);
+    const std::vector<float> planes = planesFrom(made.middle, arrays.planes);
 
     const std::vector<std::uint32_t> patterns = made.hasVoxels ? patternsOf(volume) : std::vector<std::uint32_t>();
 
@@ -79,7 +79,7 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
         {made.bricks, GL_RGBA32UI, arrays.bricks.data(), arrays.bricks.size(), 16},
         {made.palettes, GL_R32UI, arrays.palettes.data(), arrays.palettes.size(), 4},
         {made.words, GL_RG32UI, arrays.words.data(), arrays.words.size(), 8},
-        {made.planes, GL_RGBA32UI, planes.data(), arrays.oblique.size(), 16},
+        {made.planes, GL_RGBA32UI, planes.data(), arrays.planes.size(), 16},
         {made.patterns, GL_R32UI, patterns.data(), patterns.size(), 4}};
     for (const Upload& upload : uploads) {
         if (auto set = upload.texture.setArray(upload.form, upload.data, upload.count, limits); !set)

@@ -71,7 +71,7 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
                 break;
             }
 #endif
-            look();
+            findStep();
             if (isFirst || scalar != runScalar) {
                 runFrom = t;
                 runScalar = scalar;
@@ -105,7 +105,7 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
                 break;
             }
 #endif
-            if (stepEnd >= to || !goOn()) break;
+            if (stepEnd >= to || !takeStep()) break;
         }
         if (!isNew) break;
 #if SHAPES
@@ -130,14 +130,14 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
 }
 
 void lightSurface() {
-    float crease = 0.0;
+    float cavity = 0.0;
 #if FITTED
     bool isFitted = isVoxel && runCap == kNone && !isOblique && !isAroundEye;
-    vec3 fitted = fittedNormal(isFitted, crease);
+    vec3 fitted = fittedNormal(isFitted, cavity);
     if (isFitted) surfaceNormal = fitted;
-    else crease = 0.0;
+    else cavity = 0.0;
 #endif
-    float open = isAroundEye || lightOcclusion <= 0.0 ? 1.0 : openness(surfaceNormal, crease, t);
+    float open = isAroundEye || lightOcclusion <= 0.0 ? 1.0 : openness(surfaceNormal, cavity, t);
     surfaceLight = lightOn(surfaceNormal, open);
 }
 

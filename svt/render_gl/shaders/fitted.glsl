@@ -1,4 +1,4 @@
-// Normals fitted to voxels, as by render::normalOf(). The window of 7 x 7 x 7 voxels is seven words of 64 bits, bit
+// Normals fitted to voxels, as by render::fitNormal(). The window of 7 x 7 x 7 voxels is seven words of 64 bits, bit
 // x + 8 y of word z; a height field over the plane across an axis has one word per height.
 uniform usampler2D patterns;  // number of the palette brick of each brick; kNone: the brick has one scalar
 
@@ -133,7 +133,7 @@ Layers topsOf(Layers window, int across, int side, int layers) {
     return tops;
 }
 
-// Keeps one height per cell: those connected to the central cell by height steps of at most one voxel.
+// Keeps one height per place: those connected to the central one by height steps of at most one voxel.
 void keepJoined(inout Layers tops, int rounds) {
     Layers joined = Layers(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     uvec2 reached = uvec2(0u);
@@ -193,12 +193,12 @@ vec3 slopeNormal(vec3 slopes, int across, float side) {
                          : vec3(-slopes.xy, side);
 }
 
-// Fitted normal, world space. `crease`: how deep in a concave corner, 0..1. If not isNeeded, the face's normal, at
+// Fitted normal, world space. `cavity`: how deep in a concave corner, 0..1. If not isNeeded, the face's normal, at
 // little cost if no other ray of the SIMD group needs it.
-vec3 fittedNormal(bool isNeeded, out float crease) {
+vec3 fittedNormal(bool isNeeded, out float cavity) {
     int side = -componentOf(stride, axis), layers = isNeeded ? 7 : 0;
     vec3 faceNormal = vec3(axisVector(axis) * side);
-    ivec3 corner = cell + axisVector(axis) * side - 3;
+    ivec3 corner = voxel + axisVector(axis) * side - 3;
     Layers window = Layers(uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     ivec3 moment = ivec3(0);
     int voxels = 0;
@@ -209,7 +209,7 @@ vec3 fittedNormal(bool isNeeded, out float crease) {
         voxels += sums.x;
         moment += ivec3(sums.yz, (z - 3) * sums.x);
     }
-    crease = clamp((float(voxels - 71) / 179.0 - 0.05) * 2.5, 0.0, 1.0);
+    cavity = clamp((float(voxels - 71) / 179.0 - 0.05) * 2.5, 0.0, 1.0);
 
     vec3 fitted = faceNormal;
     int across = axis, along = side;

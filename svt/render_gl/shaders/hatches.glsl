@@ -1,4 +1,4 @@
-// Hatches of caps (cut faces), as by render::hatchInk(). Lengths in metres.
+// Hatches of caps (cut faces), as by render::hatchCoverage(). Lengths in metres.
 uniform vec3 originFromMiddle;  // the grid's origin, position as in ray.glsl
 uniform vec3 gridNorth, gridUp;
 uniform mat3 worldFromIndex;  // of directions
@@ -61,7 +61,7 @@ float gravel(vec2 p) {
     return lineInk(nearest);
 }
 
-float hatchInk(uint hatch, vec2 p) {
+float hatchCoverage(uint hatch, vec2 p) {
     if (spacing < 2.0 * blur) return min(0.5, 0.7 * lineWidth / spacing);
     float across = (p.x - p.y) / kRoot2, along = (p.x + p.y) / kRoot2;
     if (hatch == 1u) return stripes(across, spacing);
@@ -109,5 +109,5 @@ float inkOn(uint hatch, vec3 normal, float depth) {
     spacing = hatchSpacing;
     lineWidth = hatchWidth * pixel;
     blur = pixel / (facing * samplesAlong);
-    return hatchInk(hatch, vec2(dot(point, aside), dot(point, upwards))) * hatchStrength;
+    return hatchCoverage(hatch, vec2(dot(point, aside), dot(point, upwards))) * hatchStrength;
 }

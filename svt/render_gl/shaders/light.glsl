@@ -32,7 +32,7 @@ bool isNear(uint number, vec3 point) {
 uint seamPlane() {
     if (axis < 0 || (face & 7) != 0) return kNone;
     ivec3 onAxis = axisVector(axis);
-    ivec3 entered = clamp(cellAt(t), ivec3(0), dimension - 1);
+    ivec3 entered = clamp(voxelAt(t), ivec3(0), dimension - 1);
     entered += (ivec3(face) - isBack - entered) * onAxis;
     vec3 point = origin + t * direction;
     for (int n = 0; n < 2; ++n) {
@@ -72,7 +72,7 @@ float lightOn(vec3 normal, float open) {
 }
 
 // Opaque voxels per block around a point, interpolated trilinearly.
-float takenAt(int level, vec3 point) {
+float coverageAt(int level, vec3 point) {
     vec3 p = point / (occlusionCell * float(1 << level)) + 0.5;
     ivec3 count = occlusionCount[level];
     if (any(lessThanEqual(p, vec3(0.0))) || any(greaterThanEqual(p, vec3(count + 1)))) return 0.0;
@@ -90,13 +90,14 @@ float takenAt(int level, vec3 point) {
 }
 
 // 1 where nothing occludes, less in corners.
-float openness(vec3 normal, float crease, float at) {
-    vec3 away = indexFromWorld * normal;
-    away /= max(abs(away.x), max(abs(away.y), abs(away.z)));
+float openness(vec3 normal, float cavity, float at) {
+    vec3 outwardIndex = indexFromWorld * normal;
+    outwardIndex /= max(abs(outwardIndex.x), max(abs(outwardIndex.y), abs(outwardIndex.z)));
     vec3 point = origin + at * direction + vec3(middle);
     float taken = 0.0;
     for (int level = 0; level < occlusionLevels; ++level)
         taken += occlusionGain[level].y *
-                 min(1.0, takenAt(level, point + away * occlusionCell * float(1 << level)) * occlusionGain[level].x);
-    return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * crease);
+                 min(1.0, coverageAt(level, point + outwardIndex * occlusionCell * float(1 << level)) *
+                              occlusionGain[level].x);
+    return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * cavity);
 }

@@ -31,7 +31,7 @@ void beginRay(vec2 place) {
 // Times at which the ray crosses one plane across each axis.
 vec3 planeTimes(ivec3 plane) { return mix((vec3(plane - middle) - origin) * inverse, vec3(kFar), isStill); }
 
-ivec3 cellAt(float t) { return ivec3(floor(origin + t * direction)) + middle; }
+ivec3 voxelAt(float t) { return ivec3(floor(origin + t * direction)) + middle; }
 
 int componentOf(ivec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 float componentOf(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -41,25 +41,25 @@ uint entryAt(ivec3 brick) {
     return elementOf(brickIndex, uint(brick.x + brickCount.x * (brick.y + brickCount.y * brick.z))).x;
 }
 
-uint voxelScalar(uint pattern, ivec3 cell) {
+uint voxelScalar(uint pattern, ivec3 voxel) {
     uvec4 brick = elementOf(bricks, pattern);
-    int bit = cell.x + 8 * cell.y;
+    int bit = voxel.x + 8 * voxel.y;
     uint number = 0u;
     for (uint plane = 0u; plane < 9u; ++plane) {
         if (plane >= brick.z) break;
-        uvec2 word = elementOf(words, brick.y + 8u * plane + uint(cell.z)).xy;
+        uvec2 word = elementOf(words, brick.y + 8u * plane + uint(voxel.z)).xy;
         number |= (((bit < 32 ? word.x : word.y) >> uint(bit & 31)) & 1u) << plane;
     }
     return elementOf(palettes, brick.x + number).x;
 }
 
 // Position of the ray: its voxel, or any voxel of the box that it is in; and how it got there.
-ivec3 cell;
+ivec3 voxel;
 float t;
 int axis;    // axis of the voxel face that it crossed, or -1
 int face;    // that face's plane
 uint plane;  // the oblique plane that it crossed, or kNone
-// The current step, set by look(): its scalar, and where it ends.
+// The current step, set by findStep(): its scalar, and where it ends.
 uint scalar;
 bool isVoxel;
 float stepEnd;
@@ -72,7 +72,7 @@ uint nextPlane;
 void meetCut(float time, int place, int cutAxis, inout uint side, inout uint bit) {
     bool isAfter = t >= time;
     int along = componentOf(stride, cutAxis);
-    bool isBeyondAfter = along > 0 || (along == 0 && componentOf(cell, cutAxis) < place);
+    bool isBeyondAfter = along > 0 || (along == 0 && componentOf(voxel, cutAxis) < place);
     if (isAfter == isBeyondAfter) side |= bit;
     bit <<= 1;
     if (isAfter || time >= stepEnd) return;
@@ -99,17 +99,17 @@ void meetPlane(uint number, inout uint side, inout uint bit) {
     endsInside = true;
 }
 
-void look() {
-    uint entry = entryAt(cell >> 3);
+void findStep() {
+    uint entry = entryAt(voxel >> 3);
     isVoxel = entry >= boxCount;
     uvec4 box = elementOf(boxes, isVoxel ? 0u : entry);
     low = ivec3(box.x & 0xFFFFu, box.x >> 16, box.y & 0xFFFFu);
     high = ivec3(box.y >> 16, box.z & 0xFFFFu, box.z >> 16);
     scalar = box.w;
     if (isVoxel) {
-        low = cell;
-        high = cell + 1;
-        scalar = voxelScalar(entry - boxCount, cell & 7);
+        low = voxel;
+        high = voxel + 1;
+        scalar = voxelScalar(entry - boxCount, voxel & 7);
     }
     exitPlane = high + (low - high) * isBack;
     exitTimes = planeTimes(exitPlane);
@@ -131,7 +131,7 @@ void look() {
 }
 
 // Moves to the end of the step; false if that is outside the volume.
-bool goOn() {
+bool takeStep() {
     if (endsInside) {
         t = stepEnd;
         axis = nextAxis;
@@ -140,13 +140,13 @@ bool goOn() {
         return true;
     }
     ivec3 isLeft = ivec3(lessThanEqual(exitTimes, vec3(stepEnd)));
-    ivec3 inside = clamp(cellAt(stepEnd), low, high - 1);
-    cell = inside + (exitPlane - isBack - inside) * isLeft;
+    ivec3 inside = clamp(voxelAt(stepEnd), low, high - 1);
+    voxel = inside + (exitPlane - isBack - inside) * isLeft;
     axis = isLeft.x != 0 ? 0 : isLeft.y != 0 ? 1 : 2;
     face = componentOf(exitPlane, axis);
     plane = kNone;
     t = max(t, stepEnd);
-    return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, dimension));
+    return all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, dimension));
 }
 
 // Part of the ray inside the volume, in front of the eye. `entry`: axis of the face by which it enters; -1: the eye is
@@ -160,18 +160,18 @@ vec2 spanInVolume(out int entry) {
         from = -middleDepth;
         entry = -1;
     }
-    ivec3 place = cellAt(0.0);
+    ivec3 place = voxelAt(0.0);
     ivec3 isOutside = ivec3(lessThan(place, ivec3(0))) + ivec3(greaterThanEqual(place, dimension));
     return any(bvec3(ivec3(isStill) * isOutside)) ? vec2(0.0) : vec2(from, to);
 }
 
 void enterAt(float from, int entryAxis) {
     t = from;
-    cell = clamp(cellAt(from), ivec3(0), dimension - 1);
+    voxel = clamp(voxelAt(from), ivec3(0), dimension - 1);
     axis = entryAxis;
     plane = kNone;
     if (axis < 0) return;
     face = componentOf(isBack, axis) * componentOf(dimension, axis);
     ivec3 onAxis = axisVector(axis);
-    cell += (ivec3(face) - isBack - cell) * onAxis;
+    voxel += (ivec3(face) - isBack - voxel) * onAxis;
 }

@@ -1,11 +1,11 @@
 // Lines and triangles that a ray meets, in order of depth. Only the next one of each kind is kept; when it has been
 // drawn, the one after it is searched for.
-uniform usampler2D shapeCells, shapeList, shapeTable;  // by square of 4 x 4 pixels; numbers of shapes; the shapes
-uniform ivec2 shapeCellCount;
-uniform uint looksFirst, trianglesFirst;  // first element in shapeTable
+uniform usampler2D shapeSquares, shapeList, shapeTable;  // by square of 4 x 4 pixels; numbers of shapes; the shapes
+uniform ivec2 shapeSquareCount;
+uniform uint lineStylesFirst, trianglesFirst;  // first element in shapeTable
 uniform float lineSamples;                // along a pixel
 uniform float linePixelPerDepth, linePixelSize;  // size of a pixel, metres: per metre of depth, and constant
-uniform float lineBefore, lineTogether;   // metres: depth bias; lines this close in depth are one
+uniform float depthBias, lineTogether;   // metres: depth bias; lines this close in depth are one
 uniform bool isPerspective;
 uniform vec3 worldOriginRight, worldOriginUp;  // position of rays at t = 0, relative to the view axis
 uniform float samplesAPixel;
@@ -26,31 +26,32 @@ bool triangleEnters;
 float lineLight() { return linesLeft; }
 
 // t at which the ray meets a line; kFar if it does not.
-float meetLine(uint number, out float coverage, out float hidden, out uint look) {
+float meetLine(uint number, out float coverage, out float hidden, out uint lineStyle) {
     vec4 place = floatsOf(shapeTable, 3u * number), depths = floatsOf(shapeTable, 3u * number + 1u);
-    look = elementOf(shapeTable, 3u * number + 2u).x;
-    vec4 first = floatsOf(shapeTable, looksFirst + 3u * look), more = floatsOf(shapeTable, looksFirst + 3u * look + 1u);
+    lineStyle = elementOf(shapeTable, 3u * number + 2u).x;
+    vec4 first = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle),
+         more = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle + 1u);
     vec2 aside = pixelPlace - place.xy;
     float along = clamp(dot(aside, place.zw) * depths.x, 0.0, 1.0);
     coverage = min((first.w - length(aside - along * place.zw)) * lineSamples + 0.5, more.x);
     hidden = 0.0;
     if (coverage <= 0.0) return kFar;
-    uint kind = elementOf(shapeTable, looksFirst + 3u * look + 2u).x;
+    uint kind = elementOf(shapeTable, lineStylesFirst + 3u * lineStyle + 2u).x;
     if (kind != 0u) hidden = coverage * more.y;
     float pixels = along * depths.w;
     if (kind == 2u && pixels - floor(pixels / more.w) * more.w > more.z) hidden = 0.0;
     float seen = depths.y + depths.z * along, depth = isPerspective ? 1.0 / seen : seen;
-    float before = lineBefore + 4.0 * first.w * (linePixelPerDepth * depth + linePixelSize);
-    return max(depth - before, 0.0) - middleDepth;
+    float bias = depthBias + 4.0 * first.w * (linePixelPerDepth * depth + linePixelSize);
+    return max(depth - bias, 0.0) - middleDepth;
 }
 
 // Lines within lineTogether of depth count as one, as strong as the strongest.
 void findLine() {
     float coverage, hidden;
-    uint look;
+    uint lineStyle;
     lineAt = kFar;
     for (uint n = 0u; n < shapes.y; ++n) {
-        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, look);
+        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, lineStyle);
         if (at > lineEnd) lineAt = min(lineAt, at);
     }
     if (lineAt >= kFar) return;
@@ -58,13 +59,13 @@ void findLine() {
     lineOpacity = lineHidden = 0.0;
     float nearest = kFar;
     for (uint n = 0u; n < shapes.y; ++n) {
-        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, look);
+        float at = meetLine(elementOf(shapeList, shapes.x + n).x, coverage, hidden, lineStyle);
         if (at < lineAt || at > lineEnd) continue;
         lineHidden = max(lineHidden, hidden);
         if (coverage < lineOpacity || (coverage == lineOpacity && at >= nearest)) continue;
         lineOpacity = coverage;
         nearest = at;
-        nextLineColor = floatsOf(shapeTable, looksFirst + 3u * look).rgb;
+        nextLineColor = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle).rgb;
     }
 }
 
@@ -128,12 +129,12 @@ void findTriangle() {
 
 void addSurface(uint number, vec3 normal, float at, bool isCap) {
     uint first = trianglesFirst + 6u * number;
-    vec4 look = floatsOf(shapeTable, first + 4u);
+    vec4 surfaceStyle = floatsOf(shapeTable, first + 4u);
     uvec4 kind = elementOf(shapeTable, first + 5u);
     bool isOpen = (kind.x & 4u) == 0u || lightOcclusion <= 0.0;
     float lit = lightOn(normal, isOpen ? 1.0 : openness(normal, 0.0, at));
-    float share = transmittance * look.a;
-    color += look.rgb * ((1.0 + (lit - 1.0) * uintBitsToFloat(kind.z)) * share * linesLeft);
+    float share = transmittance * surfaceStyle.a;
+    color += surfaceStyle.rgb * ((1.0 + (lit - 1.0) * uintBitsToFloat(kind.z)) * share * linesLeft);
     transmittance -= share;
     if (hasHit() || 1.0 - transmittance <= labelAt) return;
     hitLabel = kind.w;
@@ -193,8 +194,8 @@ bool addCutBody(float at, uint cap) {
 
 void beginShapes(vec2 samplePlace) {
     pixelPlace = samplePlace / samplesAPixel;
-    ivec2 square = clamp(ivec2(pixelPlace * 0.25), ivec2(0), shapeCellCount - 1);
-    shapes = elementOf(shapeCells, uint(square.x + shapeCellCount.x * square.y));
+    ivec2 square = clamp(ivec2(pixelPlace * 0.25), ivec2(0), shapeSquareCount - 1);
+    shapes = elementOf(shapeSquares, uint(square.x + shapeSquareCount.x * square.y));
     vec2 place = samplePlace * perSample - 1.0;
     worldOrigin = worldOriginRight * place.x - worldOriginUp * place.y;
     linesLeft = 1.0;

@@ -77,7 +77,7 @@ public:
 
 private:
     Component& at(int component) { return plan_.components[std::size_t(component)]; }
-    Body& body(int component) { return at(component).bodies.front(); }
+    Solid& solid(int component) { return at(component).solids.front(); }
 
     void storeys() {
         ground_ = addComponent(plan_, Kind::Storey, "storey_0", "Ground floor");
@@ -130,8 +130,8 @@ private:
                 box(kWall, 7200, kWall, kSpine0, 2450, 2475), HullPart::Slab, false);
         slab_ = element(upper_, "slab_1", "Intermediate slab", "slab", Material::Concrete,
                         box(0, kWidth, 0, kDepth, kCeiling, kUpper), HullPart::Slab, true);
-        body(slab_).cut(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
-        for (const int bearing : {southWall_, spine0_}) body(bearing).cut(body(beam_).pieces.front());
+        solid(slab_).cut(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
+        for (const int bearing : {southWall_, spine0_}) solid(bearing).cut(solid(beam_).pieces.front());
 
         const Length high = 8000;  // upper bound; the roof cuts these off earlier
         southKnee_ = wall(upper_, "wall_south_1", "Exterior wall south, upper floor", Material::Brick,
@@ -198,23 +198,23 @@ private:
         gallery_ = upperRoom("gallery", "Gallery", "circulation", 2715, 8900, kSpine1, kNorth);
         dressing_ = upperRoom("dressing", "Dressing room", "storage", 9015, kEast, kSpine1, kNorth);
         loft_ = room(attic_, "loft", "Loft", "storage", roofedBox(kWall, kEast, kWall, kNorth, kAttic, 8000));
-        body(hall_).add(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
-        body(ceilingVoid_).cut(body(beam_).pieces.front());
+        solid(hall_).add(box(4610, 7850, kSpine1, 5860, kCeiling, kUpper));
+        solid(ceilingVoid_).cut(solid(beam_).pieces.front());
     }
 
     // Cuts rafters, ridge beam and chimney out of the parts they pass through.
     void fitRoofAndChimney() {
         for (const int rafter : rafters_) {
-            const Piece& piece = body(rafter).pieces.front();
+            const Piece& piece = solid(rafter).pieces.front();
             for (const int other : {southKnee_, northKnee_, atticFloor_, bedroom1_, bedroom2_, bedroom3_, bath_,
                                     gallery_, dressing_, loft_})
-                if (body(other).pieces.front().from < piece.to && piece.from < body(other).pieces.front().to)
-                    body(other).cut(piece);
+                if (solid(other).pieces.front().from < piece.to && piece.from < solid(other).pieces.front().to)
+                    solid(other).cut(piece);
         }
-        for (const int other : {westGable_, eastGable_, loft_}) body(other).cut(body(ridgeBeam_).pieces.front());
+        for (const int other : {westGable_, eastGable_, loft_}) solid(other).cut(solid(ridgeBeam_).pieces.front());
         for (const int other : {kitchen_, slab_, bedroom3_, atticFloor_, loft_, southRoof_})
-            body(other).cut(body(chimney_).pieces.front());
-        body(chimney_).cut(box(7465, 7665, 3450, 3650, 300, 8700));
+            solid(other).cut(solid(chimney_).pieces.front());
+        solid(chimney_).cut(box(7465, 7665, 3450, 3650, 300, 8700));
     }
 
     [[nodiscard]] static Opening south(Length x0, Length x1, Length z0, Length z1) {
@@ -294,31 +294,31 @@ private:
             return roofPiece(isSouth, x0 + rim, x1 - rim, y0 + rim, y1 - rim, low, high);
         };
         const int window = addComponent(plan_, Kind::Window, std::move(id), std::move(name), roof);
-        body(roof).cut(outer(0, kRoofThickness));
-        body(room).add(outer(0, 100)).add(inner(100, 170));
+        solid(roof).cut(outer(0, kRoofThickness));
+        solid(room).add(outer(0, 100)).add(inner(100, 170));
         at(window).function = "roof window";
         at(window).storey = upper_;
         at(window).attributes = {{"material", std::string("painted timber, insulating glass"), ""},
                                  {"panes", std::int64_t{1}, ""}};
-        at(window).bodies = {{Axis::X, Material::Paint, {outer(100, 290)}},
+        at(window).solids = {{Axis::X, Material::Paint, {outer(100, 290)}},
                              {Axis::X, Material::Glass, {inner(170, 200)}}};
-        body(window).cut(inner(100, 290));
+        solid(window).cut(inner(100, 290));
     }
 
     void hatch() {
         const int door = addComponent(plan_, Kind::Door, "attic_hatch", "Attic hatch", atticFloor_);
-        body(atticFloor_).cut(box(8100, 8800, 5100, 6300, kUpperCeiling, kAttic));
-        body(loft_).add(box(8100, 8800, 5100, 6300, kUpperCeiling + 40, kAttic));
+        solid(atticFloor_).cut(box(8100, 8800, 5100, 6300, kUpperCeiling, kAttic));
+        solid(loft_).add(box(8100, 8800, 5100, 6300, kUpperCeiling + 40, kAttic));
         at(door).function = "hatch";
         at(door).storey = attic_;
-        at(door).bodies = {
+        at(door).solids = {
             {Axis::X, Material::Timber, {box(8100, 8800, 5100, 6300, kUpperCeiling, kUpperCeiling + 40)}}};
     }
 
     // 16 risers of 185 mm, 15 treads of 270 mm; the soffit is parallel, one riser lower.
     void stair() {
         constexpr Length start = 3800, tread = 270, riser = 185;
-        Body steps{Axis::Y, Material::Concrete, {}};
+        Solid steps{Axis::Y, Material::Concrete, {}};
         for (Length k = 0; k < 15; ++k)
             steps.add({kSpine1,
                        5860,
@@ -330,10 +330,10 @@ private:
                        true});
         addInstallation(plan_, ground_, hall_, "stair", "Stair", "stair", std::move(steps));
 
-        Body rail{Axis::X,
-                  Material::Steel,
-                  {box(4570, 7850, 5860, 5900, 3820, 3870), box(4570, 4610, kSpine1, 5860, 3820, 3870),
-                   box(4570, 7850, 5860, 5900, 3400, 3430), box(4570, 4610, kSpine1, 5860, 3400, 3430)}};
+        Solid rail{Axis::X,
+                   Material::Steel,
+                   {box(4570, 7850, 5860, 5900, 3820, 3870), box(4570, 4610, kSpine1, 5860, 3820, 3870),
+                    box(4570, 7850, 5860, 5900, 3400, 3430), box(4570, 4610, kSpine1, 5860, 3400, 3430)}};
         for (const Length x : {4570, 5380, 6190, 7000, 7810}) rail.add(box(x, x + 40, 5860, 5900, kUpper, 3870));
         rail.add(box(4570, 4610, kSpine1, 4900, kUpper, 3870));
         addInstallation(plan_, upper_, gallery_, "railing", "Railing", "railing", std::move(rail));

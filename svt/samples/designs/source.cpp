@@ -86,14 +86,14 @@ std::int64_t areaOf(const Component& unit) {
 // The share of each flat is its area over the area of all flats.
 void addShares(Document& tower) {
     std::int64_t total = 0;
-    for (const Level& level : tower.levels)
-        for (const Component& component : level.plan->components) total += areaOf(component);
-    for (Level& level : tower.levels) {
+    for (const PlacedPlan& placed : tower.plans)
+        for (const Component& component : placed.plan->components) total += areaOf(component);
+    for (PlacedPlan& placed : tower.plans) {
         std::size_t unit = 0;
-        for (const Component& component : level.plan->components) {
+        for (const Component& component : placed.plan->components) {
             if (component.kind != Kind::Unit) continue;
             const std::int64_t area = areaOf(component);
-            if (area > 0) level.unitAttributes[unit].push_back({"share", fmt::format("{}/{}", area, total), ""});
+            if (area > 0) placed.unitAttributes[unit].push_back({"share", fmt::format("{}/{}", area, total), ""});
             ++unit;
         }
     }
@@ -107,36 +107,36 @@ Material Document::shown(Material designed) const {
     return designed;
 }
 
-std::string Document::idOf(const Level& level, int component) const {
-    return level.prefix + level.plan->components[std::size_t(component)].id;
+std::string Document::idOf(const PlacedPlan& placed, int component) const {
+    return placed.prefix + placed.plan->components[std::size_t(component)].id;
 }
 
-std::string Document::nameOf(const Level& level, int component) const {
-    return level.namePrefix + level.plan->components[std::size_t(component)].name;
+std::string Document::nameOf(const PlacedPlan& placed, int component) const {
+    return placed.namePrefix + placed.plan->components[std::size_t(component)].name;
 }
 
-std::string Document::parentIdOf(const Level& level, int component) const {
-    const Component& c = level.plan->components[std::size_t(component)];
-    if (c.parent >= 0) return idOf(level, c.parent);
-    if (c.kind == Kind::Unit && c.storey >= 0) return idOf(level, c.storey);
+std::string Document::parentIdOf(const PlacedPlan& placed, int component) const {
+    const Component& c = placed.plan->components[std::size_t(component)];
+    if (c.parent >= 0) return idOf(placed, c.parent);
+    if (c.kind == Kind::Unit && c.storey >= 0) return idOf(placed, c.storey);
     return id;
 }
 
-std::vector<Attribute> Document::attributesOf(const Level& level, int component) const {
-    const std::vector<Component>& all = level.plan->components;
+std::vector<Attribute> Document::attributesOf(const PlacedPlan& placed, int component) const {
+    const std::vector<Component>& all = placed.plan->components;
     const Component& c = all[std::size_t(component)];
     std::vector<Attribute> attributes = c.attributes;
     const bool hasMaterial =
         std::any_of(attributes.begin(), attributes.end(), [](const Attribute& a) { return a.name == "material"; });
-    if (!c.bodies.empty() && !hasMaterial && c.kind != Kind::Room && c.kind != Kind::Unit) {
-        const Material material = c.kind == Kind::Door ? Material::Timber : shown(c.bodies.front().material);
+    if (!c.solids.empty() && !hasMaterial && c.kind != Kind::Room && c.kind != Kind::Unit) {
+        const Material material = c.kind == Kind::Door ? Material::Timber : shown(c.solids.front().material);
         attributes.insert(attributes.begin(), {"material", std::string(info(material).name), ""});
     }
     if (c.kind == Kind::Unit) {
         const auto unit = std::count_if(all.begin(), all.begin() + component,
                                         [](const Component& other) { return other.kind == Kind::Unit; });
-        if (std::size_t(unit) < level.unitAttributes.size())
-            for (const Attribute& a : level.unitAttributes[std::size_t(unit)]) attributes.push_back(a);
+        if (std::size_t(unit) < placed.unitAttributes.size())
+            for (const Attribute& a : placed.unitAttributes[std::size_t(unit)]) attributes.push_back(a);
     }
     return attributes;
 }
@@ -151,7 +151,7 @@ SampleSource::SampleSource(SampleKind kind, const SampleOptions& options) : kind
     Point size{11000, 9000, 0};
     if (kind == SampleKind::Tower) size = towerSize(options.flatsPerStorey);
     if (kind == SampleKind::District) size = {options.columns * kLotWidth, options.rows * kLotDepth, 0};
-    modelTurn_ = Turn::byDegrees(options.turnDegrees, double(size.x) / 2, double(size.y) / 2);
+    modelRotation_ = Rotation::byDegrees(options.turnDegrees, double(size.x) / 2, double(size.y) / 2);
 }
 
 std::int64_t SampleSource::buildingCount() const {
@@ -169,7 +169,7 @@ std::string SampleSource::title() const {
     return fmt::format("Sample district, {} x {} houses", options_.columns, options_.rows);
 }
 
-int SampleSource::decimals() const { return kind_ == SampleKind::District || !modelTurn_.isExact() ? 6 : 3; }
+int SampleSource::decimals() const { return kind_ == SampleKind::District || !modelRotation_.isExact() ? 6 : 3; }
 
 Document SampleSource::house() {
     const auto [it, isNew] = plans_.try_emplace("house");
@@ -180,7 +180,7 @@ Document SampleSource::house() {
     document.function = "residential";
     document.roofType = "gable";
     document.storeys = 2;
-    document.levels.push_back({&it->second, "house_", "", Placement({}, {}, modelTurn_, origin_), {}});
+    document.plans.push_back({&it->second, "house_", "", Placement({}, {}, modelRotation_, origin_), {}});
     return document;
 }
 
@@ -191,22 +191,22 @@ Document SampleSource::tower() {
     document.function = "residential";
     document.roofType = "flat";
     document.storeys = options_.storeys;
-    const Placement base({}, {}, modelTurn_, origin_);
+    const Placement base({}, {}, modelRotation_, origin_);
     Random random(options_.seed);
     for (int storey = 0; storey < options_.storeys; ++storey) {
         TowerStorey kind{options_.flatsPerStorey, storey == 0, storey + 1 == options_.storeys};
         const auto [it, isNew] = plans_.try_emplace(fmt::format("{}{}", kind.isLowest, kind.isHighest));
         if (isNew) it->second = towerPlan(kind);
-        Level level{&it->second,
-                    fmt::format("tower_S{:02}_", storey),
-                    fmt::format("S{:02} ", storey),
-                    base.lifted(storey * kTowerStoreyHeight),
-                    {}};
-        for (const Component& component : level.plan->components)
+        PlacedPlan placed{&it->second,
+                          fmt::format("tower_S{:02}_", storey),
+                          fmt::format("S{:02} ", storey),
+                          base.lifted(storey * kTowerStoreyHeight),
+                          {}};
+        for (const Component& component : placed.plan->components)
             if (component.kind == Kind::Unit)
-                level.unitAttributes.push_back(
-                    unitAttributes(component, storey, int(level.unitAttributes.size()), random));
-        document.levels.push_back(std::move(level));
+                placed.unitAttributes.push_back(
+                    unitAttributes(component, storey, int(placed.unitAttributes.size()), random));
+        document.plans.push_back(std::move(placed));
     }
     addShares(document);
     return document;
@@ -225,12 +225,12 @@ Document SampleSource::villageHouse(std::int64_t index) {
     VillageHouse variant{random.below(4), random.below(2), random.below(3), 1 + random.below(2)};
     const Length width = 9000 + 1000 * variant.widthStep, depth = 8000 + 1000 * variant.depthStep;
     // A multiple of a quarter turn for every house; two of five are rotated further.
-    Turn turn = Turn::byDegrees(90.0 * random.below(4), double(width) / 2, double(depth) / 2);
+    Rotation rotation = Rotation::byDegrees(90.0 * random.below(4), double(width) / 2, double(depth) / 2);
     if (random.below(5) < 2) {
         const Ratio ratio = kSmallTurns[std::size_t(random.below(int(kSmallTurns.size())))];
-        const double cosine = turn.cosine * ratio.cosine - turn.sine * ratio.sine;
-        turn.sine = turn.sine * ratio.cosine + turn.cosine * ratio.sine;
-        turn.cosine = cosine;
+        const double cosine = rotation.cosine * ratio.cosine - rotation.sine * ratio.sine;
+        rotation.sine = rotation.sine * ratio.cosine + rotation.cosine * ratio.sine;
+        rotation.cosine = cosine;
     }
     const Point shift{column * kLotWidth + (kLotWidth - width) / 2 + 10 * (random.below(301) - 150),
                       row * kLotDepth + (kLotDepth - depth) / 2 + 10 * (random.below(201) - 100), 0};
@@ -245,8 +245,8 @@ Document SampleSource::villageHouse(std::int64_t index) {
     document.storeys = variant.storeys;
     document.wallMaterial = kWalls[std::size_t(random.below(int(kWalls.size())))];
     document.roofMaterial = kRoofs[std::size_t(random.below(int(kRoofs.size())))];
-    document.levels.push_back(
-        {&villagePlan(variant), document.id + "_", "", Placement(turn, shift, modelTurn_, origin_), {}});
+    document.plans.push_back(
+        {&villagePlan(variant), document.id + "_", "", Placement(rotation, shift, modelRotation_, origin_), {}});
     return document;
 }
 
@@ -265,21 +265,21 @@ std::array<WorldPoint, 2> SampleSource::envelope() {
         high = {std::max(high.x, q.x), std::max(high.y, q.y), std::max(high.z, q.z)};
     };
     if (kind_ == SampleKind::District) {
-        const Placement placement({}, {}, modelTurn_, origin_);
+        const Placement placement({}, {}, modelRotation_, origin_);
         for (const Length x : {Length{0}, options_.columns * kLotWidth})
             for (const Length y : {Length{0}, options_.rows * kLotDepth})
                 for (const Length z : {Length{-250}, kHighestPoint}) add(placement, {x, y, z});
     } else {
         const Document document = building(0);
-        for (const Level& level : document.levels)
-            for (const Point& p : level.plan->vertices) add(level.placement, p);
+        for (const PlacedPlan& placed : document.plans)
+            for (const Point& p : placed.plan->vertices) add(placed.placement, p);
     }
     return {low, high};
 }
 
 std::vector<WorldPoint> SampleSource::ground() const {
     if (kind_ != SampleKind::District) return {};
-    const Placement placement({}, {}, modelTurn_, origin_);
+    const Placement placement({}, {}, modelRotation_, origin_);
     const Length width = options_.columns * kLotWidth, depth = options_.rows * kLotDepth;
     std::vector<WorldPoint> corners;
     for (const Point p : {Point{0, 0, kGroundLevel}, Point{width, 0, kGroundLevel}, Point{width, depth, kGroundLevel},

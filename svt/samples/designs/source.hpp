@@ -14,7 +14,7 @@
 namespace svt::samples {
 
 /// A placed plan: a whole house, or one storey of the tower.
-struct Level {
+struct PlacedPlan {
     const Plan* plan = nullptr;
     std::string prefix;      ///< prefix of component ids
     std::string namePrefix;  ///< prefix of component names
@@ -31,15 +31,15 @@ struct Document {
     int storeys = 0;
     Material wallMaterial = Material::PlasterWhite;  ///< replaces PlasterWhite
     Material roofMaterial = Material::RoofTiles;     ///< replaces RoofTiles
-    std::vector<Level> levels;
+    std::vector<PlacedPlan> plans;
 
     [[nodiscard]] Material shown(Material designed) const;
-    [[nodiscard]] std::string idOf(const Level& level, int component) const;
-    [[nodiscard]] std::string nameOf(const Level& level, int component) const;
+    [[nodiscard]] std::string idOf(const PlacedPlan& placed, int component) const;
+    [[nodiscard]] std::string nameOf(const PlacedPlan& placed, int component) const;
     /// Parent as in CityGML 3.0: the component's parent, the storey of a unit, else the building.
-    [[nodiscard]] std::string parentIdOf(const Level& level, int component) const;
+    [[nodiscard]] std::string parentIdOf(const PlacedPlan& placed, int component) const;
     /// Attributes as written, including the material.
-    [[nodiscard]] std::vector<Attribute> attributesOf(const Level& level, int component) const;
+    [[nodiscard]] std::vector<Attribute> attributesOf(const PlacedPlan& placed, int component) const;
 };
 
 /// The buildings of a sample, generated on demand.
@@ -73,7 +73,7 @@ private:
     SampleKind kind_;
     SampleOptions options_;
     Point origin_;
-    Turn modelTurn_;
+    Rotation modelRotation_;
     std::map<std::string, Plan> plans_;
     std::map<VillageHouse, Plan> villagePlans_;
 };

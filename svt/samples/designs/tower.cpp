@@ -56,7 +56,7 @@ public:
 
 private:
     Component& at(int component) { return plan_.components[std::size_t(component)]; }
-    Body& body(int component) { return at(component).bodies.front(); }
+    Solid& solid(int component) { return at(component).solids.front(); }
 
     int wall(std::string id, std::string name, Material material, Piece piece, bool isLoadBearing = true) {
         return addElement(plan_, feature_, std::move(id), std::move(name), "wall", material, std::move(piece),
@@ -135,11 +135,11 @@ private:
         arrivingHole_ = box(stair0_ + 1600, stair1, kFlight0, kNorth1, -kSlab, 0);
         liftHole_ = box(lift0, lift1, kNorth0, lift, -kSlab, 0);
         if (!storey_.isLowest) {
-            body(slab_).cut(risingHole_).cut(arrivingHole_).cut(liftHole_);
-            body(stairwell_).add(risingHole_);
-            body(lift_).add(liftHole_);
+            solid(slab_).cut(risingHole_).cut(arrivingHole_).cut(liftHole_);
+            solid(stairwell_).add(risingHole_);
+            solid(lift_).add(liftHole_);
         }
-        if (!storey_.isHighest) body(stairwell_).add(lifted(arrivingHole_, kClear, kTowerStoreyHeight));
+        if (!storey_.isHighest) solid(stairwell_).add(lifted(arrivingHole_, kClear, kTowerStoreyHeight));
         const auto corridorDoor = [&](Length x0, Length x1) {
             return Opening{Opening::Normal::PlusY, kCorridor1, kHeavy, x0, x1, 0, 2200};
         };
@@ -153,17 +153,17 @@ private:
                   {Opening::Normal::MinusY, kDepth, kExterior, stair0_ + 900, stair0_ + 1900, 1700, 2700}, 1, 1,
                   "window_stairwell", "Window stairwell");
         if (!storey_.isHighest) stair();
-        Body space{Axis::X, Material::Air, body(corridor_).pieces};
+        Solid space{Axis::X, Material::Air, solid(corridor_).pieces};
         space.add(box(stair0_, lift1, kNorth0, kNorth1, 0, kClear));
         // The doorways connect the core to the corridor.
         space.add(stairDoor.piece(0, kHeavy)).add(liftDoor.piece(0, kHeavy));
         for (const int part : {stairwell_, lift_, utility}) addReveals(space, part);
-        at(common_).bodies.push_back(std::move(space));
+        at(common_).solids.push_back(std::move(space));
     }
 
     // Reveals of doors and windows, which extend a room beyond its box.
-    void addReveals(Body& space, int room) {
-        const std::vector<Piece>& pieces = body(room).pieces;
+    void addReveals(Solid& space, int room) {
+        const std::vector<Piece>& pieces = solid(room).pieces;
         for (std::size_t i = 1; i < pieces.size(); ++i) space.add(pieces[i]);
     }
 
@@ -171,7 +171,7 @@ private:
     void stair() {
         const int stair =
             addInstallation(plan_, feature_, stairwell_, "stair", "Stair", "stair", {Axis::X, Material::Concrete, {}});
-        Body& up = body(stair);
+        Solid& up = solid(stair);
         for (Length k = 0; k < 8; ++k) {
             const Length y = kFlight0 + k * kTread;
             Piece step{
@@ -183,7 +183,7 @@ private:
             up.add(std::move(step));
         }
         const Length landing = 9 * kRiser;
-        Body further{Axis::X, Material::Concrete, {}};
+        Solid further{Axis::X, Material::Concrete, {}};
         for (Length k = 0; k < 8; ++k) {
             const Length y = kFlight1 - k * kTread;
             further.add({stair0_ + 1600,
@@ -194,10 +194,10 @@ private:
                           {-17, -28, -17 * kFlight1 - 28 * (landing - kRiser)}},
                          true});
         }
-        at(stair).bodies.push_back({Axis::X,
+        at(stair).solids.push_back({Axis::X,
                                     Material::Concrete,
                                     {box(stair0_, stair0_ + kStairWidth, kFlight1, kNorth1, landing - 250, landing)}});
-        at(stair).bodies.push_back(std::move(further));
+        at(stair).solids.push_back(std::move(further));
     }
 
     void flats() {
@@ -311,9 +311,9 @@ private:
                 id + "_door_bedroom", name + " bedroom door");
         facade(layout, id, name, unit, living, sleeping, bedroom, width);
 
-        Body space{Axis::X, Material::Air, {layout.box(0, width, 0, kFlatDepth, 0, kClear)}};
+        Solid space{Axis::X, Material::Air, {layout.box(0, width, 0, kFlatDepth, 0, kClear)}};
         for (const int part : {hall, bathroom, living, sleeping}) addReveals(space, part);
-        at(unit).bodies.push_back(std::move(space));
+        at(unit).solids.push_back(std::move(space));
     }
 
     // Window bands, balcony and the door to it.
@@ -330,7 +330,7 @@ private:
                   panes(bedroom + 400, width - 400), 1, id + "_window_bedroom", name + " bedroom window");
         // v of the balcony, beyond the facade
         const Length v0 = kFlatDepth + kExterior, v1 = v0 + 1500, s0 = livingEnd - 3200, s1 = livingEnd - 100;
-        Body balcony{Axis::X, Material::Concrete, {layout.box(s0, s1, v0, v1, -180, 0)}};
+        Solid balcony{Axis::X, Material::Concrete, {layout.box(s0, s1, v0, v1, -180, 0)}};
         balcony.add(layout.box(s0, s1, v1 - 100, v1, 0, 1000));
         balcony.add(layout.box(s0, s0 + 100, v0, v1, 0, 1000)).add(layout.box(s1 - 100, s1, v0, v1, 0, 1000));
         const int index =
@@ -341,9 +341,9 @@ private:
 
     void ghost(Kind kind, std::string id, Piece piece) {
         const int index = addComponent(plan_, kind, std::move(id), "");
-        at(index).isGhost = true;
+        at(index).isStandIn = true;
         at(index).hullPart = HullPart::Slab;
-        at(index).bodies = {{Axis::X, Material::Air, {std::move(piece)}}};
+        at(index).solids = {{Axis::X, Material::Air, {std::move(piece)}}};
     }
 
     static Piece lifted(Piece piece, Length z0, Length z1) {
@@ -359,7 +359,7 @@ private:
             ghost(Kind::Element, "above", box(0, width_, 0, kDepth, kClear, top));
             const int above = int(plan_.components.size()) - 1;
             for (const Piece& hole : {risingHole_, arrivingHole_, liftHole_})
-                body(above).cut(lifted(hole, kClear, top));
+                solid(above).cut(lifted(hole, kClear, top));
             ghost(Kind::Room, "hole_above", lifted(risingHole_, kClear, top));
             ghost(Kind::Room, "hole_above", lifted(liftHole_, kClear, top));
             ghost(Kind::Room, "stairwell_above", lifted(arrivingHole_, top, top + kReach));
@@ -373,7 +373,7 @@ private:
         ghost(Kind::Element, "below", box(kExterior, width_ - kExterior, kExterior, kNorth1, low, high));
         const int below = int(plan_.components.size()) - 1;
         for (const Piece& hole : {risingHole_, liftHole_}) {
-            body(below).cut(lifted(hole, low, high));
+            solid(below).cut(lifted(hole, low, high));
             ghost(Kind::Room, "stairwell_below", lifted(hole, low, high));
         }
         ghost(Kind::Room, "hole_below", arrivingHole_);

@@ -1,6 +1,6 @@
 // CityGML 2.0, LoD4. It has no constructive elements, storeys or units:
 //   full      walls, slabs, beams and roof members are (Int)BuildingInstallation with a solid and the attribute
-//             svtClass; doors and windows are openings whose surfaces enclose their bodies
+//             svtClass; doors and windows are openings whose surfaces enclose their solids
 //   thematic  the classical model: boundary surfaces, an outer hull made of them, rooms
 //   both      storeys are CityObjectGroups, units BuildingParts that contain their rooms
 //             and inner walls
@@ -38,9 +38,9 @@ public:
             document_ = source_.building(i);
             templateId_.clear();
             building();
-            for (const Level& level : document_.levels)
-                for (std::size_t c = 0; c < level.plan->components.size(); ++c)
-                    if (level.plan->components[c].kind == Kind::Storey) storeyGroup(level, int(c));
+            for (const PlacedPlan& placed : document_.plans)
+                for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
+                    if (placed.plan->components[c].kind == Kind::Storey) storeyGroup(placed, int(c));
         }
         out_ << "</core:CityModel>\n";
     }
@@ -68,14 +68,14 @@ private:
         out_ << "<bldg:function>" << document_.function << "</bldg:function><bldg:roofType>" << document_.roofType
              << "</bldg:roofType><bldg:storeysAboveGround>" << document_.storeys << "</bldg:storeysAboveGround>\n";
         for (const bool isOutside : {true, false})
-            for (const Level& level : document_.levels)
-                for (std::size_t c = 0; c < level.plan->components.size(); ++c)
-                    installationOfBuilding(level, int(c), -1, isOutside);
+            for (const PlacedPlan& placed : document_.plans)
+                for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
+                    installationOfBuilding(placed, int(c), -1, isOutside);
         if (isThematic_) hull();
-        for (const Level& level : document_.levels) rooms(level, -1);
-        for (const Level& level : document_.levels)
-            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
-                if (level.plan->components[c].kind == Kind::Unit) unit(level, int(c));
+        for (const PlacedPlan& placed : document_.plans) rooms(placed, -1);
+        for (const PlacedPlan& placed : document_.plans)
+            for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
+                if (placed.plan->components[c].kind == Kind::Unit) unit(placed, int(c));
         out_ << "</bldg:Building>\n</core:cityObjectMember>\n";
     }
 
@@ -93,11 +93,11 @@ private:
         out_ << "</app:Appearance></app:appearance>\n";
     }
 
-    void open(const Level& level, int component, std::string_view tag) {
-        out_ << "<" << tag << " gml:id=\"" << document_.idOf(level, component) << "\"><gml:name>"
-             << document_.nameOf(level, component) << "</gml:name>";
-        for (const Attribute& attribute : document_.attributesOf(level, component)) genericAttribute(attribute);
-        const Kind kind = level.plan->components[std::size_t(component)].kind;
+    void open(const PlacedPlan& placed, int component, std::string_view tag) {
+        out_ << "<" << tag << " gml:id=\"" << document_.idOf(placed, component) << "\"><gml:name>"
+             << document_.nameOf(placed, component) << "</gml:name>";
+        for (const Attribute& attribute : document_.attributesOf(placed, component)) genericAttribute(attribute);
+        const Kind kind = placed.plan->components[std::size_t(component)].kind;
         if (kind == Kind::Element || kind == Kind::Unit)
             genericAttribute({"svtClass", std::string(className(kind)), ""});
         out_ << "\n";
@@ -122,10 +122,10 @@ private:
         if (!component.function.empty()) out_ << "<bldg:function>" << component.function << "</bldg:function>";
     }
 
-    // gml:Solid, or gml:CompositeSolid for touching bodies; every polygon has an id.
-    void solid(const Level& level, int component) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        const std::string id = document_.idOf(level, component);
+    // gml:Solid, or gml:CompositeSolid for touching solids; every polygon has an id.
+    void solid(const PlacedPlan& placed, int component) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(placed, component);
         const bool isComposite = c.shells.size() > 1;
         if (isComposite) out_ << "<gml:CompositeSolid gml:id=\"" << id << "_solid\">";
         std::size_t number = 0;
@@ -134,16 +134,16 @@ private:
             out_ << "<gml:Solid gml:id=\"" << id << "_solid";
             if (isComposite) out_ << std::int64_t(s);
             out_ << "\"><gml:exterior><gml:CompositeSurface>\n";
-            for (const Face& face : c.shells[s].faces) inlineMember(level, face, polygonId(id, number++));
+            for (const Face& face : c.shells[s].faces) inlineMember(placed, face, polygonId(id, number++));
             out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid>";
             if (isComposite) out_ << "</gml:solidMember>";
         }
         if (isComposite) out_ << "</gml:CompositeSolid>";
     }
 
-    void inlineMember(const Level& level, const Face& face, std::string_view id) {
+    void inlineMember(const PlacedPlan& placed, const Face& face, std::string_view id) {
         out_ << "<gml:surfaceMember>";
-        gml_.polygon(level, face, id);
+        gml_.polygon(placed, face, id);
         out_ << "</gml:surfaceMember>\n";
     }
 
@@ -161,35 +161,35 @@ private:
     }
 
     // Of the building itself (unit -1) or of one unit.
-    void installationOfBuilding(const Level& level, int component, int unit, bool isOutside) {
-        const Component& c = level.plan->components[std::size_t(component)];
+    void installationOfBuilding(const PlacedPlan& placed, int component, int unit, bool isOutside) {
+        const Component& c = placed.plan->components[std::size_t(component)];
         const bool isElement = c.kind == Kind::Element && !isThematic_;
-        if ((c.kind != Kind::Installation && !isElement) || c.parent >= 0 || c.isGhost || c.unit != unit) return;
+        if ((c.kind != Kind::Installation && !isElement) || c.parent >= 0 || c.isStandIn || c.unit != unit) return;
         if ((isElement ? isAtHull(c) : c.isOutside) != isOutside) return;
         const std::string_view property =
             isOutside ? "bldg:outerBuildingInstallation" : "bldg:interiorBuildingInstallation";
         out_ << "<" << property << ">";
-        installation(level, component, isOutside ? "bldg:BuildingInstallation" : "bldg:IntBuildingInstallation");
+        installation(placed, component, isOutside ? "bldg:BuildingInstallation" : "bldg:IntBuildingInstallation");
         out_ << "</" << property << ">\n";
     }
 
-    void installation(const Level& level, int component, std::string_view tag) {
-        open(level, component, tag);
-        function(level.plan->components[std::size_t(component)]);
+    void installation(const PlacedPlan& placed, int component, std::string_view tag) {
+        open(placed, component, tag);
+        function(placed.plan->components[std::size_t(component)]);
         out_ << "<bldg:lod4Geometry>";
-        solid(level, component);
+        solid(placed, component);
         out_ << "</bldg:lod4Geometry></" << tag << ">";
     }
 
     // The outer faces of all elements and fillings enclose the building: together they form its solid.
     void hull() {
         std::vector<std::string> members;
-        for (const Level& level : document_.levels)
-            for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-                const Component& component = level.plan->components[c];
-                if (component.kind != Kind::Element || component.isGhost) continue;
-                if (component.hullPart == HullPart::Ground) hullSurface(level, int(c), "GroundSurface", members);
-                hullSurface(level, int(c), component.hullPart == HullPart::Roof ? "RoofSurface" : "WallSurface",
+        for (const PlacedPlan& placed : document_.plans)
+            for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+                const Component& component = placed.plan->components[c];
+                if (component.kind != Kind::Element || component.isStandIn) continue;
+                if (component.hullPart == HullPart::Ground) hullSurface(placed, int(c), "GroundSurface", members);
+                hullSurface(placed, int(c), component.hullPart == HullPart::Roof ? "RoofSurface" : "WallSurface",
                             members);
             }
         out_ << "<bldg:lod4Solid><gml:Solid gml:id=\"" << document_.id
@@ -213,63 +213,64 @@ private:
         return faces;
     }
 
-    void outerMultiSurface(const Level& level, int component, std::string_view type,
+    void outerMultiSurface(const PlacedPlan& placed, int component, std::string_view type,
                            std::vector<std::string>& members) {
-        const std::string id = document_.idOf(level, component);
-        const Component& c = level.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(placed, component);
+        const Component& c = placed.plan->components[std::size_t(component)];
         out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
-        for (const auto& [number, face] : outerFaces(*level.plan, c, type)) {
+        for (const auto& [number, face] : outerFaces(*placed.plan, c, type)) {
             members.push_back(polygonId(id, number));
-            inlineMember(level, *face, members.back());
+            inlineMember(placed, *face, members.back());
         }
         out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
     }
 
-    void hullSurface(const Level& level, int component, std::string_view type, std::vector<std::string>& members) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        if (outerFaces(*level.plan, c, type).empty()) return;
-        out_ << "<bldg:boundedBy><bldg:" << type << " gml:id=\"" << document_.idOf(level, component)
+    void hullSurface(const PlacedPlan& placed, int component, std::string_view type,
+                     std::vector<std::string>& members) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        if (outerFaces(*placed.plan, c, type).empty()) return;
+        out_ << "<bldg:boundedBy><bldg:" << type << " gml:id=\"" << document_.idOf(placed, component)
              << (type == "GroundSurface" ? "_ground" : "_outer") << "\"><gml:name>"
-             << document_.nameOf(level, component) << "</gml:name>\n";
-        outerMultiSurface(level, component, type, members);
-        for (const int child : level.plan->children[std::size_t(component)]) {
-            const Component& filling = level.plan->components[std::size_t(child)];
-            if (outerFaces(*level.plan, filling, "").empty()) continue;
+             << document_.nameOf(placed, component) << "</gml:name>\n";
+        outerMultiSurface(placed, component, type, members);
+        for (const int child : placed.plan->children[std::size_t(component)]) {
+            const Component& filling = placed.plan->components[std::size_t(child)];
+            if (outerFaces(*placed.plan, filling, "").empty()) continue;
             const std::string_view tag = filling.kind == Kind::Door ? "bldg:Door" : "bldg:Window";
             out_ << "<bldg:opening>";
-            open(level, child, tag);
-            outerMultiSurface(level, child, "", members);
+            open(placed, child, tag);
+            outerMultiSurface(placed, child, "", members);
             out_ << "</" << tag << "></bldg:opening>\n";
         }
         out_ << "</bldg:" << type << "></bldg:boundedBy>\n";
     }
 
-    void rooms(const Level& level, int unit) {
-        for (std::size_t c = 0; c < level.plan->components.size() && !out_.hasFailed(); ++c) {
-            const Component& component = level.plan->components[c];
-            if (component.kind != Kind::Room || component.isGhost || component.unit != unit) continue;
+    void rooms(const PlacedPlan& placed, int unit) {
+        for (std::size_t c = 0; c < placed.plan->components.size() && !out_.hasFailed(); ++c) {
+            const Component& component = placed.plan->components[c];
+            if (component.kind != Kind::Room || component.isStandIn || component.unit != unit) continue;
             out_ << "<bldg:interiorRoom>";
-            room(level, int(c));
+            room(placed, int(c));
             out_ << "</bldg:interiorRoom>\n";
         }
     }
 
-    void room(const Level& level, int component) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        const std::string id = document_.idOf(level, component);
-        const std::vector<BoundaryGroup> groups = boundaryGroups(*level.plan, component);
+    void room(const PlacedPlan& placed, int component) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(placed, component);
+        const std::vector<BoundaryGroup> groups = boundaryGroups(*placed.plan, component);
         std::set<int> openingFaces;
         for (const BoundaryGroup& group : groups)
             for (const BoundaryGroup& opening : group.openings)
                 openingFaces.insert(opening.faces.begin(), opening.faces.end());
-        open(level, component, "bldg:Room");
+        open(placed, component, "bldg:Room");
         function(c);
         out_ << "<bldg:lod4Solid><gml:Solid gml:id=\"" << id << "_solid\"><gml:exterior><gml:CompositeSurface>\n";
         for (std::size_t f = 0; f < c.shells.front().faces.size(); ++f) {
             const Face& face = c.shells.front().faces[f];
             if (!isThematic_ && openingFaces.count(int(f)) != 0)
                 reversedMember(polygonId(id, f),
-                               polygonId(document_.idOf(level, face.neighbor), std::size_t(face.neighborFace)));
+                               polygonId(document_.idOf(placed, face.neighbor), std::size_t(face.neighborFace)));
             else
                 out_ << "<gml:surfaceMember xlink:href=\"#" << polygonId(id, f) << "\"/>\n";
         }
@@ -278,58 +279,58 @@ private:
         for (const BoundaryGroup& group : groups) {
             out_ << "<bldg:boundedBy><bldg:" << group.type << " gml:id=\"" << id << "_b" << std::int64_t(number++)
                  << "\">";
-            if (!group.faces.empty()) roomSurfaces(level, component, group);
-            for (const BoundaryGroup& opening : group.openings) openingOfRoom(level, component, opening, number++);
+            if (!group.faces.empty()) roomSurfaces(placed, component, group);
+            for (const BoundaryGroup& opening : group.openings) openingOfRoom(placed, component, opening, number++);
             out_ << "</bldg:" << group.type << "></bldg:boundedBy>\n";
         }
-        furnish(level, component);
+        furnish(placed, component);
         out_ << "</bldg:Room>";
     }
 
     // A face already written by an element or an earlier room is referenced and reversed.
-    bool isWrittenElsewhere(const Level& level, int room, const Face& face) const {
+    bool isWrittenElsewhere(const PlacedPlan& placed, int room, const Face& face) const {
         if (face.neighbor < 0 || face.neighborFace < 0) return false;
-        const Component& neighbor = level.plan->components[std::size_t(face.neighbor)];
-        if (neighbor.isGhost) return false;
+        const Component& neighbor = placed.plan->components[std::size_t(face.neighbor)];
+        if (neighbor.isStandIn) return false;
         return neighbor.kind == Kind::Room ? face.neighbor < room : neighbor.kind == Kind::Element && !isThematic_;
     }
 
-    void roomSurfaces(const Level& level, int room, const BoundaryGroup& group) {
-        const std::string id = document_.idOf(level, room);
-        const Shell& shell = level.plan->components[std::size_t(room)].shells.front();
+    void roomSurfaces(const PlacedPlan& placed, int room, const BoundaryGroup& group) {
+        const std::string id = document_.idOf(placed, room);
+        const Shell& shell = placed.plan->components[std::size_t(room)].shells.front();
         out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
         for (const int f : group.faces) {
             const Face& face = shell.faces[std::size_t(f)];
             const std::string polygon = polygonId(id, std::size_t(f));
-            if (isWrittenElsewhere(level, room, face))
+            if (isWrittenElsewhere(placed, room, face))
                 reversedMember(polygon,
-                               polygonId(document_.idOf(level, face.neighbor), std::size_t(face.neighborFace)));
+                               polygonId(document_.idOf(placed, face.neighbor), std::size_t(face.neighborFace)));
             else
-                inlineMember(level, face, polygon);
+                inlineMember(placed, face, polygon);
         }
         out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
     }
 
-    // Full: the closed body of the filling, in the first room that touches it. Thematic: only the side facing this
+    // Full: the closed solid of the filling, in the first room that touches it. Thematic: only the side facing this
     // room.
-    void openingOfRoom(const Level& level, int room, const BoundaryGroup& opening, int number) {
+    void openingOfRoom(const PlacedPlan& placed, int room, const BoundaryGroup& opening, int number) {
         const int filling = opening.neighbor;
         const std::string_view tag = opening.type == "DoorSurface" ? "bldg:Door" : "bldg:Window";
-        const std::string id = document_.idOf(level, filling);
+        const std::string id = document_.idOf(placed, filling);
         if (isThematic_) {
-            out_ << "<bldg:opening><" << tag << " gml:id=\"" << document_.idOf(level, room) << "_b"
-                 << std::int64_t(number) << "\"><gml:name>" << document_.nameOf(level, filling) << "</gml:name>\n";
-            roomSurfaces(level, room, opening);
-        } else if (firstRoom(*level.plan, filling) != room) {
+            out_ << "<bldg:opening><" << tag << " gml:id=\"" << document_.idOf(placed, room) << "_b"
+                 << std::int64_t(number) << "\"><gml:name>" << document_.nameOf(placed, filling) << "</gml:name>\n";
+            roomSurfaces(placed, room, opening);
+        } else if (firstRoom(*placed.plan, filling) != room) {
             out_ << "<bldg:opening xlink:href=\"#" << id << "\"/>\n";
             return;
         } else {
             out_ << "<bldg:opening>";
-            open(level, filling, tag);
+            open(placed, filling, tag);
             out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
             std::size_t polygon = 0;
-            for (const Shell& shell : level.plan->components[std::size_t(filling)].shells)
-                for (const Face& face : shell.faces) inlineMember(level, face, polygonId(id, polygon++));
+            for (const Shell& shell : placed.plan->components[std::size_t(filling)].shells)
+                for (const Face& face : shell.faces) inlineMember(placed, face, polygonId(id, polygon++));
             out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
         }
         out_ << "</" << tag << "></bldg:opening>\n";
@@ -345,43 +346,43 @@ private:
         return first;
     }
 
-    void furnish(const Level& level, int room) {
+    void furnish(const PlacedPlan& placed, int room) {
         for (const Kind kind : {Kind::Furniture, Kind::Installation})
-            for (const int child : level.plan->children[std::size_t(room)]) {
-                if (level.plan->components[std::size_t(child)].kind != kind) continue;
+            for (const int child : placed.plan->children[std::size_t(room)]) {
+                if (placed.plan->components[std::size_t(child)].kind != kind) continue;
                 const bool isFurniture = kind == Kind::Furniture;
                 out_ << (isFurniture ? "<bldg:interiorFurniture>" : "<bldg:roomInstallation>");
                 if (isFurniture)
-                    furniture(level, child);
+                    furniture(placed, child);
                 else
-                    installation(level, child, "bldg:IntBuildingInstallation");
+                    installation(placed, child, "bldg:IntBuildingInstallation");
                 out_ << (isFurniture ? "</bldg:interiorFurniture>\n" : "</bldg:roomInstallation>\n");
             }
     }
 
-    void furniture(const Level& level, int component) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        open(level, component, "bldg:BuildingFurniture");
+    void furniture(const PlacedPlan& placed, int component) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        open(placed, component, "bldg:BuildingFurniture");
         function(c);
         if (c.instance) {
-            implicitGeometry(level, component, *c.instance);
+            implicitGeometry(placed, component, *c.instance);
         } else {
             out_ << "<bldg:lod4Geometry>";
-            solid(level, component);
+            solid(placed, component);
             out_ << "</bldg:lod4Geometry>";
         }
         out_ << "</bldg:BuildingFurniture>";
     }
 
     // The first instance contains the shape, the others reference it.
-    void implicitGeometry(const Level& level, int component, const Instance& instance) {
+    void implicitGeometry(const PlacedPlan& placed, int component, const Instance& instance) {
         out_ << "<bldg:lod4ImplicitRepresentation><core:ImplicitGeometry><core:transformationMatrix>";
-        gml_.matrix(level, instance);
+        gml_.matrix(placed, instance);
         out_ << "</core:transformationMatrix>";
         if (!templateId_.empty()) {
             out_ << "<core:relativeGMLGeometry xlink:href=\"#" << templateId_ << "\"/>";
         } else {
-            templateId_ = document_.idOf(level, component) + "_template";
+            templateId_ = document_.idOf(placed, component) + "_template";
             out_ << "<core:relativeGMLGeometry><gml:Solid gml:id=\"" << templateId_
                  << "\"><gml:exterior><gml:CompositeSurface>\n";
             for (const Face& face : instance.shell.faces) {
@@ -392,35 +393,35 @@ private:
             out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></core:relativeGMLGeometry>";
         }
         out_ << "<core:referencePoint><gml:Point><gml:pos>";
-        gml_.position(level.placement.at(instance.shift), level.placement.decimals());
+        gml_.position(placed.placement.at(instance.shift), placed.placement.decimals());
         out_
             << "</gml:pos></gml:Point></core:referencePoint></core:ImplicitGeometry></bldg:lod4ImplicitRepresentation>";
     }
 
-    void unit(const Level& level, int component) {
+    void unit(const PlacedPlan& placed, int component) {
         out_ << "<bldg:consistsOfBuildingPart>";
-        open(level, component, "bldg:BuildingPart");
-        function(level.plan->components[std::size_t(component)]);
+        open(placed, component, "bldg:BuildingPart");
+        function(placed.plan->components[std::size_t(component)]);
         for (const bool isOutside : {true, false})
-            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
-                installationOfBuilding(level, int(c), component, isOutside);
+            for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
+                installationOfBuilding(placed, int(c), component, isOutside);
         out_ << "<bldg:lod4Solid>";
-        solid(level, component);
+        solid(placed, component);
         out_ << "</bldg:lod4Solid>\n";
-        rooms(level, component);
+        rooms(placed, component);
         out_ << "</bldg:BuildingPart></bldg:consistsOfBuildingPart>\n";
     }
 
-    void storeyGroup(const Level& level, int storey) {
+    void storeyGroup(const PlacedPlan& placed, int storey) {
         out_ << "<core:cityObjectMember>\n";
-        open(level, storey, "grp:CityObjectGroup");
+        open(placed, storey, "grp:CityObjectGroup");
         out_ << "<grp:class>buildingSeparation</grp:class><grp:function>storey</grp:function>\n";
-        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-            const Component& component = level.plan->components[c];
+        for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+            const Component& component = placed.plan->components[c];
             if (component.storey != storey || !isGrouped(component)) continue;
             if (isThematic_ && component.kind == Kind::Element) continue;
             out_ << "<grp:groupMember role=\"" << className(component.kind) << "\" xlink:href=\"#"
-                 << document_.idOf(level, int(c)) << "\"/>\n";
+                 << document_.idOf(placed, int(c)) << "\"/>\n";
         }
         out_ << "<grp:parent xlink:href=\"#" << document_.id
              << "\"/></grp:CityObjectGroup>\n</core:cityObjectMember>\n";

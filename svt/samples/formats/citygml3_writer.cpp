@@ -65,23 +65,23 @@ private:
     }
 
     // Writes every component of the kind that belongs directly to the building, inside the property.
-    void eachTop(Kind kind, std::string_view property, void (Writer::*writeOne)(const Level&, int)) {
-        for (const Level& level : document_.levels)
-            for (std::size_t c = 0; c < level.plan->components.size() && !out_.hasFailed(); ++c) {
-                const Component& component = level.plan->components[c];
-                if (component.kind != kind || component.parent >= 0 || component.isGhost) continue;
+    void eachTop(Kind kind, std::string_view property, void (Writer::*writeOne)(const PlacedPlan&, int)) {
+        for (const PlacedPlan& placed : document_.plans)
+            for (std::size_t c = 0; c < placed.plan->components.size() && !out_.hasFailed(); ++c) {
+                const Component& component = placed.plan->components[c];
+                if (component.kind != kind || component.parent >= 0 || component.isStandIn) continue;
                 out_ << "<bldg:" << property << ">";
-                (this->*writeOne)(level, int(c));
+                (this->*writeOne)(placed, int(c));
                 out_ << "</bldg:" << property << ">\n";
             }
     }
 
-    void eachChild(const Level& level, int parent, Kind kind, std::string_view property,
-                   void (Writer::*writeOne)(const Level&, int)) {
-        for (const int child : level.plan->children[std::size_t(parent)]) {
-            if (level.plan->components[std::size_t(child)].kind != kind) continue;
+    void eachChild(const PlacedPlan& placed, int parent, Kind kind, std::string_view property,
+                   void (Writer::*writeOne)(const PlacedPlan&, int)) {
+        for (const int child : placed.plan->children[std::size_t(parent)]) {
+            if (placed.plan->components[std::size_t(child)].kind != kind) continue;
             out_ << "<" << property << ">";
-            (this->*writeOne)(level, child);
+            (this->*writeOne)(placed, child);
             out_ << "</" << property << ">\n";
         }
     }
@@ -101,10 +101,10 @@ private:
     }
 
     // Opening tag, name and attributes.
-    void open(const Level& level, int component, std::string_view tag) {
-        out_ << "<" << tag << " gml:id=\"" << document_.idOf(level, component) << "\"><gml:name>"
-             << document_.nameOf(level, component) << "</gml:name>";
-        for (const Attribute& attribute : document_.attributesOf(level, component)) genericAttribute(attribute);
+    void open(const PlacedPlan& placed, int component, std::string_view tag) {
+        out_ << "<" << tag << " gml:id=\"" << document_.idOf(placed, component) << "\"><gml:name>"
+             << document_.nameOf(placed, component) << "</gml:name>";
+        for (const Attribute& attribute : document_.attributesOf(placed, component)) genericAttribute(attribute);
         out_ << "\n";
     }
 
@@ -123,15 +123,15 @@ private:
         out_ << "</gen:value></gen:" << type << "></core:genericAttribute>";
     }
 
-    void function(const Level& level, int component) {
-        const std::string& text = level.plan->components[std::size_t(component)].function;
+    void function(const PlacedPlan& placed, int component) {
+        const std::string& text = placed.plan->components[std::size_t(component)].function;
         if (!text.empty()) out_ << "<bldg:function>" << text << "</bldg:function>";
     }
 
-    // One gml:Solid, or a gml:CompositeSolid for touching bodies.
-    void solid(const Level& level, int component) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        const std::string id = document_.idOf(level, component);
+    // One gml:Solid, or a gml:CompositeSolid for touching solids.
+    void solid(const PlacedPlan& placed, int component) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(placed, component);
         const bool isComposite = c.shells.size() > 1;
         out_ << "<core:lod3Solid>";
         if (isComposite) out_ << "<gml:CompositeSolid gml:id=\"" << id << "_solid\">";
@@ -144,7 +144,7 @@ private:
             out_ << "\"><gml:exterior><gml:Shell>\n";
             for (const Face& face : c.shells[s].faces) {
                 out_ << "<gml:surfaceMember>";
-                gml_.polygon(level, face, isColored ? polygonId(id, number) : std::string());
+                gml_.polygon(placed, face, isColored ? polygonId(id, number) : std::string());
                 out_ << "</gml:surfaceMember>\n";
                 ++number;
             }
@@ -155,72 +155,72 @@ private:
         out_ << "</core:lod3Solid>\n";
     }
 
-    void element(const Level& level, int component) {
-        open(level, component, "bldg:BuildingConstructiveElement");
-        solid(level, component);
-        const Component& c = level.plan->components[std::size_t(component)];
+    void element(const PlacedPlan& placed, int component) {
+        open(placed, component, "bldg:BuildingConstructiveElement");
+        solid(placed, component);
+        const Component& c = placed.plan->components[std::size_t(component)];
         for (const Attribute& attribute : c.attributes)
             if (attribute.name == "loadBearing")
                 out_ << "<con:isStructuralElement>" << toText(attribute.value) << "</con:isStructuralElement>";
-        eachChild(level, component, Kind::Window, "con:filling", &Writer::filling);
-        eachChild(level, component, Kind::Door, "con:filling", &Writer::filling);
-        function(level, component);
+        eachChild(placed, component, Kind::Window, "con:filling", &Writer::filling);
+        eachChild(placed, component, Kind::Door, "con:filling", &Writer::filling);
+        function(placed, component);
         out_ << "</bldg:BuildingConstructiveElement>";
     }
 
-    void filling(const Level& level, int component) {
-        const bool isDoor = level.plan->components[std::size_t(component)].kind == Kind::Door;
+    void filling(const PlacedPlan& placed, int component) {
+        const bool isDoor = placed.plan->components[std::size_t(component)].kind == Kind::Door;
         const std::string_view tag = isDoor ? "con:Door" : "con:Window";
-        open(level, component, tag);
-        solid(level, component);
+        open(placed, component, tag);
+        solid(placed, component);
         out_ << "</" << tag << ">";
     }
 
-    void installation(const Level& level, int component) {
-        open(level, component, "bldg:BuildingInstallation");
-        solid(level, component);
-        const bool isOutside = level.plan->components[std::size_t(component)].isOutside;
+    void installation(const PlacedPlan& placed, int component) {
+        open(placed, component, "bldg:BuildingInstallation");
+        solid(placed, component);
+        const bool isOutside = placed.plan->components[std::size_t(component)].isOutside;
         out_ << "<con:relationToConstruction>" << (isOutside ? "outside" : "inside") << "</con:relationToConstruction>";
-        function(level, component);
+        function(placed, component);
         out_ << "</bldg:BuildingInstallation>";
     }
 
-    void furniture(const Level& level, int component) {
-        open(level, component, "bldg:BuildingFurniture");
-        solid(level, component);
-        function(level, component);
+    void furniture(const PlacedPlan& placed, int component) {
+        open(placed, component, "bldg:BuildingFurniture");
+        solid(placed, component);
+        function(placed, component);
         out_ << "</bldg:BuildingFurniture>";
     }
 
-    void surfaces(const Level& level, int room, const BoundaryGroup& group, const std::string& id) {
+    void surfaces(const PlacedPlan& placed, int room, const BoundaryGroup& group, const std::string& id) {
         if (!group.faces.empty()) {
             out_ << "<core:lod3MultiSurface><gml:MultiSurface gml:id=\"" << id << "_surface\">\n";
-            const Shell& shell = level.plan->components[std::size_t(room)].shells.front();
+            const Shell& shell = placed.plan->components[std::size_t(room)].shells.front();
             for (const int f : group.faces) {
                 out_ << "<gml:surfaceMember>";
-                gml_.polygon(level, shell.faces[std::size_t(f)],
-                             polygonId(document_.idOf(level, room), std::size_t(f)));
+                gml_.polygon(placed, shell.faces[std::size_t(f)],
+                             polygonId(document_.idOf(placed, room), std::size_t(f)));
                 out_ << "</gml:surfaceMember>\n";
             }
             out_ << "</gml:MultiSurface></core:lod3MultiSurface>";
         }
     }
 
-    void room(const Level& level, int component) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        const std::string id = document_.idOf(level, component);
-        open(level, component, "bldg:BuildingRoom");
+    void room(const PlacedPlan& placed, int component) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        const std::string id = document_.idOf(placed, component);
+        open(placed, component, "bldg:BuildingRoom");
         int number = 0;
-        for (const BoundaryGroup& group : boundaryGroups(*level.plan, component)) {
+        for (const BoundaryGroup& group : boundaryGroups(*placed.plan, component)) {
             const std::string tag = (group.type == "ClosureSurface" ? "core:" : "con:") + std::string(group.type);
             const std::string surfaceId = id + "_b" + std::to_string(number++);
             out_ << "<core:boundary><" << tag << " gml:id=\"" << surfaceId << "\">";
-            surfaces(level, component, group, surfaceId);
+            surfaces(placed, component, group, surfaceId);
             for (const BoundaryGroup& opening : group.openings) {
                 const std::string openingTag = "con:" + std::string(opening.type);
                 const std::string openingId = id + "_b" + std::to_string(number++);
                 out_ << "<con:fillingSurface><" << openingTag << " gml:id=\"" << openingId << "\">";
-                surfaces(level, component, opening, openingId);
+                surfaces(placed, component, opening, openingId);
                 out_ << "</" << openingTag << "></con:fillingSurface>";
             }
             out_ << "</" << tag << "></core:boundary>\n";
@@ -229,47 +229,47 @@ private:
         for (std::size_t f = 0; f < c.shells.front().faces.size(); ++f)
             out_ << "<gml:surfaceMember xlink:href=\"#" << polygonId(id, f) << "\"/>\n";
         out_ << "</gml:Shell></gml:exterior></gml:Solid></core:lod3Solid>\n";
-        function(level, component);
-        eachChild(level, component, Kind::Furniture, "bldg:buildingFurniture", &Writer::furniture);
-        eachChild(level, component, Kind::Installation, "bldg:buildingInstallation", &Writer::installation);
+        function(placed, component);
+        eachChild(placed, component, Kind::Furniture, "bldg:buildingFurniture", &Writer::furniture);
+        eachChild(placed, component, Kind::Installation, "bldg:buildingInstallation", &Writer::installation);
         out_ << "</bldg:BuildingRoom>";
     }
 
     // Links to the components for which `isMember` holds.
     template <class Predicate>
-    void links(const Level& level, Kind kind, std::string_view property, const Predicate& isMember) {
-        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-            const Component& component = level.plan->components[c];
+    void links(const PlacedPlan& placed, Kind kind, std::string_view property, const Predicate& isMember) {
+        for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+            const Component& component = placed.plan->components[c];
             if (component.kind != kind || !isGrouped(component) || !isMember(component)) continue;
-            out_ << "<bldg:" << property << " xlink:href=\"#" << document_.idOf(level, int(c)) << "\"/>\n";
+            out_ << "<bldg:" << property << " xlink:href=\"#" << document_.idOf(placed, int(c)) << "\"/>\n";
         }
     }
 
-    void storey(const Level& level, int storey) {
-        open(level, storey, "bldg:Storey");
+    void storey(const PlacedPlan& placed, int storey) {
+        open(placed, storey, "bldg:Storey");
         const auto isMember = [storey](const Component& c) { return c.storey == storey; };
-        function(level, storey);
-        links(level, Kind::Element, "buildingConstructiveElement", isMember);
-        links(level, Kind::Installation, "buildingInstallation", isMember);
-        links(level, Kind::Room, "buildingRoom", isMember);
-        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-            const Component& component = level.plan->components[c];
+        function(placed, storey);
+        links(placed, Kind::Element, "buildingConstructiveElement", isMember);
+        links(placed, Kind::Installation, "buildingInstallation", isMember);
+        links(placed, Kind::Room, "buildingRoom", isMember);
+        for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+            const Component& component = placed.plan->components[c];
             if (component.kind != Kind::Unit || component.storey != storey) continue;
             out_ << "<bldg:buildingUnit>";
-            unit(level, int(c));
+            unit(placed, int(c));
             out_ << "</bldg:buildingUnit>\n";
         }
         out_ << "</bldg:Storey>";
     }
 
-    void unit(const Level& level, int unit) {
-        open(level, unit, "bldg:BuildingUnit");
+    void unit(const PlacedPlan& placed, int unit) {
+        open(placed, unit, "bldg:BuildingUnit");
         const auto isMember = [unit](const Component& c) { return c.unit == unit; };
-        solid(level, unit);
-        function(level, unit);
-        links(level, Kind::Element, "buildingConstructiveElement", isMember);
-        links(level, Kind::Installation, "buildingInstallation", isMember);
-        links(level, Kind::Room, "buildingRoom", isMember);
+        solid(placed, unit);
+        function(placed, unit);
+        links(placed, Kind::Element, "buildingConstructiveElement", isMember);
+        links(placed, Kind::Installation, "buildingInstallation", isMember);
+        links(placed, Kind::Room, "buildingRoom", isMember);
         out_ << "</bldg:BuildingUnit>";
     }
 

@@ -129,8 +129,8 @@ private:
     // The shape used by GeometryInstances: all instances of a sample share one.
     void templates() {
         const Document document = source_.building(0);
-        for (const Level& level : document.levels)
-            for (const Component& component : level.plan->components) {
+        for (const PlacedPlan& placed : document.plans)
+            for (const Component& component : placed.plan->components) {
                 if (!component.instance) continue;
                 const Instance& instance = *component.instance;
                 out_ << ",\"geometry-templates\":{\"templates\":[{\"type\":\"Solid\",\"lod\":\"3\",\"boundaries\":[";
@@ -190,11 +190,11 @@ private:
 
     void vertices(std::int64_t index) {
         const Document document = source_.building(index);
-        for (const Level& level : document.levels) {
-            const int decimals = level.placement.decimals();
-            for (const Point& p : level.plan->vertices) vertex(level.placement.at(p), decimals);
-            for (const Component& component : level.plan->components)
-                if (component.instance) vertex(level.placement.at(component.instance->shift), decimals);
+        for (const PlacedPlan& placed : document.plans) {
+            const int decimals = placed.placement.decimals();
+            for (const Point& p : placed.plan->vertices) vertex(placed.placement.at(p), decimals);
+            for (const Component& component : placed.plan->components)
+                if (component.instance) vertex(placed.placement.at(component.instance->shift), decimals);
         }
     }
 
@@ -206,33 +206,33 @@ private:
              << "\",\"function\":\"" << document_.function << "\",\"roofType\":\"" << document_.roofType
              << "\",\"storeysAboveGround\":" << document_.storeys << "},\"children\":[";
         bool isFirstChild = true;
-        for (const Level& level : document_.levels)
-            for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-                const Component& component = level.plan->components[c];
-                if (component.isGhost || document_.parentIdOf(level, int(c)) != document_.id) continue;
-                out_ << (isFirstChild ? "\"" : ",\"") << document_.idOf(level, int(c)) << "\"";
+        for (const PlacedPlan& placed : document_.plans)
+            for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+                const Component& component = placed.plan->components[c];
+                if (component.isStandIn || document_.parentIdOf(placed, int(c)) != document_.id) continue;
+                out_ << (isFirstChild ? "\"" : ",\"") << document_.idOf(placed, int(c)) << "\"";
                 isFirstChild = false;
             }
         out_ << "]}";
-        for (const Level& level : document_.levels) {
-            std::int64_t anchor = base + std::int64_t(level.plan->vertices.size());
-            for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-                if (level.plan->components[c].isGhost) continue;
-                object(level, int(c), base, anchor);
-                if (level.plan->components[c].instance) ++anchor;
+        for (const PlacedPlan& placed : document_.plans) {
+            std::int64_t anchor = base + std::int64_t(placed.plan->vertices.size());
+            for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+                if (placed.plan->components[c].isStandIn) continue;
+                object(placed, int(c), base, anchor);
+                if (placed.plan->components[c].instance) ++anchor;
             }
-            base += std::int64_t(level.plan->vertices.size() + instanceCount(*level.plan));
+            base += std::int64_t(placed.plan->vertices.size() + instanceCount(*placed.plan));
         }
         return base;
     }
 
-    void object(const Level& level, int component, std::int64_t base, std::int64_t anchor) {
-        const Component& c = level.plan->components[std::size_t(component)];
+    void object(const PlacedPlan& placed, int component, std::int64_t base, std::int64_t anchor) {
+        const Component& c = placed.plan->components[std::size_t(component)];
         separate();
-        out_ << "\"" << document_.idOf(level, component) << "\":{\"type\":\"" << typeOf(c.kind)
-             << "\",\"attributes\":{\"name\":\"" << document_.nameOf(level, component) << "\"";
+        out_ << "\"" << document_.idOf(placed, component) << "\":{\"type\":\"" << typeOf(c.kind)
+             << "\",\"attributes\":{\"name\":\"" << document_.nameOf(placed, component) << "\"";
         if (!c.function.empty()) out_ << ",\"function\":\"" << c.function << "\"";
-        for (const Attribute& attribute : document_.attributesOf(level, component)) {
+        for (const Attribute& attribute : document_.attributesOf(placed, component)) {
             out_ << ",\"" << attribute.name << "\":";
             if (const double* number = std::get_if<double>(&attribute.value))
                 out_ << decimalText(*number);
@@ -242,50 +242,50 @@ private:
                 out_ << toText(attribute.value);
         }
         out_ << "},";
-        parents(level, component);
-        children(level, component);
-        geometry(level, component, base, anchor);
+        parents(placed, component);
+        children(placed, component);
+        geometry(placed, component, base, anchor);
         out_ << "}";
     }
 
     // The parent comes first; storey and unit are additional groups.
-    void parents(const Level& level, int component) {
-        const Component& c = level.plan->components[std::size_t(component)];
-        out_ << "\"parents\":[\"" << document_.parentIdOf(level, component) << "\"";
+    void parents(const PlacedPlan& placed, int component) {
+        const Component& c = placed.plan->components[std::size_t(component)];
+        out_ << "\"parents\":[\"" << document_.parentIdOf(placed, component) << "\"";
         if (isGrouped(c) && c.kind != Kind::Unit) {
-            if (c.storey >= 0) out_ << ",\"" << document_.idOf(level, c.storey) << "\"";
-            if (c.unit >= 0) out_ << ",\"" << document_.idOf(level, c.unit) << "\"";
+            if (c.storey >= 0) out_ << ",\"" << document_.idOf(placed, c.storey) << "\"";
+            if (c.unit >= 0) out_ << ",\"" << document_.idOf(placed, c.unit) << "\"";
         }
         out_ << "]";
     }
 
-    void children(const Level& level, int component) {
-        const std::vector<Component>& all = level.plan->components;
+    void children(const PlacedPlan& placed, int component) {
+        const std::vector<Component>& all = placed.plan->components;
         const Kind kind = all[std::size_t(component)].kind;
         bool isFirstChild = true;
         for (std::size_t c = 0; c < all.size(); ++c) {
-            if (all[c].isGhost) continue;
+            if (all[c].isStandIn) continue;
             const bool isOwned = all[c].parent == component;
             const bool isMember = isGrouped(all[c]) && ((kind == Kind::Storey && all[c].storey == component) ||
                                                         (kind == Kind::Unit && all[c].unit == component));
             if (!isOwned && !isMember) continue;
-            out_ << (isFirstChild ? ",\"children\":[\"" : ",\"") << document_.idOf(level, int(c)) << "\"";
+            out_ << (isFirstChild ? ",\"children\":[\"" : ",\"") << document_.idOf(placed, int(c)) << "\"";
             isFirstChild = false;
         }
         if (!isFirstChild) out_ << "]";
     }
 
-    void geometry(const Level& level, int component, std::int64_t base, std::int64_t anchor) {
-        const Component& c = level.plan->components[std::size_t(component)];
+    void geometry(const PlacedPlan& placed, int component, std::int64_t base, std::int64_t anchor) {
+        const Component& c = placed.plan->components[std::size_t(component)];
         if (c.shells.empty()) return;
         out_ << ",\"geometry\":[{";
         if (c.instance) {
-            instance(level, *c.instance, anchor);
+            instance(placed, *c.instance, anchor);
         } else if (c.shells.size() == 1) {
             out_ << "\"type\":\"Solid\",\"lod\":\"3\",\"boundaries\":[";
             shell(c.shells.front(), base);
             out_ << "]";
-            if (c.kind == Kind::Room) semantics(level, component);
+            if (c.kind == Kind::Room) semantics(placed, component);
             out_ << ",\"material\":{\"sample\":{\"value\":" << int(document_.shown(c.shells.front().material)) << "}}";
         } else {
             composite(c, base);
@@ -310,12 +310,12 @@ private:
         out_ << "]}}";
     }
 
-    void semantics(const Level& level, int room) {
-        const std::size_t faceCount = level.plan->components[std::size_t(room)].shells.front().faces.size();
+    void semantics(const PlacedPlan& placed, int room) {
+        const std::size_t faceCount = placed.plan->components[std::size_t(room)].shells.front().faces.size();
         std::vector<int> values(faceCount, 0);
         int surface = 0;
         out_ << ",\"semantics\":{\"surfaces\":[";
-        for (const BoundaryGroup& group : boundaryGroups(*level.plan, room)) {
+        for (const BoundaryGroup& group : boundaryGroups(*placed.plan, room)) {
             const int parent = surface++;
             for (const int f : group.faces) values[std::size_t(f)] = parent;
             out_ << (parent == 0 ? "" : ",") << "{\"type\":\"" << group.type << "\"";
@@ -333,9 +333,9 @@ private:
         out_ << "]]}";
     }
 
-    void instance(const Level& level, const Instance& shape, std::int64_t anchor) {
+    void instance(const PlacedPlan& placed, const Instance& shape, std::int64_t anchor) {
         const std::array<Vec3d, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
-        const Vec3d east = level.placement.worldDirection(quarters[std::size_t(shape.quarterTurns)]);
+        const Vec3d east = placed.placement.worldDirection(quarters[std::size_t(shape.quarterTurns)]);
         const auto text = [](double value) { return fixedText(std::llround(value * 1e12), 12); };
         out_ << "\"type\":\"GeometryInstance\",\"template\":0,\"boundaries\":[" << anchor
              << "],\"transformationMatrix\":[" << text(east.x) << "," << text(-east.y) << ",0,0," << text(east.y) << ","

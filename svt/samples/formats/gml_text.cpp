@@ -28,12 +28,12 @@ void GmlText::position(const WorldPoint& point, int decimals) {
     out_.fixed(point.z, decimals);
 }
 
-void GmlText::polygon(const Level& level, const Face& face, std::string_view id) {
+void GmlText::polygon(const PlacedPlan& placed, const Face& face, std::string_view id) {
     out_ << "<gml:Polygon";
     if (!id.empty()) out_ << " gml:id=\"" << id << "\"";
     out_ << ">";
-    const int decimals = level.placement.decimals();
-    rings(face, [&](std::uint32_t i) { position(level.placement.at(level.plan->vertices[i]), decimals); });
+    const int decimals = placed.placement.decimals();
+    rings(face, [&](std::uint32_t i) { position(placed.placement.at(placed.plan->vertices[i]), decimals); });
 }
 
 void GmlText::localPolygon(const Instance& instance, const Face& face) {
@@ -54,9 +54,9 @@ void GmlText::envelope(SampleSource& source) {
     out_ << "</gml:upperCorner></gml:Envelope></gml:boundedBy>\n";
 }
 
-void GmlText::matrix(const Level& level, const Instance& instance) {
+void GmlText::matrix(const PlacedPlan& placed, const Instance& instance) {
     const std::array<Vec3d, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
-    const Vec3d east = level.placement.worldDirection(quarters[std::size_t(instance.quarterTurns)]);
+    const Vec3d east = placed.placement.worldDirection(quarters[std::size_t(instance.quarterTurns)]);
     const auto text = [](double value) { return fixedText(std::llround(value * 1e12), 12); };
     out_ << text(east.x) << " " << text(-east.y) << " 0 0 " << text(east.y) << " " << text(east.x)
          << " 0 0 0 0 1 0 0 0 0 1";
@@ -75,11 +75,11 @@ std::string polygonId(const std::string& componentId, std::size_t number) {
 
 std::vector<MaterialTargets> materialTargets(const Document& document, bool isThematic) {
     std::map<Material, std::vector<std::string>> targets;
-    for (const Level& level : document.levels)
-        for (std::size_t c = 0; c < level.plan->components.size(); ++c) {
-            const Component& component = level.plan->components[c];
-            if (!fillsSpace(component) || component.kind == Kind::Room || component.isGhost) continue;
-            const std::string id = document.idOf(level, int(c));
+    for (const PlacedPlan& placed : document.plans)
+        for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
+            const Component& component = placed.plan->components[c];
+            if (!fillsSpace(component) || component.kind == Kind::Room || component.isStandIn) continue;
+            const std::string id = document.idOf(placed, int(c));
             std::size_t number = 0;
             for (const Shell& shell : component.shells) {
                 const Material material = document.shown(shell.material);

@@ -149,21 +149,21 @@ private:
             read_.dangling.push_back("twice: " + element.id);
         if (!href.empty()) hrefs_.push_back(href.substr(1));
         if (element.name == "gml:Solid") ++solid_;
-        // In CityGML 2.0 the surfaces of a door or window enclose its body.
+        // In CityGML 2.0 the surfaces of a door or window enclose its solid.
         const bool isOpening =
             stack_.size() > 1 && element.name == "gml:MultiSurface" &&
             (stack_[stack_.size() - 2].name == "bldg:Door" || stack_[stack_.size() - 2].name == "bldg:Window");
         if (isOpening) ++solid_;
         stack_.push_back(element);
-        const bool isInBody = isInside("gml:Solid") || isInside("bldg:Door") || isInside("bldg:Window");
-        if (element.name == "gml:surfaceMember" && !href.empty() && isInBody && !isInside("gml:OrientableSurface"))
+        const bool isInSolid = isInside("gml:Solid") || isInside("bldg:Door") || isInside("bldg:Window");
+        if (element.name == "gml:surfaceMember" && !href.empty() && isInSolid && !isInside("gml:OrientableSurface"))
             members_[owner()].push_back({href.substr(1), false});
-        if (element.name == "gml:OrientableSurface" && isInBody) members_[owner()].push_back({element.id, false});
+        if (element.name == "gml:OrientableSurface" && isInSolid) members_[owner()].push_back({element.id, false});
         if (element.name == "gml:baseSurface") bases_[stack_[stack_.size() - 2].id] = href.substr(1);
         if (element.name == "gml:Polygon") {
             if (element.id.empty()) stack_.back().id = "unnamed" + std::to_string(polygons_.size());
             polygon_ = &polygons_[stack_.back().id];
-            if (isInBody) members_[owner()].push_back({stack_.back().id, false});
+            if (isInSolid) members_[owner()].push_back({stack_.back().id, false});
         }
         if (element.name == "app:target") hrefs_.emplace_back(content.substr(1));
         if (element.name == "gml:posList") polygon_->push_back(positions(content));

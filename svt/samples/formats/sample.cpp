@@ -11,7 +11,7 @@
 namespace svt::samples {
 namespace {
 
-constexpr std::int64_t kMostDescribed = 10000;  // houses
+constexpr std::int64_t kMaxDescribed = 10000;  // houses
 
 // n . local <= c with local = inverse(world), in millimetres, as a half-space in world metres.
 HalfSpace worldHalfSpace(const Placement& placement, Vec3d normal, double limit) {
@@ -35,19 +35,19 @@ SamplePiece worldPiece(const Placement& placement, Axis axis, const Piece& piece
     return result;
 }
 
-SampleComponent describe(const Document& document, const Level& level, int index) {
-    const Component& component = level.plan->components[std::size_t(index)];
+SampleComponent describe(const Document& document, const PlacedPlan& placed, int index) {
+    const Component& component = placed.plan->components[std::size_t(index)];
     SampleComponent result;
-    result.id = document.idOf(level, index);
+    result.id = document.idOf(placed, index);
     result.className = className(component.kind);
-    result.name = document.nameOf(level, index);
-    result.parent = document.parentIdOf(level, index);
-    if (component.storey >= 0) result.storey = document.idOf(level, component.storey);
-    if (component.unit >= 0) result.unit = document.idOf(level, component.unit);
+    result.name = document.nameOf(placed, index);
+    result.parent = document.parentIdOf(placed, index);
+    if (component.storey >= 0) result.storey = document.idOf(placed, component.storey);
+    if (component.unit >= 0) result.unit = document.idOf(placed, component.unit);
     result.volume = component.volume;
-    for (const Body& body : component.bodies) {
-        auto& pieces = result.bodies.emplace_back();
-        for (const Piece& piece : body.pieces) pieces.push_back(worldPiece(level.placement, body.axis, piece));
+    for (const Solid& solid : component.solids) {
+        auto& pieces = result.solids.emplace_back();
+        for (const Piece& piece : solid.pieces) pieces.push_back(worldPiece(placed.placement, solid.axis, piece));
     }
     return result;
 }
@@ -59,7 +59,7 @@ bool SampleComponent::contains(Vec3d point) const {
         return std::all_of(piece.sides.begin(), piece.sides.end(),
                            [&](const HalfSpace& side) { return dot(side.normal, point) <= side.offset; });
     };
-    for (const auto& pieces : bodies) {
+    for (const auto& pieces : solids) {
         const auto last = std::find_if(pieces.rbegin(), pieces.rend(), isInPiece);
         if (last != pieces.rend() && last->adds) return true;
     }
@@ -94,16 +94,16 @@ Result<std::string> writeSample(SampleKind kind, SampleFormat format, const Samp
 Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const SampleOptions& options) {
     Result<SampleSource> source = SampleSource::make(kind, options);
     if (!source) return source.error();
-    if (source->buildingCount() > kMostDescribed)
+    if (source->buildingCount() > kMaxDescribed)
         return Error(Code::BadArgument, fmt::format("columns x rows is {}, at most {} houses can be described",
-                                                    source->buildingCount(), kMostDescribed));
+                                                    source->buildingCount(), kMaxDescribed));
     std::vector<SampleComponent> result;
     for (std::int64_t i = 0; i < source->buildingCount(); ++i) {
         const Document document = source->building(i);
         result.push_back({document.id, "Building", document.name, "", "", "", 0, {}});
-        for (const Level& level : document.levels)
-            for (std::size_t c = 0; c < level.plan->components.size(); ++c)
-                if (!level.plan->components[c].isGhost) result.push_back(describe(document, level, int(c)));
+        for (const PlacedPlan& placed : document.plans)
+            for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
+                if (!placed.plan->components[c].isStandIn) result.push_back(describe(document, placed, int(c)));
     }
     return result;
 }

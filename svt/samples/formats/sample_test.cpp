@@ -78,7 +78,7 @@ void expectSolidsAsDescribed(const ReadBack& read, const std::vector<SampleCompo
     EXPECT_TRUE(read.dangling.empty()) << read.dangling.front();
     for (const SampleComponent& component : components) {
         EXPECT_TRUE(read.ids.count(component.id) != 0) << component.id;
-        if (component.bodies.empty()) continue;
+        if (component.solids.empty()) continue;
         const auto shells = read.shells.find(component.id);
         if (shells == read.shells.end()) {
             ADD_FAILURE() << component.id << " has no solid";
@@ -560,13 +560,13 @@ TEST(TextSink, NumbersHaveFixedDecimals) {
 }
 
 TEST(Placement, QuarterTurnsAreExact) {
-    const Placement placement({}, {}, Turn::byDegrees(-270, 5500, 4500), {1000, 2000, 3000});
+    const Placement placement({}, {}, Rotation::byDegrees(-270, 5500, 4500), {1000, 2000, 3000});
     EXPECT_EQ(placement.decimals(), 3);
     const WorldPoint p = placement.at({5500 + 7, 4500, 5});
     EXPECT_EQ(p.x, 6500);
     EXPECT_EQ(p.y, 6507);
     EXPECT_EQ(p.z, 3005);
-    EXPECT_EQ(Placement({}, {}, Turn::byDegrees(1, 0, 0), {}).decimals(), 6);
+    EXPECT_EQ(Placement({}, {}, Rotation::byDegrees(1, 0, 0), {}).decimals(), 6);
 }
 
 }  // namespace

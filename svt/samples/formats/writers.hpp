@@ -23,13 +23,13 @@ public:
     /// Coordinates of `point`, separated by blanks.
     void position(const WorldPoint& point, int decimals);
     /// A gml:Polygon; without id if `id` is empty.
-    void polygon(const Level& level, const Face& face, std::string_view id);
+    void polygon(const PlacedPlan& placed, const Face& face, std::string_view id);
     /// A gml:Polygon of a shape in its local coordinates.
     void localPolygon(const Instance& instance, const Face& face);
     /// gml:boundedBy of the whole model.
     void envelope(SampleSource& source);
     /// The 16 numbers of a transformation matrix: quarter turns, then the turn of the placement.
-    void matrix(const Level& level, const Instance& instance);
+    void matrix(const PlacedPlan& placed, const Instance& instance);
     /// app:X3DMaterial of a material, without its targets and closing tag.
     void material(Material material, std::string_view id);
 

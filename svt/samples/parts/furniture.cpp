@@ -5,90 +5,90 @@
 namespace svt::samples {
 namespace {
 
-Body bodyOf(Material material, std::vector<Piece> pieces) { return {Axis::X, material, std::move(pieces)}; }
+Solid solidOf(Material material, std::vector<Piece> pieces) { return {Axis::X, material, std::move(pieces)}; }
 
 // A plate on four legs.
-Body tableBody(Length width, Length depth, Length height, Length plate, Length leg) {
-    Body body = bodyOf(Material::Timber, {box(0, width, 0, depth, height - plate, height)});
+Solid tableSolid(Length width, Length depth, Length height, Length plate, Length leg) {
+    Solid solid = solidOf(Material::Timber, {box(0, width, 0, depth, height - plate, height)});
     for (const Length x : {Length{30}, width - 30 - leg})
-        for (const Length y : {Length{30}, depth - 30 - leg}) body.add(box(x, x + leg, y, y + leg, 0, height - plate));
-    return body;
+        for (const Length y : {Length{30}, depth - 30 - leg}) solid.add(box(x, x + leg, y, y + leg, 0, height - plate));
+    return solid;
 }
 
-Body chairBody() {
-    Body body = bodyOf(Material::Timber, {box(0, 450, 0, 450, 430, 470)});
+Solid chairSolid() {
+    Solid solid = solidOf(Material::Timber, {box(0, 450, 0, 450, 430, 470)});
     for (const Length x : {0, 410})
-        for (const Length y : {0, 410}) body.add(box(x, x + 40, y, y + 40, 0, 430));
-    return body.add(box(0, 450, 410, 450, 470, 900)).cut(box(60, 390, 410, 450, 520, 640));
+        for (const Length y : {0, 410}) solid.add(box(x, x + 40, y, y + 40, 0, 430));
+    return solid.add(box(0, 450, 410, 450, 470, 900)).cut(box(60, 390, 410, 450, 520, 640));
 }
 
-Body seatBody(Length width) {
-    return bodyOf(Material::Fabric, {box(0, width, 0, 850, 100, 420), box(0, width, 620, 850, 420, 800),
-                                     box(0, 180, 0, 620, 420, 600), box(width - 180, width, 0, 620, 420, 600),
-                                     box(40, 120, 40, 120, 0, 100), box(width - 120, width - 40, 40, 120, 0, 100),
-                                     box(40, 120, 730, 810, 0, 100), box(width - 120, width - 40, 730, 810, 0, 100)});
+Solid seatSolid(Length width) {
+    return solidOf(Material::Fabric, {box(0, width, 0, 850, 100, 420), box(0, width, 620, 850, 420, 800),
+                                      box(0, 180, 0, 620, 420, 600), box(width - 180, width, 0, 620, 420, 600),
+                                      box(40, 120, 40, 120, 0, 100), box(width - 120, width - 40, 40, 120, 0, 100),
+                                      box(40, 120, 730, 810, 0, 100), box(width - 120, width - 40, 730, 810, 0, 100)});
 }
 
-Body shelfBody() {
-    Body body = bodyOf(Material::Timber, {box(0, 1200, 0, 320, 0, 2000)});
+Solid shelfSolid() {
+    Solid solid = solidOf(Material::Timber, {box(0, 1200, 0, 320, 0, 2000)});
     for (Length level = 0; level < 5; ++level)
-        body.cut(box(30, 1170, 0, 300, 60 + level * 390, 60 + level * 390 + 350));
-    return body;
+        solid.cut(box(30, 1170, 0, 300, 60 + level * 390, 60 + level * 390 + 350));
+    return solid;
 }
 
-Body bedBody(Length width) {
-    Body body = bodyOf(Material::Timber, {box(0, width, 0, 2040, 120, 300), box(0, width, 2000, 2040, 300, 950)});
+Solid bedSolid(Length width) {
+    Solid solid = solidOf(Material::Timber, {box(0, width, 0, 2040, 120, 300), box(0, width, 2000, 2040, 300, 950)});
     for (const Length x : {Length{0}, width - 80})
-        for (const Length y : {0, 1960}) body.add(box(x, x + 80, y, y + 80, 0, 120));
-    body.add(box(40, width - 40, 40, 2000, 300, 480));
+        for (const Length y : {0, 1960}) solid.add(box(x, x + 80, y, y + 80, 0, 120));
+    solid.add(box(40, width - 40, 40, 2000, 300, 480));
     const int pillows = width > 1200 ? 2 : 1;
     for (int i = 0; i < pillows; ++i) {
         const Length x = 100 + i * (width - 100) / 2;
-        body.add(box(x, x + (width - 100) / pillows - 100, 1550, 1950, 480, 580));
+        solid.add(box(x, x + (width - 100) / pillows - 100, 1550, 1950, 480, 580));
     }
-    return body;
+    return solid;
 }
 
 }  // namespace
 
-Body furnitureBody(Item item) {
+Solid furnitureSolid(Item item) {
     switch (item) {
-        case Item::Table: return tableBody(1800, 900, 750, 40, 80);
-        case Item::Chair: return chairBody();
-        case Item::CoffeeTable: return tableBody(1100, 600, 420, 40, 60);
-        case Item::Sofa: return seatBody(2200);
-        case Item::Armchair: return seatBody(950);
-        case Item::Shelf: return shelfBody();
+        case Item::Table: return tableSolid(1800, 900, 750, 40, 80);
+        case Item::Chair: return chairSolid();
+        case Item::CoffeeTable: return tableSolid(1100, 600, 420, 40, 60);
+        case Item::Sofa: return seatSolid(2200);
+        case Item::Armchair: return seatSolid(950);
+        case Item::Shelf: return shelfSolid();
         case Item::Sideboard:
-            return bodyOf(Material::Timber, {box(0, 1600, 0, 420, 100, 700), box(60, 1540, 40, 380, 0, 100)});
+            return solidOf(Material::Timber, {box(0, 1600, 0, 420, 100, 700), box(60, 1540, 40, 380, 0, 100)});
         case Item::Counter:
-            return bodyOf(Material::Timber, {box(0, 2600, 60, 600, 0, 100), box(0, 2600, 20, 600, 100, 870),
-                                             box(0, 2600, 0, 600, 870, 910)})
+            return solidOf(Material::Timber, {box(0, 2600, 60, 600, 0, 100), box(0, 2600, 20, 600, 100, 870),
+                                              box(0, 2600, 0, 600, 870, 910)})
                 .cut(box(1600, 2200, 100, 500, 740, 910));
-        case Item::Fridge: return bodyOf(Material::Steel, {box(0, 600, 0, 620, 0, 1850)});
+        case Item::Fridge: return solidOf(Material::Steel, {box(0, 600, 0, 620, 0, 1850)});
         case Item::Wardrobe:
-            return bodyOf(Material::Timber, {box(0, 1800, 0, 600, 0, 2050)}).cut(box(40, 1760, 0, 20, 80, 2010));
-        case Item::Bed: return bedBody(1000);
-        case Item::DoubleBed: return bedBody(1800);
+            return solidOf(Material::Timber, {box(0, 1800, 0, 600, 0, 2050)}).cut(box(40, 1760, 0, 20, 80, 2010));
+        case Item::Bed: return bedSolid(1000);
+        case Item::DoubleBed: return bedSolid(1800);
         case Item::Desk:
-            return bodyOf(Material::Timber, {box(0, 1400, 0, 700, 710, 740), box(0, 400, 60, 660, 0, 710),
-                                             box(1340, 1400, 60, 660, 0, 710)});
+            return solidOf(Material::Timber, {box(0, 1400, 0, 700, 710, 740), box(0, 400, 60, 660, 0, 710),
+                                              box(1340, 1400, 60, 660, 0, 710)});
         case Item::Bathtub:
-            return bodyOf(Material::Ceramic, {box(0, 1700, 0, 750, 0, 560)}).cut(box(80, 1620, 80, 670, 150, 560));
+            return solidOf(Material::Ceramic, {box(0, 1700, 0, 750, 0, 560)}).cut(box(80, 1620, 80, 670, 150, 560));
         case Item::Basin:
-            return bodyOf(Material::Ceramic, {box(150, 350, 120, 400, 0, 700), box(0, 500, 0, 400, 700, 850)})
+            return solidOf(Material::Ceramic, {box(150, 350, 120, 400, 0, 700), box(0, 500, 0, 400, 700, 850)})
                 .cut(box(60, 440, 60, 300, 760, 850));
         case Item::Toilet:
-            return bodyOf(Material::Ceramic, {box(60, 340, 120, 560, 0, 200), box(20, 380, 0, 560, 200, 420),
-                                              box(0, 400, 560, 700, 200, 820)})
+            return solidOf(Material::Ceramic, {box(60, 340, 120, 560, 0, 200), box(20, 380, 0, 560, 200, 420),
+                                               box(0, 400, 560, 700, 200, 820)})
                 .cut(box(90, 310, 80, 450, 300, 420));
         case Item::WashingMachine: break;
     }
-    return bodyOf(Material::Steel, {box(0, 600, 30, 600, 0, 850), box(150, 450, 0, 30, 300, 600)});
+    return solidOf(Material::Steel, {box(0, 600, 30, 600, 0, 850), box(150, 450, 0, 30, 300, 600)});
 }
 
-Body placed(const Body& body, int quarterTurns, Point shift) {
-    Body result = body;
+Solid placed(const Solid& solid, int quarterTurns, Point shift) {
+    Solid result = solid;
     for (Piece& piece : result.pieces) {
         Length x0 = piece.from, x1 = piece.to, y1 = piece.sides[0].limit, y0 = -piece.sides[1].limit;
         const Length z1 = piece.sides[2].limit, z0 = -piece.sides[3].limit;
@@ -113,10 +113,10 @@ int addFurniture(Plan& plan, int room, Item item, Length x, Length y, Length z, 
     component.storey = plan.components[std::size_t(room)].storey;
     component.unit = plan.components[std::size_t(room)].unit;
     component.function = "furniture";
-    const Body local = furnitureBody(item);
+    const Solid local = furnitureSolid(item);
     const Bounds turned = boundsOf(placed(local, quarterTurns, {}));
     const Point shift{x - turned.min.x, y - turned.min.y, z};
-    component.bodies.push_back(placed(local, quarterTurns, shift));
+    component.solids.push_back(placed(local, quarterTurns, shift));
     if (isInstance) component.instance = Instance{local, quarterTurns, shift, {}, {}};
     return furniture;
 }

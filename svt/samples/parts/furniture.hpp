@@ -28,11 +28,11 @@ enum class Item : std::uint8_t {
     WashingMachine
 };
 
-/// \return the item's body, standing on z = 0
-[[nodiscard]] Body furnitureBody(Item item);
+/// \return the item's solid, standing on z = 0
+[[nodiscard]] Solid furnitureSolid(Item item);
 
-/// `body` rotated counter-clockwise about z by quarter turns and translated. Boxes only.
-[[nodiscard]] Body placed(const Body& body, int quarterTurns, Point shift);
+/// `solid` rotated counter-clockwise about z by quarter turns and translated. Boxes only.
+[[nodiscard]] Solid placed(const Solid& solid, int quarterTurns, Point shift);
 
 /// Places an item in a room, its rotated footprint starting at (x, y), standing on z.
 /// \param isInstance  formats with templates write it as an instance of one

@@ -10,7 +10,7 @@ constexpr Length kPaneFront = 143, kPaneBack = 167;
 constexpr Length kFrameWidth = 60, kBarWidth = 50;
 constexpr Length kJamb = 40, kLeaf = 45;
 
-Body& firstBody(Plan& plan, int component) { return plan.components[std::size_t(component)].bodies.front(); }
+Solid& firstSolid(Plan& plan, int component) { return plan.components[std::size_t(component)].solids.front(); }
 
 }  // namespace
 
@@ -31,11 +31,11 @@ Piece Opening::piece(Length d0, Length d1, Length sides, Length bottom, Length t
 int addWindow(Plan& plan, int wall, int room, const Opening& opening, int columns, int rows, std::string id,
               std::string name) {
     const int window = addComponent(plan, Kind::Window, std::move(id), std::move(name), wall);
-    Body frame{Axis::X, Material::Paint, {opening.piece(kFrameFront, kFrameBack)}};
-    Body& space = firstBody(plan, room);
-    firstBody(plan, wall).cut(opening.piece(0, opening.thickness));
+    Solid frame{Axis::X, Material::Paint, {opening.piece(kFrameFront, kFrameBack)}};
+    Solid& space = firstSolid(plan, room);
+    firstSolid(plan, wall).cut(opening.piece(0, opening.thickness));
     space.add(opening.piece(kFrameBack, opening.thickness));
-    std::vector<Body> panes;
+    std::vector<Solid> panes;
     const Length width = opening.along1 - opening.along0 - 2 * kFrameWidth - (columns - 1) * kBarWidth;
     const Length height = opening.z1 - opening.z0 - 2 * kFrameWidth - (rows - 1) * kBarWidth;
     for (int row = 0; row < rows; ++row)
@@ -54,29 +54,29 @@ int addWindow(Plan& plan, int wall, int room, const Opening& opening, int column
     component.function = "window";
     component.attributes = {{"material", std::string("painted timber, insulating glass"), ""},
                             {"panes", std::int64_t(columns) * rows, ""}};
-    component.bodies.push_back(std::move(frame));
-    for (Body& pane : panes) component.bodies.push_back(std::move(pane));
+    component.solids.push_back(std::move(frame));
+    for (Solid& pane : panes) component.solids.push_back(std::move(pane));
     return window;
 }
 
 int addDoor(Plan& plan, int wall, int room, const Opening& opening, std::string id, std::string name) {
     const int door = addComponent(plan, Kind::Door, std::move(id), std::move(name), wall);
-    Body frame{Axis::X, Material::Paint, {opening.piece(0, opening.thickness)}};
+    Solid frame{Axis::X, Material::Paint, {opening.piece(0, opening.thickness)}};
     frame.cut(opening.piece(0, opening.thickness, kJamb, 0, kJamb));
-    firstBody(plan, wall).cut(opening.piece(0, opening.thickness));
-    firstBody(plan, room).add(opening.piece(kLeaf, opening.thickness, kJamb, 0, kJamb));
+    firstSolid(plan, wall).cut(opening.piece(0, opening.thickness));
+    firstSolid(plan, room).add(opening.piece(kLeaf, opening.thickness, kJamb, 0, kJamb));
     Component& component = plan.components[std::size_t(door)];
     component.storey = plan.components[std::size_t(wall)].storey;
     component.unit = plan.components[std::size_t(wall)].unit;
     component.function = "door";
-    component.bodies.push_back(std::move(frame));
-    component.bodies.push_back({Axis::X, Material::Timber, {opening.piece(0, kLeaf, kJamb, 0, kJamb)}});
+    component.solids.push_back(std::move(frame));
+    component.solids.push_back({Axis::X, Material::Timber, {opening.piece(0, kLeaf, kJamb, 0, kJamb)}});
     return door;
 }
 
 void addPassage(Plan& plan, int wall, int room, const Opening& opening) {
-    firstBody(plan, wall).cut(opening.piece(0, opening.thickness));
-    firstBody(plan, room).add(opening.piece(0, opening.thickness));
+    firstSolid(plan, wall).cut(opening.piece(0, opening.thickness));
+    firstSolid(plan, room).add(opening.piece(0, opening.thickness));
 }
 
 }  // namespace svt::samples

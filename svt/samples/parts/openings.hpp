@@ -27,12 +27,12 @@ struct Opening {
 };
 
 /// Cuts the hole into `wall` and places a window of `columns` x `rows` panes in it, 120 mm behind the outer face:
-/// body 0 is the frame with its bars, the others are the panes. The inner reveal becomes part of `room`.
+/// solid 0 is the frame with its bars, the others are the panes. The inner reveal becomes part of `room`.
 /// \return the window
 int addWindow(Plan& plan, int wall, int room, const Opening& opening, int columns, int rows, std::string id,
               std::string name);
 
-/// Cuts the hole into `wall` and places a door in it: body 0 is the frame (as deep as the wall), body 1 the leaf,
+/// Cuts the hole into `wall` and places a door in it: solid 0 is the frame (as deep as the wall), solid 1 the leaf,
 /// flush with depth 0. The rest of the doorway becomes part of `room`, on the far side.
 /// \return the door
 int addDoor(Plan& plan, int wall, int room, const Opening& opening, std::string id, std::string name);

@@ -5,18 +5,19 @@
 namespace svt::samples {
 namespace {
 
-Vec3d turnedBy(const Turn& turn, Vec3d p) {
-    const double dx = p.x - turn.centerX, dy = p.y - turn.centerY;
-    return {turn.centerX + turn.cosine * dx - turn.sine * dy, turn.centerY + turn.sine * dx + turn.cosine * dy, p.z};
+Vec3d rotatedBy(const Rotation& rotation, Vec3d p) {
+    const double dx = p.x - rotation.centerX, dy = p.y - rotation.centerY;
+    return {rotation.centerX + rotation.cosine * dx - rotation.sine * dy,
+            rotation.centerY + rotation.sine * dx + rotation.cosine * dy, p.z};
 }
 
-Vec3d turnedDirection(const Turn& turn, Vec3d d) {
-    return {turn.cosine * d.x - turn.sine * d.y, turn.sine * d.x + turn.cosine * d.y, d.z};
+Vec3d rotatedDirection(const Rotation& rotation, Vec3d d) {
+    return {rotation.cosine * d.x - rotation.sine * d.y, rotation.sine * d.x + rotation.cosine * d.y, d.z};
 }
 
 }  // namespace
 
-Turn Turn::byDegrees(double degrees, double centerX, double centerY) {
+Rotation Rotation::byDegrees(double degrees, double centerX, double centerY) {
     constexpr double kRadians = 0.017453292519943295;
     const double quarters = degrees / 90;
     if (quarters == std::floor(quarters)) {
@@ -34,20 +35,21 @@ Turn Turn::byDegrees(double degrees, double centerX, double centerY) {
             std::round(std::sin(degrees * kRadians) * 1e12) / 1e12, centerX, centerY};
 }
 
-bool Turn::isExact() const {
+bool Rotation::isExact() const {
     if (cosine != 0 && sine != 0) return false;
     const double kept = centerX - cosine * centerX + sine * centerY;
     const double other = centerY - sine * centerX - cosine * centerY;
     return kept == std::floor(kept) && other == std::floor(other);
 }
 
-Vec3d Placement::turned(Vec3d p) const {
-    const Vec3d local = turnedBy(buildingTurn_, p);
-    return turnedBy(modelTurn_, {local.x + double(shift_.x), local.y + double(shift_.y), local.z + double(shift_.z)});
+Vec3d Placement::rotated(Vec3d p) const {
+    const Vec3d local = rotatedBy(buildingRotation_, p);
+    return rotatedBy(modelRotation_,
+                     {local.x + double(shift_.x), local.y + double(shift_.y), local.z + double(shift_.z)});
 }
 
 WorldPoint Placement::at(Point p) const {
-    const Vec3d q = turned({double(p.x), double(p.y), double(p.z)});
+    const Vec3d q = rotated({double(p.x), double(p.y), double(p.z)});
     const std::int64_t scale = decimals() == 3 ? 1 : 1000;
     const auto whole = [&](double value, Length origin) {
         return std::int64_t(std::llround(value * double(scale))) + origin * scale;
@@ -56,12 +58,12 @@ WorldPoint Placement::at(Point p) const {
 }
 
 Vec3d Placement::worldPosition(Vec3d millimetres) const {
-    const Vec3d q = turned(millimetres);
+    const Vec3d q = rotated(millimetres);
     return {(q.x + double(origin_.x)) / 1000, (q.y + double(origin_.y)) / 1000, (q.z + double(origin_.z)) / 1000};
 }
 
 Vec3d Placement::worldDirection(Vec3d direction) const {
-    return turnedDirection(modelTurn_, turnedDirection(buildingTurn_, direction));
+    return rotatedDirection(modelRotation_, rotatedDirection(buildingRotation_, direction));
 }
 
 Placement Placement::lifted(Length height) const {

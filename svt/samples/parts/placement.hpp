@@ -10,12 +10,12 @@
 namespace svt::samples {
 
 /// A rotation in plan about a centre, counter-clockwise.
-struct Turn {
+struct Rotation {
     double cosine = 1, sine = 0;
     double centerX = 0, centerY = 0;  ///< millimetres
 
     /// By any angle; quarter turns are exact, others rounded to 1e-12 so that all machines agree.
-    [[nodiscard]] static Turn byDegrees(double degrees, double centerX, double centerY);
+    [[nodiscard]] static Rotation byDegrees(double degrees, double centerX, double centerY);
     /// True for multiples of a quarter turn about whole or half millimetres that map whole millimetres to whole
     /// millimetres.
     [[nodiscard]] bool isExact() const;
@@ -29,12 +29,12 @@ struct WorldPoint {
 class Placement {
 public:
     Placement() = default;
-    /// world = modelTurn(buildingTurn(p) + shift) + origin, all in millimetres.
-    Placement(const Turn& buildingTurn, Point shift, const Turn& modelTurn, Point origin)
-        : buildingTurn_(buildingTurn), shift_(shift), modelTurn_(modelTurn), origin_(origin) {}
+    /// world = modelRotation(buildingRotation(p) + shift) + origin, all in millimetres.
+    Placement(const Rotation& buildingRotation, Point shift, const Rotation& modelRotation, Point origin)
+        : buildingRotation_(buildingRotation), shift_(shift), modelRotation_(modelRotation), origin_(origin) {}
 
     /// 3 if every point is a whole millimetre, else 6.
-    [[nodiscard]] int decimals() const { return buildingTurn_.isExact() && modelTurn_.isExact() ? 3 : 6; }
+    [[nodiscard]] int decimals() const { return buildingRotation_.isExact() && modelRotation_.isExact() ? 3 : 6; }
     /// Rounded to decimals().
     [[nodiscard]] WorldPoint at(Point p) const;
     /// Unrounded; metres.
@@ -44,11 +44,11 @@ public:
     [[nodiscard]] Placement lifted(Length height) const;
 
 private:
-    [[nodiscard]] Vec3d turned(Vec3d p) const;  // without the origin; millimetres
+    [[nodiscard]] Vec3d rotated(Vec3d p) const;  // without the origin; millimetres
 
-    Turn buildingTurn_;
+    Rotation buildingRotation_;
     Point shift_;
-    Turn modelTurn_;
+    Rotation modelRotation_;
     Point origin_;
 };
 

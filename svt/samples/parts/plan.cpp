@@ -90,12 +90,12 @@ void sortUnique(std::vector<Point>& points) {
 }
 
 void resolveInstance(Instance& instance) {
-    Boundary shape = boundary(instance.body, {});
+    Boundary shape = boundary(instance.solid, {});
     std::vector<Point> corners;
     for (const RawFace& face : shape.faces) collectCorners(face, corners);
     sortUnique(corners);
     VertexTable table(instance.vertices);
-    instance.shell = toShell(shape.faces, instance.body.material, corners, table);
+    instance.shell = toShell(shape.faces, instance.solid.material, corners, table);
 }
 
 // Pairs every face with the identical, reversed face of its neighbour.
@@ -156,7 +156,7 @@ bool fillsSpace(const Component& component) {
 }
 
 bool isGrouped(const Component& component) {
-    return !component.isGhost && (component.parent < 0 || component.kind == Kind::Installation);
+    return !component.isStandIn && (component.parent < 0 || component.kind == Kind::Installation);
 }
 
 int addComponent(Plan& plan, Kind kind, std::string id, std::string name, int parent) {
@@ -177,7 +177,7 @@ int addElement(Plan& plan, int storey, std::string id, std::string name, std::st
     component.storey = storey;
     component.hullPart = part;
     component.attributes = {{"loadBearing", isLoadBearing, ""}};
-    component.bodies = {{Axis::X, material, {std::move(piece)}}};
+    component.solids = {{Axis::X, material, {std::move(piece)}}};
     return index;
 }
 
@@ -186,29 +186,29 @@ int addRoom(Plan& plan, int storey, std::string id, std::string name, std::strin
     Component& component = plan.components.back();
     component.function = std::move(function);
     component.storey = storey;
-    component.bodies = {{Axis::X, Material::Air, {std::move(piece)}}};
+    component.solids = {{Axis::X, Material::Air, {std::move(piece)}}};
     return index;
 }
 
 int addInstallation(Plan& plan, int storey, int parent, std::string id, std::string name, std::string function,
-                    Body body) {
+                    Solid solid) {
     const int index = addComponent(plan, Kind::Installation, std::move(id), std::move(name), parent);
     Component& component = plan.components.back();
     component.function = std::move(function);
     component.storey = storey;
-    component.bodies.push_back(std::move(body));
+    component.solids.push_back(std::move(solid));
     if (parent >= 0) component.unit = plan.components[std::size_t(parent)].unit;
     return index;
 }
 
 void resolve(Plan& plan) {
-    // Each body is a separate neighbour, so that a frame and its leaf or pane get separate faces.
+    // Each solid is a separate neighbour, so that a frame and its leaf or pane get separate faces.
     std::vector<Neighbor> fillers;
     std::vector<int> owners;
     for (std::size_t c = 0; c < plan.components.size(); ++c) {
         if (!fillsSpace(plan.components[c])) continue;
-        for (const Body& body : plan.components[c].bodies) {
-            fillers.emplace_back(body, int(fillers.size()));
+        for (const Solid& solid : plan.components[c].solids) {
+            fillers.emplace_back(solid, int(fillers.size()));
             owners.push_back(int(c));
         }
     }
@@ -216,10 +216,10 @@ void resolve(Plan& plan) {
     std::vector<Point> sharedCorners;
     for (std::size_t c = 0; c < plan.components.size(); ++c) {
         Component& component = plan.components[c];
-        if (component.isGhost) continue;
+        if (component.isStandIn) continue;
         const std::span<const Neighbor> neighbors = fillsSpace(component) ? fillers : std::span<const Neighbor>{};
-        for (const Body& body : component.bodies) {
-            const Boundary& shape = boundaries[c].emplace_back(boundary(body, neighbors));
+        for (const Solid& solid : component.solids) {
+            const Boundary& shape = boundaries[c].emplace_back(boundary(solid, neighbors));
             component.volume += shape.volume;
             if (!fillsSpace(component)) continue;
             for (const RawFace& face : shape.faces) collectCorners(face, sharedCorners);
@@ -239,7 +239,7 @@ void resolve(Plan& plan) {
                 if (!fillsSpace(component)) collectCorners(face, ownCorners);
             }
             sortUnique(ownCorners);
-            component.shells.push_back(toShell(faces, component.bodies[b].material,
+            component.shells.push_back(toShell(faces, component.solids[b].material,
                                                fillsSpace(component) ? sharedCorners : ownCorners, table));
         }
         if (component.instance) resolveInstance(*component.instance);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The format-independent model of every generated file: components with bodies, whose faces know their
+/// The format-independent model of every generated file: components with solids, whose faces know their
 /// neighbours. A plan is a whole house, or one storey of a tower that is used repeatedly.
 
 #include <svt/core/attribute.hpp>
@@ -37,7 +37,7 @@ enum class HullPart : std::uint8_t { Wall, Slab, Roof, Ground };
 struct Face {
     std::vector<std::vector<std::uint32_t>> rings;
     int neighbor = -1;      ///< component on the other side, -1: outside (or a component that may overlap)
-    int neighborFace = -1;  ///< the reversed face in `neighbor`, counted over all its bodies; -1: none
+    int neighborFace = -1;  ///< the reversed face in `neighbor`, counted over all its solids; -1: none
 };
 
 /// One closed shell.
@@ -48,10 +48,10 @@ struct Shell {
 
 /// A shape in local coordinates, placed by quarter turns about z and a translation: world = turned(p) + shift.
 struct Instance {
-    Body body;
+    Solid solid;
     int quarterTurns = 0;
     Point shift;
-    Shell shell;                  ///< of `body`, indices into `vertices`
+    Shell shell;                  ///< of `solid`, indices into `vertices`
     std::vector<Point> vertices;  ///< millimetres, local
 };
 
@@ -66,10 +66,10 @@ struct Component {
     int unit = -1;    ///< component of Kind::Unit
     HullPart hullPart = HullPart::Wall;
     bool isOutside = false;            ///< an installation outside the building
-    bool isGhost = false;              ///< stand-in for a component of the storey above or below; not written
-    std::vector<Body> bodies;          ///< disjoint; may touch
-    std::optional<Instance> instance;  ///< same shape as bodies[0]; CityGML 2.0 and CityJSON write it as a template
-    std::vector<Shell> shells;         ///< of `bodies`, filled by resolve()
+    bool isStandIn = false;            ///< stand-in for a component of the storey above or below; not written
+    std::vector<Solid> solids;         ///< disjoint; may touch
+    std::optional<Instance> instance;  ///< same shape as solids[0]; CityGML 2.0 and CityJSON write it as a template
+    std::vector<Shell> shells;         ///< of `solids`, filled by resolve()
     double volume = 0;                 ///< m3, filled by resolve()
 };
 
@@ -89,7 +89,7 @@ struct Plan {
 /// Adds a component and returns its index.
 int addComponent(Plan& plan, Kind kind, std::string id, std::string name, int parent = -1);
 
-/// Adds an element of one piece; its body can be extended or cut later.
+/// Adds an element of one piece; its solid can be extended or cut later.
 int addElement(Plan& plan, int storey, std::string id, std::string name, std::string function, Material material,
                Piece piece, HullPart part, bool isLoadBearing);
 
@@ -98,9 +98,9 @@ int addRoom(Plan& plan, int storey, std::string id, std::string name, std::strin
 
 /// Adds an installation; `parent` is its room, or -1 for the building.
 int addInstallation(Plan& plan, int storey, int parent, std::string id, std::string name, std::string function,
-                    Body body);
+                    Solid solid);
 
-/// Computes shells, volumes, vertices and children from the bodies. Once per plan.
+/// Computes shells, volumes, vertices and children from the solids. Once per plan.
 void resolve(Plan& plan);
 
 /// Box around all vertices.

@@ -16,7 +16,7 @@ namespace svt::samples {
 namespace {
 
 constexpr Length kUnits = kUnitsPerMillimetre;
-// Cells of this width around a body identify what is on the other side of its faces.
+// Cells of this width around a solid identify what is on the other side of its faces.
 constexpr Length kMargin = 10;
 
 struct Vertex2 {
@@ -200,7 +200,7 @@ using Edge = std::pair<Point, Point>;
 using Quad = std::vector<Point>;
 
 // One cell face of the boundary, with its plane and the neighbour on its other side.
-struct Fragment {
+struct FacePart {
     std::tuple<int, HalfPlane, Length, bool, int> group;
     Quad ring;
 };
@@ -287,12 +287,12 @@ void joinFragments(const std::vector<Quad>& fragments, int neighbor, std::vector
     }
 }
 
-// The cell complex of one body and its touching neighbours.
+// The cell complex of one solid and its touching neighbours.
 class CellComplex {
 public:
-    CellComplex(const Body& body, std::span<const Neighbor> neighbors) : body_(body), bounds_(boundsOf(body)) {
+    CellComplex(const Solid& solid, std::span<const Neighbor> neighbors) : solid_(solid), bounds_(boundsOf(solid)) {
         for (const Neighbor& neighbor : neighbors)
-            if (neighbor.body != &body && touch(bounds_, neighbor.bounds)) neighbors_.push_back(&neighbor);
+            if (neighbor.solid != &solid && touch(bounds_, neighbor.bounds)) neighbors_.push_back(&neighbor);
         margin_ = neighbors_.empty() ? 0 : kMargin;
         collectPlanes();
         markCells();
@@ -301,7 +301,7 @@ public:
     [[nodiscard]] Boundary extract() {
         Boundary result;
         Length doubleVolume = 0;  // mm times squared units
-        std::map<decltype(Fragment::group), std::vector<Quad>> groups;
+        std::map<decltype(FacePart::group), std::vector<Quad>> groups;
         for (std::size_t slice = 0; slice + 1 < stops_.size(); ++slice)
             for (std::size_t f = 0; f < faceCount(); ++f) {
                 if (!isInside(slice, f)) continue;
@@ -318,7 +318,7 @@ private:
     [[nodiscard]] std::size_t faceCount() const { return arrangement_.faces().size(); }
 
     void collectPlanes() {
-        const bool alongX = body_.axis == Axis::X;
+        const bool alongX = solid_.axis == Axis::X;
         const Length u0 = (alongX ? bounds_.min.x : bounds_.min.y) - margin_;
         const Length u1 = (alongX ? bounds_.max.x : bounds_.max.y) + margin_;
         const Length v0 = (alongX ? bounds_.min.y : bounds_.min.x) - margin_;
@@ -330,14 +330,14 @@ private:
                 if (stop > u0 && stop < u1) stops.insert(stop);
             for (const HalfPlane& side : piece.sides) lines.insert(normalizedLine(side));
         };
-        for (const Piece& piece : body_.pieces) take(piece);
-        // Pieces of a neighbour that do not reach this body divide nothing.
+        for (const Piece& piece : solid_.pieces) take(piece);
+        // Pieces of a neighbour that do not reach this solid divide nothing.
         Bounds reach = bounds_;
         reach.min = {reach.min.x - margin_, reach.min.y - margin_, reach.min.z - margin_};
         reach.max = {reach.max.x + margin_, reach.max.y + margin_, reach.max.z + margin_};
         for (const Neighbor* neighbor : neighbors_)
             for (std::size_t i = 0; i < neighbor->pieces.size(); ++i)
-                if (touch(reach, neighbor->pieces[i])) take(neighbor->body->pieces[i]);
+                if (touch(reach, neighbor->pieces[i])) take(neighbor->solid->pieces[i]);
         stops_.assign(stops.begin(), stops.end());
         arrangement_ = Arrangement(v0, v1, bounds_.min.z - margin_, bounds_.max.z + margin_);
         for (const HalfPlane& line : lines) arrangement_.split(line);
@@ -347,7 +347,7 @@ private:
 
     void markCells() {
         inside_.assign((stops_.size() - 1) * faceCount(), 0);
-        for (const Piece& piece : body_.pieces)
+        for (const Piece& piece : solid_.pieces)
             for (std::size_t f = 0; f < faceCount(); ++f) {
                 const auto [v, z] = centers_[f];
                 if (!inProfile(piece, v, z)) continue;
@@ -366,13 +366,13 @@ private:
         if (neighbors_.empty() || slice < 0 || face < 0 || slice + 1 >= std::ptrdiff_t(stops_.size())) return -1;
         const auto [v, z] = centers_[std::size_t(face)];
         const double u = 0.5 * double(stops_[std::size_t(slice)] + stops_[std::size_t(slice) + 1]);
-        const Vec3d p = body_.axis == Axis::X ? Vec3d{u, v, z} : Vec3d{v, u, z};
+        const Vec3d p = solid_.axis == Axis::X ? Vec3d{u, v, z} : Vec3d{v, u, z};
         for (const Neighbor* neighbor : neighbors_) {
             const Bounds& b = neighbor->bounds;
             if (p.x < double(b.min.x) || p.x > double(b.max.x) || p.y < double(b.min.y) || p.y > double(b.max.y) ||
                 p.z < double(b.min.z) || p.z > double(b.max.z))
                 continue;
-            if (contains(*neighbor->body, p)) return neighbor->tag;
+            if (contains(*neighbor->solid, p)) return neighbor->tag;
         }
         return -1;
     }
@@ -380,15 +380,15 @@ private:
     [[nodiscard]] Point at(std::size_t stop, int vertex) const {
         const Vertex2 p = arrangement_.vertex(vertex);
         const Length u = stops_[stop] * kUnits;
-        return body_.axis == Axis::X ? Point{u, p.v, p.z} : Point{p.v, u, p.z};
+        return solid_.axis == Axis::X ? Point{u, p.v, p.z} : Point{p.v, u, p.z};
     }
 
     void addFragments(std::size_t slice, std::size_t face,
-                      std::map<decltype(Fragment::group), std::vector<Quad>>& groups) {
+                      std::map<decltype(FacePart::group), std::vector<Quad>>& groups) {
         const std::vector<int>& ring = arrangement_.faces()[face];
         // (axis, across, up) is right-handed for Axis::X and left-handed for Axis::Y.
-        const auto emit = [&](decltype(Fragment::group) group, Quad quad) {
-            if (body_.axis == Axis::Y) std::reverse(quad.begin(), quad.end());
+        const auto emit = [&](decltype(FacePart::group) group, Quad quad) {
+            if (solid_.axis == Axis::Y) std::reverse(quad.begin(), quad.end());
             groups[std::move(group)].push_back(std::move(quad));
         };
         for (const bool isFront : {false, true}) {
@@ -414,7 +414,7 @@ private:
         }
     }
 
-    const Body& body_;
+    const Solid& solid_;
     Bounds bounds_;
     std::vector<const Neighbor*> neighbors_;
     Length margin_ = 0;
@@ -431,13 +431,13 @@ bool isCorner(Point before, Point at, Point after) {
 
 }  // namespace
 
-Body& Body::add(Piece piece) {
+Solid& Solid::add(Piece piece) {
     piece.adds = true;
     pieces.push_back(std::move(piece));
     return *this;
 }
 
-Body& Body::cut(Piece piece) {
+Solid& Solid::cut(Piece piece) {
     piece.adds = false;
     pieces.push_back(std::move(piece));
     return *this;
@@ -447,28 +447,28 @@ Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1) {
     return {x0, x1, {{1, 0, y1}, {-1, 0, -y0}, {0, 1, z1}, {0, -1, -z0}}, true};
 }
 
-bool contains(const Body& body, Vec3d point) {
-    const double u = body.axis == Axis::X ? point.x : point.y;
-    const double v = body.axis == Axis::X ? point.y : point.x;
-    for (auto piece = body.pieces.rbegin(); piece != body.pieces.rend(); ++piece)
+bool contains(const Solid& solid, Vec3d point) {
+    const double u = solid.axis == Axis::X ? point.x : point.y;
+    const double v = solid.axis == Axis::X ? point.y : point.x;
+    for (auto piece = solid.pieces.rbegin(); piece != solid.pieces.rend(); ++piece)
         if (u >= double(piece->from) && u <= double(piece->to) && inProfile(*piece, v, point.z)) return piece->adds;
     return false;
 }
 
-Neighbor::Neighbor(const Body& of, int number) : body(&of), tag(number), bounds(boundsOf(of)) {
+Neighbor::Neighbor(const Solid& of, int number) : solid(&of), tag(number), bounds(boundsOf(of)) {
     for (const Piece& piece : of.pieces) pieces.push_back(rounded(boxAround(of.axis, piece)));
 }
 
-Bounds boundsOf(const Body& body) {
+Bounds boundsOf(const Solid& solid) {
     Box3d all;
-    for (const Piece& piece : body.pieces)
-        if (piece.adds) all.add(boxAround(body.axis, piece));
+    for (const Piece& piece : solid.pieces)
+        if (piece.adds) all.add(boxAround(solid.axis, piece));
     SVT_CHECK(!all.isEmpty());
     return rounded(all);
 }
 
-Boundary boundary(const Body& body, std::span<const Neighbor> neighbors) {
-    return CellComplex(body, neighbors).extract();
+Boundary boundary(const Solid& solid, std::span<const Neighbor> neighbors) {
+    return CellComplex(solid, neighbors).extract();
 }
 
 void collectCorners(const RawFace& face, std::vector<Point>& corners) {

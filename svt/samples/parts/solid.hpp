@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Bodies of the generated models: ordered unions and differences of convex prisms in whole
+/// Solids of the generated models: ordered unions and differences of convex prisms in whole
 /// millimetres, and their exact boundary. All arithmetic is on integers, so that touching
-/// bodies share identical polygons, vertex by vertex.
+/// solids share identical polygons, vertex by vertex.
 
 #include <svt/core/vec.hpp>
 
@@ -28,17 +28,17 @@ struct HalfPlane {
     friend auto operator<=>(const HalfPlane&, const HalfPlane&) = default;
 };
 
-/// Direction along which all pieces of a body are extruded.
+/// Direction along which all pieces of a solid are extruded.
 enum class Axis : std::uint8_t { X, Y };
 
-/// A convex prism: [from, to] along the body's axis, times the intersection of half-planes (which must be bounded).
+/// A convex prism: [from, to] along the solid's axis, times the intersection of half-planes (which must be bounded).
 struct Piece {
     Length from = 0, to = 0;
     std::vector<HalfPlane> sides;
     bool adds = true;  ///< false: subtracted from the pieces before it
 };
 
-/// Material of a body; index into materials().
+/// Material of a solid; index into materials().
 enum class Material : std::uint8_t {
     Brick,
     Concrete,
@@ -60,37 +60,37 @@ enum class Material : std::uint8_t {
 };
 
 /// A solid: the pieces are applied in order; each is added to or subtracted from the result so far.
-struct Body {
+struct Solid {
     Axis axis = Axis::X;
     Material material = Material::Air;
     std::vector<Piece> pieces;
 
-    Body& add(Piece piece);
-    Body& cut(Piece piece);
+    Solid& add(Piece piece);
+    Solid& cut(Piece piece);
 };
 
-/// An axis-aligned box as a piece of a body with Axis::X.
+/// An axis-aligned box as a piece of a solid with Axis::X.
 [[nodiscard]] Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1);
 
-/// True if `point` (millimetres) lies in the body; undefined on its boundary.
-[[nodiscard]] bool contains(const Body& body, Vec3d point);
+/// True if `point` (millimetres) lies in the solid; undefined on its boundary.
+[[nodiscard]] bool contains(const Solid& solid, Vec3d point);
 
 struct Bounds {
     Point min, max;
 };
 
 /// Box around all added pieces; rounded outwards to whole millimetres.
-[[nodiscard]] Bounds boundsOf(const Body& body);
+[[nodiscard]] Bounds boundsOf(const Solid& solid);
 
-/// A body that may touch another body.
+/// A solid that may touch another solid.
 struct Neighbor {
-    /// `tag` is any number >= 0 that identifies the body, which must outlive this.
-    Neighbor(const Body& body, int tag);
+    /// `tag` is any number >= 0 that identifies the solid, which must outlive this.
+    Neighbor(const Solid& solid, int tag);
 
-    const Body* body;
+    const Solid* solid;
     int tag;
     Bounds bounds;
-    std::vector<Bounds> pieces;  ///< boxes around the body's pieces
+    std::vector<Bounds> pieces;  ///< boxes around the solid's pieces
 };
 
 /// Points in boundary() are in 1/120 mm: with roof pitches of 3/5, 4/5 or 1, roof lines intersect each other
@@ -100,7 +100,7 @@ inline constexpr Length kUnitsPerMillimetre = 120;
 /// A planar face, counter-clockwise seen from outside; further rings are holes.
 struct RawFace {
     std::vector<std::vector<Point>> rings;  ///< units of 1/120 mm
-    int neighbor = -1;                      ///< tag of the body on the other side, -1: none
+    int neighbor = -1;                      ///< tag of the solid on the other side, -1: none
 };
 
 struct Boundary {
@@ -108,11 +108,11 @@ struct Boundary {
     double volume = 0;  ///< m3, sum of the convex cells, exact to rounding
 };
 
-/// The closed boundary of `body` as maximal planar faces, split where the neighbour changes.
+/// The closed boundary of `solid` as maximal planar faces, split where the neighbour changes.
 /// Rings contain every vertex of the cell complex on them; simplify() removes the redundant ones.
-/// \param neighbors  bodies with Axis::X that do not overlap `body`; those that do not touch it are ignored
-/// Cost: O(planes^3) of the body and what touches it.
-[[nodiscard]] Boundary boundary(const Body& body, std::span<const Neighbor> neighbors);
+/// \param neighbors  solids with Axis::X that do not overlap `solid`; those that do not touch it are ignored
+/// Cost: O(planes^3) of the solid and what touches it.
+[[nodiscard]] Boundary boundary(const Solid& solid, std::span<const Neighbor> neighbors);
 
 /// Adds the vertices at which rings of `face` change direction to `corners`.
 void collectCorners(const RawFace& face, std::vector<Point>& corners);

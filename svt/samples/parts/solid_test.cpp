@@ -10,9 +10,9 @@
 namespace svt::samples {
 namespace {
 
-// Faces of an isolated body, simplified to its own corners.
-std::vector<RawFace> facesOf(const Body& body) {
-    Boundary shape = boundary(body, {});
+// Faces of an isolated solid, simplified to its own corners.
+std::vector<RawFace> facesOf(const Solid& solid) {
+    Boundary shape = boundary(solid, {});
     std::vector<Point> corners;
     for (const RawFace& face : shape.faces) collectCorners(face, corners);
     std::sort(corners.begin(), corners.end());
@@ -40,23 +40,23 @@ std::size_t vertexCount(const std::vector<RawFace>& faces) {
 }
 
 TEST(Boundary, BoxHasSixRectangles) {
-    const Body body{Axis::X, Material::Brick, {box(0, 2000, 0, 3000, 0, 500)}};
-    const std::vector<RawFace> faces = facesOf(body);
+    const Solid solid{Axis::X, Material::Brick, {box(0, 2000, 0, 3000, 0, 500)}};
+    const std::vector<RawFace> faces = facesOf(solid);
     EXPECT_EQ(faces.size(), 6u);
     EXPECT_EQ(vertexCount(faces), 24u);
     EXPECT_TRUE(isClosed(faces));
-    EXPECT_DOUBLE_EQ(boundary(body, {}).volume, 3.0);
+    EXPECT_DOUBLE_EQ(boundary(solid, {}).volume, 3.0);
 }
 
 TEST(Boundary, PiecesThatTouchHaveNoFaceBetweenThem) {
-    const Body body{Axis::X, Material::Brick, {box(0, 1000, 0, 1000, 0, 1000), box(1000, 2000, 0, 1000, 0, 1000)}};
-    EXPECT_EQ(facesOf(body).size(), 6u);
+    const Solid solid{Axis::X, Material::Brick, {box(0, 1000, 0, 1000, 0, 1000), box(1000, 2000, 0, 1000, 0, 1000)}};
+    EXPECT_EQ(facesOf(solid).size(), 6u);
 }
 
 TEST(Boundary, StepHasNoVertexInsideAnEdge) {
     // The side faces of an L have six corners; the bottom gets none from the step.
-    const Body body{Axis::X, Material::Brick, {box(0, 2000, 0, 1000, 0, 1000), box(0, 1000, 0, 1000, 1000, 2000)}};
-    const std::vector<RawFace> faces = facesOf(body);
+    const Solid solid{Axis::X, Material::Brick, {box(0, 2000, 0, 1000, 0, 1000), box(0, 1000, 0, 1000, 1000, 2000)}};
+    const std::vector<RawFace> faces = facesOf(solid);
     EXPECT_EQ(faces.size(), 8u);
     EXPECT_EQ(vertexCount(faces), 6u * 4 + 2 * 6);
     EXPECT_TRUE(isClosed(faces));
@@ -64,13 +64,13 @@ TEST(Boundary, StepHasNoVertexInsideAnEdge) {
 
 TEST(Boundary, CornerOnANeighboringEdgeBecomesAVertexOfBothFaces) {
     // The upper box covers half of the lower one's front edge: its corner splits that edge for every face along it.
-    const Body body{Axis::X, Material::Brick, {box(0, 2000, 0, 1000, 0, 1000), box(500, 1000, -500, 0, 0, 1000)}};
-    const std::vector<RawFace> faces = facesOf(body);
+    const Solid solid{Axis::X, Material::Brick, {box(0, 2000, 0, 1000, 0, 1000), box(500, 1000, -500, 0, 0, 1000)}};
+    const std::vector<RawFace> faces = facesOf(solid);
     EXPECT_TRUE(isClosed(faces));
 }
 
 TEST(Boundary, OpeningIsAHoleInBothFacesOfTheWall) {
-    Body wall{Axis::X, Material::Brick, {box(0, 4000, 0, 300, 0, 2500)}};
+    Solid wall{Axis::X, Material::Brick, {box(0, 4000, 0, 300, 0, 2500)}};
     wall.cut(box(1000, 2000, 0, 300, 800, 2000));
     const std::vector<RawFace> faces = facesOf(wall);
     EXPECT_EQ(faces.size(), 10u);
@@ -82,11 +82,11 @@ TEST(Boundary, OpeningIsAHoleInBothFacesOfTheWall) {
 TEST(Boundary, SlopedPrismIsExactAlongBothAxes) {
     for (const Axis axis : {Axis::X, Axis::Y}) {
         // A wedge 1 m long under the slope z = 4/5 v, v from 0 to 1 m.
-        const Body body{axis, Material::Brick, {{0, 1000, {{1, 0, 1000}, {0, -1, 0}, {-4, 5, 0}}, true}}};
-        const std::vector<RawFace> faces = facesOf(body);
+        const Solid solid{axis, Material::Brick, {{0, 1000, {{1, 0, 1000}, {0, -1, 0}, {-4, 5, 0}}, true}}};
+        const std::vector<RawFace> faces = facesOf(solid);
         EXPECT_EQ(faces.size(), 5u);
         EXPECT_TRUE(isClosed(faces));
-        EXPECT_NEAR(boundary(body, {}).volume, 0.4, 1e-12);
+        EXPECT_NEAR(boundary(solid, {}).volume, 0.4, 1e-12);
         double signedVolume = 0;
         for (const RawFace& face : faces)
             for (std::size_t i = 1; i + 1 < face.rings[0].size(); ++i) {
@@ -101,22 +101,22 @@ TEST(Boundary, SlopedPrismIsExactAlongBothAxes) {
 }
 
 TEST(Boundary, FaceIsSplitWhereTheNeighborChanges) {
-    const Body wall{Axis::X, Material::Brick, {box(0, 4000, 0, 300, 0, 2500)}};
-    const Body left{Axis::X, Material::Air, {box(0, 1500, 300, 3000, 0, 2500)}};
-    const Body right{Axis::X, Material::Air, {box(1500, 4000, 300, 3000, 0, 2500)}};
+    const Solid wall{Axis::X, Material::Brick, {box(0, 4000, 0, 300, 0, 2500)}};
+    const Solid left{Axis::X, Material::Air, {box(0, 1500, 300, 3000, 0, 2500)}};
+    const Solid right{Axis::X, Material::Air, {box(1500, 4000, 300, 3000, 0, 2500)}};
     const std::vector<Neighbor> neighbors{Neighbor(left, 7), Neighbor(right, 8)};
     std::map<int, int> facesByNeighbor;
     for (const RawFace& face : boundary(wall, neighbors).faces) ++facesByNeighbor[face.neighbor];
     EXPECT_EQ(facesByNeighbor, (std::map<int, int>{{-1, 5}, {7, 1}, {8, 1}}));
 }
 
-TEST(Body, LaterPiecesOverruleEarlierOnes) {
-    Body body{Axis::X, Material::Brick, {box(0, 1000, 0, 1000, 0, 1000)}};
-    body.cut(box(0, 500, 0, 1000, 0, 1000)).add(box(0, 100, 0, 1000, 0, 1000));
-    EXPECT_TRUE(contains(body, {50, 500, 500}));
-    EXPECT_FALSE(contains(body, {300, 500, 500}));
-    EXPECT_TRUE(contains(body, {700, 500, 500}));
-    EXPECT_FALSE(contains(body, {700, 500, 1500}));
+TEST(Solid, LaterPiecesOverruleEarlierOnes) {
+    Solid solid{Axis::X, Material::Brick, {box(0, 1000, 0, 1000, 0, 1000)}};
+    solid.cut(box(0, 500, 0, 1000, 0, 1000)).add(box(0, 100, 0, 1000, 0, 1000));
+    EXPECT_TRUE(contains(solid, {50, 500, 500}));
+    EXPECT_FALSE(contains(solid, {300, 500, 500}));
+    EXPECT_TRUE(contains(solid, {700, 500, 500}));
+    EXPECT_FALSE(contains(solid, {700, 500, 1500}));
 }
 
 }  // namespace

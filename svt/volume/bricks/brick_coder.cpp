@@ -49,14 +49,14 @@ SideMask cutMask(int axis, std::uint32_t cut) noexcept {
     return mask;
 }
 
-// Palette index of all voxels in `cell`; nullopt if they differ.
-std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask& cell) noexcept {
+// Palette index of all voxels in `part`; nullopt if they differ.
+std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask& part) noexcept {
     std::uint32_t index = 0;
-    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) {
+    for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p) {
         std::uint64_t ones = 0, zeros = 0;
         for (std::size_t k = 0; k < 8; ++k) {
-            ones |= pattern.planes[8 * p + k] & cell[k];
-            zeros |= ~pattern.planes[8 * p + k] & cell[k];
+            ones |= pattern.bitPlanes[8 * p + k] & part[k];
+            zeros |= ~pattern.bitPlanes[8 * p + k] & part[k];
         }
         if (ones != 0 && zeros != 0) return std::nullopt;
         if (ones != 0) index |= std::uint32_t{1} << p;
@@ -64,24 +64,24 @@ std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask
     return index;
 }
 
-// Finds the label of each cell; returns false if a cell has voxels of two labels. Cells without a sample are slivers
-// between the others. They take the label of the nearest cell with samples, where crossing a cut costs less than
-// crossing a plane, and a later plane, which is less likely to be a face of the model, less than an earlier one.
-bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
-               std::vector<Scalar>& cells) {
+// Finds the label of each side combination; returns false if one has voxels of two labels. Those without a sample are
+// slivers between the others. They take the label of the nearest one with samples, where crossing a cut costs less
+// than crossing a plane, and a later plane, which is less likely to be a face of the model, less than an earlier one.
+bool findSideScalars(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
+                     std::vector<Scalar>& scalars) {
     const std::size_t count = std::size_t{1} << sides.size();
-    cells.assign(count, 0);
+    scalars.assign(count, 0);
     std::uint64_t known = 0;
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t combination = 0; combination < count; ++combination) {
         SideMask mask;
         mask.fill(kAll);
         for (std::size_t s = 0; s < sides.size(); ++s)
-            for (std::size_t k = 0; k < 8; ++k) mask[k] &= ((cell >> s) & 1u) != 0 ? sides[s][k] : ~sides[s][k];
+            for (std::size_t k = 0; k < 8; ++k) mask[k] &= ((combination >> s) & 1u) != 0 ? sides[s][k] : ~sides[s][k];
         if (std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; })) continue;
         const auto index = indexIn(pattern, mask);
         if (!index) return false;
-        cells[cell] = pattern.palette[*index];
-        known |= std::uint64_t{1} << cell;
+        scalars[combination] = pattern.palette[*index];
+        known |= std::uint64_t{1} << combination;
     }
     const auto distance = [&](std::size_t differing) {
         std::size_t sum = 0;
@@ -89,13 +89,14 @@ bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std
             if (((differing >> s) & 1u) != 0) sum += s < cuts ? 1 : std::size_t{1} << (sides.size() - s);
         return sum;
     };
-    for (std::size_t cell = 0; cell < count; ++cell) {
-        if (((known >> cell) & 1u) != 0) continue;
+    for (std::size_t combination = 0; combination < count; ++combination) {
+        if (((known >> combination) & 1u) != 0) continue;
         std::size_t nearest = count;
         for (std::size_t other = 0; other < count; ++other)
-            if (((known >> other) & 1u) != 0 && (nearest == count || distance(other ^ cell) < distance(nearest ^ cell)))
+            if (((known >> other) & 1u) != 0 &&
+                (nearest == count || distance(other ^ combination) < distance(nearest ^ combination)))
                 nearest = other;
-        cells[cell] = cells[nearest];
+        scalars[combination] = scalars[nearest];
     }
     return true;
 }
@@ -104,16 +105,17 @@ bool fillCells(const BrickPattern& pattern, std::span<const SideMask> sides, std
 
 BrickSide::BrickSide(const SideMask& sideMask) noexcept : mask(sideMask) { addChanges(mask.data(), changes); }
 
-Changes changesOf(const BrickPattern& pattern) noexcept {
+Changes findChanges(const BrickPattern& pattern) noexcept {
     Changes changes{};
-    for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p) addChanges(pattern.planes.data() + 8 * p, changes);
+    for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)
+        addChanges(pattern.bitPlanes.data() + 8 * p, changes);
     return changes;
 }
 
 std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
                                      std::initializer_list<const BrickSide*> planes) {
     BrickCode code;
-    std::array<SideMask, BrickVolume::kMostSides> sides;
+    std::array<SideMask, BrickVolume::kMaxSides> sides;
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -131,7 +133,7 @@ std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes&
     }
     const std::size_t cuts = count;
     for (const BrickSide* plane : planes) sides[count++] = plane->mask;
-    if (!fillCells(pattern, std::span(sides).first(count), cuts, code.cells)) return std::nullopt;
+    if (!findSideScalars(pattern, std::span(sides).first(count), cuts, code.sideScalars)) return std::nullopt;
     return code;
 }
 
@@ -151,7 +153,7 @@ Heights heightsAlong(const BrickPattern& pattern, int axis) {
     if (pattern.palette.size() != 2) return heights;
     const auto bit = [&](int p, int q, int h) {
         const int i = axis == 0 ? h : p, j = axis == 0 ? p : axis == 1 ? h : q, k = axis == 2 ? h : q;
-        return static_cast<int>(pattern.planes[std::size_t(k)] >> (i + 8 * j)) & 1;
+        return static_cast<int>(pattern.bitPlanes[std::size_t(k)] >> (i + 8 * j)) & 1;
     };
     int low = -1;
     for (int q = 0; q < 8; ++q)
@@ -179,7 +181,7 @@ Heights heightsAlong(const BrickPattern& pattern, int axis) {
 }
 
 int steepestAxis(const BrickPattern& pattern) noexcept {
-    const Changes changes = changesOf(pattern);
+    const Changes changes = findChanges(pattern);
     int best = 0, most = -1;
     for (int axis = 0; axis < 3; ++axis) {
         int count = 0;
@@ -221,7 +223,7 @@ private:
 };
 
 // Shifts the plane up or down by the least amount that separates the voxels of the brick; false if none does.
-bool moveInto(const Heights& heights, Slope& slope) noexcept {
+bool shiftToSeparate(const Heights& heights, Slope& slope) noexcept {
     double low = -1e9, high = 1e9;
     for (int q = 0; q < 8; ++q)
         for (int p = 0; p < 8; ++p) {
@@ -259,14 +261,14 @@ constexpr std::array<Vec3i, 26> kNeighbors = makeNeighbors();
 class TileCoder {
 public:
     TileCoder(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
-              const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces)
+              const std::vector<std::uint8_t>& kindOfPattern, std::span<const FacePlane> faces)
         : places_(places),
           patterns_(patterns),
-          isCoded_(isCoded),
+          kindOfPattern_(kindOfPattern),
           knowsFaces_(!faces.empty()),
           heights_(patterns.size()),
           faces_(patterns.size()),
-          codeOf_(places.patternOf.size(), kNone) {
+          codeIndex_(places.patternOf.size(), kNone) {
         for (const FacePlane& face : faces)
             (isAcrossAxis(face.plane.normal) ? cutPlanes_ : facePlanes_).push_back(face);
     }
@@ -284,12 +286,12 @@ public:
             if (patternAt(at).palette.size() == 2)
                 codeSurface(at, false);
             else
-                codeMeeting(at);
+                codeJunction(at);
         });
         forEachPlace([&](Vec3i at) {
-            if (needsCode(at)) codeMeeting(at);
+            if (needsCode(at)) codeJunction(at);
         });
-        codeRims();
+        extendToUniformNeighbors();
         std::sort(result_.codes.begin(), result_.codes.end(),
                   [](const PlacedCode& p, const PlacedCode& q) { return p.place < q.place; });
         return std::move(result_);
@@ -298,7 +300,7 @@ public:
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     // Maximum candidates per brick: planes of the model, planes where surfaces meet, cuts; and those tried in triples.
-    static constexpr std::size_t kMostFaces = 12, kMostAround = 8, kMostCuts = 4, kMostOfThree = 7;
+    static constexpr std::size_t kMaxFaces = 12, kMaxAround = 8, kMaxCuts = 4, kMaxOfThree = 7;
 
     template <class Body>
     void forEachPlace(const Body& body) const {
@@ -323,11 +325,11 @@ private:
     }
     [[nodiscard]] bool needsCode(Vec3i at) const noexcept {
         return isMixed(at) &&
-               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Uncoded) &&
-               codeOf_[place(at)] == kNone;
+               kindOfPattern_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(BrickKind::Uncoded) &&
+               codeIndex_[place(at)] == kNone;
     }
     [[nodiscard]] const BrickCode* codeAt(Vec3i at) const noexcept {
-        const std::uint32_t number = codeOf_[place(at)];
+        const std::uint32_t number = codeIndex_[place(at)];
         return number == kNone ? nullptr : &result_.codes[number].code;
     }
     [[nodiscard]] Vec3d corner(Vec3i at) const noexcept {
@@ -364,7 +366,7 @@ private:
     }
 
     void setCode(Vec3i at, BrickCode code) {
-        codeOf_[place(at)] = static_cast<std::uint32_t>(result_.codes.size());
+        codeIndex_[place(at)] = static_cast<std::uint32_t>(result_.codes.size());
         result_.codes.push_back({static_cast<std::uint32_t>(place(at)), std::move(code)});
     }
 
@@ -372,7 +374,7 @@ private:
         const auto mask = sideMask(result_.planes[plane], at);
         if (!mask) return false;
         const BrickSide side(*mask);
-        auto code = codeBySides(patternAt(at), changesOf(patternAt(at)), {&side});
+        auto code = codeBySides(patternAt(at), findChanges(patternAt(at)), {&side});
         if (!code || code->cut != std::array<std::uint8_t, 3>{}) return false;
         code->plane[0] = plane;
         setCode(at, std::move(*code));
@@ -381,8 +383,8 @@ private:
 
     // True if cuts code the brick, but may be a step of a sloped surface.
     [[nodiscard]] bool isStep(Vec3i at) const noexcept {
-        return isMixed(at) && codeOf_[place(at)] == kNone &&
-               isCoded_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(PatternKind::Step);
+        return isMixed(at) && codeIndex_[place(at)] == kNone &&
+               kindOfPattern_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(BrickKind::Step);
     }
 
     // Codes a height field of two labels by a neighbour's plane, else by a fitted one. `mayStandAlone`: also accept a
@@ -405,10 +407,10 @@ private:
         auto local = fit(own);
         if (!local) return;
         auto wide = fitAround(at, axis, own, *local);
-        if (moveInto(own, wide)) {
+        if (shiftToSeparate(own, wide)) {
             if (addPlane(at, axis, wide)) return;
         }
-        if (mayStandAlone && moveInto(own, *local)) addPlane(at, axis, *local);
+        if (mayStandAlone && shiftToSeparate(own, *local)) addPlane(at, axis, *local);
     }
 
     static std::optional<Slope> fit(const Heights& heights) noexcept {
@@ -470,7 +472,7 @@ private:
     // Tries the planes of the model's faces near the brick.
     void codeByFaces(Vec3i at) {
         startCandidates(at);
-        addFacePlanes(at, kMostFaces);
+        addFacePlanes(at, kMaxFaces);
         if (sides_.empty()) return;
         if (isStep(at)) {
             // Cuts code it already. Prefer planes, unless the model has faces where the cuts are.
@@ -478,7 +480,7 @@ private:
                 tryCandidates(at, 0);
             return;
         }
-        addCuts(at, kMostFaces + kMostCuts);
+        addCuts(at, kMaxFaces + kMaxCuts);
         tryCandidates(at, 0);
     }
 
@@ -512,7 +514,7 @@ private:
     void startCandidates(Vec3i at) {
         candidates_.clear();
         sides_.clear();
-        changes_ = changesOf(patternAt(at));
+        changes_ = findChanges(patternAt(at));
     }
 
     void addFacePlanes(Vec3i at, std::size_t most) {
@@ -524,14 +526,14 @@ private:
 
     // Codes a brick where surfaces meet: by planes of the model and of the neighbours, and further cuts across an axis;
     // then by fitted planes.
-    void codeMeeting(Vec3i at) {
+    void codeJunction(Vec3i at) {
         startCandidates(at);
-        if (!isStep(at)) addFacePlanes(at, kMostAround - 2);
+        if (!isStep(at)) addFacePlanes(at, kMaxAround - 2);
         forEachNeighbor(at, [&](Vec3i other) {
             const BrickCode* code = codeAt(other);
             if (code == nullptr) return;
             for (const std::uint32_t number : code->plane) {
-                if (number == BrickVolume::kNoPlane || sides_.size() == kMostAround) continue;
+                if (number == BrickVolume::kNoPlane || sides_.size() == kMaxAround) continue;
                 const BrickPlane& plane = result_.planes[number];
                 if (!cutsBox(plane, at) ||
                     std::find(candidates_.begin(), candidates_.end(), plane) != candidates_.end())
@@ -539,7 +541,7 @@ private:
                 addCandidate(plane, sideMask(plane, at));
             }
         });
-        if (!isStep(at)) addCuts(at, kMostAround + kMostCuts);
+        if (!isStep(at)) addCuts(at, kMaxAround + kMaxCuts);
         if (tryCandidates(at, 0) || isStep(at)) return;
         const std::size_t known = sides_.size();
         addFitted(at);
@@ -564,7 +566,7 @@ private:
         for (std::size_t b = std::max<std::size_t>(from, 1); b < sides_.size(); ++b)
             for (std::size_t a = 0; a < b; ++a)
                 if (isDone({a, b}, {&sides_[a], &sides_[b]})) return true;
-        const std::size_t end = std::min(sides_.size(), kMostOfThree);
+        const std::size_t end = std::min(sides_.size(), kMaxOfThree);
         for (std::size_t c = std::max<std::size_t>(from, 2); c < end; ++c)
             for (std::size_t b = 1; b < c; ++b)
                 for (std::size_t a = 0; a < b; ++a)
@@ -584,7 +586,7 @@ private:
 
     // Adds planes fitted by least squares to the voxel faces between two labels, for each axis and pair of labels.
     void addFitted(Vec3i at) {
-        constexpr std::size_t kMost = 4, kFewest = 8;
+        constexpr std::size_t kMaxPairs = 4, kMinFaces = 8;
         struct Pair {
             int axis;
             Scalar low, high;
@@ -593,11 +595,11 @@ private:
         std::vector<Pair> pairs;
         for (int axis = 0; axis < 3; ++axis)
             for (const FaceGroup& group : facesAt(at)[std::size_t(axis)].groups)
-                if (group.size() >= kFewest) pairs.push_back({axis, group.low, group.high, group.size()});
+                if (group.size() >= kMinFaces) pairs.push_back({axis, group.low, group.high, group.size()});
         std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.faces > q.faces; });
         std::size_t added = 0;
         for (const Pair& pair : pairs) {
-            if (added == kMost) break;
+            if (added == kMaxPairs) break;
             const auto slope = fitFaces(at, pair.axis, pair.low, pair.high);
             // Steeper planes are found over another axis.
             if (!slope || std::max(std::abs(slope->a), std::abs(slope->b)) > 1.3) continue;
@@ -657,11 +659,11 @@ private:
         if (faces) return *faces;
         faces.emplace();
         const BrickPattern& pattern = patternAt(at);
-        const Changes changes = changesOf(pattern);
+        const Changes changes = findChanges(pattern);
         const auto scalarAt = [&](std::size_t word, std::size_t bit) {
             std::size_t index = 0;
-            for (std::size_t p = 0; 8 * p < pattern.planes.size(); ++p)
-                index |= static_cast<std::size_t>((pattern.planes[8 * p + word] >> bit) & 1u) << p;
+            for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)
+                index |= static_cast<std::size_t>((pattern.bitPlanes[8 * p + word] >> bit) & 1u) << p;
             return pattern.palette[index];
         };
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -739,10 +741,10 @@ private:
         return std::abs(middle) < reach - 1e-3;
     }
 
-    void codeRims() {
+    void extendToUniformNeighbors() {
         const std::size_t count = result_.codes.size();
         for (std::size_t n = 0; n < count; ++n) {
-            if (result_.codes[n].code.cells.size() != 2) continue;
+            if (result_.codes[n].code.sideScalars.size() != 2) continue;
             const BrickCode code = result_.codes[n].code;
             const BrickPlane& plane = result_.planes[code.plane[0]];
             const auto place = static_cast<std::int32_t>(result_.codes[n].place);
@@ -752,7 +754,7 @@ private:
                 if (isMixed(at) || codeAt(at) != nullptr || !cutsBox(plane, at)) return;
                 const auto mask = sideMask(plane, at);
                 if (mask && isTrivial(*mask) &&
-                    code.cells[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
+                    code.sideScalars[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
                     setCode(at, code);
             });
         }
@@ -760,13 +762,13 @@ private:
 
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
-    const std::vector<std::uint8_t>& isCoded_;
+    const std::vector<std::uint8_t>& kindOfPattern_;
     std::vector<FacePlane> facePlanes_, cutPlanes_;  // of the model; cutPlanes_ are across an axis
     bool knowsFaces_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern
     std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // scratch: faces of one axis with the index of their group
-    std::vector<std::uint32_t> codeOf_;
+    std::vector<std::uint32_t> codeIndex_;
     std::vector<BrickPlane> candidates_;
     std::vector<BrickSide> sides_;  // of the candidates, same order
     Changes changes_{};             // of the brick being coded
@@ -776,8 +778,8 @@ private:
 }  // namespace
 
 TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
-                   const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces) {
-    return TileCoder(places, patterns, isCoded, faces).code();
+                   const std::vector<std::uint8_t>& kindOfPattern, std::span<const FacePlane> faces) {
+    return TileCoder(places, patterns, kindOfPattern, faces).code();
 }
 
 }  // namespace svt::volume

@@ -4,18 +4,19 @@
 ///
 ///     j 7   c c c c c c c c         One layer of a brick with three labels, coded by two sides:
 ///       6   c c c c c c c c
-///       5   c c c c c c c c           bit 0 of the cell   cut across y at 5: 1 where j >= 5
-///           ---------------           bit 1               a plane: 1 on its positive side (right)
+///       5   c c c c c c c c           bit 0 of the sides   cut across y at 5: 1 where j >= 5
+///           ---------------           bit 1                a plane: 1 on its positive side (right)
 ///       4   a a a a a/b b b
-///       3   a a a a/b b b b         The sides divide the brick into 2^2 cells; `cells` has one label for each:
+///       3   a a a a/b b b b         2 sides have 2^2 combinations; `sideScalars` has one label for each:
 ///       2   a a a/b b b b b
-///       1   a a/b b b b b b           cell   0   1   2   3
+///       1   a a/b b b b b b           sides  0   1   2   3
 ///       0   a/b b b b b b b           label  a   c   b   c
 ///           0 1 2 3 4 5 6 7  i
 ///
 /// The ideas (all ours):
 /// - A side is a mask of 512 bits: the samples on the positive side of a plane, or beyond a cut. A code is valid if the
-///   samples of each cell have one label, which is tested on the bit planes of the palette by a few AND operations.
+///   samples of each side combination have one label, which is tested on the bit planes of the palette by a few AND
+///   operations.
 /// - Where labels change from voxel to voxel is a mask, too. Changes along an axis that no plane explains must all lie
 ///   at one place: this is the cut across that axis. So cuts are derived, not searched for.
 /// - Candidate planes, first match wins: planes of the model's faces, alone, in pairs and in triples; the plane of a
@@ -41,16 +42,16 @@ namespace svt::volume {
 /// voxel (i, j, k) is bit i + 8 j of word 8 p + k.
 struct BrickPattern {
     std::vector<Scalar> palette;
-    std::vector<std::uint64_t> planes;
+    std::vector<std::uint64_t> bitPlanes;
 };
 
-/// A brick as cuts, planes and the label of each cell between them; BrickVolume::BoxCoding is the same for a box of
+/// A brick as cuts, planes and the label of each side combination; BrickVolume::BoxCoding is the same for a box of
 /// bricks.
 struct BrickCode {
     std::array<std::uint8_t, 3> cut{};  ///< voxels of the brick below the cut across each axis, 1..7; 0: no cut
-    std::array<std::uint32_t, BrickVolume::kMostPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
-                                                              BrickVolume::kNoPlane};
-    std::vector<Scalar> cells;  ///< by cell number: a bit per cut (x, y, z), then per plane, from the lowest
+    std::array<std::uint32_t, BrickVolume::kMaxPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
+                                                             BrickVolume::kNoPlane};
+    std::vector<Scalar> sideScalars;  ///< by side combination: a bit per cut (x, y, z), then per plane, from the lowest
     friend bool operator==(const BrickCode&, const BrickCode&) = default;
 };
 
@@ -68,11 +69,11 @@ struct BrickSide {
 };
 
 /// The places where the labels of `pattern` change.
-[[nodiscard]] Changes changesOf(const BrickPattern& pattern) noexcept;
+[[nodiscard]] Changes findChanges(const BrickPattern& pattern) noexcept;
 
 /// Codes `pattern` by the given sides of planes and at most one cut across each axis.
-/// \param changes  changesOf(pattern)
-/// \param planes   at most BrickVolume::kMostPlanes
+/// \param changes  findChanges(pattern)
+/// \param planes   at most BrickVolume::kMaxPlanes
 /// \return the code, with BrickCode::plane left to the caller, or nullopt if there is none
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
                                                    std::initializer_list<const BrickSide*> planes = {});
@@ -97,7 +98,7 @@ struct PlacedCode {
 };
 
 /// Whether cuts alone code a pattern.
-enum class PatternKind : std::uint8_t {
+enum class BrickKind : std::uint8_t {
     Uncoded,
     Coded,
     Step  ///< coded, but possibly a step of a sloped surface: planes are tried first
@@ -119,10 +120,10 @@ struct TileCodes {
 /// 5. Uniform bricks beside a sloped surface: by its plane, where that cuts the half voxel outside of their samples.
 ///
 /// Every code is checked sample by sample. Bricks without a code stay patterns.
-/// \param isCoded  per pattern: its PatternKind
+/// \param kindOfPattern  per pattern: its BrickKind
 /// \param faces    planes of the model's faces in this tile, in order of preference; empty if unknown
 /// Cost: O(bricks on oblique surfaces), 1 to 5 us each.
 [[nodiscard]] TileCodes codeTile(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
-                                 const std::vector<std::uint8_t>& isCoded, std::span<const FacePlane> faces);
+                                 const std::vector<std::uint8_t>& kindOfPattern, std::span<const FacePlane> faces);
 
 }  // namespace svt::volume

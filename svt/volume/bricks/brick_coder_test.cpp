@@ -29,12 +29,12 @@ BrickPattern patternOf(const LabelAt& labelAt) {
             std::uint64_t word = 0;
             for (std::size_t bit = 0; bit < 64; ++bit)
                 word |= std::uint64_t{(index[64 * k + bit] >> plane) & 1u} << bit;
-            pattern.planes.push_back(word);
+            pattern.bitPlanes.push_back(word);
         }
     return pattern;
 }
 
-std::optional<BrickCode> codeByCuts(const BrickPattern& pattern) { return codeBySides(pattern, changesOf(pattern)); }
+std::optional<BrickCode> codeByCuts(const BrickPattern& pattern) { return codeBySides(pattern, findChanges(pattern)); }
 
 BrickVolume bricksOf(Vec3i n, const LabelAt& labelAt, BrickFaces faces = BrickFaces::Planes,
                      const std::vector<FacePlane>& planes = {}) {
@@ -76,11 +76,11 @@ Coded expectCodesHold(const BrickVolume& bricks) {
                                             << bit++;
                             for (const std::uint32_t plane : coding.plane) {
                                 if (plane == BrickVolume::kNoPlane) continue;
-                                const BrickPlane& side = bricks.oblique()[plane];
+                                const BrickPlane& side = bricks.planes()[plane];
                                 const double value = dot(side.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + side.offset;
                                 cell |= std::size_t{value > 0} << bit++;
                             }
-                            EXPECT_EQ(bricks.cellScalar(coding, cell), bricks.scalarAt(i, j, k))
+                            EXPECT_EQ(bricks.sideScalar(coding, cell), bricks.scalarAt(i, j, k))
                                 << i << ' ' << j << ' ' << k;
                         }
             }
@@ -92,7 +92,7 @@ TEST(BrickCode, CornerOfABoxIsThreeCuts) {
     const auto code = codeByCuts(pattern);
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{3, 5, 1}));
-    EXPECT_EQ(code->cells, (std::vector<Scalar>{4, 4, 4, 4, 4, 4, 4, 7}));
+    EXPECT_EQ(code->sideScalars, (std::vector<Scalar>{4, 4, 4, 4, 4, 4, 4, 7}));
 }
 
 TEST(BrickCode, ThreeLabelsInTwoCuts) {
@@ -100,7 +100,7 @@ TEST(BrickCode, ThreeLabelsInTwoCuts) {
     const auto code = codeByCuts(pattern);
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{6, 0, 4}));
-    EXPECT_EQ(code->cells, (std::vector<Scalar>{1, 1, 2, 3}));
+    EXPECT_EQ(code->sideScalars, (std::vector<Scalar>{1, 1, 2, 3}));
 }
 
 TEST(BrickCode, ASlabInsideTheBrickNeedsASideBesideTheCut) {
@@ -109,10 +109,10 @@ TEST(BrickCode, ASlabInsideTheBrickNeedsASideBesideTheCut) {
     SideMask above{};
     above.fill(~std::uint64_t{0} << (8 * 5));  // j >= 5
     const BrickSide side(above);
-    const auto code = codeBySides(pattern, changesOf(pattern), {&side});
+    const auto code = codeBySides(pattern, findChanges(pattern), {&side});
     ASSERT_TRUE(code.has_value());
     EXPECT_EQ(code->cut, (std::array<std::uint8_t, 3>{0, 2, 0}));
-    EXPECT_EQ(code->cells, (std::vector<Scalar>{0, 9, 0, 0}));
+    EXPECT_EQ(code->sideScalars, (std::vector<Scalar>{0, 9, 0, 0}));
 }
 
 TEST(BrickCode, VoxelsInACheckerboardHaveNone) {
@@ -130,7 +130,7 @@ TEST(BrickCode, ObliqueHalfSpacesAreCodedAllOverWithTheirNormal) {
         const Coded found = expectCodesHold(bricks);
         EXPECT_GT(found.mixed, 60u);
         EXPECT_GT(double(found.coded), 0.95 * double(found.mixed));
-        for (const BrickPlane& plane : bricks.oblique())
+        for (const BrickPlane& plane : bricks.planes())
             EXPECT_GT(std::abs(dot(plane.normal, normal)), std::cos(5 * 3.14159 / 180));
     }
 }
@@ -200,9 +200,9 @@ TEST(FacesOfTheModel, AreTheOnlyPlanesOfARoof) {
         for (std::int32_t by = 0; by < 20; ++by)
             for (std::int32_t bx = 0; bx < 25; ++bx)
                 EXPECT_TRUE(!known.entry(bx, by, bz).isMixed() || known.entry(bx, by, bz).isCoded());
-    EXPECT_EQ(known.oblique().size(), 2u);
-    for (const BrickPlane& plane : known.oblique()) EXPECT_TRUE(plane == south.plane || plane == north.plane);
-    EXPECT_GT(fitted.oblique().size(), 2u);
+    EXPECT_EQ(known.planes().size(), 2u);
+    for (const BrickPlane& plane : known.planes()) EXPECT_TRUE(plane == south.plane || plane == north.plane);
+    EXPECT_GT(fitted.planes().size(), 2u);
     EXPECT_LT(known.arrays().boxes.size(), fitted.arrays().boxes.size());
 }
 
@@ -234,7 +234,7 @@ TEST(FacesOfTheModel, MeetByThrees) {
             for (std::int32_t bx = 0; bx < 12; ++bx)
                 if (const auto entry = bricks.entry(bx, by, bz); entry.isMixed() && !entry.isCoded()) ++uncoded;
     EXPECT_LE(uncoded, 1);  // the top, where four faces meet
-    EXPECT_EQ(bricks.oblique().size(), 5u);
+    EXPECT_EQ(bricks.planes().size(), 5u);
 }
 
 TEST(FacesOfTheModel, DecideWhatARowOfVoxelsIs) {
@@ -248,11 +248,11 @@ TEST(FacesOfTheModel, DecideWhatARowOfVoxelsIs) {
     const BrickVolume asSlope = bricksOf(n, row, BrickFaces::Planes, {slope, between});
     expectCodesHold(asSlope);
     EXPECT_EQ(asSlope.coding(asSlope.entry(0, 0, 0)).cutAxes, 1u);
-    EXPECT_EQ(asSlope.oblique().size(), 1u);
+    EXPECT_EQ(asSlope.planes().size(), 1u);
     const BrickVolume asStep = bricksOf(n, row, BrickFaces::Planes, {slope, between, side, top});
     expectCodesHold(asStep);
     EXPECT_EQ(asStep.coding(asStep.entry(0, 0, 0)).cutAxes, 7u);
-    EXPECT_TRUE(asStep.oblique().empty());
+    EXPECT_TRUE(asStep.planes().empty());
 }
 
 TEST(FacesOfTheModel, LetCutsStandBesidePlanesWhereTheyAre) {
@@ -302,7 +302,7 @@ TEST(FacesOfTheModel, CountNoLongerThanTheyAreNear) {
             for (const std::int32_t bx : {2, 12}) {
                 const auto entry = bricks.entry(bx, by, bz);
                 if (!entry.isCoded()) continue;
-                EXPECT_EQ(bricks.oblique()[bricks.coding(entry).plane[0]] == face.plane, bx == 2) << by << ' ' << bz;
+                EXPECT_EQ(bricks.planes()[bricks.coding(entry).plane[0]] == face.plane, bx == 2) << by << ' ' << bz;
             }
 }
 

@@ -1,4 +1,5 @@
 #include <svt/core/hash.hpp>
+#include <svt/core/hash_index.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/bricks/code_boxes.hpp>
@@ -18,37 +19,6 @@ constexpr std::uint32_t kMixedBit = 0x80000000u;
 constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
 constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
-
-// Numbers distinct items by first use, by hash chaining. The items stay with the caller, who compares them.
-class Numbering {
-public:
-    // find(): `isEqual(number)` compares the wanted item with that of a number. Returns the number of a known item, or
-    // kNew after registering the item as `next`, which must be the count of items so far.
-    static constexpr std::uint32_t kNew = 0xFFFFFFFFu;
-
-    template <class IsEqual>
-    std::uint32_t find(std::uint64_t hash, std::uint32_t next, const IsEqual& isEqual) {
-        const auto [place, isFirst] = first_.try_emplace(hash, next);
-        if (isFirst) {
-            chain_.push_back(kNew);
-            return kNew;
-        }
-        std::uint32_t number = place->second;
-        while (!isEqual(number)) {
-            if (chain_[number] == kNew) {
-                chain_[number] = next;
-                chain_.push_back(kNew);
-                return kNew;
-            }
-            number = chain_[number];
-        }
-        return number;
-    }
-
-private:
-    std::unordered_map<std::uint64_t, std::uint32_t> first_;
-    std::vector<std::uint32_t> chain_;
-};
 
 // The bricks of a tile. `entries` holds the distinct columns of bricks, bricksZ entries each. An entry is an index in
 // `scalars`, or with kMixedBit an index in `patterns`.
@@ -187,15 +157,14 @@ private:
         std::uint64_t hash = planes.size();
         for (const std::uint64_t word : planes) hash = mixHash(hash, word);
         for (const Scalar scalar : palette_) hash = mixHash(hash, scalar);
-        const auto next = static_cast<std::uint32_t>(result_.patterns.size());
-        std::uint32_t number = numbering_.find(hash, next, [&](std::uint32_t other) {
+        const auto isEqual = [&](std::uint32_t other) {
             const BrickPattern& pattern = result_.patterns[other];
-            return pattern.palette == palette_ && std::equal(planes.begin(), planes.end(), pattern.planes.begin());
-        });
-        if (number == Numbering::kNew) {
-            number = next;
+            return pattern.palette == palette_ && std::equal(planes.begin(), planes.end(), pattern.bitPlanes.begin());
+        };
+        const std::uint32_t number = patternIndex_.findOrAdd(hash, isEqual, [&] {
             result_.patterns.push_back({palette_, {planes.begin(), planes.end()}});
-        }
+            return static_cast<std::uint32_t>(result_.patterns.size() - 1);
+        });
         return number | kMixedBit;
     }
 
@@ -206,7 +175,7 @@ private:
     std::vector<std::uint16_t> numbers_;  // of columns_, same order
     std::vector<Scalar> palette_;
     std::array<std::uint64_t, 8 * 9> words_{};
-    Numbering numbering_;
+    HashIndex patternIndex_;
     TileBricks result_;
 };
 
@@ -227,16 +196,16 @@ public:
     // Fills boxes, planes and codedPatterns of the tile. Returns the entries by place: index of the scalar, or
     // kCodedBit and the box, or kVoxelsBit and the pattern.
     std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes) {
-        codeOf_.assign(places_.patternOf.size(), TileBoxes::kNone);
+        codeIndex_.assign(places_.patternOf.size(), TileBoxes::kNone);
         if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks(planes);
         std::vector<std::uint32_t> index;
-        index.reserve(codeOf_.size());
+        index.reserve(codeIndex_.size());
         std::size_t place = 0;
         for (std::int32_t z = 0; z < places_.count.z; ++z)
             for (std::int32_t y = 0; y < places_.count.y; ++y)
                 for (std::int32_t x = 0; x < places_.count.x; ++x, ++place) {
                     const std::uint32_t pattern = places_.patternOf[place];
-                    if (codeOf_[place] != TileBoxes::kNone) {
+                    if (codeIndex_[place] != TileBoxes::kNone) {
                         index.push_back(tile_.boxes.boxOf[place] | kCodedBit);
                         tile_.codedPatterns.push_back(
                             pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[place]));
@@ -256,26 +225,26 @@ private:
         std::vector<std::uint32_t> byCuts;  // by pattern: its code, or kNone
         bool isAllCoded = true;
         for (const BrickPattern& pattern : tile_.patterns) {
-            auto code = codeBySides(pattern, changesOf(pattern));
-            const PatternKind kind = !code                    ? PatternKind::Uncoded
-                                     : code->cells.size() > 2 ? PatternKind::Step
-                                                              : PatternKind::Coded;
+            auto code = codeBySides(pattern, findChanges(pattern));
+            const BrickKind kind = !code                          ? BrickKind::Uncoded
+                                   : code->sideScalars.size() > 2 ? BrickKind::Step
+                                                                  : BrickKind::Coded;
             kinds.push_back(static_cast<std::uint8_t>(kind));
-            isAllCoded = isAllCoded && kind == PatternKind::Coded;
+            isAllCoded = isAllCoded && kind == BrickKind::Coded;
             byCuts.push_back(code ? static_cast<std::uint32_t>(codes.size()) : TileBoxes::kNone);
             if (code) codes.push_back(std::move(*code));
         }
-        for (std::size_t place = 0; place < codeOf_.size(); ++place)
-            if (places_.patternOf[place] != TilePlaces::kUniform) codeOf_[place] = byCuts[places_.patternOf[place]];
+        for (std::size_t place = 0; place < codeIndex_.size(); ++place)
+            if (places_.patternOf[place] != TilePlaces::kUniform) codeIndex_[place] = byCuts[places_.patternOf[place]];
         if (!isAllCoded) {
             TileCodes found = codeTile(places_, tile_.patterns, kinds, planes);
             tile_.planes = std::move(found.planes);
             for (PlacedCode& placed : found.codes) {
-                codeOf_[placed.place] = static_cast<std::uint32_t>(codes.size());
+                codeIndex_[placed.place] = static_cast<std::uint32_t>(codes.size());
                 codes.push_back(std::move(placed.code));
             }
         }
-        tile_.boxes = findCodeBoxes(places_, codeOf_, codes, tile_.planes);
+        tile_.boxes = findCodeBoxes(places_, codeIndex_, codes, tile_.planes);
     }
 
     std::uint32_t uniformPattern(Scalar scalar) {
@@ -286,7 +255,7 @@ private:
 
     TileBricks& tile_;
     TilePlaces places_;
-    std::vector<std::uint32_t> codeOf_;  // by place: index of its code, or kNone
+    std::vector<std::uint32_t> codeIndex_;  // by place: index of its code, or kNone
     std::unordered_map<Scalar, std::uint32_t> uniform_;
 };
 
@@ -395,7 +364,7 @@ public:
     // Allocates the index; placeTile() and numberTile() fill it.
     void begin(std::size_t tiles) {
         const Vec3i count = volume_.brickCount_;
-        volume_.wide_.resize(volume_.placeOf(0, 0, count.z));
+        volume_.wide_.resize(volume_.brickIndex(0, 0, count.z));
         numbers_.resize(tiles);
     }
     // Writes the entries of a tile, still with the numbers of the tile. Thread-safe for different tiles.
@@ -512,7 +481,7 @@ private:
                            endY = std::min(first.y + kBricksPerTile, count.y);
         for (std::int32_t z = 0; z < count.z; ++z)
             for (std::int32_t y = first.y; y < endY; ++y) {
-                std::size_t brick = volume_.placeOf(first.x, y, z);
+                std::size_t brick = volume_.brickIndex(first.x, y, z);
                 for (std::int32_t x = first.x; x < endX; ++x) body(brick++);
             }
     }
@@ -534,9 +503,9 @@ private:
             coding.cut[axis] = static_cast<std::uint16_t>(code.cut[axis]);
             coding.cutAxes = static_cast<std::uint16_t>(coding.cutAxes | (1u << axis));
         }
-        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p)
+        for (std::size_t p = 0; p < BrickVolume::kMaxPlanes; ++p)
             if (code.plane[p] != BrickVolume::kNoPlane) coding.plane[p] = planes[code.plane[p]];
-        coding.cells = offsetOf(code.cells, volume_.palettes_, palettes_);
+        coding.firstSideScalar = offsetOf(code.sideScalars, volume_.palettes_, palettes_);
         volume_.codes_.push_back(coding);
     }
 
@@ -554,59 +523,61 @@ private:
         std::uint64_t hash = 0;
         for (const double part : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
             hash = mixHash(hash, std::bit_cast<std::uint64_t>(part));
-        const auto next = static_cast<std::uint32_t>(volume_.oblique_.size());
-        const std::uint32_t known =
-            planeNumbers_.find(hash, next, [&](std::uint32_t other) { return volume_.oblique_[other] == plane; });
-        if (known != Numbering::kNew) return known;
-        volume_.oblique_.push_back(plane);
-        return next;
+        return planeIndex_.findOrAdd(
+            hash, [&](std::uint32_t other) { return volume_.planes_[other] == plane; },
+            [&] {
+                volume_.planes_.push_back(plane);
+                return static_cast<std::uint32_t>(volume_.planes_.size() - 1);
+            });
     }
 
     std::uint32_t brickNumber(const BrickPattern& pattern) {
-        std::uint64_t hash = pattern.planes.size();
-        for (const std::uint64_t word : pattern.planes) hash = mixHash(hash, word);
+        std::uint64_t hash = pattern.bitPlanes.size();
+        for (const std::uint64_t word : pattern.bitPlanes) hash = mixHash(hash, word);
         for (const Scalar scalar : pattern.palette) hash = mixHash(hash, scalar);
-        const auto next = static_cast<std::uint32_t>(volume_.bricks_.size());
         const auto equals = [](const auto& wanted, const auto& stored, std::uint32_t first) {
             return std::equal(wanted.begin(), wanted.end(), stored.begin() + first);
         };
-        const std::uint32_t known = brickNumbers_.find(hash, next, [&](std::uint32_t other) {
+        const auto isEqual = [&](std::uint32_t other) {
             const BrickVolume::PaletteBrick& candidate = volume_.bricks_[other];
             return candidate.paletteSize == pattern.palette.size() &&
                    equals(pattern.palette, volume_.palettes_, candidate.palette) &&
-                   equals(pattern.planes, volume_.planes_, candidate.planes);
-        });
-        if (known != Numbering::kNew) return known;
+                   equals(pattern.bitPlanes, volume_.bitPlanes_, candidate.bitPlanes);
+        };
+        return brickIndex_.findOrAdd(hash, isEqual, [&] { return addBrick(pattern); });
+    }
+
+    std::uint32_t addBrick(const BrickPattern& pattern) {
         BrickVolume::PaletteBrick added;
         added.palette = offsetOf(pattern.palette, volume_.palettes_, palettes_);
-        added.planes = offsetOf(pattern.planes, volume_.planes_, planeSets_);
-        added.planeCount = static_cast<std::uint32_t>(pattern.planes.size() / 8);
+        added.bitPlanes = offsetOf(pattern.bitPlanes, volume_.bitPlanes_, bitPlaneSets_);
+        added.bitPlaneCount = static_cast<std::uint32_t>(pattern.bitPlanes.size() / 8);
         added.paletteSize = static_cast<std::uint32_t>(pattern.palette.size());
         for (const Scalar scalar : pattern.palette)
             volume_.scalarCount_ = std::max(volume_.scalarCount_, std::uint64_t{scalar} + 1);
         volume_.bricks_.push_back(added);
-        return next;
+        return static_cast<std::uint32_t>(volume_.bricks_.size() - 1);
     }
 
     // Sets of values in one array, each stored once.
     struct SharedSets {
-        Numbering numbering;
+        HashIndex index;
         std::vector<std::pair<std::uint32_t, std::size_t>> sets;  // first, size
     };
     template <class T>
     static std::uint32_t offsetOf(const std::vector<T>& set, std::vector<T>& store, SharedSets& shared) {
         std::uint64_t hash = set.size();
         for (const T value : set) hash = mixHash(hash, value);
-        const auto next = static_cast<std::uint32_t>(shared.sets.size());
-        const std::uint32_t known = shared.numbering.find(hash, next, [&](std::uint32_t other) {
+        const auto isEqual = [&](std::uint32_t other) {
             const auto [first, size] = shared.sets[other];
             return size == set.size() && std::equal(set.begin(), set.end(), store.begin() + first);
+        };
+        const std::uint32_t number = shared.index.findOrAdd(hash, isEqual, [&] {
+            shared.sets.emplace_back(static_cast<std::uint32_t>(store.size()), set.size());
+            store.insert(store.end(), set.begin(), set.end());
+            return static_cast<std::uint32_t>(shared.sets.size() - 1);
         });
-        if (known != Numbering::kNew) return shared.sets[known].first;
-        const auto offset = static_cast<std::uint32_t>(store.size());
-        shared.sets.emplace_back(offset, set.size());
-        store.insert(store.end(), set.begin(), set.end());
-        return offset;
+        return shared.sets[number].first;
     }
 
     BrickVolume& volume_;
@@ -615,8 +586,8 @@ private:
     std::vector<SameLabelBox> codeBoxes_;
     std::vector<Scalar> scalars_;
     std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
-    Numbering brickNumbers_, planeNumbers_;
-    SharedSets palettes_, planeSets_;
+    HashIndex brickIndex_, planeIndex_;
+    SharedSets palettes_, bitPlaneSets_;
 };
 
 namespace {
@@ -626,19 +597,18 @@ class PlanesByTile {
 public:
     PlanesByTile(std::span<const FacePlane> planes, const ColumnVolume& columns) : tilesX_(columns.tilesX()) {
         // Limit on the total work, so that a malicious file does not take forever. Real files stay far below.
-        constexpr std::int64_t kMostTests = std::int64_t{1} << 27;
-        constexpr std::size_t kMostPlanes = 256;
+        constexpr std::int64_t kMaxTests = std::int64_t{1} << 27;
+        constexpr std::size_t kMaxPlanes = 256;
         std::int64_t tests = 0;
         planes_.resize(columns.tiles().size());
         for (const FacePlane& plane : planes) {
             const Vec3i low = tileAt(plane.min, columns, -1), high = tileAt(plane.max, columns, 1);
             tests += std::int64_t{1} * (high.x - low.x + 1) * (high.y - low.y + 1);
-            if (tests > kMostTests) return;
+            if (tests > kMaxTests) return;
             for (std::int32_t y = low.y; y <= high.y; ++y)
                 for (std::int32_t x = low.x; x <= high.x; ++x) {
                     std::vector<FacePlane>& ofTile = planes_[static_cast<std::size_t>(x + tilesX_ * y)];
-                    if (ofTile.size() < kMostPlanes && isIn(plane, x, y, columns.dimension().z))
-                        ofTile.push_back(plane);
+                    if (ofTile.size() < kMaxPlanes && isIn(plane, x, y, columns.dimension().z)) ofTile.push_back(plane);
                 }
         }
     }
@@ -702,8 +672,8 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     std::uint64_t words = 0;
     for (const TileBricks& tile : tileBricks) {
         for (const BrickPattern& pattern : tile.patterns)
-            words += std::max(pattern.palette.size(), pattern.planes.size());
-        for (const BoxCode& code : tile.boxes.codes) words += code.cells.size();
+            words += std::max(pattern.palette.size(), pattern.bitPlanes.size());
+        for (const BoxCode& code : tile.boxes.codes) words += code.sideScalars.size();
     }
     if (words > 0xFFFFFFFFu)
         return Error(Code::GridTooLarge, fmt::format("the mixed bricks hold {} words, over the limit of {}; choose a "
@@ -722,8 +692,8 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
 std::size_t BrickVolume::sizeBytes() const noexcept {
     return narrow_.size() * sizeof(std::uint16_t) + wide_.size() * sizeof(std::uint32_t) +
            boxes_.size() * sizeof(SameLabelBox) + codes_.size() * sizeof(BoxCoding) +
-           oblique_.size() * sizeof(BrickPlane) + bricks_.size() * sizeof(PaletteBrick) +
-           palettes_.size() * sizeof(Scalar) + planes_.size() * sizeof(std::uint64_t) +
+           planes_.size() * sizeof(BrickPlane) + bricks_.size() * sizeof(PaletteBrick) +
+           palettes_.size() * sizeof(Scalar) + bitPlanes_.size() * sizeof(std::uint64_t) +
            codedBricks_.size() * sizeof(std::uint64_t) + codedBefore_.size() * sizeof(std::uint32_t) +
            codedPatterns_.size() * sizeof(std::uint32_t);
 }

@@ -8,20 +8,20 @@ namespace {
 
 class CodeBoxFinder {
 public:
-    CodeBoxFinder(const TilePlaces& places, const std::vector<std::uint32_t>& codeOf,
+    CodeBoxFinder(const TilePlaces& places, const std::vector<std::uint32_t>& codeIndex,
                   const std::vector<BrickCode>& codes, const std::vector<BrickPlane>& planes)
-        : places_(places), codeOf_(codeOf), codes_(codes), planes_(planes) {}
+        : places_(places), codeIndex_(codeIndex), codes_(codes), planes_(planes) {}
 
     TileBoxes find() {
-        result_.boxOf.assign(codeOf_.size(), TileBoxes::kNone);
+        result_.boxOf.assign(codeIndex_.size(), TileBoxes::kNone);
         std::int64_t coded = 0;
-        for (const std::uint32_t code : codeOf_) coded += code != TileBoxes::kNone ? 1 : 0;
+        for (const std::uint32_t code : codeIndex_) coded += code != TileBoxes::kNone ? 1 : 0;
         budget_ = 16 * coded;
         std::size_t place = 0;
         for (std::int32_t z = 0; z < places_.count.z; ++z)
             for (std::int32_t y = 0; y < places_.count.y; ++y)
                 for (std::int32_t x = 0; x < places_.count.x; ++x, ++place)
-                    if (codeOf_[place] != TileBoxes::kNone && result_.boxOf[place] == TileBoxes::kNone)
+                    if (codeIndex_[place] != TileBoxes::kNone && result_.boxOf[place] == TileBoxes::kNone)
                         addBoxAt({x, y, z});
         return std::move(result_);
     }
@@ -31,9 +31,9 @@ private:
 
     // Which sides of the box's code cut a brick, and on which side of the others the brick lies.
     struct Sides {
-        std::array<bool, BrickVolume::kMostSides> cuts{};
-        std::size_t cell = 0;                                     // cell bits of the sides that do not cut it
-        std::array<std::size_t, BrickVolume::kMostSides> bits{};  // cell bits of the sides that do, in order
+        std::array<bool, BrickVolume::kMaxSides> cuts{};
+        std::size_t fixed = 0;                                   // bits of the sides that do not cut it
+        std::array<std::size_t, BrickVolume::kMaxSides> bits{};  // bits of the sides that do, in order
         std::size_t count = 0;
     };
     [[nodiscard]] Sides sidesOf(Vec3i at) const noexcept {
@@ -45,7 +45,7 @@ private:
                 sides.cuts[side] = true;
                 sides.bits[sides.count++] = bit;
             } else if (where > 0) {
-                sides.cell |= bit;
+                sides.fixed |= bit;
             }
             bit <<= 1;
         };
@@ -55,7 +55,7 @@ private:
             const std::int32_t first = low[static_cast<int>(axis)];
             add(axis, cut <= first ? 1 : cut >= first + 8 ? -1 : 0);
         }
-        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p) {
+        for (std::size_t p = 0; p < BrickVolume::kMaxPlanes; ++p) {
             if (code_.plane[p] == BrickVolume::kNoPlane) continue;
             const BrickPlane& plane = planes_[code_.plane[p]];
             const Vec3d n = plane.normal;
@@ -70,11 +70,11 @@ private:
     [[nodiscard]] bool mayJoin(Vec3i at) {
         --budget_;
         const std::size_t place = places_.at(at.x, at.y, at.z);
-        const std::uint32_t own = codeOf_[place];
+        const std::uint32_t own = codeIndex_[place];
         if (own == TileBoxes::kNone) {
             if (places_.patternOf[place] != TilePlaces::kUniform) return false;
             const Sides sides = sidesOf(at);
-            return sides.count == 0 && code_.cells[sides.cell] == places_.scalarOf[place];
+            return sides.count == 0 && code_.sideScalars[sides.fixed] == places_.scalarOf[place];
         }
         const Sides sides = sidesOf(at);
         if (sides.count == 0) return false;
@@ -86,14 +86,14 @@ private:
         }
         decltype(code.plane) planes = BrickCode().plane;
         std::size_t count = 0;
-        for (std::size_t p = 0; p < BrickVolume::kMostPlanes; ++p)
+        for (std::size_t p = 0; p < BrickVolume::kMaxPlanes; ++p)
             if (sides.cuts[3 + p]) planes[count++] = code_.plane[p];
         if (planes != code.plane) return false;
-        for (std::size_t cell = 0; cell < code.cells.size(); ++cell) {
-            std::size_t whole = sides.cell;
+        for (std::size_t part = 0; part < code.sideScalars.size(); ++part) {
+            std::size_t whole = sides.fixed;
             for (std::size_t s = 0; s < sides.count; ++s)
-                if (((cell >> s) & 1u) != 0) whole |= sides.bits[s];
-            if (code_.cells[whole] != code.cells[cell]) return false;
+                if (((part >> s) & 1u) != 0) whole |= sides.bits[s];
+            if (code_.sideScalars[whole] != code.sideScalars[part]) return false;
         }
         return true;
     }
@@ -106,12 +106,12 @@ private:
     }
 
     void addBoxAt(Vec3i seed) {
-        const BrickCode& own = codes_[codeOf_[places_.at(seed.x, seed.y, seed.z)]];
+        const BrickCode& own = codes_[codeIndex_[places_.at(seed.x, seed.y, seed.z)]];
         code_ = {};
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (own.cut[axis] != 0) code_.cut[axis] = corner(seed)[static_cast<int>(axis)] + own.cut[axis];
         code_.plane = own.plane;
-        code_.cells = own.cells;
+        code_.sideScalars = own.sideScalars;
         CodeBox box{seed, seed + Vec3i{1, 1, 1}, numberOfCode()};
         for (int axis = 0; axis < 3; ++axis) {
             const auto layer = [&](std::int32_t at) {
@@ -128,7 +128,7 @@ private:
             for (std::int32_t y = box.min.y; y < box.max.y; ++y)
                 for (std::int32_t x = box.min.x; x < box.max.x; ++x) {
                     const std::size_t place = places_.at(x, y, z);
-                    if (codeOf_[place] != TileBoxes::kNone && result_.boxOf[place] == TileBoxes::kNone)
+                    if (codeIndex_[place] != TileBoxes::kNone && result_.boxOf[place] == TileBoxes::kNone)
                         result_.boxOf[place] = number;
                 }
         result_.boxes.push_back(box);
@@ -145,7 +145,7 @@ private:
     }
 
     const TilePlaces& places_;
-    const std::vector<std::uint32_t>& codeOf_;
+    const std::vector<std::uint32_t>& codeIndex_;
     const std::vector<BrickCode>& codes_;
     const std::vector<BrickPlane>& planes_;
     BoxCode code_;  // of the box being grown
@@ -155,9 +155,9 @@ private:
 
 }  // namespace
 
-TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeOf,
+TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeIndex,
                         const std::vector<BrickCode>& codes, const std::vector<BrickPlane>& planes) {
-    return CodeBoxFinder(places, codeOf, codes, planes).find();
+    return CodeBoxFinder(places, codeIndex, codes, planes).find();
 }
 
 }  // namespace svt::volume

@@ -13,9 +13,9 @@ namespace svt::volume {
 /// A code for a box of bricks. Unlike in BrickCode, cuts are counted in voxels from the corner of the volume.
 struct BoxCode {
     std::array<std::int32_t, 3> cut{kNoCut, kNoCut, kNoCut};
-    std::array<std::uint32_t, BrickVolume::kMostPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
-                                                              BrickVolume::kNoPlane};
-    std::vector<Scalar> cells;
+    std::array<std::uint32_t, BrickVolume::kMaxPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
+                                                             BrickVolume::kNoPlane};
+    std::vector<Scalar> sideScalars;
     static constexpr std::int32_t kNoCut = -1;
     friend bool operator==(const BoxCode&, const BoxCode&) = default;
 };
@@ -36,8 +36,8 @@ struct TileBoxes {
 /// Covers the coded bricks of a tile with boxes, greedily: each box is grown from the first brick without a box, along
 /// x, then y, then z, over all bricks for which its code gives the same labels as their own: coded bricks that its
 /// sides cut, and uniform bricks beside them. Boxes may overlap; a budget of tests bounds the cost.
-/// \param codeOf  by place: index in `codes`, or TileBoxes::kNone
-[[nodiscard]] TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeOf,
+/// \param codeIndex  by place: index in `codes`, or TileBoxes::kNone
+[[nodiscard]] TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeIndex,
                                       const std::vector<BrickCode>& codes, const std::vector<BrickPlane>& planes);
 
 }  // namespace svt::volume

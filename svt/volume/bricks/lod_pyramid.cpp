@@ -144,7 +144,7 @@ private:
             }
             total += std::uint64_t{top - bottom} * column.count;
         }
-        return table_.number(mixtureOf(counts_, total));
+        return table_.number(makeMixture(counts_, total));
     }
 
     void add(Scalar scalar, std::uint64_t count) {
@@ -232,7 +232,7 @@ int Mixture::coverage() const noexcept {
     return sum;
 }
 
-Mixture mixtureOf(std::span<const std::pair<Scalar, std::uint64_t>> counts, std::uint64_t total) {
+Mixture makeMixture(std::span<const std::pair<Scalar, std::uint64_t>> counts, std::uint64_t total) {
     std::vector<std::pair<Scalar, std::uint64_t>> labels;
     std::uint64_t filled = 0;
     for (const auto& [scalar, count] : counts) {

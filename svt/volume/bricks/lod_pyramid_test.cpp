@@ -87,7 +87,7 @@ TEST(LodPyramid, CellsAreTheMixturesOfTheirBlocks) {
                             for (std::int32_t x = i * size; x < std::min(n.x, (i + 1) * size); ++x, ++total)
                                 ++counts[columns.scalarAt(x, y, z)];
                     const std::vector<std::pair<Scalar, std::uint64_t>> list(counts.begin(), counts.end());
-                    ASSERT_EQ(cellOf(level, i, j, k), mixtureOf(list, total)) << level.level;
+                    ASSERT_EQ(cellOf(level, i, j, k), makeMixture(list, total)) << level.level;
                 }
     }
 }
@@ -134,12 +134,12 @@ TEST(LodPyramid, DoesNotDependOnTheThreads) {
 
 TEST(Mixture, CoverageSumsToTheFilledShare) {
     using Counts = std::vector<std::pair<Scalar, std::uint64_t>>;
-    EXPECT_EQ(mixtureOf(Counts{{0, 8}}, 8), Mixture{});
-    EXPECT_EQ(mixtureOf(Counts{{4, 3}, {7, 5}}, 8).coverage(), 255);
-    EXPECT_EQ(mixtureOf(Counts{{1, 1}, {2, 1}, {3, 1}}, 3).coverage(), 255);
-    EXPECT_EQ(mixtureOf(Counts{{0, 4}, {7, 4}}, 8).coverage(), 128);
+    EXPECT_EQ(makeMixture(Counts{{0, 8}}, 8), Mixture{});
+    EXPECT_EQ(makeMixture(Counts{{4, 3}, {7, 5}}, 8).coverage(), 255);
+    EXPECT_EQ(makeMixture(Counts{{1, 1}, {2, 1}, {3, 1}}, 3).coverage(), 255);
+    EXPECT_EQ(makeMixture(Counts{{0, 4}, {7, 4}}, 8).coverage(), 128);
     // Equal counts: the smaller scalar first. Five labels: the rest goes to the first four.
-    const Mixture five = mixtureOf(Counts{{9, 2}, {5, 2}, {1, 2}, {3, 1}, {2, 1}}, 8);
+    const Mixture five = makeMixture(Counts{{9, 2}, {5, 2}, {1, 2}, {3, 1}, {2, 1}}, 8);
     EXPECT_EQ(five.partCount, 4);
     EXPECT_EQ(five.parts[0].scalar, 1u);
     EXPECT_EQ(five.parts[1].scalar, 5u);
@@ -150,11 +150,11 @@ TEST(Mixture, CoverageSumsToTheFilledShare) {
 
 TEST(Mixture, ALabelThatIsThereIsNeverRoundedAwayNorIsBackground) {
     using Counts = std::vector<std::pair<Scalar, std::uint64_t>>;
-    const Mixture speck = mixtureOf(Counts{{0, 262143}, {6, 1}}, 262144);
+    const Mixture speck = makeMixture(Counts{{0, 262143}, {6, 1}}, 262144);
     EXPECT_EQ(speck.partCount, 1);
     EXPECT_EQ(speck.parts[0].coverage, 1);
-    EXPECT_EQ(mixtureOf(Counts{{0, 1}, {6, 262143}}, 262144).coverage(), 254);
-    const Mixture two = mixtureOf(Counts{{5, 262143}, {6, 1}}, 262144);
+    EXPECT_EQ(makeMixture(Counts{{0, 1}, {6, 262143}}, 262144).coverage(), 254);
+    const Mixture two = makeMixture(Counts{{5, 262143}, {6, 1}}, 262144);
     EXPECT_EQ(two.parts[0], (MixturePart{5, 254}));
     EXPECT_EQ(two.parts[1], (MixturePart{6, 1}));
 }

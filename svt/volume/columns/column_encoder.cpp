@@ -102,7 +102,7 @@ private:
             if (kind < kReplace) {
                 upper += kind;
             } else {
-                if (upper >= above_.size() || isSoonBack(s, above_[upper].column)) kind = kInsert;
+                if (upper >= above_.size() || reappearsSoon(s, above_[upper].column)) kind = kInsert;
                 encodeColumn(dictionary_.column(segment.column), s > 0 ? columnOf(row_, s - 1) : std::span<const Run>{},
                              columnOf(above_, upper));
             }
@@ -123,7 +123,7 @@ private:
     }
 
     /// Whether one of the next segments of the current row has `column`; then the current segment is an insertion.
-    [[nodiscard]] bool isSoonBack(std::size_t segment, std::uint32_t column) const noexcept {
+    [[nodiscard]] bool reappearsSoon(std::size_t segment, std::uint32_t column) const noexcept {
         for (std::size_t s = segment + 1; s < row_.size() && s <= segment + kLookAhead; ++s)
             if (row_[s].column == column) return true;
         return false;

@@ -134,8 +134,8 @@ std::optional<PerStream<std::span<const std::uint8_t>>> splitStreams(std::span<c
 }  // namespace
 
 std::uint64_t maxArrayBytes(std::uint64_t frameBytes) noexcept {
-    constexpr std::uint64_t kMost = std::uint64_t{16} << 30;
-    return std::min((std::uint64_t{256} << 20) + 1024 * std::min(frameBytes, kMost), kMost);
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 30;
+    return std::min((std::uint64_t{256} << 20) + 1024 * std::min(frameBytes, kMaxBytes), kMaxBytes);
 }
 
 Result<CompressedColumns> compressColumns(const ColumnVolume& columns, int threads) {

@@ -1,5 +1,5 @@
 #include <svt/volume/face_planes.hpp>
-#include <svt/volume/file/number_frame.hpp>
+#include <svt/volume/file/zstd_frame.hpp>
 
 #include <fmt/format.h>
 

@@ -22,22 +22,22 @@ EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_
     const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
     const std::int64_t denominator = walk.denominator();
     const auto one = hn::Set(d, 1), whole = hn::Set(d, denominator);
-    const auto step = hn::Set(d, walk.step()), restStep = hn::Set(d, walk.restStep());
+    const auto step = hn::Set(d, walk.step()), remainderStep = hn::Set(d, walk.remainderStep());
 
     // Advancing n rows adds up to n denominators to the remainder: carry them into the column by binary subtraction.
-    const auto carry = [&](auto& column, auto& rest) HWY_ATTR {
+    const auto carry = [&](auto& column, auto& remainder) HWY_ATTR {
         for (std::int64_t times = lanes / 2; times > 0; times /= 2) {
             const auto part = hn::Set(d, times * denominator);
-            const auto isOver = hn::Not(hn::Lt(rest, part));
-            rest = hn::Sub(rest, hn::IfThenElseZero(isOver, part));
+            const auto isOver = hn::Not(hn::Lt(remainder, part));
+            remainder = hn::Sub(remainder, hn::IfThenElseZero(isOver, part));
             column = hn::Add(column, hn::IfThenElseZero(isOver, hn::Set(d, times)));
         }
     };
     auto column = hn::Add(hn::Set(d, walk.sample() - firstColumn), hn::Mul(hn::Iota(d, 0), step));  // lane n: row n
-    auto rest = hn::Add(hn::Set(d, walk.rest()), hn::Mul(hn::Iota(d, 0), restStep));
-    carry(column, rest);
-    auto columnStride = hn::Set(d, lanes * walk.step()), restStride = hn::Set(d, lanes * walk.restStep());
-    carry(columnStride, restStride);
+    auto remainder = hn::Add(hn::Set(d, walk.remainder()), hn::Mul(hn::Iota(d, 0), remainderStep));
+    carry(column, remainder);
+    auto columnStride = hn::Set(d, lanes * walk.step()), remainderStride = hn::Set(d, lanes * walk.remainderStep());
+    carry(columnStride, remainderStride);
 
     EdgeRows rows;
     const auto end = hn::Set(d, std::int64_t{width});
@@ -48,15 +48,15 @@ EdgeRows edgeColumns(const EdgeWalk& walk, std::int32_t firstColumn, std::int32_
     };
     for (std::int32_t n = 0; n < count; n += lanes) {
         const auto isWest = hn::Lt(column, one);
-        // The remainder is below restStep exactly where it has just wrapped: that step was one column longer.
-        const auto moved = hn::Add(step, hn::IfThenElseZero(hn::Lt(rest, restStep), one));
+        // The remainder is below remainderStep exactly where it has just wrapped: that step was one column longer.
+        const auto moved = hn::Add(step, hn::IfThenElseZero(hn::Lt(remainder, remainderStep), one));
         rows.west |= bitsOf(isWest) << n;
         rows.within |= bitsOf(hn::AndNot(isWest, hn::Lt(column, end))) << n;
         rows.moves |= bitsOf(hn::Ne(moved, hn::Zero(d))) << n;
         hn::StoreU(hn::TruncateTo(dColumn, hn::BitCast(dUnsigned, column)), dColumn, columns + n);
-        rest = hn::Add(rest, restStride);
-        const auto isOver = hn::Not(hn::Lt(rest, whole));
-        rest = hn::Sub(rest, hn::IfThenElseZero(isOver, whole));
+        remainder = hn::Add(remainder, remainderStride);
+        const auto isOver = hn::Not(hn::Lt(remainder, whole));
+        remainder = hn::Sub(remainder, hn::IfThenElseZero(isOver, whole));
         column = hn::Add(column, hn::Add(columnStride, hn::IfThenElseZero(isOver, one)));
     }
     const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);

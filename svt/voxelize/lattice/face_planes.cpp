@@ -48,9 +48,9 @@ volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
     return plane;
 }
 
-std::vector<Facet> findFacets(const mesh::MeshScene& scene, const IndexFromLocal& indexFromLocal) {
+std::vector<Facet> findFacets(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLocal) {
     std::vector<Facet> facets;
-    for (const mesh::ObjectMesh& object : scene.objects)
+    for (const mesh::ObjectMesh& object : meshes.objects)
         for (const mesh::Triangle& triangle : object.triangles) {
             Facet facet;
             for (std::size_t c = 0; c < 3; ++c)
@@ -123,7 +123,7 @@ private:
     std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;
 };
 
-// The shared scene plane, from which all faces on it take their heights, in voxel space.
+// The shared plane of the meshes, from which all faces on it take their heights, in voxel space.
 volume::BrickPlane sharedPlane(const mesh::Plane& local, const IndexFromLocal& indexFromLocal) noexcept {
     const mesh::Plane plane = indexFromLocal.plane(local);
     const Vec3d normal{-plane.slopeX / double(kQuanta), -plane.slopeY / double(kQuanta), 1};
@@ -155,14 +155,14 @@ std::optional<volume::FacePlane> clipped(const Group& group, Vec3i dimension) no
 
 }  // namespace
 
-std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshScene& scene, const volume::Grid& grid) {
-    const IndexFromLocal indexFromLocal(scene, grid);
+std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshSet& meshes, const volume::Grid& grid) {
+    const IndexFromLocal indexFromLocal(meshes, grid);
     const Vec3i n = grid.dimension();
     std::vector<Group> groups;
     GroupsByPlace byPlace({n.x / 2.0, n.y / 2.0, n.z / 2.0});
     constexpr std::size_t kNone = ~std::size_t{0};
-    std::vector<std::size_t> groupOf(scene.planes.size(), kNone);
-    for (const Facet& facet : findFacets(scene, indexFromLocal)) {
+    std::vector<std::size_t> groupOf(meshes.planes.size(), kNone);
+    for (const Facet& facet : findFacets(meshes, indexFromLocal)) {
         std::size_t group = kNone;
         if (facet.plane == mesh::kNoPlane) {
             group = byPlace.find(facet, groups);
@@ -170,7 +170,7 @@ std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshScene& scene, cons
             group = groupOf[facet.plane];
         } else {
             group = groupOf[facet.plane] = groups.size();
-            groups.push_back({sharedPlane(scene.planes[facet.plane], indexFromLocal), {}, 0});
+            groups.push_back({sharedPlane(meshes.planes[facet.plane], indexFromLocal), {}, 0});
         }
         groups[group].area += facet.area;
         for (const Vec3d corner : facet.corners) groups[group].box.add(corner);

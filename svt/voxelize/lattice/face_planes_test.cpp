@@ -29,7 +29,7 @@ const FacePlane* through(const std::vector<FacePlane>& faces, std::initializer_l
 }
 
 TEST(FacePlanes, OfABoxAreItsSixSides) {
-    const auto faces = findFacePlanes(test::sceneOf({test::box({1, 2, 1}, {7, 5.4, 4})}), gridOf());
+    const auto faces = findFacePlanes(test::meshSetOf({test::box({1, 2, 1}, {7, 5.4, 4})}), gridOf());
     ASSERT_EQ(faces.size(), 6u);
     // Of the largest sides first; as far as the box reaches.
     EXPECT_EQ(std::abs(faces[0].plane.normal.z), 1);
@@ -43,7 +43,7 @@ TEST(FacePlanes, OfABoxAreItsSixSides) {
 
 TEST(FacePlanes, OfATurnedBoxPassThroughItsEdges) {
     const mesh::ObjectMesh box = test::turnedBox({2, 2, 1}, {7, 5, 4}, 27);
-    const auto faces = findFacePlanes(test::sceneOf({box}), gridOf());
+    const auto faces = findFacePlanes(test::meshSetOf({box}), gridOf());
     ASSERT_EQ(faces.size(), 6u);
     for (std::size_t side = 0; side < 4; ++side) {
         const auto& v = box.vertices;
@@ -59,16 +59,16 @@ TEST(FacePlanes, AreSharedByNeighborsWhicheverWayTheyLook) {
     for (Vec3d& v : beside.vertices) v = v + step * 0.4;
     mesh::ObjectMesh first = boxes[0];
     for (Vec3d& v : first.vertices) v = v - step * 0.6;
-    const auto faces = findFacePlanes(test::sceneOf({first, beside}), gridOf({140, 140, 60}));
+    const auto faces = findFacePlanes(test::meshSetOf({first, beside}), gridOf({140, 140, 60}));
     EXPECT_EQ(faces.size(), 2u + 2u + 3u);
 }
 
 TEST(FacePlanes, OutsideOfTheGridOrTooSmallAreLeftOut) {
-    const auto outside = findFacePlanes(test::sceneOf({test::box({20, 2, 1}, {27, 5, 4})}), gridOf());
+    const auto outside = findFacePlanes(test::meshSetOf({test::box({20, 2, 1}, {27, 5, 4})}), gridOf());
     EXPECT_TRUE(outside.empty());
-    const auto small = findFacePlanes(test::sceneOf({test::box({1, 1, 1}, {1.5, 1.5, 1.5})}), gridOf());
+    const auto small = findFacePlanes(test::meshSetOf({test::box({1, 1, 1}, {1.5, 1.5, 1.5})}), gridOf());
     EXPECT_TRUE(small.empty());  // 25 square voxels a side
-    const auto half = findFacePlanes(test::sceneOf({test::box({5, 2, 1}, {27, 5, 4})}), gridOf());
+    const auto half = findFacePlanes(test::meshSetOf({test::box({5, 2, 1}, {27, 5, 4})}), gridOf());
     EXPECT_EQ(half.size(), 5u);
     for (const FacePlane& face : half)
         for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LT(face.min[axis], face.max[axis]);

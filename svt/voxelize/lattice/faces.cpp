@@ -9,7 +9,7 @@ namespace {
 
 // False where the triangle crosses no sample line within `dimension`.
 bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Vec3i dimension, FaceTriangle& out,
-               bool& looksDown) noexcept {
+               bool& facesDown) noexcept {
     const QuantaPoint* corners[3] = {&a, &b, &c};
     for (int i = 0; i < 3; ++i) out.y[i] = (*corners[i])[1];
     std::tie(out.firstRow, out.endRow) = std::minmax({out.row(0), out.row(1), out.row(2)});
@@ -20,7 +20,7 @@ bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
     const std::int64_t area = (std::int64_t(b[0]) - a[0]) * (std::int64_t(c[1]) - a[1]) -
                               (std::int64_t(b[1]) - a[1]) * (std::int64_t(c[0]) - a[0]);
     if (area == 0) return false;
-    looksDown = area < 0;
+    facesDown = area < 0;
     return true;
 }
 
@@ -36,13 +36,13 @@ struct EdgeUse {
 struct FaceBuilder {
     const std::vector<mesh::Triangle>& source;
     FaceList& list;
-    std::vector<std::uint32_t> numbers;  // source triangles of the current level, the last ones of `list`
+    std::vector<std::uint32_t> numbers;  // source triangles of the current height plane, the last ones of `list`
     std::vector<EdgeUse> uses;
     std::vector<std::uint32_t> partOf;  // per triangle: parent in a union-find, never a higher number
     std::vector<FaceTriangle> unsorted;
 
-    // Ends the current level: each edge-connected component of its triangles becomes a face.
-    void closeLevel();
+    // Ends the current height plane: each edge-connected component of its triangles becomes a face.
+    void closeHeightPlane();
 
 private:
     void markInnerEdges(std::span<FaceTriangle> triangles);
@@ -76,7 +76,7 @@ void FaceBuilder::markInnerEdges(std::span<FaceTriangle> triangles) {
     }
 }
 
-void FaceBuilder::closeLevel() {
+void FaceBuilder::closeHeightPlane() {
     const auto count = static_cast<std::uint32_t>(numbers.size());
     if (count >= 2) {
         const auto triangles = std::span(list.triangles).last(count);
@@ -103,7 +103,7 @@ void FaceBuilder::closeLevel() {
 
 }  // namespace
 
-bool touchesSamples(const FaceTriangle& t, bool looksDown, std::int32_t firstColumn, std::int32_t firstRow,
+bool touchesSamples(const FaceTriangle& t, bool facesDown, std::int32_t firstColumn, std::int32_t firstRow,
                     std::int32_t width, std::int32_t height) noexcept {
     if (t.endColumn <= firstColumn || t.firstColumn >= firstColumn + width || t.endRow <= firstRow ||
         t.firstRow >= firstRow + height)
@@ -111,7 +111,7 @@ bool touchesSamples(const FaceTriangle& t, bool looksDown, std::int32_t firstCol
     const auto quanta = [](std::int32_t sample) { return std::int64_t(sample) * kQuanta + 1; };
     const std::int64_t west = quanta(firstColumn), east = quanta(firstColumn + width - 1);
     const std::int64_t south = quanta(firstRow), north = quanta(firstRow + height - 1);
-    const std::int64_t turn = looksDown ? -1 : 1;
+    const std::int64_t turn = facesDown ? -1 : 1;
     // Disjoint where the whole rectangle lies outside one edge. (The bounding boxes are tested above.)
     for (int e = 0; e < 3; ++e) {
         const int to = e == 2 ? 0 : e + 1;
@@ -122,8 +122,8 @@ bool touchesSamples(const FaceTriangle& t, bool looksDown, std::int32_t firstCol
     return true;
 }
 
-FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLevels, Vec3i dimension,
-                   std::uint32_t claim, LevelTable& ownLevels) {
+FaceList groupCoplanarFaces(const IndexMesh& mesh, std::span<const std::uint32_t> heightPlaneOfPlane, Vec3i dimension,
+                            std::uint32_t claim, HeightPlanes& ownHeightPlanes) {
     const auto& triangles = mesh.mesh->triangles;
     FaceList list;
     list.triangles.reserve(triangles.size());
@@ -134,20 +134,22 @@ FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLe
         const QuantaPoint& b = mesh.points[triangle.corners[1]];
         const QuantaPoint& c = mesh.points[triangle.corners[2]];
         FaceTriangle plan;
-        Boundary face{kNoLevel, claim, false};
+        Boundary face{kNoHeightPlane, claim, false};
         if (!setUpPlan(a, b, c, dimension, plan, face.isEntry)) continue;
-        if (triangle.plane != mesh::kNoPlane && !planeLevels.empty()) face.level = planeLevels[triangle.plane];
-        if (face.level == kNoLevel)
-            face.level = ownLevels.add(Level(triangleHeight(a, b, c, kScanAxes[2]), ownLevels.depth));
+        if (triangle.plane != mesh::kNoPlane && !heightPlaneOfPlane.empty())
+            face.heightPlane = heightPlaneOfPlane[triangle.plane];
+        if (face.heightPlane == kNoHeightPlane)
+            face.heightPlane =
+                ownHeightPlanes.add(HeightPlane(triangleHeight(a, b, c, kScanAxes[2]), ownHeightPlanes.depth));
         if (builder.numbers.empty() || face.packed() != list.faces.back().packed()) {
-            builder.closeLevel();
+            builder.closeHeightPlane();
             list.faces.push_back(face);
         }
         plan.face = static_cast<std::uint32_t>(list.faces.size() - 1);
         list.triangles.push_back(plan);
         builder.numbers.push_back(t);
     }
-    builder.closeLevel();
+    builder.closeHeightPlane();
     return list;
 }
 

@@ -4,7 +4,7 @@
 /// between them are never scanned, so the result does not depend on how a face was triangulated.
 
 #include <svt/core/vec.hpp>
-#include <svt/voxelize/lattice/levels.hpp>
+#include <svt/voxelize/lattice/height_planes.hpp>
 
 #include <cstdint>
 #include <span>
@@ -31,8 +31,8 @@ struct FaceTriangle {
 
 /// True if the triangle intersects the rectangle of samples [firstColumn, firstColumn + width) x [firstRow, firstRow +
 /// height); exact, borders included.
-/// \param looksDown  whether its face looks down
-[[nodiscard]] bool touchesSamples(const FaceTriangle& triangle, bool looksDown, std::int32_t firstColumn,
+/// \param facesDown  whether its face looks down
+[[nodiscard]] bool touchesSamples(const FaceTriangle& triangle, bool facesDown, std::int32_t firstColumn,
                                   std::int32_t firstRow, std::int32_t width, std::int32_t height) noexcept;
 
 /// The faces of an object, each given by its boundary, and their triangles.
@@ -43,10 +43,11 @@ struct FaceList {
 
 /// Groups the non-vertical triangles of a closed mesh into faces of coplanar, edge-connected triangles. Triangles that
 /// cross no sample line along z within `dimension` (rows and columns) are left out.
-/// \param planeLevels  level of each plane of the scene; empty if planes cannot be carried over to the grid
-/// \param ownLevels    receives the levels of faces without a shared plane
+/// \param heightPlaneOfPlane  height plane of each plane of the meshes; empty if planes cannot be carried over to the
+///                            grid
+/// \param ownHeightPlanes    receives the height planes of faces without a shared plane
 /// Cost: O(n log n) in the triangles of the largest face.
-[[nodiscard]] FaceList makeFaces(const IndexMesh& mesh, std::span<const std::uint32_t> planeLevels, Vec3i dimension,
-                                 std::uint32_t claim, LevelTable& ownLevels);
+[[nodiscard]] FaceList groupCoplanarFaces(const IndexMesh& mesh, std::span<const std::uint32_t> heightPlaneOfPlane,
+                                          Vec3i dimension, std::uint32_t claim, HeightPlanes& ownHeightPlanes);
 
 }  // namespace svt::voxelize

@@ -5,8 +5,8 @@
 
 namespace svt::voxelize {
 
-IndexFromLocal::IndexFromLocal(const mesh::MeshScene& scene, const volume::Grid& grid) {
-    const Vec3d shift = scene.origin - grid.origin();
+IndexFromLocal::IndexFromLocal(const mesh::MeshSet& meshes, const volume::Grid& grid) {
+    const Vec3d shift = meshes.origin - grid.origin();
     for (int axis = 0; axis < 3; ++axis) {
         rows_[std::size_t(axis)] = grid.axes()[std::size_t(axis)] / grid.spacing()[axis];
         offset_[axis] = dot(grid.axes()[std::size_t(axis)], shift) / grid.spacing()[axis];

@@ -2,7 +2,7 @@
 /// \file
 /// Objects in index space, snapped to the integer lattice on which all tests are evaluated.
 
-#include <svt/mesh/mesh_scene.hpp>
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <array>
@@ -28,10 +28,10 @@ struct IndexMesh {
     const mesh::ObjectMesh* mesh = nullptr;
 };
 
-/// From local space of a scene to index space of a grid: index = (axes^T * (local - shift)) / spacing.
+/// From local space to index space of a grid: index = (axes^T * (local - shift)) / spacing.
 class IndexFromLocal {
 public:
-    IndexFromLocal(const mesh::MeshScene& scene, const volume::Grid& grid);
+    IndexFromLocal(const mesh::MeshSet& meshes, const volume::Grid& grid);
     [[nodiscard]] Vec3d point(Vec3d local) const noexcept { return direction(local) + offset_; }
     [[nodiscard]] Vec3d direction(Vec3d local) const noexcept {
         return {dot(rows_[0], local), dot(rows_[1], local), dot(rows_[2], local)};

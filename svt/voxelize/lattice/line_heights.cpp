@@ -13,7 +13,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count, std::uint32_t seed,
+std::uint64_t heightsAlong(std::span<const LineHeightPlane> heightPlanes, std::int32_t count, std::uint32_t seed,
                            std::int32_t* line) {
     const hn::CappedTag<std::int64_t, 8> d;
     const hn::RebindToUnsigned<decltype(d)> dUnsigned;
@@ -27,14 +27,14 @@ std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count
         auto hash = hn::Set(dHash, seed);
         auto differs = hn::MaskFromVec(hn::Zero(d));
         std::int32_t* to = line + n;
-        for (const LineLevel& level : levels) {
-            const auto lowest = hn::Set(d, std::int64_t{level.lowest}),
-                       highest = hn::Set(d, std::int64_t{level.highest});
+        for (const LineHeightPlane& heightPlane : heightPlanes) {
+            const auto lowest = hn::Set(d, std::int64_t{heightPlane.lowest}),
+                       highest = hn::Set(d, std::int64_t{heightPlane.highest});
             const auto clamped = [&](auto height) HWY_ATTR {
-                return hn::Max(lowest, hn::Min(highest, hn::ShiftRight<Level::kBits>(height)));
+                return hn::Max(lowest, hn::Min(highest, hn::ShiftRight<HeightPlane::kBits>(height)));
             };
-            const auto step = hn::Set(d, level.step);
-            const auto height = hn::Add(hn::Set(d, level.first), hn::Mul(sample, step));
+            const auto step = hn::Set(d, heightPlane.step);
+            const auto height = hn::Add(hn::Set(d, heightPlane.first), hn::Mul(sample, step));
             const auto k = clamped(height);
             differs = hn::Or(differs, hn::Ne(k, clamped(hn::Sub(height, step))));
             const auto narrow = hn::TruncateTo(dHash, hn::BitCast(dUnsigned, k));
@@ -59,9 +59,9 @@ namespace svt::voxelize {
 
 HWY_EXPORT(heightsAlong);
 
-std::uint64_t heightsAlong(std::span<const LineLevel> levels, std::int32_t count, std::uint32_t seed,
+std::uint64_t heightsAlong(std::span<const LineHeightPlane> heightPlanes, std::int32_t count, std::uint32_t seed,
                            std::int32_t* line) {
-    return HWY_DYNAMIC_DISPATCH(heightsAlong)(levels, count, seed, line);
+    return HWY_DYNAMIC_DISPATCH(heightsAlong)(heightPlanes, count, seed, line);
 }
 
 }  // namespace svt::voxelize

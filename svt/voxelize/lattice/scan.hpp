@@ -86,21 +86,21 @@ public:
         // ceil(((x - 1) * dy + (rowY - y0) * dx) / (512 dy)), rowY = 512 row + 1
         const std::int64_t numerator = (std::int64_t(x0) - 1) * dy + (std::int64_t(row) * kQuanta + 1 - y0) * dx;
         sample_ = floorDivide(numerator + denominator_ - 1, denominator_);
-        rest_ = numerator + denominator_ - 1 - sample_ * denominator_;
+        remainder_ = numerator + denominator_ - 1 - sample_ * denominator_;
         step_ = floorDivide(dx * kQuanta, denominator_);
-        restStep_ = dx * kQuanta - step_ * denominator_;
+        remainderStep_ = dx * kQuanta - step_ * denominator_;
     }
     [[nodiscard]] std::int64_t sample() const noexcept { return sample_; }
-    /// Remainder, 0 to denominator() - 1, in units of 1/denominator() sample. One row adds step() and restStep().
-    [[nodiscard]] std::int64_t rest() const noexcept { return rest_; }
+    /// Remainder, 0 to denominator() - 1, in units of 1/denominator() sample. One row adds step() and remainderStep().
+    [[nodiscard]] std::int64_t remainder() const noexcept { return remainder_; }
     [[nodiscard]] std::int64_t denominator() const noexcept { return denominator_; }
     [[nodiscard]] std::int64_t step() const noexcept { return step_; }
-    [[nodiscard]] std::int64_t restStep() const noexcept { return restStep_; }
+    [[nodiscard]] std::int64_t remainderStep() const noexcept { return remainderStep_; }
     void nextRow() noexcept {
         sample_ += step_;
-        rest_ += restStep_;
-        if (rest_ >= denominator_) {
-            rest_ -= denominator_;
+        remainder_ += remainderStep_;
+        if (remainder_ >= denominator_) {
+            remainder_ -= denominator_;
             ++sample_;
         }
     }
@@ -110,7 +110,7 @@ private:
         const std::int64_t q = a / b;
         return q - ((a % b != 0) && (a < 0));
     }
-    std::int64_t denominator_, sample_, rest_, step_, restStep_;
+    std::int64_t denominator_, sample_, remainder_, step_, remainderStep_;
 };
 
 template <class Body>

@@ -173,14 +173,14 @@ double distanceToTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) noexcept {
     return sum != 0 ? length(ap - ab * (vb / sum) - ac * (vc / sum)) : length(ap);
 }
 
-ColumnVolume giveThematicBodies(const ColumnVolume& columns, const volume::Grid& grid, const mesh::MeshScene& scene,
-                                const std::vector<BodyGroup>& groups, int threads) {
+ColumnVolume assignThematicBodies(const ColumnVolume& columns, const volume::Grid& grid, const mesh::MeshSet& meshes,
+                                  const std::vector<BodyGroup>& groups, int threads) {
     std::vector<Group> prepared;
     for (const BodyGroup& source : groups) {
         Group group;
         group.source = &source;
         for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
-            const mesh::ObjectMesh& mesh = scene.objects[source.surfaces[s]];
+            const mesh::ObjectMesh& mesh = meshes.objects[source.surfaces[s]];
             for (const mesh::Triangle& t : mesh.triangles)
                 group.faces.push_back(
                     {mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]], s});
@@ -223,7 +223,7 @@ ColumnVolume giveThematicBodies(const ColumnVolume& columns, const volume::Grid&
                     }
                 splitters->emplace_back(
                     group.source->from,
-                    std::make_unique<TileSplitter>(group, grid, scene.origin, firstColumn, firstRow, width, height));
+                    std::make_unique<TileSplitter>(group, grid, meshes.origin, firstColumn, firstRow, width, height));
                 splitters->back().second->split(low, high);
             }
             return [splitters, &prepared, groupOf](std::int32_t i, std::int32_t j, std::span<const Run> runs,

@@ -86,14 +86,14 @@ protected:
         std::vector<mesh::ObjectMesh> objects{test::box(low_, high_), test::box(roomLow_, roomHigh_)};
         for (int side = 0; side < 6; ++side) objects.push_back(sideOf(low_, high_, side));
         for (int side = 0; side < 6; ++side) objects.push_back(sideOf(roomLow_, roomHigh_, side));
-        scene_ = test::sceneOf(std::move(objects), origin_);
+        meshes_ = test::meshSetOf(std::move(objects), origin_);
         group_.from = 1;
         for (std::uint32_t s = 2; s < 14; ++s) {
             group_.surfaces.push_back(s);
             group_.scalars.push_back(s + 1);
         }
         // Only building and room; surfaces as sheets are tested elsewhere.
-        auto solids = scene_;
+        auto solids = meshes_;
         solids.objects.resize(2);
         const std::vector<ObjectClaim> claims{{1, 7, "building"}, {2, 4, "room"}};
         columns_ = voxelize(solids, grid_, claims)->columns;
@@ -103,7 +103,7 @@ protected:
         double nearest = 1e300;
         Scalar scalar = 0;
         for (std::size_t s = 0; s < group_.surfaces.size(); ++s) {
-            const mesh::ObjectMesh& mesh = scene_.objects[group_.surfaces[s]];
+            const mesh::ObjectMesh& mesh = meshes_.objects[group_.surfaces[s]];
             for (const mesh::Triangle& t : mesh.triangles) {
                 const double distance = distanceToTriangle(world - origin_, mesh.vertices[t.corners[0]],
                                                            mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]]);
@@ -118,7 +118,7 @@ protected:
 
     const Vec3d origin_{4588, 54383, 11};
     const Vec3d low_{0, 0, 0}, high_{6, 5, 3}, roomLow_{0.4, 0.3, 0.25}, roomHigh_{5.5, 4.7, 2.6};
-    mesh::MeshScene scene_;
+    mesh::MeshSet meshes_;
     // A spacing that divides no dimension, over two tiles along x.
     Grid grid_ = *Grid::fromSpacing({low_ + origin_, high_ + origin_}, {0.083, 0.097, 0.071});
     BodyGroup group_;
@@ -126,7 +126,7 @@ protected:
 };
 
 TEST_F(House, EveryVoxelOfTheMaterialGoesToTheNearestSurface) {
-    const auto given = giveThematicBodies(columns_, grid_, scene_, {group_}, 1);
+    const auto given = assignThematicBodies(columns_, grid_, meshes_, {group_}, 1);
     const Vec3i n = grid_.dimension();
     ASSERT_GT(n.x, 64);
     std::vector<std::uint64_t> hits(16, 0);
@@ -147,8 +147,8 @@ TEST_F(House, EveryVoxelOfTheMaterialGoesToTheNearestSurface) {
 }
 
 TEST_F(House, SameForAnyNumberOfThreads) {
-    EXPECT_TRUE(giveThematicBodies(columns_, grid_, scene_, {group_}, 1) ==
-                giveThematicBodies(columns_, grid_, scene_, {group_}, 4));
+    EXPECT_TRUE(assignThematicBodies(columns_, grid_, meshes_, {group_}, 1) ==
+                assignThematicBodies(columns_, grid_, meshes_, {group_}, 4));
 }
 
 TEST_F(House, AtEqualDistanceTheEarlierSurfaceGets) {
@@ -158,7 +158,7 @@ TEST_F(House, AtEqualDistanceTheEarlierSurfaceGets) {
         twins.from = 1;
         twins.surfaces = {4, 4};
         twins.scalars = isTurned ? std::vector<Scalar>{8, 7} : std::vector<Scalar>{7, 8};
-        const auto counts = giveThematicBodies(columns_, grid_, scene_, {twins}, 1).countVoxels(16);
+        const auto counts = assignThematicBodies(columns_, grid_, meshes_, {twins}, 1).countVoxels(16);
         EXPECT_EQ(counts[twins.scalars[0]], columns_.countVoxels(16)[1]);
         EXPECT_EQ(counts[twins.scalars[1]], 0u);
     }
@@ -166,25 +166,25 @@ TEST_F(House, AtEqualDistanceTheEarlierSurfaceGets) {
 
 TEST_F(House, MiddleBetweenTwoWallsGoesToTheEarlier) {
     // A slab from x = 0 to 8 with walls at both ends and samples exactly in the middle.
-    const auto scene = test::sceneOf(
+    const auto meshes = test::meshSetOf(
         {test::box({0, 0, 0}, {8, 2, 2}), sideOf({0, 0, 0}, {8, 2, 2}, 3), sideOf({0, 0, 0}, {8, 2, 2}, 5)});
     const Grid grid =
         *Grid::fromParts({9, 3, 3}, {1, 1, 1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
     const auto columns = volume::ColumnVolume::fromDense({9, 3, 3}, std::vector<Scalar>(81, 1));
-    const auto given = giveThematicBodies(columns, grid, scene, {{1, {1, 2}, {5, 6}}}, 1);
+    const auto given = assignThematicBodies(columns, grid, meshes, {{1, {1, 2}, {5, 6}}}, 1);
     for (std::int32_t i = 0; i < 9; ++i) EXPECT_EQ(given.scalarAt(i, 1, 1), i >= 4 ? 5u : 6u) << i;
 }
 
 TEST_F(House, GroupWithoutSurfacesOrVoxelsChangesNothing) {
-    EXPECT_TRUE(giveThematicBodies(columns_, grid_, scene_, {}, 1) == columns_);
-    EXPECT_TRUE(giveThematicBodies(columns_, grid_, scene_, {{1, {}, {}}}, 1) == columns_);
-    EXPECT_TRUE(giveThematicBodies(columns_, grid_, scene_, {{9, {2, 3}, {3, 4}}}, 1) == columns_);
+    EXPECT_TRUE(assignThematicBodies(columns_, grid_, meshes_, {}, 1) == columns_);
+    EXPECT_TRUE(assignThematicBodies(columns_, grid_, meshes_, {{1, {}, {}}}, 1) == columns_);
+    EXPECT_TRUE(assignThematicBodies(columns_, grid_, meshes_, {{9, {2, 3}, {3, 4}}}, 1) == columns_);
 }
 
 TEST_F(House, TwoBuildingsKeepTheirOwn) {
     // The room serves as a second building with its own surface.
     const BodyGroup second{2, {2}, {15}};
-    const auto counts = giveThematicBodies(columns_, grid_, scene_, {group_, second}, 2).countVoxels(16);
+    const auto counts = assignThematicBodies(columns_, grid_, meshes_, {group_, second}, 2).countVoxels(16);
     EXPECT_EQ(counts[15], columns_.countVoxels(16)[2]);
     EXPECT_EQ(counts[1] + counts[2], 0u);
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int32_t kLargestImage = 4096;
 constexpr std::int32_t kLargestRaw = 1024;
-constexpr std::size_t kMostPhases = 64;
+constexpr std::size_t kMaxPhases = 64;
 
 using Pixel = std::array<std::uint8_t, 3>;
 
@@ -43,7 +43,7 @@ std::pair<std::size_t, int> widestChannel(const std::vector<Pixel>& colors, cons
 }
 
 // Median cut (Heckbert 1982): splits the widest box at its median until there are enough boxes.
-void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCells& cells) {
+void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternTexels& texels) {
     std::vector<std::uint32_t> order(colors.size());
     std::iota(order.begin(), order.end(), 0u);
     std::vector<ColorBox> boxes{{0, colors.size()}};
@@ -71,25 +71,25 @@ void medianCut(const std::vector<Pixel>& colors, std::size_t wanted, PatternCell
         boxes[best] = {box.begin, cut};
         boxes.push_back({cut, box.end});
     }
-    cells.phases.resize(colors.size());
-    cells.phaseCount = static_cast<std::uint32_t>(boxes.size());
+    texels.phases.resize(colors.size());
+    texels.phaseCount = static_cast<std::uint32_t>(boxes.size());
     for (std::size_t b = 0; b < boxes.size(); ++b) {
         std::array<std::uint64_t, 3> sum{};
         for (std::size_t i = boxes[b].begin; i < boxes[b].end; ++i) {
-            cells.phases[order[i]] = static_cast<std::uint8_t>(b);
+            texels.phases[order[i]] = static_cast<std::uint8_t>(b);
             for (std::size_t channel = 0; channel < 3; ++channel) sum[channel] += colors[order[i]][channel];
         }
         const auto count = static_cast<float>(boxes[b].end - boxes[b].begin) * 255.0f;
-        cells.colors.push_back({float(sum[0]) / count, float(sum[1]) / count, float(sum[2]) / count});
+        texels.colors.push_back({float(sum[0]) / count, float(sum[1]) / count, float(sum[2]) / count});
     }
 }
 
 }  // namespace
 
-Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesystem::path& file, int maxColors) {
-    if (maxColors < 2 || maxColors > static_cast<int>(kMostPhases))
+Result<std::shared_ptr<const PatternTexels>> readPatternImage(const std::filesystem::path& file, int maxColors) {
+    if (maxColors < 2 || maxColors > static_cast<int>(kMaxPhases))
         return Error(Code::BadArgument,
-                     fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMostPhases));
+                     fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMaxPhases));
     const auto mapped = MappedFile::open(file);
     if (!mapped) return mapped.error();
     png_image image;
@@ -107,20 +107,20 @@ Result<std::shared_ptr<const PatternCells>> readPatternImage(const std::filesyst
     std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
     if (png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) == 0)
         return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
-    auto cells = std::make_shared<PatternCells>();
-    cells->dimension = {static_cast<std::int32_t>(image.width), static_cast<std::int32_t>(image.height), 1};
-    // PNG rows run top down, cells bottom up.
+    auto texels = std::make_shared<PatternTexels>();
+    texels->dimension = {static_cast<std::int32_t>(image.width), static_cast<std::int32_t>(image.height), 1};
+    // PNG rows run top down, texels bottom up.
     std::vector<Pixel> colors(std::size_t(image.width) * image.height);
     for (std::size_t y = 0; y < image.height; ++y)
         for (std::size_t x = 0; x < image.width; ++x) {
             const std::size_t from = 3 * (x + image.width * (image.height - 1 - y));
             colors[x + image.width * y] = {bytes[from], bytes[from + 1], bytes[from + 2]};
         }
-    medianCut(colors, static_cast<std::size_t>(maxColors), *cells);
-    return std::shared_ptr<const PatternCells>(std::move(cells));
+    medianCut(colors, static_cast<std::size_t>(maxColors), *texels);
+    return std::shared_ptr<const PatternTexels>(std::move(texels));
 }
 
-Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem::path& file, Vec3i dimension) {
+Result<std::shared_ptr<const PatternTexels>> readPatternRaw(const std::filesystem::path& file, Vec3i dimension) {
     for (int axis = 0; axis < 3; ++axis)
         if (dimension[axis] < 1 || dimension[axis] > kLargestRaw)
             return badImage(file, fmt::format("dimension {} is out of range; 1 to {} cells along an axis are possible",
@@ -137,14 +137,14 @@ Result<std::shared_ptr<const PatternCells>> readPatternRaw(const std::filesystem
     std::size_t count = 0;
     for (std::size_t value = 0; value < 256; ++value)
         if (isUsed[value]) phase[value] = static_cast<std::uint8_t>(count++);
-    if (count > kMostPhases)
-        return badImage(file, fmt::format("{} different values found; {} are possible", count, kMostPhases));
-    auto cells = std::make_shared<PatternCells>();
-    cells->dimension = dimension;
-    cells->phaseCount = static_cast<std::uint32_t>(count);
-    cells->phases.reserve(expected);
-    for (const std::byte byte : mapped->bytes()) cells->phases.push_back(phase[std::to_integer<std::size_t>(byte)]);
-    return std::shared_ptr<const PatternCells>(std::move(cells));
+    if (count > kMaxPhases)
+        return badImage(file, fmt::format("{} different values found; {} are possible", count, kMaxPhases));
+    auto texels = std::make_shared<PatternTexels>();
+    texels->dimension = dimension;
+    texels->phaseCount = static_cast<std::uint32_t>(count);
+    texels->phases.reserve(expected);
+    for (const std::byte byte : mapped->bytes()) texels->phases.push_back(phase[std::to_integer<std::size_t>(byte)]);
+    return std::shared_ptr<const PatternTexels>(std::move(texels));
 }
 
 }  // namespace svt::voxelize

@@ -102,16 +102,16 @@ std::uint32_t insulation(Vec3d p, Vec3d size, double line) noexcept {
     return within(p.z + wave, size.z / 2) < line ? 1 : 0;
 }
 
-std::uint32_t cellPhase(const PatternCells& cells, Vec3d p, Vec3d size) noexcept {
+std::uint32_t texelPhase(const PatternTexels& texels, Vec3d p, Vec3d size) noexcept {
     const auto index = [](double x, double period, std::int32_t count) {
         return std::min(count - 1, static_cast<std::int32_t>(within(x, period) / period * count));
     };
-    const std::int32_t i = index(p.x, size.x, cells.dimension.x);
-    const bool isImage = cells.dimension.z == 1;
-    const std::int32_t j = isImage ? index(p.z, size.z, cells.dimension.y) : index(p.y, size.y, cells.dimension.y);
-    const std::int32_t k = isImage ? 0 : index(p.z, size.z, cells.dimension.z);
-    return cells.phases[std::size_t(i) + std::size_t(cells.dimension.x) *
-                                             (std::size_t(j) + std::size_t(cells.dimension.y) * std::size_t(k))];
+    const std::int32_t i = index(p.x, size.x, texels.dimension.x);
+    const bool isImage = texels.dimension.z == 1;
+    const std::int32_t j = isImage ? index(p.z, size.z, texels.dimension.y) : index(p.y, size.y, texels.dimension.y);
+    const std::int32_t k = isImage ? 0 : index(p.z, size.z, texels.dimension.z);
+    return texels.phases[std::size_t(i) + std::size_t(texels.dimension.x) *
+                                              (std::size_t(j) + std::size_t(texels.dimension.y) * std::size_t(k))];
 }
 
 struct Defaults {
@@ -159,7 +159,7 @@ std::uint32_t Pattern::phaseCount() const noexcept {
         case PatternKind::None: return 1;
         case PatternKind::Concrete: return 3;
         case PatternKind::Image:
-        case PatternKind::Raw: return cells == nullptr ? 1 : cells->phaseCount;
+        case PatternKind::Raw: return texels == nullptr ? 1 : texels->phaseCount;
         default: return 2;
     }
 }
@@ -181,7 +181,7 @@ std::uint32_t Pattern::phaseAt(Vec3d p) const noexcept {
         case PatternKind::Concrete: return concrete(p, size.z, seed);
         case PatternKind::Insulation: return insulation(p, size, line);
         case PatternKind::Image:
-        case PatternKind::Raw: return cells == nullptr || cells->phases.empty() ? 0 : cellPhase(*cells, p, size);
+        case PatternKind::Raw: return texels == nullptr || texels->phases.empty() ? 0 : texelPhase(*texels, p, size);
     }
     return 0;
 }
@@ -204,13 +204,13 @@ Result<Pattern> makePattern(Pattern pattern) {
         return Error(Code::BadPattern,
                      fmt::format("pattern {}: angle {} is out of range; -360 to 360 degrees are possible",
                                  patternName(pattern.kind), pattern.angleDegrees));
-    const bool needsCells = pattern.kind == PatternKind::Image || pattern.kind == PatternKind::Raw;
-    if (needsCells && pattern.cells == nullptr)
+    const bool needsTexels = pattern.kind == PatternKind::Image || pattern.kind == PatternKind::Raw;
+    if (needsTexels && pattern.texels == nullptr)
         return Error(Code::BadPattern, fmt::format("pattern {}: needs a file", patternName(pattern.kind)));
     return pattern;
 }
 
-ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
+ObjectAxes dominantAxes(const mesh::ObjectMesh& mesh) noexcept {
     // Directions modulo 180 degrees, weighted by length.
     constexpr int kBins = 180;
     std::array<double, kBins> weight{};
@@ -230,7 +230,7 @@ ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
             sum[std::size_t(bin)] = sum[std::size_t(bin)] + (bin == 0 && edge.x < 0 ? -edge : edge);
         }
     }
-    ObjectFrame frame;
+    ObjectAxes axes;
     const auto best = std::max_element(weight.begin(), weight.end()) - weight.begin();
     if (weight[std::size_t(best)] > 0) {
         Vec3d u = sum[std::size_t(best)];
@@ -238,17 +238,18 @@ ObjectFrame dominantFrame(const mesh::ObjectMesh& mesh) noexcept {
         u = normalized(u);
         if (std::abs(u.y) < 1e-7) u = {1, 0, 0};
         if (std::abs(u.x) < 1e-7) u = {0, 1, 0};
-        frame.axes = {u, {-u.y, u.x, 0}, {0, 0, 1}};
+        axes.directions = {u, {-u.y, u.x, 0}, {0, 0, 1}};
     }
     Vec3d low{1e300, 1e300, 1e300};
     for (const Vec3d& vertex : mesh.vertices)
         for (int axis = 0; axis < 3; ++axis)
-            low[axis] = std::min(low[axis], dot(vertex, frame.axes[std::size_t(axis)]));
-    if (!mesh.vertices.empty()) frame.origin = frame.axes[0] * low.x + frame.axes[1] * low.y + frame.axes[2] * low.z;
-    return frame;
+            low[axis] = std::min(low[axis], dot(vertex, axes.directions[std::size_t(axis)]));
+    if (!mesh.vertices.empty())
+        axes.origin = axes.directions[0] * low.x + axes.directions[1] * low.y + axes.directions[2] * low.z;
+    return axes;
 }
 
-volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid, Vec3d sceneOrigin,
+volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volume::Grid& grid, Vec3d localOrigin,
                                  const std::vector<PatternedObject>& objects, int threads) {
     std::unordered_map<volume::Scalar, const PatternedObject*> byScalar;
     for (const PatternedObject& object : objects)
@@ -272,9 +273,10 @@ volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volu
                             const PatternedObject& object = *found->second;
                             for (std::uint32_t k = begin; k < run.end; ++k) {
                                 const Vec3d local = grid.worldFromIndex({double(i), double(j), double(k)}) -
-                                                    sceneOrigin - object.frame.origin;
-                                const Vec3d uvw{dot(local, object.frame.axes[0]), dot(local, object.frame.axes[1]),
-                                                dot(local, object.frame.axes[2])};
+                                                    localOrigin - object.axes.origin;
+                                const Vec3d uvw{dot(local, object.axes.directions[0]),
+                                                dot(local, object.axes.directions[1]),
+                                                dot(local, object.axes.directions[2])};
                                 const volume::Scalar scalar = object.first + object.pattern.phaseAt(uvw);
                                 if (!out.empty() && out.back().scalar == scalar && out.back().end == k)
                                     out.back().end = k + 1;

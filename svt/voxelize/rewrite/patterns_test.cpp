@@ -26,14 +26,14 @@ Pattern made(PatternKind kind, Vec3d size = {}, double line = 0, double angle = 
     return result ? *result : pattern;
 }
 
-// Cells of 4 x 3 x `nz`, phases by their number.
-std::shared_ptr<const PatternCells> cellsOf(std::int32_t nz, std::uint32_t phases) {
-    auto cells = std::make_shared<PatternCells>();
-    cells->dimension = {4, 3, nz};
-    cells->phaseCount = phases;
+// Texels of 4 x 3 x `nz`, phases by their number.
+std::shared_ptr<const PatternTexels> texelsOf(std::int32_t nz, std::uint32_t phases) {
+    auto texels = std::make_shared<PatternTexels>();
+    texels->dimension = {4, 3, nz};
+    texels->phaseCount = phases;
     for (std::int32_t c = 0; c < 12 * nz; ++c)
-        cells->phases.push_back(static_cast<std::uint8_t>(std::uint32_t(c) % phases));
-    return cells;
+        texels->phases.push_back(static_cast<std::uint8_t>(std::uint32_t(c) % phases));
+    return texels;
 }
 
 std::vector<Pattern> allKinds() {
@@ -41,8 +41,8 @@ std::vector<Pattern> allKinds() {
     for (int k = 0; k < kPatternKinds; ++k) {
         Pattern pattern;
         pattern.kind = static_cast<PatternKind>(k);
-        if (pattern.kind == PatternKind::Image) pattern.cells = cellsOf(1, 5);
-        if (pattern.kind == PatternKind::Raw) pattern.cells = cellsOf(2, 7);
+        if (pattern.kind == PatternKind::Image) pattern.texels = texelsOf(1, 5);
+        if (pattern.kind == PatternKind::Raw) pattern.texels = texelsOf(2, 7);
         patterns.push_back(*makePattern(pattern));
     }
     return patterns;
@@ -96,10 +96,10 @@ TEST(Pattern, RepeatsAfterItsPeriod) {
     const Vec3d size{0.25, 0.125, 0.0625};
     Pattern image = made(PatternKind::None), raw = made(PatternKind::None);
     image.kind = PatternKind::Image;
-    image.cells = cellsOf(1, 5);
+    image.texels = texelsOf(1, 5);
     image.size = size;
     raw.kind = PatternKind::Raw;
-    raw.cells = cellsOf(2, 7);
+    raw.texels = texelsOf(2, 7);
     raw.size = size;
     const std::vector<Case> cases{
         {made(PatternKind::Brick, size, 0.015625),
@@ -171,11 +171,11 @@ TEST(Pattern, SeedChangesGrains) {
 TEST(Pattern, ImageStandsUprightAndReachesThroughTheDepth) {
     Pattern pattern;
     pattern.kind = PatternKind::Image;
-    auto cells = std::make_shared<PatternCells>();
-    cells->dimension = {2, 2, 1};
-    cells->phaseCount = 4;
-    cells->phases = {0, 1, 2, 3};  // lower left, lower right, upper left, upper right
-    pattern.cells = cells;
+    auto texels = std::make_shared<PatternTexels>();
+    texels->dimension = {2, 2, 1};
+    texels->phaseCount = 4;
+    texels->phases = {0, 1, 2, 3};  // lower left, lower right, upper left, upper right
+    pattern.texels = texels;
     pattern.size = {2, 7, 2};
     for (const double v : {-3.0, 0.1, 5.0}) {
         EXPECT_EQ(pattern.phaseAt({0.5, v, 0.5}), 0u);
@@ -213,17 +213,17 @@ TEST(MakePattern, MeasuresOutOfRangeAreNamed) {
 TEST(DominantFrame, RunsAlongTheLongestHorizontalEdges) {
     for (const double degrees : {0.0, 30.0, 89.9, 90.0, 135.0, 179.8}) {
         const auto mesh = test::turnedBox({2, 3, 1}, {12, 5, 4}, degrees);
-        const ObjectFrame frame = dominantFrame(mesh);
+        const ObjectAxes axes = dominantAxes(mesh);
         const double angle = degrees * std::numbers::pi / 180;
         const Vec3d expected{std::cos(angle), std::sin(angle), 0};
-        EXPECT_NEAR(std::abs(dot(frame.axes[0], expected)), 1, 1e-9) << degrees;
-        EXPECT_NEAR(dot(frame.axes[0], frame.axes[1]), 0, 1e-12);
-        EXPECT_EQ(cross(frame.axes[0], frame.axes[1]).z > 0, true);
-        EXPECT_EQ(frame.axes[2], (Vec3d{0, 0, 1}));
-        // The lower corner of the envelope in that frame: all vertices lie within 10 x 2 x 3 m of it.
+        EXPECT_NEAR(std::abs(dot(axes.directions[0], expected)), 1, 1e-9) << degrees;
+        EXPECT_NEAR(dot(axes.directions[0], axes.directions[1]), 0, 1e-12);
+        EXPECT_EQ(cross(axes.directions[0], axes.directions[1]).z > 0, true);
+        EXPECT_EQ(axes.directions[2], (Vec3d{0, 0, 1}));
+        // The lower corner of the envelope along these axes: all vertices lie within 10 x 2 x 3 m of it.
         for (const Vec3d& vertex : mesh.vertices) {
-            const Vec3d d = vertex - frame.origin;
-            const Vec3d uvw{dot(d, frame.axes[0]), dot(d, frame.axes[1]), dot(d, frame.axes[2])};
+            const Vec3d d = vertex - axes.origin;
+            const Vec3d uvw{dot(d, axes.directions[0]), dot(d, axes.directions[1]), dot(d, axes.directions[2])};
             EXPECT_GT(uvw.x, -1e-9);
             EXPECT_LT(uvw.x, 10 + 1e-9);
             EXPECT_GT(uvw.y, -1e-9);
@@ -238,22 +238,22 @@ TEST(DominantFrame, WithoutHorizontalEdgesItIsTheWorlds) {
     mesh::ObjectMesh mesh;
     mesh.vertices = {{0, 0, 0}, {1, 0, 5}, {0, 1, 9}};
     test::addTriangle(mesh, 0, 1, 2);
-    EXPECT_EQ(dominantFrame(mesh).axes[0], (Vec3d{1, 0, 0}));
-    EXPECT_EQ(dominantFrame({}).origin, Vec3d{});
+    EXPECT_EQ(dominantAxes(mesh).directions[0], (Vec3d{1, 0, 0}));
+    EXPECT_EQ(dominantAxes({}).origin, Vec3d{});
 }
 
 TEST(LayPatterns, OnlyTheObjectIsStencilledWithinItsRange) {
     const Vec3d origin{458877.1, 5438353.6, 11};
-    const auto scene =
-        test::sceneOf({test::turnedBox({0, 0, 0}, {5, 1, 3}, 20), test::box({6, 0, 0}, {8, 2, 2})}, origin);
-    const Grid grid = *Grid::fromDimension({scene.bounds.min + origin, scene.bounds.max + origin}, {141, 71, 65});
+    const auto meshes =
+        test::meshSetOf({test::turnedBox({0, 0, 0}, {5, 1, 3}, 20), test::box({6, 0, 0}, {8, 2, 2})}, origin);
+    const Grid grid = *Grid::fromDimension({meshes.bounds.min + origin, meshes.bounds.max + origin}, {141, 71, 65});
     for (Pattern& pattern : allKinds()) {
         if (pattern.kind == PatternKind::None) continue;
         const std::uint32_t phases = pattern.phaseCount();
         const std::vector<ObjectClaim> claims{{3, 3, "wall"}, {3 + phases, 3, "block"}};
-        const auto before = voxelize(scene, grid, claims);
+        const auto before = voxelize(meshes, grid, claims);
         ASSERT_TRUE(before);
-        const PatternedObject object{3, pattern, dominantFrame(scene.objects[0])};
+        const PatternedObject object{3, pattern, dominantAxes(meshes.objects[0])};
         const auto after = layPatterns(before->columns, grid, origin, {object}, 1);
         std::uint64_t changed = 0;
         for (std::int32_t j = 0; j < 71; ++j)
@@ -265,9 +265,9 @@ TEST(LayPatterns, OnlyTheObjectIsStencilledWithinItsRange) {
                         continue;
                     }
                     const Vec3d local =
-                        grid.worldFromIndex({double(i), double(j), double(k)}) - origin - object.frame.origin;
-                    const Vec3d uvw{dot(local, object.frame.axes[0]), dot(local, object.frame.axes[1]),
-                                    dot(local, object.frame.axes[2])};
+                        grid.worldFromIndex({double(i), double(j), double(k)}) - origin - object.axes.origin;
+                    const Vec3d uvw{dot(local, object.axes.directions[0]), dot(local, object.axes.directions[1]),
+                                    dot(local, object.axes.directions[2])};
                     ASSERT_EQ(is, 3 + pattern.phaseAt(uvw));
                     changed += is != was;
                 }
@@ -297,13 +297,13 @@ void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint3
 TEST(ReadPatternImage, ColoursArePhasesAndRowsRunBottomUp) {
     const TemporaryFolder folder;
     writePng(folder / "a.png", 2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255});
-    const auto cells = readPatternImage(folder / "a.png");
-    ASSERT_TRUE(cells) << cells.error().toString();
-    EXPECT_EQ((*cells)->dimension, (Vec3i{2, 2, 1}));
-    EXPECT_EQ((*cells)->phaseCount, 4u);
-    ASSERT_EQ((*cells)->colors.size(), 4u);
+    const auto texels = readPatternImage(folder / "a.png");
+    ASSERT_TRUE(texels) << texels.error().toString();
+    EXPECT_EQ((*texels)->dimension, (Vec3i{2, 2, 1}));
+    EXPECT_EQ((*texels)->phaseCount, 4u);
+    ASSERT_EQ((*texels)->colors.size(), 4u);
     const Vec3f expected[4] = {{0, 0, 1}, {1, 1, 1}, {1, 0, 0}, {0, 1, 0}};
-    for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ((*cells)->colors[(*cells)->phases[c]], expected[c]) << c;
+    for (std::size_t c = 0; c < 4; ++c) EXPECT_EQ((*texels)->colors[(*texels)->phases[c]], expected[c]) << c;
 }
 
 TEST(ReadPatternImage, ColoursAreReducedToTheNumberAsked) {
@@ -313,14 +313,14 @@ TEST(ReadPatternImage, ColoursAreReducedToTheNumberAsked) {
         for (const int channel : {n % 64 * 4, n / 64 * 4, 128}) rgb.push_back(static_cast<std::uint8_t>(channel));
     writePng(folder / "a.png", 64, 64, rgb);
     for (const int wanted : {2, 8, 64}) {
-        const auto cells = readPatternImage(folder / "a.png", wanted);
-        ASSERT_TRUE(cells);
-        EXPECT_EQ((*cells)->phaseCount, std::uint32_t(wanted));
-        EXPECT_EQ((*cells)->colors.size(), std::size_t(wanted));
+        const auto texels = readPatternImage(folder / "a.png", wanted);
+        ASSERT_TRUE(texels);
+        EXPECT_EQ((*texels)->phaseCount, std::uint32_t(wanted));
+        EXPECT_EQ((*texels)->colors.size(), std::size_t(wanted));
         // The widest box is split, so no colour is far from its pixels: red and green span 252 steps.
         const double widest = 252 / std::floor(std::sqrt(double(wanted))) / 255;
         for (std::size_t n = 0; n < 64 * 64; ++n) {
-            const Vec3f color = (*cells)->colors[(*cells)->phases[n]];
+            const Vec3f color = (*texels)->colors[(*texels)->phases[n]];
             ASSERT_LE(std::abs(color.x - rgb[3 * (n % 64 + 64 * (63 - n / 64))] / 255.0f), widest) << wanted;
             ASSERT_NEAR(color.z, 128 / 255.0f, 1e-6);
         }
@@ -342,10 +342,10 @@ TEST(ReadPatternImage, BadFilesAreRefused) {
     for (const std::size_t length :
          {std::size_t{0}, std::size_t{1}, std::size_t{8}, std::size_t{33}, whole.size() / 2, whole.size() - 100}) {
         test::writeText(folder / "cut.png", whole.substr(0, length));
-        const auto cells = readPatternImage(folder / "cut.png");
-        ASSERT_FALSE(cells) << length;
-        EXPECT_TRUE(cells.error().code() == Code::BadImage || cells.error().code() == Code::CannotOpen)
-            << cells.error().toString();
+        const auto texels = readPatternImage(folder / "cut.png");
+        ASSERT_FALSE(texels) << length;
+        EXPECT_TRUE(texels.error().code() == Code::BadImage || texels.error().code() == Code::CannotOpen)
+            << texels.error().toString();
     }
     writePng(folder / "wide.png", 5000, 1, std::vector<std::uint8_t>(15000, 7));
     const auto wide = readPatternImage(folder / "wide.png");
@@ -357,11 +357,11 @@ TEST(ReadPatternImage, BadFilesAreRefused) {
 TEST(ReadPatternRaw, ValuesAreNumberedInAscendingOrder) {
     const TemporaryFolder folder;
     test::writeText(folder / "a.raw", std::string("\x07\xFF\x07\x20\x20\x07", 6));
-    const auto cells = readPatternRaw(folder / "a.raw", {3, 2, 1});
-    ASSERT_TRUE(cells);
-    EXPECT_EQ((*cells)->phaseCount, 3u);
-    EXPECT_EQ((*cells)->phases, (std::vector<std::uint8_t>{0, 2, 0, 1, 1, 0}));
-    EXPECT_TRUE((*cells)->colors.empty());
+    const auto texels = readPatternRaw(folder / "a.raw", {3, 2, 1});
+    ASSERT_TRUE(texels);
+    EXPECT_EQ((*texels)->phaseCount, 3u);
+    EXPECT_EQ((*texels)->phases, (std::vector<std::uint8_t>{0, 2, 0, 1, 1, 0}));
+    EXPECT_TRUE((*texels)->colors.empty());
 }
 
 TEST(ReadPatternRaw, BadFilesAreRefused) {

@@ -23,11 +23,11 @@ using volume::ColumnVolume;
 
 // Every object has two claims: one as a solid, and one for its thin parts or as a sheet.
 struct Claims {
-    std::vector<OrderedClaim> ordered;
+    std::vector<PrioritizedClaim> ordered;
     std::vector<std::uint32_t> solidOrder, thinOrder;  // per object
 };
 
-Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> claims) {
+Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> claims) {
     struct Entry {
         std::uint32_t object;
         bool isThin;
@@ -41,7 +41,7 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
     std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
         const auto key = [&](const Entry& e) {
             return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t>(
-                claims[e.object].rank, e.isThin, scene.objects[e.object].volume, claims[e.object].id, e.object);
+                claims[e.object].rank, e.isThin, meshes.objects[e.object].volume, claims[e.object].id, e.object);
         };
         return key(p) < key(q);
     });
@@ -51,7 +51,7 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
     for (std::uint32_t order = 0; order < entries.size(); ++order) {
         const Entry& entry = entries[order];
         (entry.isThin ? result.thinOrder : result.solidOrder)[entry.object] = order;
-        const bool isSolid = !entry.isThin && scene.objects[entry.object].closure != mesh::Closure::Surface;
+        const bool isSolid = !entry.isThin && meshes.objects[entry.object].closure != mesh::Closure::Surface;
         result.ordered.push_back({claims[entry.object].scalar, entry.object, isSolid});
     }
     return result;
@@ -60,8 +60,8 @@ Claims orderClaims(const mesh::MeshScene& scene, std::span<const ObjectClaim> cl
 // The parts that touch each tile, stored tile after tile; within a tile by object, then by number.
 struct TileBins {
     std::vector<std::uint32_t> first;
-    std::vector<PartNumber> parts;
-    [[nodiscard]] std::span<const PartNumber> of(std::size_t tile) const {
+    std::vector<PartRef> parts;
+    [[nodiscard]] std::span<const PartRef> of(std::size_t tile) const {
         return std::span(parts).subspan(first[tile], first[tile + 1] - first[tile]);
     }
 };
@@ -74,28 +74,28 @@ TileBins fillBins(std::span<const ObjectParts> objects, std::int32_t tilesX, std
                   Items&& items, RangeOf&& rangeOf, Touches&& touches) {
     struct Entry {
         std::uint32_t tile;
-        PartNumber part;
+        PartRef part;
     };
-    struct Stretch {
+    struct Chunk {
         std::uint32_t object, begin, end;
         std::vector<Entry> entries;
     };
-    constexpr std::size_t kStretch = 1024;
-    std::vector<Stretch> stretches;
+    constexpr std::size_t kChunk = 1024;
+    std::vector<Chunk> chunks;
     for (std::uint32_t o = 0; o < objects.size(); ++o) {
         const std::size_t count = items(objects[o]).size();
-        for (std::size_t begin = 0; begin < count; begin += kStretch)
-            stretches.push_back({o,
-                                 static_cast<std::uint32_t>(begin),
-                                 static_cast<std::uint32_t>(std::min(count, begin + kStretch)),
-                                 {}});
+        for (std::size_t begin = 0; begin < count; begin += kChunk)
+            chunks.push_back({o,
+                              static_cast<std::uint32_t>(begin),
+                              static_cast<std::uint32_t>(std::min(count, begin + kChunk)),
+                              {}});
     }
-    parallelFor(stretches.size(), 1, threads, [&](std::size_t firstStretch, std::size_t endStretch) {
-        for (std::size_t s = firstStretch; s < endStretch; ++s) {
-            Stretch& stretch = stretches[s];
-            const ObjectParts& object = objects[stretch.object];
-            stretch.entries.reserve(2 * std::size_t{stretch.end - stretch.begin});
-            for (std::uint32_t n = stretch.begin; n < stretch.end; ++n) {
+    parallelFor(chunks.size(), 1, threads, [&](std::size_t firstChunk, std::size_t endChunk) {
+        for (std::size_t s = firstChunk; s < endChunk; ++s) {
+            Chunk& chunk = chunks[s];
+            const ObjectParts& object = objects[chunk.object];
+            chunk.entries.reserve(2 * std::size_t{chunk.end - chunk.begin});
+            for (std::uint32_t n = chunk.begin; n < chunk.end; ++n) {
                 const auto& item = items(object)[n];
                 std::int32_t x0, x1, y0, y1;
                 rangeOf(item, x0, x1, y0, y1);
@@ -103,20 +103,19 @@ TileBins fillBins(std::span<const ObjectParts> objects, std::int32_t tilesX, std
                 for (std::int32_t y = y0; y < y1; ++y)
                     for (std::int32_t x = x0; x < x1; ++x)
                         if (!isBlock || touches(object, item, x, y))
-                            stretch.entries.push_back(
-                                {static_cast<std::uint32_t>(x + tilesX * y), {stretch.object, n}});
+                            chunk.entries.push_back({static_cast<std::uint32_t>(x + tilesX * y), {chunk.object, n}});
             }
         }
     });
     TileBins bins;
     bins.first.assign(std::size_t(tilesX) * std::size_t(tilesY) + 1, 0);
-    for (const Stretch& stretch : stretches)
-        for (const Entry& entry : stretch.entries) ++bins.first[entry.tile + 1];
+    for (const Chunk& chunk : chunks)
+        for (const Entry& entry : chunk.entries) ++bins.first[entry.tile + 1];
     std::partial_sum(bins.first.begin(), bins.first.end(), bins.first.begin());
     bins.parts.resize(bins.first.back());
     std::vector<std::uint32_t> next(bins.first.begin(), bins.first.end() - 1);
-    for (const Stretch& stretch : stretches)
-        for (const Entry& entry : stretch.entries) bins.parts[next[entry.tile]++] = entry.part;
+    for (const Chunk& chunk : chunks)
+        for (const Entry& entry : chunk.entries) bins.parts[next[entry.tile]++] = entry.part;
     return bins;
 }
 
@@ -130,16 +129,16 @@ void tileRange(std::int32_t first, std::int32_t end, std::int32_t dimension, std
 
 // The prepared geometry of all objects.
 struct Geometry {
-    LevelTable levels;
+    HeightPlanes heightPlanes;
     std::vector<ObjectParts> objects;
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
 };
 
-// Prepares the parts of object number `object`; levels without a shared plane go to `ownLevels`.
-void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
-                   std::span<const std::uint32_t> planeLevels, const Claims& claims, const VoxelizeOptions& options,
-                   std::uint32_t object, LevelTable& ownLevels, Geometry& all) {
-    const mesh::ObjectMesh& mesh = scene.objects[object];
+// Prepares the parts of object number `object`; height planes without a shared plane go to `ownHeightPlanes`.
+void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
+                   std::span<const std::uint32_t> heightPlaneOfPlane, const Claims& claims,
+                   const VoxelizeOptions& options, std::uint32_t object, HeightPlanes& ownHeightPlanes, Geometry& all) {
+    const mesh::ObjectMesh& mesh = meshes.objects[object];
     if (mesh.closure == mesh::Closure::Open) return;  // filled by winding number later, one at a time on all cores
     const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
@@ -149,15 +148,15 @@ void prepareObject(const mesh::MeshScene& scene, const volume::Grid& grid, const
         return;
     }
     const Vec3i dimension = grid.dimension();
-    parts.faces = makeFaces(index, planeLevels, dimension, claims.solidOrder[object], ownLevels);
+    parts.faces = groupCoplanarFaces(index, heightPlaneOfPlane, dimension, claims.solidOrder[object], ownHeightPlanes);
     if (options.keepThinParts)
         all.thinVoxels[object] = addThinParts(index, indexFromLocal, dimension, claims.thinOrder[object], parts.boxes);
 }
 
 // Number of voxels of all sheets, estimated by area. The memory of the sheet pass is proportional to it.
-double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& indexFromLocal) {
+double estimateSheetVoxels(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLocal) {
     double voxels = 0;
-    for (const mesh::ObjectMesh& object : scene.objects) {
+    for (const mesh::ObjectMesh& object : meshes.objects) {
         if (object.closure != mesh::Closure::Surface) continue;
         for (const mesh::Triangle& triangle : object.triangles) {
             const Vec3d a = object.vertices[triangle.corners[0]];
@@ -171,19 +170,19 @@ double estimateSheetVoxels(const mesh::MeshScene& scene, const IndexFromLocal& i
 
 // An object that lost every voxel gets the one nearest to the centroid of one of its triangles: the first that lies in
 // the grid and is not another object's last voxel.
-ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, const volume::Grid& grid,
-                          const IndexFromLocal& indexFromLocal, std::span<const ObjectClaim> claims,
-                          std::span<const std::uint8_t> isPresent, std::vector<std::uint64_t>& thinVoxels,
-                          int threads) {
+ColumnVolume restoreVanishedObjects(ColumnVolume columns, const mesh::MeshSet& meshes, const volume::Grid& grid,
+                                    const IndexFromLocal& indexFromLocal, std::span<const ObjectClaim> claims,
+                                    std::span<const std::uint8_t> usedScalars, std::vector<std::uint64_t>& thinVoxels,
+                                    int threads) {
     if (std::all_of(claims.begin(), claims.end(),
-                    [&](const ObjectClaim& claim) { return isPresent[claim.scalar] != 0; }))
+                    [&](const ObjectClaim& claim) { return usedScalars[claim.scalar] != 0; }))
         return columns;
-    std::vector<std::uint64_t> counts = columns.countVoxels(static_cast<volume::Scalar>(isPresent.size()));
+    std::vector<std::uint64_t> counts = columns.countVoxels(static_cast<volume::Scalar>(usedScalars.size()));
     std::vector<VoxelEdit> edits;
     const Vec3i dimension = grid.dimension();
     for (std::uint32_t o = 0; o < claims.size(); ++o) {
         if (counts[claims[o].scalar] != 0) continue;
-        const mesh::ObjectMesh& mesh = scene.objects[o];
+        const mesh::ObjectMesh& mesh = meshes.objects[o];
         for (const mesh::Triangle& triangle : mesh.triangles) {
             const Vec3d center = (mesh.vertices[triangle.corners[0]] + mesh.vertices[triangle.corners[1]] +
                                   mesh.vertices[triangle.corners[2]]) /
@@ -208,50 +207,51 @@ ColumnVolume keepVanished(ColumnVolume columns, const mesh::MeshScene& scene, co
     return edits.empty() ? columns : editVoxels(columns, std::move(edits), threads);
 }
 
-Result<Geometry> prepareObjects(const mesh::MeshScene& scene, const volume::Grid& grid,
+Result<Geometry> prepareObjects(const mesh::MeshSet& meshes, const volume::Grid& grid,
                                 const IndexFromLocal& indexFromLocal, const Claims& claims,
                                 const VoxelizeOptions& options) {
     Geometry all;
-    all.levels.depth = grid.dimension().z;
-    all.levels.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
-    std::vector<std::uint32_t> planeLevels;
+    all.heightPlanes.depth = grid.dimension().z;
+    all.heightPlanes.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
+    std::vector<std::uint32_t> heightPlaneOfPlane;
     if (indexFromLocal.keepsVertical()) {
-        planeLevels.resize(scene.planes.size(), kNoLevel);
-        all.levels.sloped.resize(scene.planes.size());
-        parallelFor(planeLevels.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
+        heightPlaneOfPlane.resize(meshes.planes.size(), kNoHeightPlane);
+        all.heightPlanes.sloped.resize(meshes.planes.size());
+        parallelFor(heightPlaneOfPlane.size(), 256, options.threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t n = begin; n < end; ++n) {
-                const mesh::Plane plane = indexFromLocal.plane(scene.planes[n]);
+                const mesh::Plane plane = indexFromLocal.plane(meshes.planes[n]);
                 if (isScanPlane(plane))
-                    planeLevels[n] = all.levels.put(n, Level(planeHeight(plane), grid.dimension().z));
+                    heightPlaneOfPlane[n] =
+                        all.heightPlanes.put(n, HeightPlane(planeHeight(plane), grid.dimension().z));
             }
         });
     }
-    all.objects.resize(scene.objects.size());
-    all.thinVoxels.resize(scene.objects.size(), 0);
-    all.uncertainVoxels.resize(scene.objects.size(), 0);
-    std::vector<LevelTable> ownLevels(scene.objects.size());
-    parallelFor(scene.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+    all.objects.resize(meshes.objects.size());
+    all.thinVoxels.resize(meshes.objects.size(), 0);
+    all.uncertainVoxels.resize(meshes.objects.size(), 0);
+    std::vector<HeightPlanes> ownHeightPlanes(meshes.objects.size());
+    parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o) {
-            ownLevels[o].depth = all.levels.depth;
-            ownLevels[o].first = all.levels.next();
-            prepareObject(scene, grid, indexFromLocal, planeLevels, claims, options, static_cast<std::uint32_t>(o),
-                          ownLevels[o], all);
+            ownHeightPlanes[o].depth = all.heightPlanes.depth;
+            ownHeightPlanes[o].first = all.heightPlanes.next();
+            prepareObject(meshes, grid, indexFromLocal, heightPlaneOfPlane, claims, options,
+                          static_cast<std::uint32_t>(o), ownHeightPlanes[o], all);
         }
     });
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o) {
-        if (scene.objects[o].closure != mesh::Closure::Open) continue;
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        if (meshes.objects[o].closure != mesh::Closure::Open) continue;
         if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
-        all.uncertainVoxels[o] = addWindingFill(makeIndexMesh(scene.objects[o], indexFromLocal), scene, grid,
+        all.uncertainVoxels[o] = addWindingFill(makeIndexMesh(meshes.objects[o], indexFromLocal), meshes, grid,
                                                 claims.solidOrder[o], options.threads, all.objects[o].boxes);
     }
-    // Append the levels of single objects to the common table, in object order, and renumber them.
-    for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-        const LevelTable& own = ownLevels[o];
+    // Append the height planes of single objects to the common table, in object order, and renumber them.
+    for (std::size_t o = 0; o < meshes.objects.size(); ++o) {
+        const HeightPlanes& own = ownHeightPlanes[o];
         if (own.sloped.empty()) continue;
-        const std::uint32_t shift = all.levels.next() - own.first;
+        const std::uint32_t shift = all.heightPlanes.next() - own.first;
         for (Boundary& face : all.objects[o].faces.faces)
-            if (face.level >= own.first) face.level += shift;
-        all.levels.sloped.insert(all.levels.sloped.end(), own.sloped.begin(), own.sloped.end());
+            if (face.heightPlane >= own.first) face.heightPlane += shift;
+        all.heightPlanes.sloped.insert(all.heightPlanes.sloped.end(), own.sloped.begin(), own.sloped.end());
     }
     return all;
 }
@@ -277,10 +277,11 @@ private:
 // A pool of tile makers, so that tasks reuse their buffers and caches.
 class MakerPool {
 public:
-    MakerPool(std::span<const OrderedClaim> claims, const LevelTable& levels) : claims_(claims), levels_(levels) {}
+    MakerPool(std::span<const PrioritizedClaim> claims, const HeightPlanes& heightPlanes)
+        : claims_(claims), heightPlanes_(heightPlanes) {}
     std::unique_ptr<TileColumns> take() {
         const std::lock_guard lock(mutex_);
-        if (free_.empty()) return std::make_unique<TileColumns>(claims_, levels_);
+        if (free_.empty()) return std::make_unique<TileColumns>(claims_, heightPlanes_);
         auto maker = std::move(free_.back());
         free_.pop_back();
         return maker;
@@ -290,38 +291,38 @@ public:
         free_.push_back(std::move(maker));
     }
     // Sum of the counts of all makers.
-    SharedCounts takeCounts(int threads) {
-        std::vector<SharedCounts> taken(free_.size());
+    OverlapCounts takeCounts(int threads) {
+        std::vector<OverlapCounts> taken(free_.size());
         parallelFor(free_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t maker = begin; maker < end; ++maker) taken[maker] = free_[maker]->takeCounts();
         });
-        SharedCounts counts;
-        for (const SharedCounts& ofMaker : taken)
-            for (const SharedCount& sum : ofMaker.sums()) counts.add(sum);
+        OverlapCounts counts;
+        for (const OverlapCounts& ofMaker : taken)
+            for (const OverlapCount& sum : ofMaker.sums()) counts.add(sum);
         return counts;
     }
     // Per scalar: 1 if some maker has written it.
-    [[nodiscard]] std::vector<std::uint8_t> isPresent() const {
+    [[nodiscard]] std::vector<std::uint8_t> usedScalars() const {
         std::vector<std::uint8_t> present;
         for (const auto& maker : free_) {
-            present.resize(maker->isPresent().size(), 0);
+            present.resize(maker->usedScalars().size(), 0);
             for (std::size_t scalar = 0; scalar < present.size(); ++scalar)
-                present[scalar] |= maker->isPresent()[scalar];
+                present[scalar] |= maker->usedScalars()[scalar];
         }
         return present;
     }
 
 private:
-    std::span<const OrderedClaim> claims_;
-    const LevelTable& levels_;
+    std::span<const PrioritizedClaim> claims_;
+    const HeightPlanes& heightPlanes_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<TileColumns>> free_;
 };
 
 struct Tiles {
     std::vector<volume::ColumnTileData> tiles;
-    SharedCounts shared;
-    std::vector<std::uint8_t> isPresent;  // per scalar
+    OverlapCounts shared;
+    std::vector<std::uint8_t> usedScalars;  // per scalar
 };
 
 Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims, const VoxelizeOptions& options) {
@@ -352,7 +353,7 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
     Tiles result;
     result.tiles.resize(tileCount);
     TileProgress progress(options.progress, tileCount);
-    MakerPool makers(claims.ordered, geometry.levels);
+    MakerPool makers(claims.ordered, geometry.heightPlanes);
     parallelFor(tileCount, 1, options.threads, [&](std::size_t begin, std::size_t end) {
         auto maker = makers.take();
         for (std::size_t tile = begin; tile < end; ++tile) {
@@ -372,25 +373,25 @@ Tiles sweepTiles(const Geometry& geometry, Vec3i dimension, const Claims& claims
         makers.giveBack(std::move(maker));
     });
     result.shared = makers.takeCounts(options.threads);
-    result.isPresent = makers.isPresent();
+    result.usedScalars = makers.usedScalars();
     return result;
 }
 
 }  // namespace
 
-Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid& grid,
+Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid& grid,
                                 std::span<const ObjectClaim> claims, const VoxelizeOptions& options) {
-    SVT_CHECK(claims.size() == scene.objects.size());
+    SVT_CHECK(claims.size() == meshes.objects.size());
     Progress::tell(options.progress, "voxelize", 0);
-    const IndexFromLocal indexFromLocal(scene, grid);
-    constexpr double kMostSheetVoxels = 5e8;
-    if (const double sheets = estimateSheetVoxels(scene, indexFromLocal); sheets > kMostSheetVoxels)
+    const IndexFromLocal indexFromLocal(meshes, grid);
+    constexpr double kMaxSheetVoxels = 5e8;
+    if (const double sheets = estimateSheetVoxels(meshes, indexFromLocal); sheets > kMaxSheetVoxels)
         return Error(Code::GridTooLarge,
                      fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
                                  "choose a coarser spacing",
-                                 sheets, kMostSheetVoxels));
-    const Claims ordered = orderClaims(scene, claims);
-    auto geometry = prepareObjects(scene, grid, indexFromLocal, ordered, options);
+                                 sheets, kMaxSheetVoxels));
+    const Claims ordered = orderClaims(meshes, claims);
+    auto geometry = prepareObjects(meshes, grid, indexFromLocal, ordered, options);
     if (!geometry) return geometry.error();
     Tiles swept = sweepTiles(*geometry, grid.dimension(), ordered, options);
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
@@ -398,13 +399,14 @@ Result<VoxelizeResult> voxelize(const mesh::MeshScene& scene, const volume::Grid
     VoxelizeResult result;
     result.thinVoxels = std::move(geometry->thinVoxels);
     result.uncertainVoxels = std::move(geometry->uncertainVoxels);
-    for (const SharedCount& pair : swept.shared.sums())
+    for (const OverlapCount& pair : swept.shared.sums())
         result.overlaps.push_back(
             {ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
     std::sort(result.overlaps.begin(), result.overlaps.end(),
               [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
-    result.columns = keepVanished(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), scene, grid,
-                                  indexFromLocal, claims, swept.isPresent, result.thinVoxels, options.threads);
+    result.columns =
+        restoreVanishedObjects(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), meshes, grid,
+                               indexFromLocal, claims, swept.usedScalars, result.thinVoxels, options.threads);
     Progress::tell(options.progress, "voxelize", 1);
     return result;
 }

@@ -12,12 +12,12 @@ namespace {
 using test::ball;
 using test::box;
 using test::join;
-using test::sceneOf;
+using test::meshSetOf;
 using test::SolidOracle;
 using volume::Grid;
 
-Grid gridOver(const mesh::MeshScene& scene, Vec3i dimension) {
-    Box3d world{scene.bounds.min + scene.origin, scene.bounds.max + scene.origin};
+Grid gridOver(const mesh::MeshSet& meshes, Vec3i dimension) {
+    Box3d world{meshes.bounds.min + meshes.origin, meshes.bounds.max + meshes.origin};
     return *Grid::fromDimension(world, dimension);
 }
 
@@ -25,9 +25,9 @@ Grid gridWith(Vec3d origin, Vec3d spacing, Vec3i dimension) {
     return *Grid::fromParts(dimension, spacing, origin, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
 }
 
-std::vector<ObjectClaim> claimsFor(const mesh::MeshScene& scene, std::uint8_t rank = 3) {
+std::vector<ObjectClaim> claimsFor(const mesh::MeshSet& meshes, std::uint8_t rank = 3) {
     std::vector<ObjectClaim> claims;
-    for (std::uint32_t o = 0; o < scene.objects.size(); ++o)
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
         claims.push_back({o + 1, rank, "object" + std::to_string(o)});
     return claims;
 }
@@ -44,9 +44,9 @@ std::uint64_t countOf(const VoxelizeResult& result, volume::Scalar scalar) {
 
 TEST(Voxelize, BoxHasExactlyTheSamplesInside) {
     for (const Vec3d origin : {Vec3d{0, 0, 0}, Vec3d{458877.123, 5438353.777, 111.6}}) {
-        const auto scene = sceneOf({box({0.3, 0.4, 0.5}, {2.75, 3.1, 1.9})}, origin);
+        const auto meshes = meshSetOf({box({0.3, 0.4, 0.5}, {2.75, 3.1, 1.9})}, origin);
         const Grid grid = gridWith(origin + Vec3d{0.013, 0.017, 0.019}, {0.1, 0.07, 0.05}, {37, 61, 53});
-        const auto result = voxelize(scene, grid, claimsFor(scene), solidsOnly());
+        const auto result = voxelize(meshes, grid, claimsFor(meshes), solidsOnly());
         ASSERT_TRUE(result);
         std::uint64_t expected = 0;
         for (int k = 0; k < 53; ++k)
@@ -71,9 +71,9 @@ TEST(Voxelize, FacesOnSamplePlanesLeaveNoGapAndNoDoubleClaim) {
         const Vec3d high{n & 1 ? 1.0 : 0.5, n & 2 ? 1.0 : 0.5, n & 4 ? 1.0 : 0.5};
         parts.push_back(box(low, high));
     }
-    const auto scene = sceneOf(std::move(parts));
+    const auto meshes = meshSetOf(std::move(parts));
     const Grid grid = gridWith({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}, {13, 13, 13});
-    const auto result = voxelize(scene, grid, claimsFor(scene), solidsOnly());
+    const auto result = voxelize(meshes, grid, claimsFor(meshes), solidsOnly());
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->overlaps.empty());
     std::uint64_t filled = 0;
@@ -122,15 +122,15 @@ TEST(Voxelize, ObliqueFaceSharedWithOtherTriangulationLeavesNoGap) {
                 const double c = std::cos(degrees / 57.3), s = std::sin(degrees / 57.3);
                 v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
             }
-        const auto scene = sceneOf(parts);
-        const auto both = voxelize(scene, gridOver(scene, {101, 97, 83}), claimsFor(scene), solidsOnly());
+        const auto meshes = meshSetOf(parts);
+        const auto both = voxelize(meshes, gridOver(meshes, {101, 97, 83}), claimsFor(meshes), solidsOnly());
         mesh::ObjectMesh whole = box({0, 0, 0}, {3, 2, 1.3});
         for (Vec3d& v : whole.vertices) {
             const double c = std::cos(degrees / 57.3), s = std::sin(degrees / 57.3);
             v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
         }
-        const auto wholeScene = sceneOf({whole});
-        const auto one = voxelize(wholeScene, gridOver(scene, {101, 97, 83}), claimsFor(wholeScene), solidsOnly());
+        const auto wholeMeshes = meshSetOf({whole});
+        const auto one = voxelize(wholeMeshes, gridOver(meshes, {101, 97, 83}), claimsFor(wholeMeshes), solidsOnly());
         ASSERT_TRUE(both && one);
         EXPECT_TRUE(both->overlaps.empty()) << degrees;
         EXPECT_EQ(countOf(*both, 1) + countOf(*both, 2), countOf(*one, 1)) << degrees;
@@ -138,12 +138,12 @@ TEST(Voxelize, ObliqueFaceSharedWithOtherTriangulationLeavesNoGap) {
 }
 
 TEST(Voxelize, VoidsStayEmptyAndNestedShellsAreHarmless) {
-    const auto scene = sceneOf({join(box({0, 0, 0}, {4, 4, 4}), box({1, 1, 1}, {3, 3, 3}), true)});
+    const auto meshes = meshSetOf({join(box({0, 0, 0}, {4, 4, 4}), box({1, 1, 1}, {3, 3, 3}), true)});
     const Grid grid = gridWith({-0.05, -0.05, -0.05}, {0.1, 0.1, 0.1}, {43, 43, 43});
-    auto result = voxelize(scene, grid, claimsFor(scene), solidsOnly());
+    auto result = voxelize(meshes, grid, claimsFor(meshes), solidsOnly());
     ASSERT_TRUE(result);
     EXPECT_EQ(countOf(*result, 1), 40u * 40 * 40 - 20u * 20 * 20);
-    const auto doubled = sceneOf({join(box({0, 0, 0}, {4, 4, 4}), box({1, 1, 1}, {3, 3, 3}), false)});
+    const auto doubled = meshSetOf({join(box({0, 0, 0}, {4, 4, 4}), box({1, 1, 1}, {3, 3, 3}), false)});
     result = voxelize(doubled, grid, claimsFor(doubled), solidsOnly());
     ASSERT_TRUE(result);
     EXPECT_EQ(countOf(*result, 1), 40u * 40 * 40);
@@ -156,12 +156,12 @@ TEST(Voxelize, ExactOracleAgreesOnRandomAndNearFaceSamples) {
         std::vector<mesh::ObjectMesh> solids{ball({1.1, 1.3, 0.9}, 0.83),
                                              test::turnedBox({2.1, 0.2, 0.1}, {3.7, 1.9, 1.4}, 31),
                                              test::prism({{0.2, 2.3}, {1.9, 2.2}, {2.6, 3.3}, {1.0, 3.9}}, 0.15, 1.73)};
-        const auto scene = sceneOf(solids, origin);
-        const Grid grid = gridOver(scene, {83, 91, 67});
-        const auto result = voxelize(scene, grid, claimsFor(scene), solidsOnly());
+        const auto meshes = meshSetOf(solids, origin);
+        const Grid grid = gridOver(meshes, {83, 91, 67});
+        const auto result = voxelize(meshes, grid, claimsFor(meshes), solidsOnly());
         ASSERT_TRUE(result);
         std::vector<SolidOracle> oracles;
-        for (const auto& object : scene.objects) oracles.emplace_back(object);
+        for (const auto& object : meshes.objects) oracles.emplace_back(object);
         int checked = 0;
         const auto check = [&](Vec3i v) {
             const Vec3d local = grid.worldFromIndex({double(v.x), double(v.y), double(v.z)}) - origin;
@@ -187,11 +187,11 @@ TEST(Voxelize, ExactOracleAgreesOnRandomAndNearFaceSamples) {
 }
 
 TEST(Voxelize, FinerComponentWinsAndTheOverlapIsCounted) {
-    const auto scene =
-        sceneOf({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3}), box({1.5, 1.5, 1.5}, {1.9, 1.9, 1.9})});
+    const auto meshes =
+        meshSetOf({box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 3}), box({1.5, 1.5, 1.5}, {1.9, 1.9, 1.9})});
     const Grid grid = gridWith({-0.05, -0.05, -0.05}, {0.1, 0.1, 0.1}, {33, 33, 33});
     const std::vector<ObjectClaim> claims{{1, 4, "room"}, {2, 3, "wall"}, {3, 0, "table"}};
-    const auto result = voxelize(scene, grid, claims, solidsOnly());
+    const auto result = voxelize(meshes, grid, claims, solidsOnly());
     ASSERT_TRUE(result);
     EXPECT_EQ(countOf(*result, 3), 64u);
     EXPECT_EQ(countOf(*result, 2), 8000u - 64u);
@@ -203,12 +203,12 @@ TEST(Voxelize, FinerComponentWinsAndTheOverlapIsCounted) {
 TEST(Voxelize, SameBytesForAnyNumberOfThreads) {
     std::vector<mesh::ObjectMesh> solids;
     for (int n = 0; n < 12; ++n) solids.push_back(ball({0.7 * n, 0.4 * (n % 5), 0.3 * (n % 3)}, 0.9));
-    const auto scene = sceneOf(solids);
+    const auto meshes = meshSetOf(solids);
     VoxelizeOptions one, many;
     one.threads = 1;
     many.threads = 4;
-    const auto a = voxelize(scene, gridOver(scene, {301, 97, 75}), claimsFor(scene), one);
-    const auto b = voxelize(scene, gridOver(scene, {301, 97, 75}), claimsFor(scene), many);
+    const auto a = voxelize(meshes, gridOver(meshes, {301, 97, 75}), claimsFor(meshes), one);
+    const auto b = voxelize(meshes, gridOver(meshes, {301, 97, 75}), claimsFor(meshes), many);
     ASSERT_TRUE(a && b);
     EXPECT_TRUE(a->columns == b->columns);
     EXPECT_EQ(a->overlaps, b->overlaps);
@@ -217,10 +217,10 @@ TEST(Voxelize, SameBytesForAnyNumberOfThreads) {
 
 TEST(Voxelize, PaneThinnerThanAVoxelStaysWhole) {
     // A pane of 5 mm turned by 30 degrees in voxels of 20 mm: a flood from one side must not reach the other.
-    const auto scene =
-        sceneOf({test::turnedBox({-1, -0.0025, 0}, {1, 0.0025, 1}, 30), box({-1.2, -1.2, -0.1}, {1.2, 1.2, -0.05})});
-    const Grid grid = gridOver(scene, {121, 121, 56});
-    const auto result = voxelize(scene, grid, claimsFor(scene));
+    const auto meshes =
+        meshSetOf({test::turnedBox({-1, -0.0025, 0}, {1, 0.0025, 1}, 30), box({-1.2, -1.2, -0.1}, {1.2, 1.2, -0.05})});
+    const Grid grid = gridOver(meshes, {121, 121, 56});
+    const auto result = voxelize(meshes, grid, claimsFor(meshes));
     ASSERT_TRUE(result);
     const Vec3d direction{std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6), 0};
     for (int s = -40; s <= 40; ++s) {
@@ -239,8 +239,8 @@ TEST(Voxelize, AxisParallelPaneBetweenSamplesIsOneVoxelThick) {
         Vec3d low{0.2, 0.2, 0.2}, high{0.8, 0.8, 0.8};
         low[axis] = 0.462;
         high[axis] = 0.478;  // samples stand at 0.45 and 0.5
-        const auto scene = sceneOf({box(low, high)});
-        const auto result = voxelize(scene, gridWith({0, 0, 0}, {0.05, 0.05, 0.05}, {21, 21, 21}), claimsFor(scene));
+        const auto meshes = meshSetOf({box(low, high)});
+        const auto result = voxelize(meshes, gridWith({0, 0, 0}, {0.05, 0.05, 0.05}, {21, 21, 21}), claimsFor(meshes));
         ASSERT_TRUE(result);
         EXPECT_EQ(countOf(*result, 1), 144u) << axis;
         EXPECT_EQ(result->thinVoxels[0], 144u) << axis;
@@ -251,9 +251,9 @@ TEST(Voxelize, AxisParallelPaneBetweenSamplesIsOneVoxelThick) {
 }
 
 TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
-    const auto scene = sceneOf({box({0.031, 0.031, 0.01}, {0.034, 0.034, 0.99}), box({0, 0, -0.1}, {1, 1, -0.05})});
-    const Grid grid = gridOver(scene, {21, 21, 56});
-    const auto result = voxelize(scene, grid, claimsFor(scene));
+    const auto meshes = meshSetOf({box({0.031, 0.031, 0.01}, {0.034, 0.034, 0.99}), box({0, 0, -0.1}, {1, 1, -0.05})});
+    const Grid grid = gridOver(meshes, {21, 21, 56});
+    const auto result = voxelize(meshes, grid, claimsFor(meshes));
     ASSERT_TRUE(result);
     for (int k = 8; k < 54; ++k) {
         bool isMet = false;
@@ -265,9 +265,9 @@ TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
 
 TEST(Voxelize, NoObjectWithGeometryEndsWithZeroVoxels) {
     // A grain, and one of two equal boxes that the other one covers.
-    const auto scene =
-        sceneOf({box({0.5, 0.5, 0.5}, {0.5001, 0.5001, 0.5001}), box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1})});
-    const auto result = voxelize(scene, gridOver(scene, {20, 20, 20}), claimsFor(scene));
+    const auto meshes = meshSetOf(
+        {box({0.5, 0.5, 0.5}, {0.5001, 0.5001, 0.5001}), box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1})});
+    const auto result = voxelize(meshes, gridOver(meshes, {20, 20, 20}), claimsFor(meshes));
     ASSERT_TRUE(result);
     for (volume::Scalar s = 1; s <= 3; ++s) EXPECT_GT(countOf(*result, s), 0u) << s;
 }
@@ -284,9 +284,9 @@ mesh::ObjectMesh sheet(std::vector<Vec3d> quad) {
 TEST(Voxelize, ThinSheetSeparatesSixNeighboursEverywhere) {
     // Slanted in all directions, reaching out of the grid: from one corner no path of face neighbours leads to the
     // opposite one.
-    const auto scene = sceneOf({sheet({{-2, -2, 3.9}, {4, -2, 1.9}, {4, 4, -2.1}, {-2, 4, -0.1}})});
+    const auto meshes = meshSetOf({sheet({{-2, -2, 3.9}, {4, -2, 1.9}, {4, 4, -2.1}, {-2, 4, -0.1}})});
     const Grid grid = gridWith({0, 0, 0}, {0.05, 0.05, 0.05}, {41, 37, 43});
-    const auto result = voxelize(scene, grid, claimsFor(scene));
+    const auto result = voxelize(meshes, grid, claimsFor(meshes));
     ASSERT_TRUE(result);
     std::vector<char> seen(41 * 37 * 43, 0);
     std::vector<Vec3i> stack{{0, 0, 0}};
@@ -309,18 +309,18 @@ TEST(Voxelize, ThinSheetSeparatesSixNeighboursEverywhere) {
 }
 
 TEST(Voxelize, ConservativeSheetMarksEveryTouchedBox) {
-    const auto scene = sceneOf({sheet({{0.1, 0.2, 0.3}, {1.9, 0.3, 0.6}, {1.8, 1.7, 1.5}, {0.2, 1.6, 1.2}})});
+    const auto meshes = meshSetOf({sheet({{0.1, 0.2, 0.3}, {1.9, 0.3, 0.6}, {1.8, 1.7, 1.5}, {0.2, 1.6, 1.2}})});
     const Grid grid = gridWith({0, 0, 0}, {0.1, 0.1, 0.1}, {21, 21, 21});
     VoxelizeOptions options;
-    const auto thin = voxelize(scene, grid, claimsFor(scene), options);
+    const auto thin = voxelize(meshes, grid, claimsFor(meshes), options);
     options.sheets = SheetMode::Conservative;
-    const auto fat = voxelize(scene, grid, claimsFor(scene), options);
+    const auto fat = voxelize(meshes, grid, claimsFor(meshes), options);
     ASSERT_TRUE(thin && fat);
     EXPECT_GT(countOf(*fat, 1), countOf(*thin, 1));
     // Points of the sheet, each in a marked box.
     for (double u = 0.02; u < 1; u += 0.05)
         for (double v = 0.02; v < 1 - u; v += 0.05) {
-            const auto& q = scene.objects[0].vertices;
+            const auto& q = meshes.objects[0].vertices;
             const Vec3d p = grid.indexFromWorld(q[0] + (q[1] - q[0]) * u + (q[2] - q[0]) * v);
             EXPECT_NE(fat->columns.scalarAt(int(std::lround(p.x)), int(std::lround(p.y)), int(std::lround(p.z))), 0u);
         }
@@ -345,18 +345,18 @@ TEST(Voxelize, OpenShellIsFilledLikeItsWindingNumber) {
         }
     open.triangles = kept;
     ASSERT_FALSE(open.openEdges.empty());
-    const auto scene = sceneOf({open});
-    const Grid grid = gridOver(scene, {41, 43, 39});
-    const auto result = voxelize(scene, grid, claimsFor(scene));
+    const auto meshes = meshSetOf({open});
+    const Grid grid = gridOver(meshes, {41, 43, 39});
+    const auto result = voxelize(meshes, grid, claimsFor(meshes));
     ASSERT_TRUE(result);
     int inside = 0;
     for (int k = 0; k < 39; ++k)
         for (int j = 0; j < 43; ++j)
             for (int i = 0; i < 41; ++i) {
-                const double w =
-                    windingNumber(scene.objects[0], grid.worldFromIndex({i + 1 / 512.0, j + 1 / 512.0, k + 1 / 512.0}));
+                const double w = windingNumber(meshes.objects[0],
+                                               grid.worldFromIndex({i + 1 / 512.0, j + 1 / 512.0, k + 1 / 512.0}));
                 if (std::abs(w - 0.5) < 0.02) continue;
-                if (SolidOracle(scene.objects[0])
+                if (SolidOracle(meshes.objects[0])
                         .distance(grid.worldFromIndex({double(i), double(j), double(k)}), grid.spacing()) < 1.0 / 128)
                     continue;
                 ASSERT_EQ(result->columns.scalarAt(i, j, k) != 0, w > 0.5) << i << ' ' << j << ' ' << k << ' ' << w;
@@ -367,12 +367,12 @@ TEST(Voxelize, OpenShellIsFilledLikeItsWindingNumber) {
 
 TEST(Voxelize, TurnedGridGivesTheVolumeOfTheStraightModel) {
     // A house of boxes rotated by 30 degrees, in a grid rotated with it, gives the same voxels as the unrotated one.
-    const auto straight = sceneOf({box({0, 0, 0}, {4, 3, 2}), box({4, 0, 0}, {4.5, 3, 2})});
+    const auto straight = meshSetOf({box({0, 0, 0}, {4, 3, 2}), box({4, 0, 0}, {4.5, 3, 2})});
     auto turned = straight;
     const double c = std::cos(std::numbers::pi / 6), s = std::sin(std::numbers::pi / 6);
     for (auto& object : turned.objects)
         for (Vec3d& v : object.vertices) v = {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
-    turned = sceneOf(turned.objects);
+    turned = meshSetOf(turned.objects);
     const Grid grid = gridWith({-0.013, -0.017, -0.011}, {0.051, 0.049, 0.05}, {93, 67, 44});
     const Grid turnedGrid = *Grid::fromParts(
         grid.dimension(), grid.spacing(),
@@ -385,12 +385,12 @@ TEST(Voxelize, TurnedGridGivesTheVolumeOfTheStraightModel) {
 }
 
 TEST(Voxelize, CancelStopsWithoutResult) {
-    const auto scene = sceneOf({box({0, 0, 0}, {1, 1, 1})});
+    const auto meshes = meshSetOf({box({0, 0, 0}, {1, 1, 1})});
     Progress progress;
     progress.cancel = true;
     VoxelizeOptions options;
     options.progress = &progress;
-    const auto result = voxelize(scene, gridOver(scene, {20, 20, 20}), claimsFor(scene), options);
+    const auto result = voxelize(meshes, gridOver(meshes, {20, 20, 20}), claimsFor(meshes), options);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code(), Code::Cancelled);
 }

@@ -16,8 +16,8 @@ namespace {
 std::int32_t along(Vec3i dimension, std::size_t axis) { return dimension[int(axis)]; }
 
 // Adds the samples [begin, end) along axes.x, in row `row` along axes.y, at sample `at` along axes.z.
-void addStretch(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
-                std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
+void addInterval(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
+                 std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
     if (axes.z == 2)
         boxes.push_back({row, row + 1, begin, end, at, at + 1, claim});
     else if (axes.z == 0)
@@ -35,7 +35,7 @@ void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin,
     for (std::int32_t x = begin; x <= end; ++x) {
         const std::int32_t sample = x < end ? sampleAt(x) : kNone;
         if (x < end && sample == current) continue;
-        if (current != kNone) addStretch(axes, row, from, x, current, claim, boxes);
+        if (current != kNone) addInterval(axes, row, from, x, current, claim, boxes);
         from = x;
         current = sample;
     }

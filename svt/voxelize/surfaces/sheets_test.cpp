@@ -46,16 +46,16 @@ mesh::ObjectMesh quadMesh(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
 }
 
 std::set<Voxel> thinSheet(const mesh::ObjectMesh& mesh) {
-    const auto scene = test::sceneOf({mesh});
+    const auto meshes = test::meshSetOf({mesh});
     std::vector<ClaimedBox> boxes;
-    addThinSheet(makeIndexMesh(scene.objects[0], IndexFromLocal(scene, unitGrid())), kDimension, 5, boxes);
+    addThinSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boxes);
     return voxelsOf(boxes);
 }
 
 std::set<Voxel> conservativeSheet(const mesh::ObjectMesh& mesh) {
-    const auto scene = test::sceneOf({mesh});
+    const auto meshes = test::meshSetOf({mesh});
     std::vector<ClaimedBox> boxes;
-    addConservativeSheet(makeIndexMesh(scene.objects[0], IndexFromLocal(scene, unitGrid())), kDimension, 5, boxes);
+    addConservativeSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boxes);
     return voxelsOf(boxes);
 }
 
@@ -196,11 +196,11 @@ TEST(AddConservativeSheet, HoldsTheThinSheetBesideTheFace) {
 }
 
 std::pair<std::set<Voxel>, std::uint64_t> thinParts(const mesh::ObjectMesh& mesh) {
-    const auto scene = test::sceneOf({mesh});
-    const IndexFromLocal indexFromLocal(scene, unitGrid());
+    const auto meshes = test::meshSetOf({mesh});
+    const IndexFromLocal indexFromLocal(meshes, unitGrid());
     std::vector<ClaimedBox> boxes;
     const std::uint64_t count =
-        addThinParts(makeIndexMesh(scene.objects[0], indexFromLocal), indexFromLocal, kDimension, 5, boxes);
+        addThinParts(makeIndexMesh(meshes.objects[0], indexFromLocal), indexFromLocal, kDimension, 5, boxes);
     return {voxelsOf(boxes), count};
 }
 

@@ -24,12 +24,12 @@ double distanceToSegment(Vec3d p, Vec3d a, Vec3d b) noexcept {
 }
 
 // The open edges of the shell.
-struct Rim {
+struct OpenEdges {
     std::vector<std::pair<Vec3d, Vec3d>> edges;  // directed as in the mesh, local space
     double totalLength = 0;
 
     // Winding number of the curtains (see winding.hpp) at p, and the distance of the nearest edge.
-    [[nodiscard]] double curtains(Vec3d p, double& nearest) const noexcept {
+    [[nodiscard]] double windingBelow(Vec3d p, double& nearest) const noexcept {
         const Vec3d down{0, 0, -1};
         double sum = 0;
         nearest = 1e300;
@@ -56,7 +56,7 @@ double windingNumber(const mesh::ObjectMesh& mesh, Vec3d point) noexcept {
     return sum / (4 * kPi);
 }
 
-std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene, const volume::Grid& grid,
+std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& grid,
                              std::uint32_t claim, int threads, std::vector<ClaimedBox>& boxes) {
     const Vec3i dimension = grid.dimension();
     QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
@@ -78,10 +78,10 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
                        endK = end(2);
     if (firstI >= endI || firstJ >= endJ || firstK >= endK) return 0;
 
-    Rim rim;
+    OpenEdges openEdges;
     for (const mesh::OpenEdge& edge : mesh.mesh->openEdges) {
-        rim.edges.emplace_back(mesh.mesh->vertices[edge.from], mesh.mesh->vertices[edge.to]);
-        rim.totalLength += length(rim.edges.back().second - rim.edges.back().first);
+        openEdges.edges.emplace_back(mesh.mesh->vertices[edge.from], mesh.mesh->vertices[edge.to]);
+        openEdges.totalLength += length(openEdges.edges.back().second - openEdges.edges.back().first);
     }
     std::vector<ScanTriangle> triangles;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
@@ -119,10 +119,10 @@ std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene
                     for (; c < cEnd && crossings[c].k <= k; ++c) above -= crossings[c].winding;
                     const Vec3d at{i + 1.0 / double(kQuanta), j + 1.0 / double(kQuanta), k + 1.0 / double(kQuanta)};
                     double nearest = 0;
-                    const double w = above - rim.curtains(grid.worldFromIndex(at) - scene.origin, nearest);
+                    const double w = above - openEdges.windingBelow(grid.worldFromIndex(at) - meshes.origin, nearest);
                     const bool isInside = w >= 0.5;
-                    const double reach = std::min(
-                        nearest / 2, std::abs(w - 0.5) * kPi * nearest * nearest / std::max(rim.totalLength, 1e-300));
+                    const double reach = std::min(nearest / 2, std::abs(w - 0.5) * kPi * nearest * nearest /
+                                                                   std::max(openEdges.totalLength, 1e-300));
                     std::int32_t next = k + 1 + static_cast<std::int32_t>(std::min(reach / step, 1e6));
                     next = std::min(next, c < cEnd ? std::max(crossings[c].k, k + 1) : endK);
                     next = std::min(next, endK);

@@ -29,7 +29,7 @@ namespace svt::voxelize {
 /// \param threads  0: all cores; the result does not depend on it
 /// \return count of samples with a winding number between 1/4 and 3/4; skipped samples count like the one before them
 /// Cost: O(samples evaluated * open edges + rows * triangles).
-std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshScene& scene, const volume::Grid& grid,
+std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& grid,
                              std::uint32_t claim, int threads, std::vector<ClaimedBox>& boxes);
 
 /// Generalized winding number of `mesh` at `point` (local space): the solid angles of all triangles (Van Oosterom &

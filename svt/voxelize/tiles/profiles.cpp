@@ -14,7 +14,7 @@ std::uint64_t hashOf(std::span<const std::uint32_t> numbers) noexcept {
 
 }  // namespace
 
-void SharedCounts::add(const SharedCount& shared) {
+void OverlapCounts::add(const OverlapCount& shared) {
     const auto isSame = [&](std::uint32_t number) {
         return sums_[number].first == shared.first && sums_[number].second == shared.second;
     };
@@ -32,8 +32,9 @@ std::uint32_t Profiles::find(std::span<const std::uint32_t> codes) {
         [&] { return add(codes); });
 }
 
-// Processes all crossings at the level of codes[first]; returns the index of the first crossing of the next level.
-std::size_t Profiles::passLevel(std::span<const std::uint32_t> codes, std::size_t first) {
+// Processes all crossings at the height plane of codes[first]; returns the index of the first crossing of the next
+// height plane.
+std::size_t Profiles::passHeightPlane(std::span<const std::uint32_t> codes, std::size_t first) {
     std::size_t c = first;
     do {
         const ProfileCode code = ProfileCode::unpack(codes[c]);
@@ -45,7 +46,7 @@ std::size_t Profiles::passLevel(std::span<const std::uint32_t> codes, std::size_
             active_.erase(std::lower_bound(active_.begin(), active_.end(), code.claim));
         }
         ++c;
-    } while (c < codes.size() && ProfileCode::unpack(codes[c]).isLevel);
+    } while (c < codes.size() && ProfileCode::unpack(codes[c]).isSameHeightPlane);
     return c;
 }
 
@@ -68,16 +69,16 @@ std::uint32_t Profiles::add(std::span<const std::uint32_t> codes) {
     profile.firstShared = static_cast<std::uint32_t>(shared_.size());
     codes_.insert(codes_.end(), codes.begin(), codes.end());
     volume::Scalar scalar = 0;
-    std::uint32_t level = 0;
-    for (std::size_t c = 0; c < codes.size(); ++level) {
-        c = passLevel(codes, c);
+    std::uint32_t heightPlane = 0;
+    for (std::size_t c = 0; c < codes.size(); ++heightPlane) {
+        c = passHeightPlane(codes, c);
         const volume::Scalar above = active_.empty() ? 0 : claims_[active_.front()].scalar;
-        if (above != scalar) changes_.push_back({level, scalar});
+        if (above != scalar) changes_.push_back({heightPlane, scalar});
         scalar = above;
         solids_.clear();
         for (const std::uint32_t claim : active_)
             if (claims_[claim].isSolid) solids_.push_back(claim);
-        if (solids_.size() > 1) shared_.push_back({level, findGroup(solids_)});
+        if (solids_.size() > 1) shared_.push_back({heightPlane, findGroup(solids_)});
     }
     for (const std::uint32_t code : codes) winding_[ProfileCode::unpack(code).claim] = 0;
     active_.clear();
@@ -88,7 +89,7 @@ std::uint32_t Profiles::add(std::span<const std::uint32_t> codes) {
     return static_cast<std::uint32_t>(profiles_.size() - 1);
 }
 
-void Profiles::takeCounts(SharedCounts& counts) {
+void Profiles::takeCounts(OverlapCounts& counts) {
     for (const Group& group : groups_) {
         if (group.voxels == 0) continue;
         const auto members = membersOf(group);

@@ -5,9 +5,9 @@
 /// priority between overlapping claims runs once per profile, not once per column.
 ///
 ///     crossings, bottom up   room entry | room exit, attic entry | attic exit
-///     isLevel of their codes      0     |      0          1      |     0           (1: same level as the one before)
+///     isSameHeightPlane           0     |      0          1      |     0      of their codes; 1: as the one before
 ///     scalars between       0           | room                   | attic           | 0
-///     changes                {level 0, below 0} {level 1, below room} {level 2, below attic}, top 0
+///     changes                {plane 0, below 0} {plane 1, below room} {plane 2, below attic}, top 0
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -19,36 +19,36 @@
 namespace svt::voxelize {
 
 /// A claim. Claims are indexed by priority ("order"): index 0 wins over all others.
-struct OrderedClaim {
+struct PrioritizedClaim {
     volume::Scalar scalar = 0;
     std::uint32_t object = 0;
     bool isSolid = false;  ///< is counted in overlaps; sheets and thin parts are not
 };
 
 /// Number of voxels claimed by both of two claims.
-struct SharedCount {
+struct OverlapCount {
     std::uint32_t first = 0, second = 0;  ///< orders, first < second
     std::uint64_t voxels = 0;
 };
 
 /// Sums of shared voxels per pair of claims.
-class SharedCounts {
+class OverlapCounts {
 public:
-    void add(const SharedCount& shared);
-    [[nodiscard]] std::span<const SharedCount> sums() const noexcept { return sums_; }  ///< unordered
+    void add(const OverlapCount& shared);
+    [[nodiscard]] std::span<const OverlapCount> sums() const noexcept { return sums_; }  ///< unordered
 
 private:
     HashIndex index_;
-    std::vector<SharedCount> sums_;
+    std::vector<OverlapCount> sums_;
 };
 
-/// A crossing of a profile, packed into 32 bits: the claim, the direction, and whether it is at the same level as the
-/// crossing before.
+/// A crossing of a profile, packed into 32 bits: the claim, the direction, and whether it is at the same height plane
+/// as the crossing before.
 struct ProfileCode {
     std::uint32_t claim = 0;  ///< below 2^30
-    bool isEntry = false, isLevel = false;
+    bool isEntry = false, isSameHeightPlane = false;
     [[nodiscard]] std::uint32_t packed() const noexcept {
-        return claim << 2 | std::uint32_t(isEntry) << 1 | std::uint32_t(isLevel);
+        return claim << 2 | std::uint32_t(isEntry) << 1 | std::uint32_t(isSameHeightPlane);
     }
     [[nodiscard]] static ProfileCode unpack(std::uint32_t code) noexcept {
         return {code >> 2, (code & 2) != 0, (code & 1) != 0};
@@ -57,14 +57,14 @@ struct ProfileCode {
 
 /// A change of the scalar in a profile.
 struct ScalarChange {
-    std::uint32_t level = 0;  ///< index of the level within the profile, bottom up
+    std::uint32_t heightPlane = 0;  ///< index of the height plane within the profile, bottom up
     volume::Scalar below = 0;
 };
 
 /// All profiles found so far, each stored once, and the voxels shared by solids in them. One instance per thread.
 class Profiles {
 public:
-    explicit Profiles(std::span<const OrderedClaim> claims) : claims_(claims), winding_(claims.size(), 0) {}
+    explicit Profiles(std::span<const PrioritizedClaim> claims) : claims_(claims), winding_(claims.size(), 0) {}
 
     /// Number of the profile with these crossings (packed ProfileCodes, bottom up), added if it is new. Cost: O(n) if
     /// known, else O(n * claims active at once).
@@ -79,12 +79,12 @@ public:
 
     /// Calls `body(group, length)` for each non-empty interval of a column in which two or more solids (a group) are
     /// active.
-    /// \param heights  first sample above each level of the profile, ascending, followed by the grid's depth
+    /// \param heights  first sample above each height plane of the profile, ascending, followed by the grid's depth
     template <class Body>
     void forEachShared(std::uint32_t profile, const std::int32_t* heights, Body&& body) const {
         const Profile& p = profiles_[profile];
         for (std::uint32_t s = p.firstShared; s < p.firstShared + p.sharedCount; ++s) {
-            const std::int32_t* height = heights + shared_[s].level;
+            const std::int32_t* height = heights + shared_[s].heightPlane;
             if (height[1] > height[0]) body(shared_[s].group, static_cast<std::uint32_t>(height[1] - height[0]));
         }
     }
@@ -92,7 +92,7 @@ public:
     void addShared(std::uint32_t group, std::uint64_t voxels) noexcept { groups_[group].voxels += voxels; }
 
     /// Adds the shared voxels of all groups to `counts`, then clears profiles and groups; their numbers become invalid.
-    void takeCounts(SharedCounts& counts);
+    void takeCounts(OverlapCounts& counts);
     /// Measure of the memory in use: stored crossings and group members.
     [[nodiscard]] std::size_t size() const noexcept { return codes_.size() + groupMembers_.size(); }
 
@@ -103,9 +103,9 @@ private:
         std::uint32_t firstShared = 0, sharedCount = 0;
         volume::Scalar top = 0;
     };
-    // An interval between two levels in which two or more solids are active.
+    // An interval between two height planes in which two or more solids are active.
     struct SharedInterval {
-        std::uint32_t level = 0;  // the lower one
+        std::uint32_t heightPlane = 0;  // the lower one
         std::uint32_t group = 0;
     };
     // A set of solids that are active together, in any number of profiles.
@@ -115,7 +115,7 @@ private:
     };
 
     std::uint32_t add(std::span<const std::uint32_t> codes);
-    std::size_t passLevel(std::span<const std::uint32_t> codes, std::size_t first);
+    std::size_t passHeightPlane(std::span<const std::uint32_t> codes, std::size_t first);
     std::uint32_t findGroup(std::span<const std::uint32_t> solids);
     [[nodiscard]] std::span<const std::uint32_t> codesOf(const Profile& p) const noexcept {
         return std::span(codes_).subspan(p.firstCode, p.codeCount);
@@ -124,7 +124,7 @@ private:
         return std::span(groupMembers_).subspan(g.firstMember, g.memberCount);
     }
 
-    std::span<const OrderedClaim> claims_;
+    std::span<const PrioritizedClaim> claims_;
     std::vector<Profile> profiles_;
     HashIndex index_{1024};
     std::vector<std::uint32_t> codes_;

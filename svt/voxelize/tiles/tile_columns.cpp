@@ -8,7 +8,7 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr int kKnownBits = 10;
+constexpr int kColumnCacheBits = 10;
 constexpr std::size_t kStride = 8;  // columns are written in blocks of this size
 
 // Index of the lowest set bit above `bit`, or `end` if there is none.
@@ -19,68 +19,68 @@ std::int32_t nextBit(std::uint64_t bits, std::int32_t bit, std::int32_t end) noe
 
 }  // namespace
 
-TileColumns::TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels)
-    : levels_(levels), profiles_(claims), builder_(1), known_(std::size_t{1} << kKnownBits) {
+TileColumns::TileColumns(std::span<const PrioritizedClaim> claims, const HeightPlanes& heightPlanes)
+    : heightPlanes_(heightPlanes), profiles_(claims), builder_(1), columnCache_(std::size_t{1} << kColumnCacheBits) {
     volume::Scalar most = 0;
-    for (const OrderedClaim& claim : claims) most = std::max(most, claim.scalar);
-    isPresent_.assign(std::size_t{most} + 1, 0);
+    for (const PrioritizedClaim& claim : claims) most = std::max(most, claim.scalar);
+    usedScalars_.assign(std::size_t{most} + 1, 0);
 }
 
-std::uint32_t TileColumns::findStack(const PlanCell& cell) {
-    const auto members = plan_.boundariesOf(cell);
+std::uint32_t TileColumns::findStack(const PlanInterval& interval) {
+    const auto members = plan_.boundariesOf(interval);
     return stackIndex_.findOrAdd(
-        cell.hash,
+        interval.hash,
         [&](std::uint32_t number) {
-            const Stack& known = stacks_[number];
-            return known.hash == cell.hash && known.memberCount == members.size() &&
+            const BoundaryStack& known = stacks_[number];
+            return known.hash == interval.hash && known.memberCount == members.size() &&
                    std::equal(members.begin(), members.end(), members_.begin() + known.firstMember);
         },
-        [&] { return addStack(cell, members); });
+        [&] { return addStack(interval, members); });
 }
 
-std::uint32_t TileColumns::addStack(const PlanCell& cell, std::span<const std::uint64_t> members) {
-    Stack stack;
-    stack.hash = cell.hash;
+std::uint32_t TileColumns::addStack(const PlanInterval& interval, std::span<const std::uint64_t> members) {
+    BoundaryStack stack;
+    stack.hash = interval.hash;
     stack.firstMember = static_cast<std::uint32_t>(members_.size());
     stack.memberCount = static_cast<std::uint32_t>(members.size());
-    stack.firstLevel = static_cast<std::uint32_t>(stackLevels_.size());
+    stack.firstHeightPlane = static_cast<std::uint32_t>(stackHeightPlanes_.size());
     stack.firstSloped = static_cast<std::uint32_t>(sloped_.size());
     stack.firstHeight = static_cast<std::uint32_t>(heights_.size());
     members_.insert(members_.end(), members.begin(), members.end());
     const std::size_t firstCode = stackCodes_.size();
     stackCodes_.resize(firstCode + members.size());
-    // Sorted, so that boundaries of one level are adjacent and flat levels come bottom up.
+    // Sorted, so that boundaries of one height plane are adjacent and flat height planes come bottom up.
     ascending_.assign(members.begin(), members.end());
     std::sort(ascending_.begin(), ascending_.end());
     for (std::size_t m = 0; m < members.size(); ++m) {
         const Boundary boundary = Boundary::unpack(ascending_[m]);
-        const bool isLevel = m > 0 && boundary.level == stackLevels_.back().level;
-        if (!isLevel) {
-            if (levels_.isSloped(boundary.level)) {
-                const Level& level = levels_[boundary.level];
-                stack.slopesX = stack.slopesX || level.slopeX != 0;
-                stack.slopesY = stack.slopesY || level.slopeY != 0;
-                sloped_.push_back({boundary.level, stack.levelCount, 0});
+        const bool isSameHeightPlane = m > 0 && boundary.heightPlane == stackHeightPlanes_.back().heightPlane;
+        if (!isSameHeightPlane) {
+            if (heightPlanes_.isSloped(boundary.heightPlane)) {
+                const HeightPlane& heightPlane = heightPlanes_[boundary.heightPlane];
+                stack.slopesX = stack.slopesX || heightPlane.slopeX != 0;
+                stack.slopesY = stack.slopesY || heightPlane.slopeY != 0;
+                sloped_.push_back({boundary.heightPlane, stack.heightPlaneCount, 0});
             }
-            order_.push_back(stack.levelCount++);
-            stackLevels_.push_back({boundary.level, static_cast<std::uint32_t>(firstCode + m), 0});
+            order_.push_back(stack.heightPlaneCount++);
+            stackHeightPlanes_.push_back({boundary.heightPlane, static_cast<std::uint32_t>(firstCode + m), 0});
         }
-        stackCodes_[firstCode + m] = ProfileCode{boundary.claim, boundary.isEntry, isLevel}.packed();
-        ++stackLevels_.back().codeCount;
+        stackCodes_[firstCode + m] = ProfileCode{boundary.claim, boundary.isEntry, isSameHeightPlane}.packed();
+        ++stackHeightPlanes_.back().codeCount;
     }
     stack.slopedCount = static_cast<std::uint32_t>(sloped_.size()) - stack.firstSloped;
-    heights_.resize(heights_.size() + stack.levelCount + 2, 0);
-    heights_.back() = levels_.depth;
+    heights_.resize(heights_.size() + stack.heightPlaneCount + 2, 0);
+    heights_.back() = heightPlanes_.depth;
     stacks_.push_back(stack);
     return static_cast<std::uint32_t>(stacks_.size() - 1);
 }
 
-// Sorts the levels of the stack by height and finds the profile of this order. The order of equal heights does not
-// matter, since the interval between them is empty.
-void TileColumns::orderStack(Stack& stack) {
-    std::uint32_t* const order = order_.data() + stack.firstLevel;
+// Sorts the height planes of the stack by height and finds the profile of this order. The order of equal heights does
+// not matter, since the interval between them is empty.
+void TileColumns::sortHeightPlanes(BoundaryStack& stack) {
+    std::uint32_t* const order = order_.data() + stack.firstHeightPlane;
     std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
-    const std::uint32_t count = stack.levelCount;
+    const std::uint32_t count = stack.heightPlaneCount;
     constexpr std::uint32_t kShort = 32;
     if (count > kShort) {
         sorted_.clear();
@@ -104,65 +104,66 @@ void TileColumns::orderStack(Stack& stack) {
     places_.resize(count);
     std::uint32_t* code = codes_.data();
     for (std::uint32_t c = 0; c < count; ++c) {
-        const StackLevel& level = stackLevels_[stack.firstLevel + order[c]];
-        code = std::copy_n(stackCodes_.data() + level.firstCode, level.codeCount, code);
+        const StackHeightPlane& heightPlane = stackHeightPlanes_[stack.firstHeightPlane + order[c]];
+        code = std::copy_n(stackCodes_.data() + heightPlane.firstCode, heightPlane.codeCount, code);
         places_[order[c]] = stack.firstHeight + 1 + c;
     }
-    for (SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount))
+    for (SlopedHeightPlane& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount))
         sloped.height = places_[sloped.slot];
     stack.profile = profiles_.find(codes_);
 }
 
 // Computes all heights of the stack at column (i, j) and sorts them.
-void TileColumns::beginStack(Stack& stack, std::int32_t i, std::int32_t j) {
-    for (std::uint32_t c = 0; c < stack.levelCount; ++c) {
-        const std::uint32_t level = stackLevels_[stack.firstLevel + c].level;
-        heights_[stack.firstHeight + 1 + c] =
-            levels_.isSloped(level) ? levels_[level].sampleAbove(i, j) : static_cast<std::int32_t>(level);
+void TileColumns::computeHeights(BoundaryStack& stack, std::int32_t i, std::int32_t j) {
+    for (std::uint32_t c = 0; c < stack.heightPlaneCount; ++c) {
+        const std::uint32_t heightPlane = stackHeightPlanes_[stack.firstHeightPlane + c].heightPlane;
+        heights_[stack.firstHeight + 1 + c] = heightPlanes_.isSloped(heightPlane)
+                                                  ? heightPlanes_[heightPlane].sampleAbove(i, j)
+                                                  : static_cast<std::int32_t>(heightPlane);
     }
-    orderStack(stack);
+    sortHeightPlanes(stack);
     stack.isOrdered = true;
 }
 
-// Sets the heights of the sloped levels to those of a step of a line; sorts again if they no longer ascend.
+// Sets the heights of the sloped height planes to those of a step of a line; sorts again if they no longer ascend.
 // `heights`: those of the step, with stride kTile.
-void TileColumns::moveStack(Stack& stack, const std::int32_t* heights) {
+void TileColumns::setSlopedHeights(BoundaryStack& stack, const std::int32_t* heights) {
     const auto sloped = std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount);
-    for (const SlopedLevel& level : sloped) {
-        heights_[level.height] = *heights;
+    for (const SlopedHeightPlane& heightPlane : sloped) {
+        heights_[heightPlane.height] = *heights;
         heights += kTile;
     }
     bool ascends = true;
-    for (const SlopedLevel& level : sloped) {
-        const std::int32_t* height = heights_.data() + level.height;
+    for (const SlopedHeightPlane& heightPlane : sloped) {
+        const std::int32_t* height = heights_.data() + heightPlane.height;
         ascends = ascends && height[-1] <= height[0] && height[0] <= height[1];
     }
-    if (!ascends) orderStack(stack);
+    if (!ascends) sortHeightPlanes(stack);
 }
 
 // Counts the voxels shared by solids in `columns` columns with the current heights of the stack.
-void TileColumns::countShared(const Stack& stack, std::uint64_t columns) {
+void TileColumns::countShared(const BoundaryStack& stack, std::uint64_t columns) {
     profiles_.forEachShared(
         stack.profile, heights_.data() + stack.firstHeight + 1,
         [&](std::uint32_t group, std::uint32_t length) { profiles_.addShared(group, columns * length); });
 }
 
 // Stores the shared voxels per column in a cache entry instead; returns false if it has too few places.
-bool TileColumns::measureShared(const Stack& stack, KnownColumn& known) const {
+bool TileColumns::cacheShared(const BoundaryStack& stack, ColumnCacheEntry& known) const {
     std::size_t count = 0;
     profiles_.forEachShared(stack.profile, heights_.data() + stack.firstHeight + 1,
                             [&](std::uint32_t group, std::uint32_t length) {
-                                if (count < KnownColumn::kMostShared) known.shared[count] = {group, length};
+                                if (count < ColumnCacheEntry::kMaxShared) known.shared[count] = {group, length};
                                 ++count;
                             });
-    known.sharedCount = static_cast<std::uint8_t>(std::min(count, KnownColumn::kMostShared));
-    return count <= KnownColumn::kMostShared;
+    known.sharedCount = static_cast<std::uint8_t>(std::min(count, ColumnCacheEntry::kMaxShared));
+    return count <= ColumnCacheEntry::kMaxShared;
 }
 
 // Makes the column with the current heights of the stack and returns its number.
-std::uint16_t TileColumns::makeColumn(const Stack& stack) {
+std::uint16_t TileColumns::makeColumn(const BoundaryStack& stack) {
     const std::int32_t* const heights = heights_.data() + stack.firstHeight + 1;
-    volume::Run* const first = builder_.beginColumn(std::size_t(stack.levelCount) + 1);
+    volume::Run* const first = builder_.beginColumn(std::size_t(stack.heightPlaneCount) + 1);
     volume::Run* end = first;
     std::uint32_t from = 0;
     const auto emit = [&](std::uint32_t to, volume::Scalar scalar) {
@@ -174,49 +175,50 @@ std::uint16_t TileColumns::makeColumn(const Stack& stack) {
         from = to;
     };
     for (const ScalarChange& change : profiles_.changes(stack.profile))
-        emit(static_cast<std::uint32_t>(heights[change.level]), change.below);
-    emit(static_cast<std::uint32_t>(levels_.depth), profiles_.topScalar(stack.profile));
+        emit(static_cast<std::uint32_t>(heights[change.heightPlane]), change.below);
+    emit(static_cast<std::uint32_t>(heightPlanes_.depth), profiles_.topScalar(stack.profile));
     return builder_.endColumn(static_cast<std::size_t>(end - first));
 }
 
 // Computes the heights along a line into lines_, from index `place` on. Returns the breaks: bit n is set if some height
 // of step n differs from that of step n - 1, and bit 0 always.
-std::uint64_t TileColumns::measureLine(const Cell& cell, const Line& line, std::uint32_t place) {
-    const Stack& stack = stacks_[cell.stack];
+std::uint64_t TileColumns::computeLineHeights(const Interval& interval, const Line& line, std::uint32_t place) {
+    const BoundaryStack& stack = stacks_[interval.stack];
     const std::size_t needed = place + (std::size_t(stack.slopedCount) + 1) * kTile;
     if (lines_.size() < needed) lines_.resize(needed);
-    lineLevels_.clear();
-    for (const SlopedLevel& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
-        const Level& level = levels_[sloped.level];
-        lineLevels_.push_back({level.base + level.slopeX * line.i + level.slopeY * line.j,
-                               line.isAlongX ? level.slopeX : level.slopeY, level.lowest, level.highest});
+    lineHeightPlanes_.clear();
+    for (const SlopedHeightPlane& sloped : std::span(sloped_).subspan(stack.firstSloped, stack.slopedCount)) {
+        const HeightPlane& heightPlane = heightPlanes_[sloped.heightPlane];
+        lineHeightPlanes_.push_back({heightPlane.base + heightPlane.slopeX * line.i + heightPlane.slopeY * line.j,
+                                     line.isAlongX ? heightPlane.slopeX : heightPlane.slopeY, heightPlane.lowest,
+                                     heightPlane.highest});
     }
-    return heightsAlong(lineLevels_, line.count, cell.stack, lines_.data() + place) | 1;
+    return heightsAlong(lineHeightPlanes_, line.count, interval.stack, lines_.data() + place) | 1;
 }
 
 // Number of the column at a step of the line at index `line`. The caller will use it for `columns` columns.
-inline std::uint16_t TileColumns::findStep(std::uint32_t number, std::uint32_t line, std::size_t step,
-                                           std::uint64_t columns) {
+inline std::uint16_t TileColumns::columnAtStep(std::uint32_t number, std::uint32_t line, std::size_t step,
+                                               std::uint64_t columns) {
     const std::int32_t* const hash = lines_.data() + line + step;
     const std::int32_t* const heights = hash + kTile;
-    KnownColumn& known = known_[static_cast<std::uint32_t>(*hash) >> (32 - kKnownBits)];
+    ColumnCacheEntry& known = columnCache_[static_cast<std::uint32_t>(*hash) >> (32 - kColumnCacheBits)];
     bool isKnown = known.stack == number && known.tile == tile_;
     const std::uint32_t slopedCount = stacks_[number].slopedCount;
     for (std::size_t s = 0; s < slopedCount && isKnown; ++s) isKnown = known.heights[s] == heights[s * kTile];
-    if (!isKnown) return makeStep(number, heights, known, columns);
+    if (!isKnown) return cacheColumn(number, heights, known, columns);
     known.columns += static_cast<std::uint32_t>(columns);
     return known.column;
 }
 
 // Cache miss: makes the column and stores it in the entry `known`, if it fits there.
-std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* heights, KnownColumn& known,
-                                    std::uint64_t columns) {
-    Stack& stack = stacks_[number];
-    countKnown(known);
+std::uint16_t TileColumns::cacheColumn(std::uint32_t number, const std::int32_t* heights, ColumnCacheEntry& known,
+                                       std::uint64_t columns) {
+    BoundaryStack& stack = stacks_[number];
+    flushSharedCounts(known);
     known.stack = kNoStack;
-    moveStack(stack, heights);
+    setSlopedHeights(stack, heights);
     const std::uint16_t column = makeColumn(stack);
-    if (stack.slopedCount <= KnownColumn::kMostSloped && measureShared(stack, known)) {
+    if (stack.slopedCount <= ColumnCacheEntry::kMaxSloped && cacheShared(stack, known)) {
         known.stack = number;
         known.tile = tile_;
         known.column = column;
@@ -228,18 +230,18 @@ std::uint16_t TileColumns::makeStep(std::uint32_t number, const std::int32_t* he
     return column;
 }
 
-// Writes the columns of a cell in row y to row_, unless they are those of the row before, which row_ still has. Rows
-// [firstRow, endRow) have the same plan.
-void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow) {
-    Stack& stack = stacks_[cell.stack];
-    if (!stack.isOrdered) beginStack(stack, firstColumn_ + cell.begin, firstRow_ + y);
-    std::uint16_t* const columns = row_.data() + cell.begin;
-    const std::int32_t width = cell.end - cell.begin;
+// Writes the columns of an interval in row y to row_, unless they are those of the row before, which row_ still has.
+// Rows [firstRow, endRow) have the same plan.
+void TileColumns::makeInterval(const Interval& interval, std::int32_t y, std::int32_t firstRow, std::int32_t endRow) {
+    BoundaryStack& stack = stacks_[interval.stack];
+    if (!stack.isOrdered) computeHeights(stack, firstColumn_ + interval.begin, firstRow_ + y);
+    std::uint16_t* const columns = row_.data() + interval.begin;
+    const std::int32_t width = interval.end - interval.begin;
     const std::int32_t step = y - firstRow, rows = endRow - firstRow;
     if (!stack.slopesX && stack.slopesY) {
-        if ((cell.breaks >> step & 1) == 0) return;
-        const auto count = std::uint64_t(nextBit(cell.breaks, step, rows) - step) * std::uint64_t(width);
-        std::fill_n(columns, width, findStep(cell.stack, cell.line, static_cast<std::size_t>(step), count));
+        if ((interval.breaks >> step & 1) == 0) return;
+        const auto count = std::uint64_t(nextBit(interval.breaks, step, rows) - step) * std::uint64_t(width);
+        std::fill_n(columns, width, columnAtStep(interval.stack, interval.line, static_cast<std::size_t>(step), count));
         return;
     }
     if (y != firstRow && !stack.slopesY) return;
@@ -253,7 +255,8 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
         std::fill_n(columns, width, stack.column);
         return;
     }
-    std::uint64_t breaks = measureLine(cell, {firstColumn_ + cell.begin, firstRow_ + y, width, true}, cell.line);
+    std::uint64_t breaks =
+        computeLineHeights(interval, {firstColumn_ + interval.begin, firstRow_ + y, width, true}, interval.line);
     std::uint16_t beyond[kStride];
     std::copy_n(columns + width, kStride, beyond);
     while (breaks != 0) {
@@ -261,7 +264,7 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
         breaks &= breaks - 1;
         const int next = breaks != 0 ? std::countr_zero(breaks) : width;
         const std::uint16_t column =
-            findStep(cell.stack, cell.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
+            columnAtStep(interval.stack, interval.line, static_cast<std::size_t>(x), count * std::uint64_t(next - x));
         // Writes whole blocks: a fixed-size copy avoids a mispredicted loop branch for short intervals. The excess is
         // overwritten by the next interval or restored below.
         std::uint16_t* to = columns + x;
@@ -275,39 +278,39 @@ void TileColumns::makeCell(const Cell& cell, std::int32_t y, std::int32_t firstR
 
 // Makes the rows [firstRow, endRow), which have the same plan.
 void TileColumns::makeRows(std::int32_t firstRow, std::int32_t endRow) {
-    const PlanRow plan = plan_.layOut(firstRow);
-    cells_.resize(plan.cells.size());
+    const PlanRowIntervals plan = plan_.layOut(firstRow);
+    intervals_.resize(plan.intervals.size());
     std::uint64_t changedRows = std::uint64_t{1} << firstRow;
     std::uint32_t line = 0;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-        Cell& cell = cells_[c];
-        cell = {plan.cells[c].begin, plan.cells[c].end, plan.keepsBoundaries ? cell.stack : findStack(plan.cells[c]),
-                line, 0};
-        const Stack& stack = stacks_[cell.stack];
+    for (std::size_t c = 0; c < intervals_.size(); ++c) {
+        Interval& interval = intervals_[c];
+        interval = {plan.intervals[c].begin, plan.intervals[c].end,
+                    plan.hasSameBoundaries ? interval.stack : findStack(plan.intervals[c]), line, 0};
+        const BoundaryStack& stack = stacks_[interval.stack];
         if (stack.slopesY && stack.slopesX) {
             changedRows = ~std::uint64_t{0};
         } else if (stack.slopesY) {
-            cell.breaks =
-                measureLine(cell, {firstColumn_ + cell.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
-            changedRows |= cell.breaks << firstRow;
+            interval.breaks = computeLineHeights(
+                interval, {firstColumn_ + interval.begin, firstRow_ + firstRow, endRow - firstRow, false}, line);
+            changedRows |= interval.breaks << firstRow;
             line += static_cast<std::uint32_t>((stack.slopedCount + 1) * kTile);
         }
     }
-    for (Cell& cell : cells_)
-        if (stacks_[cell.stack].slopesX) cell.line = line;  // all lines along x share one buffer
+    for (Interval& interval : intervals_)
+        if (stacks_[interval.stack].slopesX) interval.line = line;  // all lines along x share one buffer
     for (std::int32_t y = firstRow; y < endRow; ++y) {
         if ((changedRows >> y & 1) == 0) {
             builder_.repeatRow();
             continue;
         }
-        for (const Cell& cell : cells_) makeCell(cell, y, firstRow, endRow);
+        for (const Interval& interval : intervals_) makeInterval(interval, y, firstRow, endRow);
         builder_.addRow(std::span(row_).first(row_.size() - kStride));
     }
 }
 
 volume::ColumnTileData TileColumns::make(const TileInput& input) {
-    constexpr std::size_t kMostMembers = std::size_t{1} << 20;
-    if (members_.size() + profiles_.size() > kMostMembers) forget();
+    constexpr std::size_t kMaxMembers = std::size_t{1} << 20;
+    if (members_.size() + profiles_.size() > kMaxMembers) clearCaches();
     ++tile_;
     firstColumn_ = input.firstColumn;
     firstRow_ = input.firstRow;
@@ -321,34 +324,34 @@ volume::ColumnTileData TileColumns::make(const TileInput& input) {
     }
     volume::ColumnTileData tile = builder_.finish();
     // Every run in the dictionary of a tile is in use, so its scalars are those present.
-    for (const volume::Run& run : tile.runs) isPresent_[run.scalar] = 1;
+    for (const volume::Run& run : tile.runs) usedScalars_[run.scalar] = 1;
     return tile;
 }
 
 // Counts the voxels shared by solids in all pending uses of a cache entry.
-void TileColumns::countKnown(KnownColumn& known) {
+void TileColumns::flushSharedCounts(ColumnCacheEntry& known) {
     for (const auto& shared : std::span(known.shared, known.sharedCount))
         profiles_.addShared(shared.group, std::uint64_t{known.columns} * shared.length);
     known.columns = 0;
 }
 
 // Clears all stacks and profiles; their counts go to counts_.
-void TileColumns::forget() {
-    for (KnownColumn& known : known_) countKnown(known);
-    std::ranges::fill(known_, KnownColumn{});
+void TileColumns::clearCaches() {
+    for (ColumnCacheEntry& known : columnCache_) flushSharedCounts(known);
+    std::ranges::fill(columnCache_, ColumnCacheEntry{});
     profiles_.takeCounts(counts_);
     stacks_.clear();
     stackIndex_.clear();
     members_.clear();
-    stackLevels_.clear();
+    stackHeightPlanes_.clear();
     stackCodes_.clear();
     order_.clear();
     sloped_.clear();
     heights_.clear();
 }
 
-SharedCounts TileColumns::takeCounts() {
-    forget();
+OverlapCounts TileColumns::takeCounts() {
+    clearCaches();
     return std::exchange(counts_, {});
 }
 

@@ -10,11 +10,11 @@
 ///     |            |   room   |
 ///     |            |----------|  floor
 ///     +------------+----------+--------> x
-///     |   cell A   |  cell B  |  cell C       cells of the row, see tile_plan.hpp; A and C have no boundaries
+///     |     A      |    B     |     C         intervals of the row, see tile_plan.hpp; A and C have no boundaries
 ///
 ///     stack of B   floor {room entry}, ceiling {room exit, attic entry}, roof {attic exit}
-///     order        floor, ceiling, roof       slots of the levels, sorted by height
-///     profile      0 | room | attic | 0       scalars below, between and above the levels in this order
+///     order        floor, ceiling, roof       slots of the height planes, sorted by height
+///     profile      0 | room | attic | 0       scalars below, between and above the height planes in this order
 ///
 ///     step n              0  1  2  3  4  5    one line along x over B
 ///     height of the roof  5  5  6  6  7  7    first sample above it; floor and ceiling are flat, at 2 and 4
@@ -24,25 +24,26 @@
 ///
 /// The ideas; all are ours, except for coherence, which is that of scanline rendering:
 /// - A column is a profile at heights. Priority between claims is resolved once per profile (profiles.hpp).
-/// - Cells with equal boundaries share one stack, in all tiles; it is found by hash.
-/// - Coherence: a stack keeps its levels in the order of its last column. Moving to the next one updates only the
-///   heights of sloped levels; levels are sorted again only if they no longer ascend.
-/// - Heights are computed for whole lines by SIMD (line_heights.hpp), and columns are made only at breaks: a cell
+/// - Intervals with equal boundaries share one stack, in all tiles; it is found by hash.
+/// - Coherence: a stack keeps its height planes in the order of its last column. Moving to the next one updates only
+///   the heights of sloped height planes; height planes are sorted again only if they no longer ascend.
+/// - Heights are computed for whole lines by SIMD (line_heights.hpp), and columns are made only at breaks: an interval
 ///   without slopes has one column per tile; one that slopes along y alone has one column per break along y; one that
 ///   slopes along x alone is made only for the first of the rows with one plan. Unchanged rows are repeated as a whole.
 /// - On slopes the same heights recur from row to row: a direct-mapped cache, indexed by a hash of stack and heights,
 ///   finds columns made before. Its entries also count voxels shared by solids, so a hit costs one addition.
 ///
 /// Glossary:
-///   boundary     a face of a claim, or an end of one of its boxes, at a level: entry or exit (Boundary)
-///   stack        all boundaries over a cell, grouped by level; a level's index in the stack is its slot
-///   line, step   up to 64 samples along x or y over a cell; step n is its sample n
-///   beginStack   computes all heights of a stack at one column and sorts them (first use of the stack)
-///   moveStack    sets the heights of the sloped levels to those of a step
-///   measureLine  computes the heights of the sloped levels at all steps of a line, and the breaks
-///   findStep     number of the column at a step: looks it up in the cache, calls makeStep() on a miss
-///   makeStep     moves the stack to the step, makes the column and replaces the cache entry
-///   KnownColumn  an entry of the cache
+///   boundary            a face of a claim, or an end of one of its boxes, at a height plane: entry or exit (Boundary)
+///   stack               all boundaries over an interval, grouped by height plane; its index in the stack is
+///                       its slot
+///   line, step          up to 64 samples along x or y over an interval; step n is its sample n
+///   computeHeights      computes all heights of a stack at one column and sorts them (first use of the stack)
+///   setSlopedHeights    sets the heights of the sloped height planes to those of a step
+///   computeLineHeights  computes the heights of the sloped height planes at all steps of a line, and the breaks
+///   columnAtStep        number of the column at a step: looks it up in the cache, calls cacheColumn() on a miss
+///   cacheColumn         moves the stack to the step, makes the column and replaces the cache entry
+///   ColumnCacheEntry    an entry of the cache
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -61,39 +62,39 @@ namespace svt::voxelize {
 /// per thread.
 class TileColumns {
 public:
-    TileColumns(std::span<const OrderedClaim> claims, const LevelTable& levels);
+    TileColumns(std::span<const PrioritizedClaim> claims, const HeightPlanes& heightPlanes);
 
     /// The finished tile, in canonical form.
     [[nodiscard]] volume::ColumnTileData make(const TileInput& input);
 
     /// Voxels claimed by two solids, in all tiles made since the last call.
-    [[nodiscard]] SharedCounts takeCounts();
+    [[nodiscard]] OverlapCounts takeCounts();
     /// Entry s is 1 if some voxel of the tiles made so far has scalar s. Ends at the largest scalar of the claims.
-    [[nodiscard]] std::span<const std::uint8_t> isPresent() const noexcept { return isPresent_; }
+    [[nodiscard]] std::span<const std::uint8_t> usedScalars() const noexcept { return usedScalars_; }
 
 private:
     static constexpr std::size_t kTile = kLineSamples;
 
-    // The boundaries over a cell, grouped by level, and the order of the levels in the last column. Cells with equal
-    // boundaries share a stack, in all tiles.
-    struct Stack {
+    // The boundaries over an interval, grouped by height plane, and the order of the height planes in the last column.
+    // Intervals with equal boundaries share a stack, in all tiles.
+    struct BoundaryStack {
         std::uint64_t hash = 0;
-        std::uint32_t firstMember = 0, memberCount = 0;  // range of members_
-        std::uint32_t firstLevel = 0, levelCount = 0;    // range of stackLevels_ and order_
-        std::uint32_t firstSloped = 0, slopedCount = 0;  // range of sloped_
-        std::uint32_t firstHeight = 0;                   // in heights_: 0, the heights of the levels bottom up, depth
+        std::uint32_t firstMember = 0, memberCount = 0;            // range of members_
+        std::uint32_t firstHeightPlane = 0, heightPlaneCount = 0;  // range of stackHeightPlanes_ and order_
+        std::uint32_t firstSloped = 0, slopedCount = 0;            // range of sloped_
+        std::uint32_t firstHeight = 0;  // in heights_: 0, the heights of the height planes bottom up, depth
         std::uint32_t profile = 0;
         std::uint32_t tile = 0;    // stack without slopes: the tile for which `column` is valid
         std::uint16_t column = 0;  // its column in that tile
         bool isOrdered = false, slopesX = false, slopesY = false;
     };
-    struct StackLevel {
-        std::uint32_t level, firstCode, codeCount;  // codes: range of stackCodes_
+    struct StackHeightPlane {
+        std::uint32_t heightPlane, firstCode, codeCount;  // codes: range of stackCodes_
     };
-    struct SlopedLevel {
-        std::uint32_t level, slot, height;  // slot: index within the stack; height: its index in heights_
+    struct SlopedHeightPlane {
+        std::uint32_t heightPlane, slot, height;  // slot: index within the stack; height: its index in heights_
     };
-    struct Cell {
+    struct Interval {
         std::int32_t begin = 0, end = 0;
         std::uint32_t stack = 0;
         std::uint32_t line = 0;    // index in lines_ of its line: along y if it slopes along y alone, else along x
@@ -105,65 +106,65 @@ private:
         bool isAlongX;
     };
 
-    // Cache entry: a recent column with its key (stack, heights of the sloped levels), and the voxels that solids share
-    // in it, per group.
-    struct alignas(64) KnownColumn {
-        static constexpr std::size_t kMostSloped = 6, kMostShared = 3;
+    // Cache entry: a recent column with its key (stack, heights of the sloped height planes), and the voxels that
+    // solids share in it, per group.
+    struct alignas(64) ColumnCacheEntry {
+        static constexpr std::size_t kMaxSloped = 6, kMaxShared = 3;
         std::uint32_t stack = kNoStack, tile = 0;
-        std::int32_t heights[kMostSloped] = {};
+        std::int32_t heights[kMaxSloped] = {};
         std::uint32_t columns = 0;  // uses not counted yet, at most the columns of a tile
         std::uint16_t column = 0;
         std::uint8_t sharedCount = 0;
         struct Shared {
             std::uint32_t group, length;
-        } shared[kMostShared] = {};
+        } shared[kMaxShared] = {};
     };
     static constexpr std::uint32_t kNoStack = 0xFFFFFFFFu;
 
-    std::uint32_t findStack(const PlanCell& cell);
-    std::uint32_t addStack(const PlanCell& cell, std::span<const std::uint64_t> members);
-    void beginStack(Stack& stack, std::int32_t i, std::int32_t j);
-    void orderStack(Stack& stack);
-    void moveStack(Stack& stack, const std::int32_t* heights);
-    void countShared(const Stack& stack, std::uint64_t columns);
-    bool measureShared(const Stack& stack, KnownColumn& known) const;
-    void countKnown(KnownColumn& known);
-    void forget();
+    std::uint32_t findStack(const PlanInterval& interval);
+    std::uint32_t addStack(const PlanInterval& interval, std::span<const std::uint64_t> members);
+    void computeHeights(BoundaryStack& stack, std::int32_t i, std::int32_t j);
+    void sortHeightPlanes(BoundaryStack& stack);
+    void setSlopedHeights(BoundaryStack& stack, const std::int32_t* heights);
+    void countShared(const BoundaryStack& stack, std::uint64_t columns);
+    bool cacheShared(const BoundaryStack& stack, ColumnCacheEntry& known) const;
+    void flushSharedCounts(ColumnCacheEntry& known);
+    void clearCaches();
 
     void makeRows(std::int32_t firstRow, std::int32_t endRow);
-    void makeCell(const Cell& cell, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
-    std::uint64_t measureLine(const Cell& cell, const Line& line, std::uint32_t place);
-    std::uint16_t findStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
-    std::uint16_t makeStep(std::uint32_t number, const std::int32_t* heights, KnownColumn& known,
-                           std::uint64_t columns);
-    std::uint16_t makeColumn(const Stack& stack);
+    void makeInterval(const Interval& interval, std::int32_t y, std::int32_t firstRow, std::int32_t endRow);
+    std::uint64_t computeLineHeights(const Interval& interval, const Line& line, std::uint32_t place);
+    std::uint16_t columnAtStep(std::uint32_t number, std::uint32_t line, std::size_t step, std::uint64_t columns);
+    std::uint16_t cacheColumn(std::uint32_t number, const std::int32_t* heights, ColumnCacheEntry& known,
+                              std::uint64_t columns);
+    std::uint16_t makeColumn(const BoundaryStack& stack);
 
-    const LevelTable& levels_;
+    const HeightPlanes& heightPlanes_;
     Profiles profiles_;
     TilePlan plan_;
     volume::ColumnTileBuilder builder_;
     std::int32_t firstColumn_ = 0, firstRow_ = 0;
     std::uint32_t tile_ = 0;  // number of the current tile
-    SharedCounts counts_;
-    std::vector<std::uint8_t> isPresent_;
+    OverlapCounts counts_;
+    std::vector<std::uint8_t> usedScalars_;
 
-    std::vector<Stack> stacks_;
+    std::vector<BoundaryStack> stacks_;
     HashIndex stackIndex_;
     std::vector<std::uint64_t> members_;
     std::vector<std::uint64_t> ascending_;  // sorted members of the stack being added
-    std::vector<StackLevel> stackLevels_;
-    std::vector<std::uint32_t> stackCodes_;  // profile codes of the boundaries, level by level
+    std::vector<StackHeightPlane> stackHeightPlanes_;
+    std::vector<std::uint32_t> stackCodes_;  // profile codes of the boundaries, by height plane
     std::vector<std::uint32_t> order_;       // slots of a stack, bottom up
-    std::vector<SlopedLevel> sloped_;
+    std::vector<SlopedHeightPlane> sloped_;
     std::vector<std::int32_t> heights_;
     std::vector<std::pair<std::int32_t, std::uint32_t>> sorted_;  // scratch: (height, slot) of one stack
     std::vector<std::uint32_t> codes_, places_;                   // scratch: codes bottom up; heights_ index by slot
 
-    std::vector<Cell> cells_;  // of the current row
+    std::vector<Interval> intervals_;  // of the current row
     std::vector<std::uint16_t> row_;
-    std::vector<std::int32_t> lines_;  // output of heightsAlong(), per line (sloped levels + 1) * kTile numbers
-    std::vector<LineLevel> lineLevels_;
-    std::vector<KnownColumn> known_;
+    std::vector<std::int32_t> lines_;  // output of heightsAlong(), per line (sloped height planes + 1) * kTile numbers
+    std::vector<LineHeightPlane> lineHeightPlanes_;
+    std::vector<ColumnCacheEntry> columnCache_;
 };
 
 }  // namespace svt::voxelize

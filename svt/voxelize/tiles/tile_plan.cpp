@@ -26,14 +26,14 @@ std::uint64_t scramble(std::uint64_t number) noexcept {
     return (number ^ number >> 29) * 0xBF58476D1CE4E5B9ull;
 }
 
-const FaceTriangle& triangleOf(const TileInput& input, PartNumber part) noexcept {
+const FaceTriangle& triangleOf(const TileInput& input, PartRef part) noexcept {
     return input.objects[part.object].faces.triangles[part.number];
 }
 
 }  // namespace
 
 // Returns false if the edge does not affect the tile.
-bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool looksDown,
+bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge, bool facesDown,
                          PlacedEdge& out) noexcept {
     const int from = edge, to = edge == 2 ? 0 : edge + 1;
     out.first = std::min(t.column(from), t.column(to)) - input.firstColumn;
@@ -48,7 +48,7 @@ bool TilePlan::placeEdge(const TileInput& input, const FaceTriangle& t, int edge
     out.endRow = std::min(t.row(north) - input.firstRow, input.height);
     if (out.firstRow >= out.endRow) return false;
     out.last = std::max(t.column(from), t.column(to)) - input.firstColumn;
-    out.isEntry = goesNorth == looksDown;
+    out.isEntry = goesNorth == facesDown;
     out.x0 = t.x[south];
     out.y0 = t.y[south];
     out.x1 = t.x[north];
@@ -102,10 +102,10 @@ void TilePlan::addToOutline(const TileInput& input, const PlacedEdge& edge) {
     outline_.turns |= (turns & within) | changes(within);
 }
 
-// The rare face with several intervals in a row: all crossings are sorted and paired by winding.
-void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartNumber> triangles, Boundary face) {
+// The rare face with several spans in a row: all crossings are sorted and paired by winding.
+void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartRef> triangles, Boundary face) {
     crossings_.clear();
-    for (const PartNumber part : triangles) {
+    for (const PartRef part : triangles) {
         const FaceTriangle& t = triangleOf(input, part);
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
@@ -122,7 +122,7 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartNumber
         return std::tie(p.row, p.column) < std::tie(q.row, q.column);
     });
     const std::size_t firstCover = covers_.size();
-    const auto addStretch = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
+    const auto addSpan = [&](std::uint8_t row, std::size_t number, std::uint8_t begin, std::uint8_t end) {
         if (firstCover + number == covers_.size()) covers_.push_back({0, face.packed(), {}, {}});
         Cover& cover = covers_[firstCover + number];
         cover.rows |= std::uint64_t{1} << row;
@@ -140,10 +140,10 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartNumber
                 winding += crossings_[c].winding;
             for (; winding > 0; --winding) begins_.push_back(column);
             for (; winding < 0 && ended < begins_.size(); ++winding, ++ended)
-                addStretch(row, ended, begins_[ended], column);
+                addSpan(row, ended, begins_[ended], column);
         }
         for (; ended < begins_.size(); ++ended)
-            addStretch(row, ended, begins_[ended], static_cast<std::uint8_t>(input.width));
+            addSpan(row, ended, begins_[ended], static_cast<std::uint8_t>(input.width));
     }
     for (std::size_t n = firstCover; n < covers_.size(); ++n) {
         const Cover& cover = covers_[n];
@@ -156,14 +156,14 @@ void TilePlan::addConcaveFace(const TileInput& input, std::span<const PartNumber
     }
 }
 
-void TilePlan::addFace(const TileInput& input, std::span<const PartNumber> triangles) {
+void TilePlan::addFace(const TileInput& input, std::span<const PartRef> triangles) {
     const FaceList& list = input.objects[triangles.front().object].faces;
     const Boundary face = list.faces[list.triangles[triangles.front().number].face];
     outline_.westIn = outline_.westOut = outline_.begun = outline_.ended = outline_.turns = 0;
     outline_.isSimple = true;
     std::memset(outline_.cover.begin, 0, kTile);
     std::memset(outline_.cover.end, input.width, kTile);
-    for (const PartNumber part : triangles) {
+    for (const PartRef part : triangles) {
         const FaceTriangle& triangle = list.triangles[part.number];
         for (int e = 0; e < 3; ++e) {
             PlacedEdge edge;
@@ -201,7 +201,7 @@ void TilePlan::build(const TileInput& input) {
     width_ = input.width;
     covers_.clear();
     newRows_ = 1;
-    const auto isSameFace = [&](PartNumber p, PartNumber q) {
+    const auto isSameFace = [&](PartRef p, PartRef q) {
         return p.object == q.object && triangleOf(input, p).face == triangleOf(input, q).face;
     };
     for (std::size_t n = 0; n < input.triangles.size();) {
@@ -209,7 +209,7 @@ void TilePlan::build(const TileInput& input) {
         while (n < input.triangles.size() && isSameFace(input.triangles[n], input.triangles[first])) ++n;
         addFace(input, input.triangles.subspan(first, n - first));
     }
-    for (const PartNumber part : input.boxes) addBox(input, input.objects[part.object].boxes[part.number]);
+    for (const PartRef part : input.boxes) addBox(input, input.objects[part.object].boxes[part.number]);
 
     newRows_ &= bits(0, input.height);
     for (std::vector<Span>& row : rows_) row.clear();
@@ -222,52 +222,54 @@ void TilePlan::build(const TileInput& input) {
             if (cover.begin[row] < cover.end[row]) rows_[row].push_back({c, cover.begin[row], cover.end[row]});
         }
     }
-    cellCount_ = 0;
+    intervalCount_ = 0;
 }
 
-PlanRow TilePlan::layOut(std::int32_t y) {
+PlanRowIntervals TilePlan::layOut(std::int32_t y) {
     const std::vector<Span>& spans = rows_[y];
-    std::uint64_t breaks = 1;  // bit x: a cell begins at column x
+    std::uint64_t breaks = 1;  // bit x: an interval begins at column x
     for (const Span& span : spans) {
         breaks |= std::uint64_t{1} << span.begin;
         if (span.end < width_) breaks |= std::uint64_t{1} << span.end;
     }
-    const std::size_t previousCount = cellCount_;
-    cellCount_ = 0;
-    std::uint8_t cellAt[kTile + 1];
+    const std::size_t previousCount = intervalCount_;
+    intervalCount_ = 0;
+    std::uint8_t intervalAt[kTile + 1];
     while (breaks != 0) {
         const int begin = std::countr_zero(breaks);
         breaks &= breaks - 1;
-        cellAt[begin] = static_cast<std::uint8_t>(cellCount_);
-        cells_[cellCount_++] = {begin, breaks != 0 ? std::countr_zero(breaks) : width_, 0, 0, 0};
+        intervalAt[begin] = static_cast<std::uint8_t>(intervalCount_);
+        intervals_[intervalCount_++] = {begin, breaks != 0 ? std::countr_zero(breaks) : width_, 0, 0, 0};
     }
-    cellAt[width_] = static_cast<std::uint8_t>(cellCount_);
-    const std::span cells(cells_, cellCount_);
-    std::swap(cellSpans_, previousSpans_);
-    cellSpans_.resize(spans.size());
-    bool isKept = cellCount_ == previousCount && spans.size() == previousSpans_.size();
+    intervalAt[width_] = static_cast<std::uint8_t>(intervalCount_);
+    const std::span intervals(intervals_, intervalCount_);
+    std::swap(intervalSpans_, previousSpans_);
+    intervalSpans_.resize(spans.size());
+    bool isKept = intervalCount_ == previousCount && spans.size() == previousSpans_.size();
     for (std::size_t s = 0; s < spans.size(); ++s) {
-        cellSpans_[s] = {spans[s].cover, cellAt[spans[s].begin], cellAt[spans[s].end]};
-        isKept = isKept && cellSpans_[s] == previousSpans_[s];
+        intervalSpans_[s] = {spans[s].cover, intervalAt[spans[s].begin], intervalAt[spans[s].end]};
+        isKept = isKept && intervalSpans_[s] == previousSpans_[s];
     }
-    if (isKept) return {cells, true};
+    if (isKept) return {intervals, true};
 
-    std::uint64_t* next[kTile];  // per cell: where its next member is written
+    std::uint64_t* next[kTile];  // per interval: where its next member is written
     const std::size_t room = spans.size();
-    if (members_.size() < cells.size() * room) members_.resize(cells.size() * room);
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) next[cell] = members_.data() + cell * room;
-    for (const CellSpan& span : cellSpans_) {
+    if (members_.size() < intervals.size() * room) members_.resize(intervals.size() * room);
+    for (std::size_t interval = 0; interval < intervals.size(); ++interval)
+        next[interval] = members_.data() + interval * room;
+    for (const IntervalSpan& span : intervalSpans_) {
         const Member member = coverMembers_[span.cover];
-        for (std::size_t cell = span.begin; cell < span.end; ++cell) {
-            *next[cell]++ = member.boundary;
-            cells[cell].hash += member.hash;
+        for (std::size_t interval = span.begin; interval < span.end; ++interval) {
+            *next[interval]++ = member.boundary;
+            intervals[interval].hash += member.hash;
         }
     }
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-        cells[cell].firstMember = static_cast<std::uint32_t>(cell * room);
-        cells[cell].memberCount = static_cast<std::uint32_t>(next[cell] - (members_.data() + cell * room));
+    for (std::size_t interval = 0; interval < intervals.size(); ++interval) {
+        intervals[interval].firstMember = static_cast<std::uint32_t>(interval * room);
+        intervals[interval].memberCount =
+            static_cast<std::uint32_t>(next[interval] - (members_.data() + interval * room));
     }
-    return {cells, false};
+    return {intervals, false};
 }
 
 }  // namespace svt::voxelize

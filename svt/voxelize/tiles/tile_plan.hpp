@@ -6,21 +6,23 @@
 ///     ^   |      ,-------.        |
 ///     |   |   ,--+---.  2 \       |         covers   1  [3 ......... 10)
 ///     |  >|---|--|-1--\----\------|<                 2       [6 ............. 15)
-///     |   |   `--+-----`   /      |         cells    |     |   |        |      |       |
+///     |   |   `--+-----`   /      |       intervals  |     |   |        |      |       |
 ///     |   |      `--------'       |                  0     3   6        10     15      width
 ///     |   +-----------------------+         members   {}    {1}  {1, 2}   {2}    {}
 ///     +--------> x
 ///
-/// - A cover is a boundary (of a face or a box) with one interval of columns in each row. The intervals come from scan
+/// - A cover is a boundary (of a face or a box) with one span of columns in each row. The spans come from scan
 ///   conversion of the outline of the face; edges between its triangles are skipped. An edge with winding +1 begins
-///   the interval of a row, one with -1 ends it. Of edges west of the tile only the sum of windings matters.
-/// - Faces with several intervals in a row (concave in x) fall back to the textbook scanline polygon fill: all
-///   crossings of a row are sorted and paired by winding, and the n-th interval of each row goes to the n-th cover.
+///   the span of a row, one with -1 ends it. Of edges west of the tile only the sum of windings matters.
+/// - Faces with several spans in a row (concave in x) fall back to the textbook scanline polygon fill: all
+///   crossings of a row are sorted and paired by winding, and the n-th span of each row goes to the n-th cover.
 /// - Sets of rows are 64-bit masks, one bit per row. newRows() has the rows where some cover begins, ends or moves:
 ///   only these are laid out again (row coherence, as in scanline rendering).
-/// - A row is cut into cells at all interval ends. The cells of a row often have the same members as those of the row
-///   laid out before, with other ends: such a row "keeps boundaries" and its members are not collected again.
-/// - The members of a cell have an order-independent hash (a sum), by which the stacks of tile_columns.hpp are found.
+/// - A row is cut into intervals at all ends of spans. The intervals of a row often have the same members as those of
+///   the row laid out before, with other ends: such a row has the same boundaries, and its members are not collected
+///   again.
+/// - The members of an interval have an order-independent hash (a sum), by which the stacks of tile_columns.hpp are
+///   found.
 
 #include <svt/voxelize/lattice/faces.hpp>
 
@@ -44,7 +46,7 @@ struct ObjectParts {
 };
 
 /// Reference to a triangle or a box of an object.
-struct PartNumber {
+struct PartRef {
     std::uint32_t object = 0, number = 0;
 };
 
@@ -52,20 +54,21 @@ struct PartNumber {
 struct TileInput {
     std::int32_t firstColumn = 0, firstRow = 0, width = 0, height = 0, depth = 0;  ///< samples; width, height <= 64
     std::span<const ObjectParts> objects;
-    std::span<const PartNumber> triangles, boxes;  ///< those that touch the tile, by object, then by number
+    std::span<const PartRef> triangles, boxes;  ///< those that touch the tile, by object, then by number
 };
 
 /// An interval of a row in which all columns have the same boundaries.
-struct PlanCell {
+struct PlanInterval {
     std::int32_t begin = 0, end = 0;  ///< columns of the tile
     std::uint32_t firstMember = 0, memberCount = 0;
     std::uint64_t hash = 0;  ///< of its boundaries, independent of their order
 };
 
-/// Cells of a row, west to east, without gaps.
-struct PlanRow {
-    std::span<const PlanCell> cells;
-    bool keepsBoundaries = false;  ///< each cell has the boundaries of the same cell of the row laid out before
+/// Intervals of a row, west to east, without gaps.
+struct PlanRowIntervals {
+    std::span<const PlanInterval> intervals;
+    /// Each interval has the boundaries of the same interval of the row laid out before.
+    bool hasSameBoundaries = false;
 };
 
 /// Builds the plans of tiles, one after the other; keeps its buffers between them.
@@ -77,18 +80,18 @@ public:
     /// Bit y is set if the plan of row y may differ from that of row y - 1. Bit 0 is always set.
     [[nodiscard]] std::uint64_t newRows() const noexcept { return newRows_; }
 
-    /// Cells of row y, which must be one of newRows(). Valid until the next call.
-    [[nodiscard]] PlanRow layOut(std::int32_t y);
-    /// Packed boundaries of a cell of the last layOut(), unless its row keeps boundaries. Their order, faces before
-    /// boxes, each by object and number, is the same in all tiles.
-    [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanCell& cell) const noexcept {
-        return std::span(members_).subspan(cell.firstMember, cell.memberCount);
+    /// Intervals of row y, which must be one of newRows(). Valid until the next call.
+    [[nodiscard]] PlanRowIntervals layOut(std::int32_t y);
+    /// Packed boundaries of an interval of the last layOut(), unless its row has the same boundaries as that before.
+    /// Their order, faces before boxes, each by object and number, is the same in all tiles.
+    [[nodiscard]] std::span<const std::uint64_t> boundariesOf(const PlanInterval& interval) const noexcept {
+        return std::span(members_).subspan(interval.firstMember, interval.memberCount);
     }
 
 private:
     static constexpr std::size_t kTile = 64;
 
-    // A boundary and one interval of columns per row. Faces that are concave in x have several covers.
+    // A boundary and one span of columns per row. Faces that are concave in x have several covers.
     struct Cover {
         std::uint64_t rows = 0;  // bit y: row y is covered over [begin[y], end[y]), which may be empty
         std::uint64_t boundary = 0;
@@ -101,11 +104,11 @@ private:
         std::uint32_t cover;
         std::uint8_t begin, end;  // columns
     };
-    // The same with cells [begin, end) instead of columns.
-    struct CellSpan {
+    // The same with intervals [begin, end) instead of columns.
+    struct IntervalSpan {
         std::uint32_t cover;
         std::uint8_t begin, end;
-        friend bool operator==(const CellSpan&, const CellSpan&) = default;
+        friend bool operator==(const IntervalSpan&, const IntervalSpan&) = default;
     };
     // The cover of one face while its edges are added. Passing an edge eastwards changes the winding by +1 or -1.
     struct Outline {
@@ -127,12 +130,12 @@ private:
         std::int8_t winding;
     };
 
-    void addFace(const TileInput& input, std::span<const PartNumber> triangles);
-    static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool looksDown,
+    void addFace(const TileInput& input, std::span<const PartRef> triangles);
+    static bool placeEdge(const TileInput& input, const FaceTriangle& triangle, int edge, bool facesDown,
                           PlacedEdge& out) noexcept;
     void addWest(std::uint64_t rows, bool isEntry);
     void addToOutline(const TileInput& input, const PlacedEdge& edge);
-    void addConcaveFace(const TileInput& input, std::span<const PartNumber> triangles, Boundary face);
+    void addConcaveFace(const TileInput& input, std::span<const PartRef> triangles, Boundary face);
     void addBox(const TileInput& input, const ClaimedBox& box);
 
     std::int32_t width_ = 0;
@@ -143,9 +146,9 @@ private:
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
     std::vector<Span> rows_[kTile];
-    PlanCell cells_[kTile];  // cells of the row laid out last, the first cellCount_ are valid
-    std::size_t cellCount_ = 0;
-    std::vector<CellSpan> cellSpans_, previousSpans_;  // of the two rows laid out last
+    PlanInterval intervals_[kTile];  // intervals of the row laid out last, the first intervalCount_ are valid
+    std::size_t intervalCount_ = 0;
+    std::vector<IntervalSpan> intervalSpans_, previousSpans_;  // of the two rows laid out last
     std::vector<std::uint64_t> members_;
 };
 

@@ -92,18 +92,18 @@ TEST(SvgDrawing, IsToScaleInMillimetres) {
     const auto drawing = planOf(volume);
     SvgOptions options;
     options.scale = 20;  // 4 x 3 m are 200 x 150 mm
-    const auto svg = svgOf(drawing, volume, options);
+    const auto svg = makeSvg(drawing, volume, options);
     ASSERT_TRUE(svg);
     EXPECT_NE(svg->find("width=\"220mm\" height=\"194mm\" viewBox=\"0 0 220 194\""), std::string::npos);
     // The wall from corner to corner, with the room as a hole.
     EXPECT_NE(svg->find("d=\"M10 160L210 160 210 10 10 10ZM35 135L35 35 185 35 185 135Z\""), std::string::npos) << *svg;
     EXPECT_NE(svg->find(">6.00 m\u00B2</text>"), std::string::npos);
-    EXPECT_EQ(*svgOf(drawing, volume, options), *svg);
+    EXPECT_EQ(*makeSvg(drawing, volume, options), *svg);
 }
 
 TEST(SvgDrawing, NamesAreEscapedAndClassesPlain) {
     const auto volume = roomInWalls();
-    const std::string svg = *svgOf(planOf(volume), volume);
+    const std::string svg = *makeSvg(planOf(volume), volume);
     EXPECT_NE(svg.find("<path class=\"Wall_Surface\" data-id=\"wall,1\" data-area=\"6\""), std::string::npos);
     EXPECT_NE(svg.find("<title>room&amp;1: Küche &lt;1&gt; Ł</title>"), std::string::npos);
     EXPECT_NE(svg.find("Haus &lt;1&gt; &amp; &quot;Söhne&quot;"), std::string::npos);
@@ -117,15 +117,15 @@ TEST(SvgDrawing, RefusesScalesAndEmptyDrawings) {
     for (const double scale : {0.0, -50.0, 1e9, double(NAN)}) {
         SvgOptions options;
         options.scale = scale;
-        EXPECT_EQ(svgOf(planOf(volume), volume, options).error().code(), Code::BadArgument);
+        EXPECT_EQ(makeSvg(planOf(volume), volume, options).error().code(), Code::BadArgument);
     }
     const auto empty = *illustrate::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 50}});
-    EXPECT_EQ(svgOf(empty, volume).error().code(), Code::BadArgument);
+    EXPECT_EQ(makeSvg(empty, volume).error().code(), Code::BadArgument);
 }
 
 TEST(DxfDrawing, IsPairsOfCodesAndValuesWithHandlesUsedOnce) {
     const auto volume = roomInWalls();
-    std::istringstream in(dxfOf(planOf(volume), volume));
+    std::istringstream in(makeDxf(planOf(volume), volume));
     std::set<std::string> handles;
     std::map<std::string, int> entities;
     std::string code, value, section;
@@ -149,7 +149,7 @@ TEST(DxfDrawing, IsPairsOfCodesAndValuesWithHandlesUsedOnce) {
 
 TEST(DxfDrawing, SaysUnitsAndWritesNamesInItsCodePage) {
     const auto volume = roomInWalls();
-    const std::string dxf = dxfOf(planOf(volume), volume);
+    const std::string dxf = makeDxf(planOf(volume), volume);
     EXPECT_NE(dxf.find("$INSUNITS\n 70\n6\n"), std::string::npos);
     EXPECT_NE(dxf.find("\n  1\nK\xFC"
                        "che <1> \\U+0141\n"),
@@ -161,18 +161,18 @@ TEST(DxfDrawing, SaysUnitsAndWritesNamesInItsCodePage) {
 
 TEST(GeojsonDrawing, IsInTheCoordinatesOfTheModel) {
     const auto volume = roomInWalls();
-    const std::string json = geojsonOf(planOf(volume), volume);
+    const std::string json = makeGeojson(planOf(volume), volume);
     EXPECT_NE(json.find("urn:ogc:def:crs:EPSG::25832"), std::string::npos);
     EXPECT_NE(json.find("[[[[499999.95,5399999.95,101.03],[500003.95,5399999.95,101.03],"), std::string::npos) << json;
     EXPECT_NE(json.find("\"class\":\"BuildingRoom\",\"name\":\"Küche <1> Ł\",\"area\":6}"), std::string::npos);
     auto unknown = volume;
     unknown.crsName = "local";
-    EXPECT_EQ(geojsonOf(planOf(unknown), unknown).find("\"crs\""), std::string::npos);
+    EXPECT_EQ(makeGeojson(planOf(unknown), unknown).find("\"crs\""), std::string::npos);
 }
 
 TEST(SectionTable, CsvQuotesAndSumsUp) {
     const auto volume = roomInWalls();
-    const std::string csv = sectionCsvOf(planOf(volume), volume);
+    const std::string csv = makeSectionCsv(planOf(volume), volume);
     std::istringstream in(csv);
     std::vector<std::string> lines;
     for (std::string line; std::getline(in, line);) lines.push_back(line);

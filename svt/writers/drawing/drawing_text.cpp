@@ -31,7 +31,7 @@ std::string plainName(std::string_view name, std::string_view fallback) {
 const std::string& shownName(const volume::Label& label) noexcept { return label.name.empty() ? label.id : label.name; }
 
 bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
-    return std::abs(dot(drawing.frame.normal, grid.axes()[2])) > 1 - 1e-12;
+    return std::abs(dot(drawing.axes.normal, grid.axes()[2])) > 1 - 1e-12;
 }
 
 std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) {

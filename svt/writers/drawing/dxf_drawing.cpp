@@ -98,14 +98,14 @@ private:
             return fmt::format("{} {} {}", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
                                shortNumber(v.z, decimals));
         };
-        const illustrate::PlaneFrame& frame = drawing_.frame;
+        const illustrate::PlaneAxes& axes = drawing_.axes;
         tag(999, dxfText(volume_.modelName.empty() ? volume_.source : volume_.modelName) + ", " +
                      planeText(drawing_, volume_.grid));
         tag(999, "world = origin + u * x + v * y, metres" +
                      (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)));
-        tag(999, "origin " + vector(frame.origin, 6));
-        tag(999, "u " + vector(frame.u, 15));
-        tag(999, "v " + vector(frame.v, 15));
+        tag(999, "origin " + vector(axes.origin, 6));
+        tag(999, "u " + vector(axes.u, 15));
+        tag(999, "v " + vector(axes.v, 15));
         section("HEADER");
         const auto variable = [&](const char* name, int code, std::string_view value) {
             tag(9, name);
@@ -322,7 +322,7 @@ private:
 
     void name(const illustrate::SectionComponent& component, const std::string& shown) {
         const auto& largest = *std::ranges::max_element(component.polygons, {}, &illustrate::SectionPolygon::area);
-        const illustrate::LabelPlace place = illustrate::labelPlaceOf(largest);
+        const illustrate::TextPlace place = illustrate::findTextPlace(largest);
         const double height =
             std::min({0.25, place.height / 3, place.width / (0.8 * double(std::max<std::size_t>(shown.size(), 6)))});
         if (!(height > 0)) return;
@@ -348,13 +348,13 @@ private:
 
 }  // namespace
 
-std::string dxfOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     return DxfWriter(drawing, volume).write();
 }
 
 Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                const std::filesystem::path& path) {
-    return writeFileAtomically(path, dxfOf(drawing, volume));
+    return writeFileAtomically(path, makeDxf(drawing, volume));
 }
 
 }  // namespace svt::writers

@@ -18,28 +18,27 @@ void appendMember(std::string& json, std::string_view key, std::string_view text
     volume::appendJsonString(json, text);
 }
 
-void appendRing(std::string& json, const illustrate::Ring& ring, const illustrate::PlaneFrame& frame) {
+void appendRing(std::string& json, const illustrate::Ring& ring, const illustrate::PlaneAxes& axes) {
     json += '[';
     for (std::size_t n = 0; n <= ring.size(); ++n) {
         if (n != 0) json += ',';
-        appendVector(json, frame.worldFromPlane(ring[n % ring.size()]), 6);
+        appendVector(json, axes.worldFromPlane(ring[n % ring.size()]), 6);
     }
     json += ']';
 }
 
 }  // namespace
 
-std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    const illustrate::PlaneFrame& frame = drawing.frame;
+std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = "{\"type\":\"FeatureCollection\",\n";
     appendMember(json, "name", planeText(drawing, volume.grid));
     if (const std::uint32_t epsg = epsgCodeOf(volume.crsName); epsg != 0)
         json += fmt::format(",\n\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"urn:ogc:def:crs:EPSG::{}\"}}}}",
                             epsg);
     json += ",\n\"plane\":{\"origin\":";
-    appendVector(json, frame.origin, 6);
-    for (const auto& [key, axis] :
-         {std::pair("u", frame.u), std::pair("v", frame.v), std::pair("normal", frame.normal)}) {
+    appendVector(json, axes.origin, 6);
+    for (const auto& [key, axis] : {std::pair("u", axes.u), std::pair("v", axes.v), std::pair("normal", axes.normal)}) {
         json += fmt::format(",\"{}\":", key);
         appendVector(json, axis, 15);
     }
@@ -61,10 +60,10 @@ std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::S
                             shortNumber(component.area, 6));
         for (const illustrate::SectionPolygon& polygon : component.polygons) {
             json += &polygon == &component.polygons.front() ? "[" : ",[";
-            appendRing(json, polygon.outer, frame);
+            appendRing(json, polygon.outer, axes);
             for (const illustrate::Ring& hole : polygon.holes) {
                 json += ',';
-                appendRing(json, hole, frame);
+                appendRing(json, hole, axes);
             }
             json += ']';
         }
@@ -75,7 +74,7 @@ std::string geojsonOf(const illustrate::SectionDrawing& drawing, const volume::S
 
 Result<std::uint64_t> writeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path) {
-    return writeFileAtomically(path, geojsonOf(drawing, volume));
+    return writeFileAtomically(path, makeGeojson(drawing, volume));
 }
 
 }  // namespace svt::writers

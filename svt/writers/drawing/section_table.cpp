@@ -30,11 +30,11 @@ std::string csvText(std::string_view text) {
 
 }  // namespace
 
-std::string sectionJsonOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    const illustrate::PlaneFrame& frame = drawing.frame;
+std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
         "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}}},\n  \"components\": [",
-        jsonVector(frame.origin, 6), jsonVector(frame.u, 15), jsonVector(frame.v, 15), jsonVector(frame.normal, 15));
+        jsonVector(axes.origin, 6), jsonVector(axes.u, 15), jsonVector(axes.v, 15), jsonVector(axes.normal, 15));
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         json += fmt::format(
@@ -51,7 +51,7 @@ std::string sectionJsonOf(const illustrate::SectionDrawing& drawing, const volum
     return json + fmt::format("\n  ],\n  \"area\": {}\n}}\n", shortNumber(drawing.area, 6));
 }
 
-std::string sectionCsvOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeSectionCsv(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     std::string csv = "kind,id,class,name,polygons,area_m2,area_bound_m2\r\n";
     std::size_t polygons = 0;
     for (const illustrate::SectionComponent& component : drawing.components) {

@@ -21,7 +21,7 @@ using render::Hatch;
 using volume::kNoLabel;
 
 // Millimetres on paper.
-constexpr double kMargin = 10, kTitleHeight = 24, kLeastWidth = 90;
+constexpr double kMargin = 10, kTitleHeight = 24, kMinWidth = 90;
 constexpr double kSlim = 0.7;
 constexpr double kTextSize = 2.5, kLeastTextSize = 1.2;
 constexpr double kTextWidth = 0.56;  // width of a character relative to the font size, sans serif
@@ -86,7 +86,7 @@ class SvgWriter {
 public:
     SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, double scale)
         : drawing_(drawing), volume_(volume), scale_(scale), millimetres_(1000 / scale) {
-        hatches_ = illustrate::hatchesOf(volume.labels);
+        hatches_ = illustrate::labelHatches(volume.labels);
         isSlim_.resize(volume.labels.labels.size());
         for (const SectionComponent& component : drawing.components)
             isSlim_[component.label] = isSlim(component) ? 1 : 0;
@@ -100,7 +100,7 @@ public:
                 }
         drawnWidth_ = (high_.u - low_.u) * millimetres_;
         drawnHeight_ = (high_.v - low_.v) * millimetres_;
-        width_ = std::max(drawnWidth_, kLeastWidth) + 2 * kMargin;
+        width_ = std::max(drawnWidth_, kMinWidth) + 2 * kMargin;
         left_ = 0.5 * (width_ - drawnWidth_);
         height_ = drawnHeight_ + 2 * kMargin + kTitleHeight;
     }
@@ -257,7 +257,7 @@ private:
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
                 isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
-            const illustrate::LabelPlace place = illustrate::labelPlaceOf(largest);
+            const illustrate::TextPlace place = illustrate::findTextPlace(largest);
             const auto longest = static_cast<double>(std::max(characterCount(name), characterCount(area)));
             const double lines = area.empty() ? 1 : 2.3;
             const double size = std::min({kTextSize, 0.9 * place.width * millimetres_ / (kTextWidth * longest),
@@ -310,8 +310,8 @@ private:
 
 }  // namespace
 
-Result<std::string> svgOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                          const SvgOptions& options) {
+Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                            const SvgOptions& options) {
     if (!(options.scale >= 0.01 && options.scale <= 1e7))
         return Error(Code::BadArgument,
                      fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
@@ -321,7 +321,7 @@ Result<std::string> svgOf(const illustrate::SectionDrawing& drawing, const volum
 
 Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                const std::filesystem::path& path, const SvgOptions& options) {
-    const auto text = svgOf(drawing, volume, options);
+    const auto text = makeSvg(drawing, volume, options);
     if (!text) return text.error();
     return writeFileAtomically(path, *text);
 }

@@ -14,7 +14,7 @@ using volume::BrickPlane;
 using volume::BrickVolume;
 using volume::kNoLabel;
 
-constexpr std::size_t kMostPlanes = 2;
+constexpr std::size_t kMaxPlanes = 2;
 constexpr double kFarthest = 1;  // voxels
 
 bool isInside(Vec3i voxel, Vec3i dimension) {
@@ -22,9 +22,9 @@ bool isInside(Vec3i voxel, Vec3i dimension) {
            voxel.z < dimension.z;
 }
 
-// Sides of a code's cuts and planes on which a voxel lies; see BrickVolume::BoxCoding::cells.
+// Sides of a code's cuts and planes on which a voxel lies; see BrickVolume::BoxCoding::firstSideScalar.
 struct Sides {
-    std::uint32_t cell = 0;
+    std::uint32_t bits = 0;
     std::uint32_t cutBits = 0;  // number of bits that belong to cuts
 };
 
@@ -33,22 +33,22 @@ Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec
     for (int axis = 0; axis < 3; ++axis)
         if (code.hasCut(axis)) {
             const bool isBeyond = voxel[axis] >= code.cut[static_cast<std::size_t>(axis)];
-            sides.cell |= (isBeyond ? 1u : 0u) << sides.cutBits++;
+            sides.bits |= (isBeyond ? 1u : 0u) << sides.cutBits++;
         }
     std::uint32_t bit = sides.cutBits;
     for (const std::uint32_t number : code.plane) {
         if (number == BrickVolume::kNoPlane) continue;
-        const BrickPlane& plane = bricks.oblique()[number];
+        const BrickPlane& plane = bricks.planes()[number];
         const Vec3d center{voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5};
-        sides.cell |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
+        sides.bits |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
     }
     return sides;
 }
 
 // The smallest step, along unconstrained axes only, from `point` onto all planes; nothing if they do not meet nearby.
 std::optional<Vec3d> stepOnto(std::span<const BrickPlane> planes, Vec3d point, std::uint32_t fixedAxes) {
-    std::array<Vec3d, kMostPlanes> normal;
-    std::array<double, kMostPlanes> distance{};
+    std::array<Vec3d, kMaxPlanes> normal;
+    std::array<double, kMaxPlanes> distance{};
     for (std::size_t p = 0; p < planes.size(); ++p) {
         normal[p] = planes[p].normal;
         distance[p] = dot(planes[p].normal, point) + planes[p].offset;
@@ -83,9 +83,9 @@ std::uint32_t SlopeVertices::separatingPlane(Vec3i a, Vec3i b) const {
         if (!entry.isCoded()) continue;
         const BrickVolume::BoxCoding& code = bricks_.coding(entry);
         const Sides sidesA = sidesOf(bricks_, code, a), sidesB = sidesOf(bricks_, code, b);
-        const std::uint32_t differing = sidesA.cell ^ sidesB.cell;
+        const std::uint32_t differing = sidesA.bits ^ sidesB.bits;
         if (std::popcount(differing) != 1 || (differing >> sidesA.cutBits) == 0) continue;
-        if (bricks_.cellScalar(code, sidesA.cell) != scalarA || bricks_.cellScalar(code, sidesB.cell) != scalarB)
+        if (bricks_.sideScalar(code, sidesA.bits) != scalarA || bricks_.sideScalar(code, sidesB.bits) != scalarB)
             continue;
         std::uint32_t bit = sidesA.cutBits;
         for (const std::uint32_t number : code.plane)
@@ -109,8 +109,8 @@ Vec3d SlopeVertices::place(Vec3i corner) const {
         const volume::Scalar scalar = bricks_.scalarAt(voxel.x, voxel.y, voxel.z);
         if (scalar < labelOfScalar_.size()) label[v] = labelOfScalar_[scalar];
     }
-    if (bricks_.oblique().empty()) return stays;
-    std::array<BrickPlane, kMostPlanes> planes;
+    if (bricks_.planes().empty()) return stays;
+    std::array<BrickPlane, kMaxPlanes> planes;
     std::size_t count = 0;
     std::uint32_t fixedAxes = 0;
     for (unsigned axis = 0; axis < 3; ++axis)
@@ -124,12 +124,12 @@ Vec3d SlopeVertices::place(Vec3i corner) const {
                 continue;
             }
             // Adjacent bricks often store the same plane separately.
-            const BrickPlane& plane = bricks_.oblique()[number];
+            const BrickPlane& plane = bricks_.planes()[number];
             bool isKnown = false;
             for (std::size_t p = 0; p < count; ++p)
                 isKnown = isKnown || std::abs(dot(planes[p].normal, plane.normal)) > 0.99;
             if (isKnown) continue;
-            if (count == kMostPlanes) return stays;
+            if (count == kMaxPlanes) return stays;
             planes[count++] = plane;
         }
     if (count == 0) return stays;

@@ -86,7 +86,7 @@ export class Session extends EventTarget {
       shown: (report, quality, token) => this.shown(report, quality, token as ViewState),
       failed: (error) => {
         this.fail(error);
-        if (isDeadly(error)) void this.reopen(error);
+        if (isFatal(error)) void this.reopen(error);
       },
     });
     if (this.status === "starting") this.status = "empty";
@@ -212,7 +212,7 @@ export class Session extends EventTarget {
     } catch (error) {
       this.status = before === "loading" ? "empty" : before;
       this.fail(error, t("failedTitle"));
-      if (isDeadly(error)) await this.reopen(error as EngineError);
+      if (isFatal(error)) await this.reopen(error as EngineError);
       return false;
     } finally {
       this.progress = null;
@@ -371,7 +371,7 @@ export class Session extends EventTarget {
 }
 
 /** Errors after which the worker is replaced and has no volume. */
-function isDeadly(error: unknown): boolean {
+function isFatal(error: unknown): boolean {
   return (error as EngineError).code === "E999";
 }
 

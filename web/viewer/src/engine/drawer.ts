@@ -74,7 +74,7 @@ export class Drawer {
   }
 
   /** Called when the page is idle: chooses the renderer, and prepares what the first movement would wait for. */
-  useStillness(): void {
+  onIdle(): void {
     if (this.isTrialDue) this.decide();
     const draft = this.draft;
     this.draft = null;

@@ -5,7 +5,7 @@ import { isEngineError } from "./errors";
 import type { Answer, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
-const stillMilliseconds = 700;
+const idleMilliseconds = 700;
 
 const loaded = createSvt({ onProgress: (step, done) => post({ id: current, step, done }) });
 // Handled where it is awaited; an unhandled rejection must not end the worker.
@@ -73,22 +73,22 @@ function fail(id: number, error: unknown): void {
 
 // Requests are processed one by one in order, though some answers take several turns of the event loop.
 let queue = Promise.resolve();
-let stillTimer: ReturnType<typeof setTimeout> | undefined;
+let idleTimer: ReturnType<typeof setTimeout> | undefined;
 self.onmessage = (event: MessageEvent<Request>) => {
   const request = event.data;
-  clearTimeout(stillTimer);
+  clearTimeout(idleTimer);
   queue = queue
     .then(() => answer(request))
     .catch((error: unknown) => fail(request.id, error))
     .then(() => {
-      clearTimeout(stillTimer);
-      if (drawer?.isWaiting) stillTimer = setTimeout(useStillness, stillMilliseconds);
+      clearTimeout(idleTimer);
+      if (drawer?.isWaiting) idleTimer = setTimeout(onIdle, idleMilliseconds);
     });
 };
 
-function useStillness(): void {
+function onIdle(): void {
   try {
-    drawer?.useStillness();
+    drawer?.onIdle();
   } catch (error) {
     stopped = error;
   }

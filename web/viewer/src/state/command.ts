@@ -10,7 +10,7 @@ export function shellWord(text: string): string {
 }
 
 /** Whether options of `svt render` can express the whole view. */
-function isSayable(state: ViewState): boolean {
+function isExpressibleAsOptions(state: ViewState): boolean {
   if (state.custom || state.hatches === false) return false;
   if (state.effect === "cutaway" && (state.focus.margin !== 0.15 || focusQueries(state).length !== 1)) return false;
   return state.styles.every((style) => !style.hatch && !style.ghost);
@@ -18,7 +18,7 @@ function isSayable(state: ViewState): boolean {
 
 export function commandOf(state: ViewState, { scene, effects }: Described, model: string): string {
   const start = ["svt", "render", model, "-o", "view.png"];
-  const words = isSayable(state) ? [...start, ...options(state, scene, effects)] : [...start, "--scene", "view.scene.json"];
+  const words = isExpressibleAsOptions(state) ? [...start, ...options(state, scene, effects)] : [...start, "--scene", "view.scene.json"];
   return words.map(shellWord).join(" ");
 }
 

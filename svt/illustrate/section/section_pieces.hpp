@@ -10,11 +10,11 @@
 
 namespace svt::illustrate {
 
-/// A point of the drawing in quanta. Coordinates are at most 2^29 in magnitude, so that products of differences fit 64
-/// bits.
-struct QuantumPoint {
+/// A point of the drawing in drawing units. Coordinates are at most 2^29 in magnitude, so that products of differences
+/// fit 64 bits.
+struct DrawingPoint {
     std::int32_t u = 0, v = 0;
-    friend auto operator<=>(const QuantumPoint&, const QuantumPoint&) = default;
+    friend auto operator<=>(const DrawingPoint&, const DrawingPoint&) = default;
 };
 
 /// The plane in voxel space, and the transform from voxel space to the drawing.
@@ -22,40 +22,40 @@ struct QuantumPoint {
 /// Voxel space is index space + 1/2: voxel (i, j, k) is [i, i + 1] x [j, j + 1] x [k, k + 1].
 class CutPlane {
 public:
-    CutPlane(const SectionPlane& plane, const PlaneFrame& frame, const volume::Grid& grid);
+    CutPlane(const SectionPlane& plane, const PlaneAxes& axes, const volume::Grid& grid);
 
-    /// Whether a corner of voxels is above the plane, on the side to which the frame's normal points. Corners on the
+    /// Whether a corner of voxels is above the plane, on the side to which the axes' normal points. Corners on the
     /// plane count as on the side that is cut away.
     [[nodiscard]] bool isAbove(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept {
         return gradient_.x * i + gradient_.y * j + gradient_.z * k + offset_ > 0;
     }
-    /// Intersection of the plane with the line along `axis` through a corner; the same for all cells that share the
+    /// Intersection of the plane with the line along `axis` through a corner; the same for all pieces that share the
     /// line.
     [[nodiscard]] Vec3d crossing(int axis, Vec3i corner) const noexcept;
     /// Gradient of the height above the plane: metres per voxel along each axis.
     [[nodiscard]] Vec3d gradient() const noexcept { return gradient_; }
     [[nodiscard]] double heightOf(Vec3d voxel) const noexcept { return dot(gradient_, voxel) + offset_; }
-    [[nodiscard]] QuantumPoint quantized(Vec3d voxel) const noexcept;
-    [[nodiscard]] double quantum() const noexcept { return quantum_; }
+    [[nodiscard]] DrawingPoint quantized(Vec3d voxel) const noexcept;
+    [[nodiscard]] double drawingUnit() const noexcept { return drawingUnit_; }
 
 private:
     Vec3d gradient_;
     double offset_ = 0;          // moved by a millionth of a voxel towards the kept side
     Vec3d uOfVoxel_, vOfVoxel_;  // affine: u = dot(uOfVoxel_, voxel) + uOffset_
     double uOffset_ = 0, vOffset_ = 0;
-    double quantum_ = 1;
+    double drawingUnit_ = 1;
 };
 
 /// A directed edge of a piece; `label` is on its left.
-struct CellEdge {
-    QuantumPoint from, to;
+struct PieceEdge {
+    DrawingPoint from, to;
     std::uint32_t label = 0;
 };
 
 /// Edges of all pieces that have a label. Where pieces meet, their edges have the same end points: each edge between
 /// two labels appears once in each direction.
 /// \param labelOfScalar  entry per scalar: the label, or kNoLabel for what is not drawn
-[[nodiscard]] std::vector<CellEdge> cutCells(const volume::BrickVolume& bricks, const CutPlane& plane,
-                                             std::span<const std::uint32_t> labelOfScalar);
+[[nodiscard]] std::vector<PieceEdge> cutPieces(const volume::BrickVolume& bricks, const CutPlane& plane,
+                                               std::span<const std::uint32_t> labelOfScalar);
 
 }  // namespace svt::illustrate

@@ -18,7 +18,7 @@ namespace svt::mesh {
 
 inline constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
 
-/// The plane z = slopeX * x + slopeY * y + offset in local space. It is shared by all coplanar triangles of the scene,
+/// The plane z = slopeX * x + slopeY * y + offset in local space. It is shared by all coplanar triangles of the meshes,
 /// in all objects and for any triangulation, so that two solids that share a face get the same heights, bit for bit.
 struct Plane {
     double slopeX = 0;
@@ -28,7 +28,7 @@ struct Plane {
 
 struct Triangle {
     std::array<std::uint32_t, 3> corners{};  ///< indices in ObjectMesh::vertices; counter-clockwise from outside
-    std::uint32_t plane = kNoPlane;          ///< index in MeshScene::planes; kNoPlane if (nearly) vertical
+    std::uint32_t plane = kNoPlane;          ///< index in MeshSet::planes; kNoPlane if (nearly) vertical
     float thickness = 0;  ///< metres of the object's material behind the centre of this face; +inf: unknown or a sheet
 };
 
@@ -55,7 +55,7 @@ struct OpenEdge {
     std::uint32_t from = 0, to = 0;  ///< indices in ObjectMesh::vertices
 };
 
-/// Mesh of one feature. Local space: world minus MeshScene::origin, metres.
+/// Mesh of one feature. Local space: world minus MeshSet::origin, metres.
 struct ObjectMesh {
     model::FeatureIndex feature = model::kNoFeature;
     double lod = -1;
@@ -80,7 +80,7 @@ struct ObjectMesh {
 };
 
 /// All meshes of a model, in tree order of their features.
-struct MeshScene {
+struct MeshSet {
     Vec3d origin{};  ///< world space, whole metres
     std::vector<ObjectMesh> objects;
     std::vector<Plane> planes;
@@ -106,10 +106,10 @@ struct MeshOptions {
 /// dropped without a diagnostic.
 ///
 /// \param log  receives findings with feature id and world coordinates, in tree order; may be null
-/// \return the scene, or EmptyModel if no feature has geometry, or Cancelled
+/// \return the meshes, or EmptyModel if no feature has geometry, or Cancelled
 /// Cost: O(n log n) in the count of points. The result does not depend on `threads`.
-[[nodiscard]] Result<MeshScene> buildMeshes(const model::BuildingModel& model, const MeshOptions& options = {},
-                                            Diagnostics* log = nullptr);
+[[nodiscard]] Result<MeshSet> buildMeshes(const model::BuildingModel& model, const MeshOptions& options = {},
+                                          Diagnostics* log = nullptr);
 
 /// Signed volume of a closed mesh, m3: a sixth of the sum of the triple products of its triangles. Positive if they
 /// face outwards.

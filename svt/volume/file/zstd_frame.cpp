@@ -1,4 +1,4 @@
-#include <svt/volume/file/number_frame.hpp>
+#include <svt/volume/file/zstd_frame.hpp>
 
 #include <fmt/format.h>
 #include <zstd.h>

@@ -1,4 +1,4 @@
-#include <svt/illustrate/section/section_cells.hpp>
+#include <svt/illustrate/section/section_pieces.hpp>
 
 #include <algorithm>
 #include <array>
@@ -113,7 +113,7 @@ struct Piece {
 // An edge of a piece on a face between two bricks.
 struct FaceEdge {
     std::uint64_t face = 0;
-    CellEdge edge;
+    PieceEdge edge;
 };
 
 class CellCutter {
@@ -121,7 +121,7 @@ public:
     CellCutter(const BrickVolume& bricks, const CutPlane& plane, std::span<const std::uint32_t> labelOfScalar)
         : bricks_(bricks), plane_(plane), labelOfScalar_(labelOfScalar), outlines_(makeOutlines()) {}
 
-    std::vector<CellEdge> run() {
+    std::vector<PieceEdge> run() {
         // Rows of bricks run along the axis closest to the plane's normal, so that each row meets it in few bricks.
         const Vec3d slope{std::abs(plane_.gradient().x), std::abs(plane_.gradient().y), std::abs(plane_.gradient().z)};
         const int along = slope.z >= slope.x && slope.z >= slope.y ? 2 : slope.y >= slope.x ? 1 : 0;
@@ -217,9 +217,9 @@ private:
         const BrickVolume::BoxCoding& coding = bricks_.coding(entry);
         struct Part {
             Piece piece;
-            std::size_t cell = 0;
+            std::size_t sides = 0;
         };
-        std::array<Part, std::size_t{1} << BrickVolume::kMostSides> parts;
+        std::array<Part, std::size_t{1} << BrickVolume::kMaxSides> parts;
         parts[0] = {pieceOf(above, low_, high_), 0};
         std::size_t count = 1, bit = 1;
         const auto split = [&](Vec3d normal, double offset) {
@@ -227,7 +227,7 @@ private:
             for (std::size_t n = 0; n < before; ++n) {
                 const Piece whole = parts[n].piece;
                 splitPiece(whole, normal, offset, parts[n].piece, parts[count].piece);
-                parts[count++].cell = parts[n].cell | bit;
+                parts[count++].sides = parts[n].sides | bit;
             }
             bit <<= 1;
         };
@@ -238,9 +238,9 @@ private:
             split(normal, -double(coding.cut[static_cast<std::size_t>(axis)]));
         }
         for (const std::uint32_t plane : coding.plane)
-            if (plane != BrickVolume::kNoPlane) split(bricks_.oblique()[plane].normal, bricks_.oblique()[plane].offset);
+            if (plane != BrickVolume::kNoPlane) split(bricks_.planes()[plane].normal, bricks_.planes()[plane].offset);
         for (std::size_t n = 0; n < count; ++n)
-            if (parts[n].piece.count != 0) emit(parts[n].piece, labelOf(bricks_.cellScalar(coding, parts[n].cell)));
+            if (parts[n].piece.count != 0) emit(parts[n].piece, labelOf(bricks_.sideScalar(coding, parts[n].sides)));
     }
 
     // Splits a piece by a plane. Both parts get the same new corners, and so do all pieces that share an edge.
@@ -264,12 +264,12 @@ private:
 
     void emit(const Piece& piece, std::uint32_t label) {
         if (label == volume::kNoLabel) return;
-        std::array<QuantumPoint, 12> points;
+        std::array<DrawingPoint, 12> points;
         for (std::size_t n = 0; n < piece.count; ++n) points[n] = plane_.quantized(piece.corners[n].voxel);
         for (std::size_t n = 0; n < piece.count; ++n) {
             const std::size_t next = (n + 1) % piece.count;
             if (points[n] == points[next]) continue;
-            const CellEdge edge{points[n], points[next], label};
+            const PieceEdge edge{points[n], points[next], label};
             const auto faces = static_cast<std::uint8_t>(piece.corners[n].faces & piece.corners[next].faces);
             if (faces == 0)
                 edges_.push_back(edge);
@@ -297,7 +297,7 @@ private:
             return std::tie(a.face, a.edge.from, a.edge.to, a.edge.label) <
                    std::tie(b.face, b.edge.from, b.edge.to, b.edge.label);
         });
-        std::vector<QuantumPoint> points;
+        std::vector<DrawingPoint> points;
         for (std::size_t begin = 0, end = 0; begin < faceEdges_.size(); begin = end) {
             while (end < faceEdges_.size() && faceEdges_[end].face == faceEdges_[begin].face) ++end;
             points.clear();
@@ -307,9 +307,9 @@ private:
             }
             std::ranges::sort(points);
             points.erase(std::unique(points.begin(), points.end()), points.end());
-            // All points are on one line, up to a quantum; sort them along it.
+            // All points are on one line, up to a drawing unit; sort them along it.
             const std::int64_t du = points.back().u - points.front().u, dv = points.back().v - points.front().v;
-            const auto isBefore = [&](QuantumPoint a, QuantumPoint b) {
+            const auto isBefore = [&](DrawingPoint a, DrawingPoint b) {
                 const std::int64_t ta = a.u * du + a.v * dv, tb = b.u * du + b.v * dv;
                 return ta != tb ? ta < tb : a < b;
             };
@@ -319,8 +319,8 @@ private:
     }
 
     template <class IsBefore>
-    void addThrough(const CellEdge& edge, const std::vector<QuantumPoint>& points, const IsBefore& isBefore) {
-        const auto placeOf = [&](QuantumPoint p) {
+    void addThrough(const PieceEdge& edge, const std::vector<DrawingPoint>& points, const IsBefore& isBefore) {
+        const auto placeOf = [&](DrawingPoint p) {
             return std::lower_bound(points.begin(), points.end(), p, isBefore) - points.begin();
         };
         const std::ptrdiff_t from = placeOf(edge.from), to = placeOf(edge.to), step = from < to ? 1 : -1;
@@ -334,28 +334,28 @@ private:
     std::span<const std::uint32_t> labelOfScalar_;
     std::array<Outline, 256> outlines_;
     Vec3i brick_, low_, high_;  // the current brick, and its voxels
-    std::vector<CellEdge> edges_;
+    std::vector<PieceEdge> edges_;
     std::vector<FaceEdge> faceEdges_;
 };
 
 }  // namespace
 
-CutPlane::CutPlane(const SectionPlane& plane, const PlaneFrame& frame, const volume::Grid& grid) {
-    const Vec3d spacing = grid.spacing(), toOrigin = grid.origin() - frame.origin;
+CutPlane::CutPlane(const SectionPlane& plane, const PlaneAxes& axes, const volume::Grid& grid) {
+    const Vec3d spacing = grid.spacing(), toOrigin = grid.origin() - axes.origin;
     const auto affine = [&](Vec3d direction, Vec3d& perVoxel, double& offset) {
         for (int axis = 0; axis < 3; ++axis)
             perVoxel[axis] = dot(direction, grid.axes()[static_cast<std::size_t>(axis)]) * spacing[axis];
         offset = dot(direction, toOrigin) - 0.5 * (perVoxel.x + perVoxel.y + perVoxel.z);
     };
-    affine(frame.normal, gradient_, offset_);
-    affine(frame.u, uOfVoxel_, uOffset_);
-    affine(frame.v, vOfVoxel_, vOffset_);
+    affine(axes.normal, gradient_, offset_);
+    affine(axes.u, uOfVoxel_, uOffset_);
+    affine(axes.v, vOfVoxel_, vOffset_);
     // Remove rounding noise, so that planes parallel to a grid axis are exactly so.
     const double whole = std::abs(gradient_.x) + std::abs(gradient_.y) + std::abs(gradient_.z);
     for (int axis = 0; axis < 3; ++axis)
         if (std::abs(gradient_[axis]) < 1e-13 * whole) gradient_[axis] = 0;
     const double smallest = std::min({spacing.x, spacing.y, spacing.z});
-    offset_ += (dot(plane.normal, frame.normal) > 0 ? 1e-6 : -1e-6) * smallest;
+    offset_ += (dot(plane.normal, axes.normal) > 0 ? 1e-6 : -1e-6) * smallest;
     double extent = 0;
     for (int corner = 0; corner < 8; ++corner) {
         Vec3d voxel;
@@ -363,7 +363,7 @@ CutPlane::CutPlane(const SectionPlane& plane, const PlaneFrame& frame, const vol
         extent =
             std::max({extent, std::abs(dot(uOfVoxel_, voxel) + uOffset_), std::abs(dot(vOfVoxel_, voxel) + vOffset_)});
     }
-    quantum_ = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
+    drawingUnit_ = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
 }
 
 Vec3d CutPlane::crossing(int axis, Vec3i corner) const noexcept {
@@ -373,13 +373,13 @@ Vec3d CutPlane::crossing(int axis, Vec3i corner) const noexcept {
     return voxel;
 }
 
-QuantumPoint CutPlane::quantized(Vec3d voxel) const noexcept {
-    return {static_cast<std::int32_t>(std::floor((dot(uOfVoxel_, voxel) + uOffset_) / quantum_ + 0.5)),
-            static_cast<std::int32_t>(std::floor((dot(vOfVoxel_, voxel) + vOffset_) / quantum_ + 0.5))};
+DrawingPoint CutPlane::quantized(Vec3d voxel) const noexcept {
+    return {static_cast<std::int32_t>(std::floor((dot(uOfVoxel_, voxel) + uOffset_) / drawingUnit_ + 0.5)),
+            static_cast<std::int32_t>(std::floor((dot(vOfVoxel_, voxel) + vOffset_) / drawingUnit_ + 0.5))};
 }
 
-std::vector<CellEdge> cutCells(const BrickVolume& bricks, const CutPlane& plane,
-                               std::span<const std::uint32_t> labelOfScalar) {
+std::vector<PieceEdge> cutPieces(const BrickVolume& bricks, const CutPlane& plane,
+                                 std::span<const std::uint32_t> labelOfScalar) {
     return CellCutter(bricks, plane, labelOfScalar).run();
 }
 
