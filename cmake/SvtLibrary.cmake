@@ -53,6 +53,7 @@ endfunction()
 function(svt_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)  # as the precompiled header of tests
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gtest_main)
   svt_warnings(${name})
   if(CMAKE_BUILD_TYPE STREQUAL "Release")

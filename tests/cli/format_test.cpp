@@ -168,7 +168,7 @@ TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
     writeHouse(folder, "turned.gml", {"--turn", "30"});
     const json straight = runSvtForJson(folder.path(), {"info", "straight.gml", "--spacing", "0.1", "--json"});
     const json turned =
-        runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--frame", "building", "--json"});
+        runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--axes", "building", "--json"});
     const json world = runSvtForJson(folder.path(), {"info", "turned.gml", "--spacing", "0.1", "--json"});
     const json& axes = turned["grid"]["frame"];
     const double angle = std::atan2(axes[0][1].get<double>(), axes[0][0].get<double>()) * 180 / std::acos(-1.0);
@@ -197,7 +197,7 @@ TEST(BuildingFrame, FollowsAHouseTurnedBy30Degrees) {
 TEST(BuildingFrame, NrrdKeepsTheTurnedAxes) {
     const TemporaryFolder folder;
     writeHouse(folder, "turned.gml", {"--turn", "30"});
-    build(folder, "turned.gml", "0.2", {"--frame", "building"});
+    build(folder, "turned.gml", "0.2", {"--axes", "building"});
     runSvtWell(folder.path(), {"convert", "turned.gml.svt", "t.nrrd"});
     const std::string header = readText(folder / "t.nrrd").substr(0, 2000);
     const std::size_t at = header.find("space directions: (");

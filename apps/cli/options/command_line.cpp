@@ -21,22 +21,43 @@ namespace {
 // What was given, by the option's number in its command.
 using Given = std::vector<std::vector<std::string>>;
 
+// The values of an option that takes several: "a,b,c".
+std::vector<std::string> splitValues(const Option& option, const std::string& text) {
+    if (option.count == 1) return {text};
+    std::vector<std::string> values(1);
+    for (const char c : text) c == ',' ? static_cast<void>(values.emplace_back()) : values.back().push_back(c);
+    return values;
+}
+
+// What is wrong with what was given for an option, value by value; empty: nothing.
+std::string faultOfValues(const Option& option, const std::string& text) {
+    const std::vector<std::string> values = splitValues(option, text);
+    const auto count = static_cast<int>(values.size());
+    if (option.count > 1 && (count < option.leastCount || count > option.count))
+        return option.leastCount == option.count
+                   ? fmt::format("'{}': expected {} values with commas between them", text, option.count)
+                   : fmt::format("'{}': expected {} to {} values with commas between them", text, option.leastCount,
+                                 option.count);
+    for (const std::string& value : values)
+        if (std::string fault = faultOf(option, value); !fault.empty()) return fault;
+    return {};
+}
+
 // One option of `command` in CLI11's terms; its values are held against the declaration and kept as texts.
 CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::string>& values) {
     const std::string name(option.name), description = descriptionOf(option);
     if (option.kind == OptionKind::Flag) return app.add_flag(name, description);
     CLI::Option* added = app.add_option(name, values, description);
     added->type_name(valueText(option));
-    if (option.count > 1) {
-        added->delimiter(',')->expected(option.leastCount, option.count);
-    } else if (option.leastCount == 0) {
+    if (option.leastCount == 0) {
         added->expected(0, 1)->default_str("");
-    } else if (option.mayRepeat && option.name.starts_with('-')) {
-        added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    } else if (!option.mayRepeat) {
-        added->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    } else if (!option.name.starts_with('-')) {
+        if (!option.mayRepeat) added->expected(1)->allow_extra_args(false);
+    } else {
+        added->expected(1)->multi_option_policy(option.mayRepeat ? CLI::MultiOptionPolicy::TakeAll
+                                                                 : CLI::MultiOptionPolicy::TakeLast);
     }
-    return added->check(CLI::Validator([option](std::string& text) { return faultOf(option, text); }, ""));
+    return added->check(CLI::Validator([option](std::string& text) { return faultOfValues(option, text); }, ""));
 }
 
 void addOptions(CLI::App& app, const std::vector<Option>& options, Given& given) {
@@ -115,7 +136,11 @@ int runCommand(const CLI::App& app, const Given& given, const CommandText& text,
     for (std::size_t n = 0; n < command.connections().size(); ++n) {
         const auto& [option, take] = command.connections()[n];
         SVT_CHECK(take != nullptr);
-        if (app.get_option(std::string(longName(option)))->count() != 0) take(given[n]);
+        if (app.get_option(std::string(longName(option)))->count() == 0) continue;
+        std::vector<std::string> values;
+        for (const std::string& given_ : given[n])
+            for (std::string& value : splitValues(option, given_)) values.push_back(std::move(value));
+        take(values);
     }
     return flushed(action());
 }

@@ -1,3 +1,4 @@
+#include <svt/illustrate/scene_members.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 
 #include <gtest/gtest.h>
@@ -287,6 +288,65 @@ TEST(Scene, WhatCannotBeShownSaysWhy) {
     EXPECT_EQ(codeOf([](Scene& s) { s.passes[0].hide = {"(("}; }), Code::BadQuery);
     EXPECT_EQ(codeOf([](Scene& s) { addHighlight(s, {"id=y"}, Context::Ghost); }), Code::NothingSelected);
     EXPECT_EQ(codeOf([](Scene& s) { addCutaway(s, "id=y", 0); }), Code::NothingSelected);
+}
+
+// The JSON that has `value` as the member `pointer`, in a scene that is as by default otherwise.
+std::string jsonWith(std::string_view pointer, std::string value) {
+    while (!pointer.empty()) {
+        const std::size_t slash = pointer.rfind('/');
+        const std::string_view name = pointer.substr(slash + 1);
+        if (name == "*")
+            value = "[" + value + "]";
+        else if (pointer.find("/styles/") != std::string_view::npos && name != "select")
+            value = R"({"select": "all", ")" + std::string(name) + "\": " + value + "}";
+        else
+            value = "{\"" + std::string(name) + "\": " + value + "}";
+        pointer = pointer.substr(0, slash);
+    }
+    return value;
+}
+
+std::string jsonText(const Option& member, std::string_view text) {
+    const bool isText = member.kind == OptionKind::Text;
+    return isText ? "\"" + std::string(text) + "\"" : std::string(text);
+}
+
+TEST(SceneMembers, DefaultsAreThoseOfTheStructures) {
+    for (const Option& member : sceneMembers()) {
+        if (member.byDefault.empty()) continue;
+        std::string value = jsonText(member, member.byDefault);
+        if (member.count > 1) value = "[" + value + "]";
+        const std::string json = jsonWith(member.name, value);
+        const auto scene = parseScene(json);
+        ASSERT_TRUE(scene) << json << scene.error().message();
+        Scene plain;
+        if (member.name.find("/lines/*") != std::string_view::npos) plain.passes[0].lines.emplace_back();
+        if (member.name.find("/styles/*") != std::string_view::npos)
+            plain.passes[0].styles.push_back({.select = "all"});
+        if (member.name == "/ambientOcclusion") plain.ambientOcclusion = 0.6f;
+        EXPECT_EQ(*scene, plain) << json;
+    }
+    EXPECT_EQ(double(render::Light().ambientOcclusion), double(0.6f)) << "the default that the table states";
+}
+
+TEST(SceneMembers, EveryChoiceIsRead) {
+    for (const Option& member : sceneMembers())
+        for (const std::string_view choice : splitChoices(member.choices)) {
+            const std::string json = jsonWith(member.name, jsonText(member, choice));
+            EXPECT_TRUE(parseScene(json)) << json;
+        }
+}
+
+TEST(SceneMembers, LimitsAreHeldToTheirEnds) {
+    for (const Option& member : sceneMembers()) {
+        const bool isNumber = member.kind == OptionKind::Number || member.kind == OptionKind::Whole;
+        if (!isNumber || member.count > 1 || !member.choices.empty()) continue;
+        const auto read = [&](double value) {
+            return parseScene(jsonWith(member.name, std::to_string(value))).hasValue();
+        };
+        EXPECT_TRUE(read(member.least) && read(member.most)) << member.name;
+        EXPECT_FALSE(read(member.least - 1) || read(member.most + 1)) << member.name;
+    }
 }
 
 }  // namespace

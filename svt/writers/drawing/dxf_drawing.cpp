@@ -46,7 +46,7 @@ std::string dxfText(std::string_view text) {
         else if (c >= 0xA0 && c <= 0xFF)
             safe += static_cast<char>(c);
         else if (c < 0x10000)
-            safe += fmt::format("\U+{:04X}", static_cast<std::uint32_t>(c));
+            safe += fmt::format("\\U+{:04X}", static_cast<std::uint32_t>(c));
         else
             safe += '?';
         at += size;
