@@ -6,12 +6,20 @@
 #   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
-#   make check    format, layers, error pages, command pages
+#   make check    format, layers, error pages
+#   make asan     all tests with the address and undefined-behaviour sanitizers
+#   make tsan     the thread sanitizer on what is parallel
+#   make tidy     clang-tidy over all sources
+#   make fuzz     each fuzz target for a minute (SECONDS=600 for longer)
+#   make mutants  changes in the sources that tests do not notice (FOLDERS="volume voxelize", COUNT=30)
 #   make clean    removes build/
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo test web viewer bench check clean setup
+.PHONY: build demo test web viewer bench check asan tsan tidy fuzz mutants clean setup
+SECONDS ?= 60
+FOLDERS ?= volume voxelize mesh render readers
+COUNT ?= 30
 
 setup:
 	@scripts/setup.sh
@@ -45,6 +53,21 @@ bench:
 
 check: setup
 	@scripts/check.sh
+
+asan tsan: setup
+	@scripts/sanitize.sh $@
+
+tidy:
+	@scripts/setup.sh checks
+	@scripts/tidy.sh
+
+fuzz:
+	@scripts/setup.sh checks
+	@scripts/fuzz.sh $(SECONDS)
+
+mutants: setup
+	@scripts/build.sh release
+	@scripts/mutants.py $(FOLDERS) --count $(COUNT)
 
 clean:
 	@rm -rf build

@@ -7,18 +7,20 @@ set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build pkg-config
-  libpugixml-dev libsimdjson-dev nlohmann-json3-dev libglu1-mesa-dev libproj-dev libtbb-dev
-  libfmt-dev libcli11-dev libexpected-dev zlib1g-dev libzstd-dev libpng-dev libhwy-dev libpolyclipping-dev
+  libpugixml-dev libsimdjson-dev nlohmann-json3-dev libglu1-mesa-dev libtbb-dev
+  libfmt-dev libcli11-dev zlib1g-dev libzstd-dev libpng-dev libhwy-dev libpolyclipping-dev
   libfreetype-dev fonts-dejavu-core libegl-dev libgles-dev libegl-mesa0 libgl1-mesa-dri
-  libgtest-dev libxml2-utils librsvg2-bin gdal-bin unzip python3 ccache
+  clang-format libgtest-dev libxml2-utils librsvg2-bin gdal-bin unzip python3 ccache
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
+checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 command -v node >/dev/null || web+=(nodejs)
 command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
 [ "${1:-}" = web ] && packages+=("${web[@]}")
+[ "${1:-}" = checks ] && packages+=("${checks[@]}")
 
 missing=()
 for package in "${packages[@]}"; do
