@@ -114,4 +114,7 @@ private:
     Place where_;
 };
 
+/// Stops the program: a Result was asked for its value, but is `error`.
+[[noreturn]] void valueMissing(const Error& error) noexcept;
+
 }  // namespace svt

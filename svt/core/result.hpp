@@ -5,7 +5,6 @@
 
 #include <svt/core/error.hpp>
 
-#include <cassert>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -26,10 +25,19 @@ public:
     [[nodiscard]] bool hasValue() const noexcept { return state_.index() == 0; }
     [[nodiscard]] explicit operator bool() const noexcept { return hasValue(); }
 
-    /// The value. Requires hasValue().
-    [[nodiscard]] T& value() & { return *std::get_if<0>(&state_); }
-    [[nodiscard]] const T& value() const& { return *std::get_if<0>(&state_); }
-    [[nodiscard]] T&& value() && { return std::move(*std::get_if<0>(&state_)); }
+    /// The value. Requires hasValue(); otherwise the program stops with the error's text.
+    [[nodiscard]] T& value() & {
+        requireValue();
+        return *std::get_if<0>(&state_);
+    }
+    [[nodiscard]] const T& value() const& {
+        requireValue();
+        return *std::get_if<0>(&state_);
+    }
+    [[nodiscard]] T&& value() && {
+        requireValue();
+        return std::move(*std::get_if<0>(&state_));
+    }
     [[nodiscard]] T& operator*() & { return value(); }
     [[nodiscard]] const T& operator*() const& { return value(); }
     [[nodiscard]] T&& operator*() && { return std::move(*this).value(); }
@@ -41,6 +49,10 @@ public:
     [[nodiscard]] Error&& error() && { return std::move(*std::get_if<1>(&state_)); }
 
 private:
+    void requireValue() const {
+        if (!hasValue()) valueMissing(*std::get_if<1>(&state_));
+    }
+
     std::variant<T, Error> state_;
 };
 

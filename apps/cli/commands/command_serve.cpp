@@ -138,6 +138,7 @@ Action connectServe(Command& command) {
 Action connectView(Command& command) {
     auto arguments = std::make_shared<Arguments>();
     arguments->isView = true;
+    arguments->host = "127.0.0.1";  // this machine alone
     arguments->isView = true;
     command.set("input", arguments->inputs);
     command.set("--no-browser", arguments->noBrowser);

@@ -93,9 +93,6 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const Arguments& ar
 }
 
 Result<void> check(const Arguments& arguments) {
-    if (!(arguments.thickness >= 0) || !std::isfinite(arguments.thickness))
-        return Error(Code::BadArgument, fmt::format("--thickness {}: expected metres, 0 or more; 0 gives two voxels",
-                                                    arguments.thickness));
     if (arguments.levels != arguments.output.empty())
         return Error(Code::BadArgument, "expected either -o S.svt or -o S.glb, or --levels to list the levels");
     const std::string extension = arguments.output.extension().string();

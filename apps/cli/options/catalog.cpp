@@ -395,6 +395,7 @@ constexpr Option kShell[] = {
     {.name = "--thickness",
      .kind = Number,
      .value = "M",
+     .least = 0,
      .otherwise = "two voxels",
      .help = "thickness of the hull in metres, rounded up to voxels",
      .group = "Shell"},

@@ -1,3 +1,4 @@
+#include <svt/core/check.hpp>
 #include <svt/core/error.hpp>
 
 #include <fmt/format.h>
@@ -84,6 +85,10 @@ std::string Place::toString() const {
 std::string Error::toString() const {
     const std::string place = where_.toString();
     return fmt::format("{} {}: {}{}{}", codeTag(code_), codeName(code_), place, place.empty() ? "" : ": ", message_);
+}
+
+void valueMissing(const Error& error) noexcept {
+    checkFailed("Result::hasValue()", error.toString(), __FILE__, __LINE__);
 }
 
 }  // namespace svt

@@ -34,8 +34,8 @@ TEST(Error, TagHasThreeDigits) {
 }
 
 TEST(Error, EveryCodeHasItsNameAndItsOwnNumber) {
-    std::ifstream header(std::filesystem::path(__FILE__).replace_filename("error.hpp"));
-    if (!header) GTEST_SKIP() << "the source is not at hand";
+    std::ifstream header(std::filesystem::path(__FILE__).parent_path().parent_path() / "error.hpp");
+    ASSERT_TRUE(header);
     std::stringstream text;
     text << header.rdbuf();
     const std::string all = text.str();

@@ -97,15 +97,9 @@ bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {
 
 SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
     const volume::Grid& grid = volume.grid;
-    std::optional<double> lowest;
-    for (const volume::Label& label : volume.labels.labels) {
-        if (label.className != "Storey") continue;
-        const auto heights = storeyHeights(label.id, volume);
-        if (heights && (!lowest || heights->first < *lowest)) lowest = heights->first;
-    }
     SectionPlane plane{grid.axes()[2], grid.origin()};
-    if (lowest) {
-        plane.point = grid.origin() + plane.normal * (*lowest + 1.1);
+    if (const auto storeys = findStoreys(volume); !storeys.empty()) {
+        plane.point = grid.origin() + plane.normal * (storeys.front().floor + 1.1);
         if (meetsGrid(plane, grid)) return plane;
     }
     plane.point = grid.origin() + plane.normal * (0.5 * (grid.dimension().z - 1) * grid.spacing().z);

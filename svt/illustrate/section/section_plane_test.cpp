@@ -81,6 +81,14 @@ TEST(SectionPlane, DefaultIsAPlanOfTheLowestStorey) {
     auto volume = twoStoreys();
     EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 0.375 + 1.1);
     EXPECT_EQ(defaultSectionPlane(volume).normal, (Vec3d{0, 0, 1}));
+    // CityGML 2.0 has storeys as groups.
+    auto groups = volume;
+    for (volume::Label& label : groups.labels.labels) {
+        if (label.className != "Storey") continue;
+        label.className = "CityObjectGroup";
+        label.attributes.push_back({"class", std::string("building storey")});
+    }
+    EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(groups)), 30 + 0.375 + 1.1);
     for (volume::Label& label : volume.labels.labels)
         if (label.className == "Storey") label.className = "CityObjectGroup";
     EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 2.5);

@@ -40,8 +40,11 @@ double heightOver(const volume::BrickPlane& plane, Vec3d point) noexcept {
 }
 
 volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
-    // Choose one of the two directions, so that both sides of a wall can share a plane.
-    const bool isBack = std::tie(normal.z, normal.y, normal.x) < std::tuple(0.0, 0.0, 0.0);
+    // Choose one of the two directions, so that both sides of a wall can share a plane. Components that are rounding
+    // noise, such as z of a vertical wall, must not decide.
+    constexpr double kNoise = 1e-6;
+    const double lead = std::abs(normal.z) > kNoise ? normal.z : std::abs(normal.y) > kNoise ? normal.y : normal.x;
+    const bool isBack = lead < 0;
     volume::BrickPlane plane;
     plane.normal = isBack ? normal * -1.0 : normal;
     plane.offset = -dot(plane.normal, point);

@@ -63,6 +63,19 @@ TEST(FacePlanes, AreSharedByNeighborsWhicheverWayTheyLook) {
     EXPECT_EQ(faces.size(), 2u + 2u + 3u);
 }
 
+TEST(FacePlanes, AreSharedByBothSidesOfAWallInSpiteOfNoise) {
+    // Coordinates as files have them: walls are vertical up to rounding, in either direction.
+    mesh::ObjectMesh box = test::turnedBox({2, 2, 1}, {7, 5, 4}, 27);
+    mesh::ObjectMesh beside = box;
+    const Vec3d step = box.vertices[1] - box.vertices[0];
+    for (std::size_t n = 0; n < box.vertices.size(); ++n) {
+        const double noise = n % 3 == 0 ? 3e-9 : -2e-9;
+        box.vertices[n] = box.vertices[n] - step * 0.6 + Vec3d{noise, -noise, 0};
+        beside.vertices[n] = beside.vertices[n] + step * 0.4 + Vec3d{-noise, noise, 0};
+    }
+    EXPECT_EQ(findFacePlanes(test::meshSetOf({box, beside}), gridOf({140, 140, 60})).size(), 2u + 2u + 3u);
+}
+
 TEST(FacePlanes, OutsideOfTheGridOrTooSmallAreLeftOut) {
     const auto outside = findFacePlanes(test::meshSetOf({test::box({20, 2, 1}, {27, 5, 4})}), gridOf());
     EXPECT_TRUE(outside.empty());
