@@ -1,3 +1,4 @@
+#include <svt/core/rounding.hpp>
 #include <svt/core/text.hpp>
 
 #include <gtest/gtest.h>
@@ -31,6 +32,16 @@ TEST(Ascii, OnlyItsLettersChangeCase) {
     EXPECT_TRUE(equalsIgnoringCase("EG", "eg"));
     EXPECT_FALSE(equalsIgnoringCase("EG", "eg "));
     static_assert(lowerAscii('Q') == 'q' && lowerAscii('[') == '[' && lowerAscii('@') == '@');
+}
+
+TEST(Rounding, NumbersBecomeOneTwoOrFive) {
+    for (const double power : {0.001, 1.0, 100.0}) {
+        EXPECT_DOUBLE_EQ(roundDownTo125(1.99 * power), 1 * power);
+        EXPECT_DOUBLE_EQ(roundDownTo125(2.001 * power), 2 * power);
+        EXPECT_DOUBLE_EQ(roundDownTo125(4.99 * power), 2 * power);
+        EXPECT_DOUBLE_EQ(roundDownTo125(5.001 * power), 5 * power);
+        EXPECT_DOUBLE_EQ(roundDownTo125(9.99 * power), 5 * power);
+    }
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <svt/core/rounding.hpp>
 #include <svt/illustrate/scene.hpp>
 
 #include <svt/analyze/selection.hpp>
@@ -130,13 +131,6 @@ double pixelOf(const render::FrameSpec& spec) {
     if (camera.projection == render::Camera::Projection::Orthographic) return camera.orthographicHeight / spec.height;
     return 2 * std::tan(camera.verticalFovDegrees * std::numbers::pi / 360) * length(camera.target - camera.eye) /
            spec.height;
-}
-
-// The largest number 1, 2 or 5 * 10^n that is at most `metres`.
-double roundSpacing(double metres) {
-    const double power = std::pow(10, std::floor(std::log10(metres)));
-    const double share = metres / power;
-    return power * (share < 2 ? 1 : share < 5 ? 2 : 5);
 }
 
 Result<void> select(const LabelTable& table, const std::vector<std::string>& queries, std::vector<bool>& isSelected) {
@@ -307,7 +301,7 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
     const auto camera = cameraOf(scene, volume);
     if (!camera) return camera.error();
     spec.camera = *camera;
-    spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundSpacing(11 * pixelOf(spec));
+    spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundDownTo125(11 * pixelOf(spec));
     const RegionContext context{volume, *camera, double(scene.width) / scene.height};
     const std::vector<VolumeForm> forms = volumeForms(scene);
     for (const ScenePass& wanted : scene.passes) {

@@ -3,7 +3,6 @@
 /// Voxelizes surfaces: sheets, which have no inside, and parts of solids that are thinner than a voxel.
 
 #include <svt/voxelize/tiles/tile_plan.hpp>
-#include <svt/voxelize/voxelize.hpp>
 
 #include <vector>
 

@@ -1,4 +1,5 @@
 #include <svt/core/file.hpp>
+#include <svt/core/rounding.hpp>
 #include <svt/core/text.hpp>
 #include <svt/illustrate/hatches.hpp>
 #include <svt/model/classes.hpp>
@@ -74,12 +75,6 @@ std::string xmlText(std::string_view text) {
         at += size;
     }
     return safe;
-}
-
-// The largest of 1, 2 and 5 times a power of ten that does not exceed `value`.
-double roundLength(double value) {
-    const double power = std::pow(10.0, std::floor(std::log10(value)));
-    return value >= 5 * power ? 5 * power : value >= 2 * power ? 2 * power : power;
 }
 
 class SvgWriter {
@@ -284,7 +279,7 @@ private:
         addText(kMargin, top + 11, 2.5,
                 fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(scale_, 2)));
         // Four fields of a rounded length, 5 to 12.5 mm each.
-        const double field = roundLength(12.5 / millimetres_), size = field * millimetres_;
+        const double field = roundDownTo125(12.5 / millimetres_), size = field * millimetres_;
         const double y = top + 17;
         for (int n = 0; n < 4; ++n)
             svg_ += fmt::format(

@@ -1,7 +1,7 @@
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/volume/dense.hpp>
 #include <svt/volume/sample_volume_test.hpp>
-#include <svt/writers/nrrd/nrrd_reader.hpp>
+#include <svt/writers/nrrd/nrrd_file_test.hpp>
 #include <svt/writers/nrrd_writer.hpp>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
-#include <svt/writers/nrrd/nrrd_reader.hpp>
+#include <svt/writers/nrrd/nrrd_file_test.hpp>
 
 #include <fmt/format.h>
 #include <zlib.h>
