@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <tuple>
 
 namespace svt::voxelize {
 namespace {
@@ -45,6 +47,142 @@ struct Crossing {
     std::int32_t i, k, winding;
 };
 
+// Samples [begin, end) along each axis.
+struct SampleRange {
+    Vec3i begin, end;
+    [[nodiscard]] bool isEmpty() const noexcept { return begin.x >= end.x || begin.y >= end.y || begin.z >= end.z; }
+};
+
+// The samples inside the bounding box of a mesh. From outside it the shell is seen within a half-space, so the winding
+// number stays below 1/2 there.
+SampleRange samplesAround(const IndexMesh& mesh, Vec3i dimension) {
+    QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
+    for (const QuantaPoint& point : mesh.points)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], point[axis]);
+            high[axis] = std::max(high[axis], point[axis]);
+        }
+    SampleRange range;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto sample = [&](std::int32_t quanta) {
+            return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(quanta)), 0,
+                                            dimension[int(axis)]);
+        };
+        range.begin[int(axis)] = sample(low[axis]);
+        range.end[int(axis)] = sample(high[axis]);
+    }
+    return range;
+}
+
+// What all rows of samples share.
+struct FillInput {
+    const volume::Grid& grid;
+    Vec3d origin;  // of local space
+    SampleRange range;
+    std::uint32_t claim;
+    OpenEdges openEdges;
+    std::vector<ScanTriangle> triangles;
+    double step;  // metres between samples of a column
+
+    FillInput(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& sampleGrid, SampleRange samples,
+              std::uint32_t claimNumber)
+        : grid(sampleGrid),
+          origin(meshes.origin),
+          range(samples),
+          claim(claimNumber),
+          step(std::max(1e-12, length(sampleGrid.worldFromIndexDirection({0, 0, 1})))) {
+        for (const mesh::OpenEdge& edge : mesh.mesh->openEdges) {
+            openEdges.edges.emplace_back(mesh.mesh->vertices[edge.from], mesh.mesh->vertices[edge.to]);
+            openEdges.totalLength += length(openEdges.edges.back().second - openEdges.edges.back().first);
+        }
+        for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
+            ScanTriangle scan;
+            if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
+                          mesh.points[triangle.corners[2]], kScanAxes[2], scan))
+                triangles.push_back(scan);
+        }
+    }
+};
+
+// Fills the columns of one row of samples, j. Belongs to one thread.
+class RowFill {
+public:
+    explicit RowFill(const FillInput& input) : in_(input) {}
+
+    // Adds the runs inside the shell to `boxes`.
+    // \return samples whose winding number is between 1/4 and 3/4
+    std::uint64_t fill(std::int32_t j, std::vector<ClaimedBox>& boxes) {
+        findCrossings(j);
+        std::uint64_t uncertain = 0;
+        auto column = crossings_.cbegin();
+        for (std::int32_t i = in_.range.begin.x; i < in_.range.end.x; ++i) {
+            while (column != crossings_.cend() && column->i < i) ++column;
+            const auto end = std::find_if(column, crossings_.cend(), [&](const Crossing& c) { return c.i != i; });
+            uncertain += fillColumn({i, j, 0}, {column, end}, boxes);
+            column = end;
+        }
+        return uncertain;
+    }
+
+private:
+    void findCrossings(std::int32_t j) {
+        crossings_.clear();
+        for (const ScanTriangle& t : in_.triangles)
+            scanRows(
+                t, j, j + 1, in_.range.begin.x, in_.range.end.x, [&](std::int32_t, std::int32_t from, std::int32_t to) {
+                    for (std::int32_t i = from; i < to; ++i)
+                        crossings_.push_back(
+                            {i, sampleAbove(t, t.height.base + t.height.slopeX * i + t.height.slopeY * j), -t.sign});
+                });
+        std::sort(crossings_.begin(), crossings_.end(),
+                  [](const Crossing& p, const Crossing& q) { return std::tie(p.i, p.k) < std::tie(q.i, q.k); });
+    }
+
+    // One column, whose crossings are `crossings`, from below.
+    std::uint64_t fillColumn(Vec3i at, std::span<const Crossing> crossings, std::vector<ClaimedBox>& boxes) const {
+        std::uint64_t uncertain = 0;
+        std::size_t c = 0;
+        int above = 0;  // signed crossings of the upward ray from the current sample
+        for (const Crossing& crossing : crossings) above += crossing.winding;
+        std::int32_t begin = -1;
+        const auto close = [&](std::int32_t end) {
+            if (begin >= 0) boxes.push_back({at.y, at.y + 1, at.x, at.x + 1, begin, end, in_.claim});
+            begin = -1;
+        };
+        for (std::int32_t k = in_.range.begin.z; k < in_.range.end.z;) {
+            for (; c < crossings.size() && crossings[c].k <= k; ++c) above -= crossings[c].winding;
+            const std::int32_t limit = c < crossings.size() ? std::max(crossings[c].k, k + 1) : in_.range.end.z;
+            const auto [winding, next] = windingAt({at.x, at.y, k}, above, std::min(limit, in_.range.end.z));
+            if (winding > 0.25 && winding < 0.75) uncertain += std::uint64_t(next - k);
+            if (winding >= 0.5 && begin < 0) begin = k;
+            if (!(winding >= 0.5)) close(k);
+            k = next;
+        }
+        close(in_.range.end.z);
+        return uncertain;
+    }
+
+    // The winding number at a sample, and the next sample of the column, at most `limit`, where it may be on the other
+    // side of 1/2: it cannot change faster than the open edges are long and near.
+    struct WindingStep {
+        double winding;
+        std::int32_t next;
+    };
+    [[nodiscard]] WindingStep windingAt(Vec3i sample, int above, std::int32_t limit) const {
+        constexpr double kShift = 1.0 / double(kQuanta);
+        const Vec3d index{sample.x + kShift, sample.y + kShift, sample.z + kShift};
+        double nearest = 0;
+        const double winding = above - in_.openEdges.windingBelow(in_.grid.worldFromIndex(index) - in_.origin, nearest);
+        const double reach = std::min(nearest / 2, std::abs(winding - 0.5) * kPi * nearest * nearest /
+                                                       std::max(in_.openEdges.totalLength, 1e-300));
+        const std::int32_t next = sample.z + 1 + static_cast<std::int32_t>(std::min(reach / in_.step, 1e6));
+        return {winding, std::min(next, limit)};
+    }
+
+    const FillInput& in_;
+    std::vector<Crossing> crossings_;  // of the row, by column and height
+};
+
 }  // namespace
 
 double windingNumber(const mesh::ObjectMesh& mesh, Vec3d point) noexcept {
@@ -58,86 +196,16 @@ double windingNumber(const mesh::ObjectMesh& mesh, Vec3d point) noexcept {
 
 std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& grid,
                              std::uint32_t claim, int threads, std::vector<ClaimedBox>& boxes) {
-    const Vec3i dimension = grid.dimension();
-    QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
-    for (const QuantaPoint& point : mesh.points)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], point[axis]);
-            high[axis] = std::max(high[axis], point[axis]);
-        }
-    // From outside the bounding box the shell is seen within a half-space: the winding number stays below 1/2.
-    const auto first = [&](std::size_t axis) {
-        return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(low[axis])), 0,
-                                        dimension[int(axis)]);
-    };
-    const auto end = [&](std::size_t axis) {
-        return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(high[axis])), 0,
-                                        dimension[int(axis)]);
-    };
-    const std::int32_t firstI = first(0), endI = end(0), firstJ = first(1), endJ = end(1), firstK = first(2),
-                       endK = end(2);
-    if (firstI >= endI || firstJ >= endJ || firstK >= endK) return 0;
-
-    OpenEdges openEdges;
-    for (const mesh::OpenEdge& edge : mesh.mesh->openEdges) {
-        openEdges.edges.emplace_back(mesh.mesh->vertices[edge.from], mesh.mesh->vertices[edge.to]);
-        openEdges.totalLength += length(openEdges.edges.back().second - openEdges.edges.back().first);
-    }
-    std::vector<ScanTriangle> triangles;
-    for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
-        ScanTriangle scan;
-        if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], kScanAxes[2], scan))
-            triangles.push_back(scan);
-    }
-
-    const std::size_t rows = std::size_t(endJ - firstJ);
+    const SampleRange range = samplesAround(mesh, grid.dimension());
+    if (range.isEmpty()) return 0;
+    const FillInput input(mesh, meshes, grid, range, claim);
+    const std::size_t rows = std::size_t(range.end.y - range.begin.y);
     std::vector<std::vector<ClaimedBox>> rowBoxes(rows);
     std::vector<std::uint64_t> rowUncertain(rows, 0);
-    const double step = std::max(1e-12, length(grid.worldFromIndexDirection({0, 0, 1})));
     parallelFor(rows, 1, threads, [&](std::size_t beginRow, std::size_t endRow) {
-        std::vector<Crossing> crossings;
-        for (std::size_t row = beginRow; row < endRow; ++row) {
-            const std::int32_t j = firstJ + static_cast<std::int32_t>(row);
-            crossings.clear();
-            for (const ScanTriangle& t : triangles)
-                scanRows(t, j, j + 1, firstI, endI, [&](std::int32_t, std::int32_t from, std::int32_t to) {
-                    for (std::int32_t i = from; i < to; ++i)
-                        crossings.push_back(
-                            {i, sampleAbove(t, t.height.base + t.height.slopeX * i + t.height.slopeY * j), -t.sign});
-                });
-            std::sort(crossings.begin(), crossings.end(),
-                      [](const Crossing& p, const Crossing& q) { return std::tie(p.i, p.k) < std::tie(q.i, q.k); });
-            std::size_t c = 0;
-            for (std::int32_t i = firstI; i < endI; ++i) {
-                while (c < crossings.size() && crossings[c].i < i) ++c;
-                std::size_t cEnd = c;
-                int above = 0;  // signed crossings of the upward ray from the current sample
-                for (; cEnd < crossings.size() && crossings[cEnd].i == i; ++cEnd) above += crossings[cEnd].winding;
-                std::int32_t begin = -1;
-                for (std::int32_t k = firstK; k < endK;) {
-                    for (; c < cEnd && crossings[c].k <= k; ++c) above -= crossings[c].winding;
-                    const Vec3d at{i + 1.0 / double(kQuanta), j + 1.0 / double(kQuanta), k + 1.0 / double(kQuanta)};
-                    double nearest = 0;
-                    const double w = above - openEdges.windingBelow(grid.worldFromIndex(at) - meshes.origin, nearest);
-                    const bool isInside = w >= 0.5;
-                    const double reach = std::min(nearest / 2, std::abs(w - 0.5) * kPi * nearest * nearest /
-                                                                   std::max(openEdges.totalLength, 1e-300));
-                    std::int32_t next = k + 1 + static_cast<std::int32_t>(std::min(reach / step, 1e6));
-                    next = std::min(next, c < cEnd ? std::max(crossings[c].k, k + 1) : endK);
-                    next = std::min(next, endK);
-                    if (w > 0.25 && w < 0.75) rowUncertain[row] += std::uint64_t(next - k);
-                    if (isInside && begin < 0) begin = k;
-                    if (!isInside && begin >= 0) {
-                        rowBoxes[row].push_back({j, j + 1, i, i + 1, begin, k, claim});
-                        begin = -1;
-                    }
-                    k = next;
-                }
-                if (begin >= 0) rowBoxes[row].push_back({j, j + 1, i, i + 1, begin, endK, claim});
-                c = cEnd;
-            }
-        }
+        RowFill fill(input);
+        for (std::size_t row = beginRow; row < endRow; ++row)
+            rowUncertain[row] = fill.fill(range.begin.y + static_cast<std::int32_t>(row), rowBoxes[row]);
     });
     std::uint64_t uncertain = 0;
     for (std::size_t row = 0; row < rows; ++row) {
