@@ -12,14 +12,16 @@
 #   make tidy     clang-tidy over all sources
 #   make fuzz     each fuzz target for a minute (SECONDS=600 for longer)
 #   make mutants  changes in the sources that tests do not notice (FOLDERS="volume voxelize", COUNT=30)
+#   make install  the command with manual and viewer, the libraries: PREFIX=/usr/local DESTDIR=
 #   make clean    removes build/
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: build demo install test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
+PREFIX ?= /usr/local
 
 setup:
 	@scripts/setup.sh
@@ -68,6 +70,11 @@ fuzz:
 mutants: setup
 	@scripts/build.sh release
 	@scripts/mutants.py $(FOLDERS) --count $(COUNT)
+
+install: setup
+	@scripts/build.sh release
+	@DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX) >build/release/install.log || { cat build/release/install.log >&2; exit 1; }
+	@echo "install: in $(DESTDIR)$(PREFIX)"
 
 clean:
 	@rm -rf build
