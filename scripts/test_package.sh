@@ -12,7 +12,7 @@ for file in bin/svt share/man/man1/svt.1 share/man/man1/svt-render.1 share/bash-
   [ -s "$work/usr/$file" ] || { echo "package: $file is not installed" >&2; exit 1; }
 done
 # The inside of a folder is no header of the package.
-inside=$(find "$work/usr/include/svt" -mindepth 3 -o -name '*_test.hpp')
+inside=$(find "$work/usr/include/svt" -mindepth 2 -type d; find "$work/usr/include/svt" -name '*_test.hpp')
 [ -z "$inside" ] || { echo "package: installed, but private: $inside" >&2; exit 1; }
 
 cmake -S examples/cpp -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/usr" >>"$work/log" 2>&1 &&
