@@ -44,8 +44,8 @@ std::string lowerAscii(std::string_view text) {
 }
 
 bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept {
-    return std::ranges::equal(
-        a, b, {}, [](char c) { return lowerAscii(c); }, [](char c) { return lowerAscii(c); });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](char x, char y) { return lowerAscii(x) == lowerAscii(y); });
 }
 
 }  // namespace svt

@@ -29,7 +29,11 @@ public:
         const std::span<const Run> added(runs_.data() + begin, runs_.size() - begin);
         bool isNew = false;
         const std::uint32_t number = index_.findOrAdd(
-            hash, [&](std::uint32_t known) { return std::ranges::equal(column(known), added); },
+            hash,
+            [&](std::uint32_t known) {
+                const std::span<const Run> other = column(known);
+                return std::equal(other.begin(), other.end(), added.begin(), added.end());
+            },
             [&] {
                 isNew = true;
                 return static_cast<std::uint32_t>(starts_.size() - 1);
