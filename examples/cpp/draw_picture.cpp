@@ -30,7 +30,9 @@ int main(int argc, char** argv) {
     scene.look = svt::illustrate::Look::Paper;
     scene.passes[0].hide = {"class=BuildingRoom"};
     scene.passes[0].cut = "y<4";  // metres from the lower corner
-    const auto painting = svt::illustrate::ScenePainter(*volume).paint(scene);
+    svt::render::CastOptions options;
+    options.isAdaptive = true;  // more rays only where pixels differ
+    const auto painting = svt::illustrate::ScenePainter(*volume).paint(scene, options);
     if (!painting) return fail(painting.error());
     const auto written = svt::image::writePng(argv[2], painting->frame.color);
     if (!written) return fail(written.error());
