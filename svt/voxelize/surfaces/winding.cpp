@@ -114,12 +114,13 @@ public:
     std::uint64_t fill(std::int32_t j, std::vector<ClaimedBox>& boxes) {
         findCrossings(j);
         std::uint64_t uncertain = 0;
-        auto column = crossings_.cbegin();
+        std::size_t begin = 0;
         for (std::int32_t i = in_.range.begin.x; i < in_.range.end.x; ++i) {
-            while (column != crossings_.cend() && column->i < i) ++column;
-            const auto end = std::find_if(column, crossings_.cend(), [&](const Crossing& c) { return c.i != i; });
-            uncertain += fillColumn({i, j, 0}, {column, end}, boxes);
-            column = end;
+            while (begin < crossings_.size() && crossings_[begin].i < i) ++begin;
+            std::size_t end = begin;
+            while (end < crossings_.size() && crossings_[end].i == i) ++end;
+            uncertain += fillColumn({i, j, 0}, std::span(crossings_).subspan(begin, end - begin), boxes);
+            begin = end;
         }
         return uncertain;
     }
