@@ -3,6 +3,7 @@
 #include <svt/core/check.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace svt::illustrate {
 namespace {
@@ -199,7 +200,8 @@ bool matches(std::string_view pattern, std::string_view pointer) noexcept {
 std::span<const Option> sceneMembers() noexcept { return kMembers; }
 
 const Option& sceneMember(std::string_view pointer) {
-    const auto found = std::ranges::find_if(kMembers, [&](const Option& m) { return matches(m.name, pointer); });
+    const auto found = std::find_if(std::begin(kMembers), std::end(kMembers),
+                                    [&](const Option& m) { return matches(m.name, pointer); });
     SVT_CHECK(found != std::end(kMembers));
     return *found;
 }
