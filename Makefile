@@ -72,7 +72,7 @@ mutants: setup
 	@scripts/mutants.py $(FOLDERS) --count $(COUNT)
 
 install: setup
-	@scripts/build.sh release
+	@scripts/build.sh release svt svt_manual
 	@DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX) >build/release/install.log || { cat build/release/install.log >&2; exit 1; }
 	@echo "install: in $(DESTDIR)$(PREFIX)"
 

@@ -12,7 +12,7 @@ export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 select=()
 # What starts threads: loops, readers, bricks and columns, the voxelizer, both casters, shells, contacts, the server.
-[ "$preset" = tsan ] && select=(-R '(Thread|Parallel|Deterministic|SameBytes|AnyNumber|Server|Hostile|Contacts|Shell|LodPyramid|BrickVolume|ColumnBlocks|Voxelize|PacketCaster|RayCaster)' -E '^(Picture|Viewer|WebModule|Documents)')
+[ "$preset" = tsan ] && select=(-R '(Thread|Parallel|Deterministic|SameBytes|AnyNumber|Server|Hostile|Contacts|Shell|LodPyramid|BrickVolume|ColumnBlocks|Voxelize|PacketCaster|RayCaster)' -E '^(Picture|Viewer|WebModule|Documents|Package)')
 # Pages and pictures are tested by the release build; drivers of OpenGL are no code of ours.
-[ "$preset" = asan ] && select=(-E '^(Viewer|WebModule|Gl)')
+[ "$preset" = asan ] && select=(-E '^(Viewer|WebModule|Gl|Package)')
 ctest --test-dir "build/$preset" -j "$(nproc)" --timeout 900 --output-on-failure --progress "${select[@]}"

@@ -2,7 +2,6 @@
 /// \file
 /// SVT_CHECK stops the program on a programming error and prints the values that it compared. Input never reaches one.
 
-#include <concepts>
 #include <string>
 #include <type_traits>
 

@@ -15,8 +15,6 @@ bool isIn(const std::array<string_view, N>& names, string_view name) noexcept {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool isSameWord(string_view a, string_view b) noexcept { return equalsIgnoringCase(a, b); }
-
 bool endsWith(string_view text, string_view tail) noexcept {
     return text.size() >= tail.size() && text.substr(text.size() - tail.size()) == tail;
 }
@@ -80,7 +78,7 @@ constexpr std::array<string_view, 14> kSurfaceOnly{"TINRelief",
 
 std::string canonicalClassName(string_view sourceName) {
     for (const auto& [alias, name] : kAliases)
-        if (isSameWord(alias, sourceName)) return std::string(name);
+        if (equalsIgnoringCase(alias, sourceName)) return std::string(name);
     return std::string(sourceName);
 }
 

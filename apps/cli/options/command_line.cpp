@@ -55,7 +55,7 @@ CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::str
         if (!option.mayRepeat) added->expected(1)->allow_extra_args(false);
     } else {
         added->expected(1)->multi_option_policy(option.mayRepeat ? CLI::MultiOptionPolicy::TakeAll
-                                                                 : CLI::MultiOptionPolicy::TakeLast);
+                                                                 : CLI::MultiOptionPolicy::Throw);
     }
     return added->check(CLI::Validator([option](std::string& text) { return faultOfValues(option, text); }, ""));
 }

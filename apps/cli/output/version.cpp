@@ -22,7 +22,7 @@ std::string versionText() {
 #ifdef __EMSCRIPTEN__
     constexpr std::string_view kOpenGl = "none";
 #else
-    constexpr std::string_view kOpenGl = "OpenGL ES 3.0 by EGL, loaded where --gl asks for it";
+    constexpr std::string_view kOpenGl = "OpenGL ES 3.0 by EGL";
 #endif
     return fmt::format("svt {}\ncommit    {}\ncompiler  {}, {}\nSIMD      {}\nOpenGL    {}", SVT_VERSION, SVT_COMMIT,
                        compiler, SVT_BUILD_TYPE, simdTargetName(), kOpenGl);

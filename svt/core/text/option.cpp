@@ -44,6 +44,9 @@ std::string faultOf(const Option& option, std::string_view text) {
         return fmt::format("'{}' is no number", text);
     if (option.kind == OptionKind::Whole && number != std::floor(number))
         return fmt::format("'{}' is no whole number", text);
+    // Beyond 2^53 a double no longer tells neighbours apart.
+    if (option.kind == OptionKind::Whole && std::abs(number) > 9007199254740992.0)
+        return fmt::format("{} is out of range; it has too many digits", text);
     if (number < option.least || number > option.most)
         return fmt::format("{} is out of range; possible is {}", text, rangeText(option));
     return {};

@@ -26,6 +26,9 @@ TEST(Option, ValuesAreHeldAgainstKindRangeAndChoices) {
     EXPECT_EQ(faultOf(level, "7"), "");
     EXPECT_EQ(faultOf(level, "1.5"), "'1.5' is no whole number");
     EXPECT_EQ(faultOf(level, "-1"), "-1 is out of range; possible is at least 0");
+    const Option seed{.name = "--seed", .kind = OptionKind::Whole, .least = 0, .help = ""};
+    EXPECT_EQ(faultOf(seed, "9007199254740992"), "");
+    for (const char* bad : {"18446744073709551615", "1e300", "-1"}) EXPECT_NE(faultOf(seed, bad), "") << bad;
     const Option sheets{.name = "--sheets", .choices = "thin|conservative", .help = ""};
     EXPECT_EQ(faultOf(sheets, "thin"), "");
     EXPECT_EQ(faultOf(sheets, "thick"), "'thick' is not possible; possible are thin, conservative");

@@ -1,6 +1,7 @@
 #include <svt/illustrate/scene_members.hpp>
 
 #include <svt/core/check.hpp>
+#include <svt/render/frame_spec.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -21,7 +22,7 @@ constexpr Option kMembers[] = {
      .kind = Whole,
      .unit = "pixels",
      .least = 1,
-     .most = 16384,
+     .most = render::FrameSpec::kMaxSize,
      .byDefault = "1280,720",
      .help = "width and height",
      .count = 2,
@@ -29,7 +30,7 @@ constexpr Option kMembers[] = {
     {.name = "/samples",
      .kind = Whole,
      .least = 1,
-     .most = 16,
+     .most = double(render::BorderLines::kMaxWidth),
      .choices = "1|4|9|16",
      .byDefault = "4",
      .help = "rays per pixel"},
@@ -87,14 +88,14 @@ constexpr Option kMembers[] = {
      .kind = Number,
      .unit = "pixels",
      .least = 0,
-     .most = 16,
+     .most = double(render::BorderLines::kMaxWidth),
      .otherwise = "by look",
      .help = "width of lines between objects"},
     {.name = "/lines/cutWidth",
      .kind = Number,
      .unit = "pixels",
      .least = 0,
-     .most = 16,
+     .most = double(render::BorderLines::kMaxWidth),
      .otherwise = "by look",
      .help = "width of lines around what is cut"},
     {.name = "/lines/color", .value = "COLOR", .otherwise = "by look", .help = kColor},
@@ -120,7 +121,11 @@ constexpr Option kMembers[] = {
      .value = "QUERY",
      .help = "name the selected at the sides of the picture, with leader lines",
      .mayRepeat = true},
-    {.name = "/passes", .kind = List, .least = 1, .most = 64, .help = "drawn one after the other"},
+    {.name = "/passes",
+     .kind = List,
+     .least = 1,
+     .most = double(render::FrameSpec::kMaxPasses),
+     .help = "drawn one after the other"},
     {.name = "/passes/*/show", .value = "QUERY", .help = "show only what the query selects", .mayRepeat = true},
     {.name = "/passes/*/hide", .value = "QUERY", .help = "hide what the query selects", .mayRepeat = true},
     {.name = "/passes/*/styles", .kind = List, .help = "what is given overrides the styles before it"},

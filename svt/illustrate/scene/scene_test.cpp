@@ -337,6 +337,19 @@ TEST(SceneMembers, EveryChoiceIsRead) {
         }
 }
 
+TEST(SceneMembers, ChoicesAreAllThatThereAre) {
+    const auto expectSame = [](std::string_view member, std::vector<std::string> names) {
+        std::vector<std::string> choices;
+        for (const std::string_view choice : splitChoices(sceneMember(member).choices)) choices.emplace_back(choice);
+        std::ranges::sort(choices);
+        std::ranges::sort(names);
+        EXPECT_EQ(choices, names) << member;
+    };
+    const auto texts = [](const auto& names) { return std::vector<std::string>(names.begin(), names.end()); };
+    expectSame("/camera/preset", texts(render::cameraPresetNames()));
+    expectSame("/passes/*/styles/*/hatch", texts(render::hatchNames()));
+}
+
 TEST(SceneMembers, LimitsAreHeldToTheirEnds) {
     for (const Option& member : sceneMembers()) {
         const bool isNumber = member.kind == OptionKind::Number || member.kind == OptionKind::Whole;

@@ -67,20 +67,20 @@ bool attributeHolds(const Node& node, const AttributeValue& attribute) {
     if (parses(text, leftInteger) && parses(node.value, rightInteger)) return holds(node.op, leftInteger, rightInteger);
     double left = 0, right = 0;
     if (parses(text, left) && parses(node.value, right)) return holds(node.op, left, right);
-    if (std::holds_alternative<bool>(attribute) && query::isSameWord(text, node.value)) return holds(node.op, 0, 0);
+    if (std::holds_alternative<bool>(attribute) && equalsIgnoringCase(text, node.value)) return holds(node.op, 0, 0);
     return holds(node.op, text, std::string_view(node.value));
 }
 
 bool anyAttributeHolds(const Node& node, const QueryRow& row) {
     return std::any_of(row.attributes.begin(), row.attributes.end(), [&](const Attribute& attribute) {
-        return query::isSameWord(attribute.name, node.name) && attributeHolds(node, attribute.value);
+        return equalsIgnoringCase(attribute.name, node.name) && attributeHolds(node, attribute.value);
     });
 }
 
 bool classHolds(const Node& node, const QueryRow& row) {
     const std::string name = canonicalClassName(row.className);
     if (node.pattern) return isFound(node, name);
-    return query::isSameWord(name, node.value) == (node.op == Op::Equal);
+    return equalsIgnoringCase(name, node.value) == (node.op == Op::Equal);
 }
 
 /// Descendants of each row: by the tree and by group membership.
@@ -196,8 +196,6 @@ Mask evaluate(const Node& node, Rows rows) {
 
 namespace query {
 
-bool isSameWord(std::string_view a, std::string_view b) noexcept { return equalsIgnoringCase(a, b); }
-
 bool containsWord(std::string_view text, std::string_view word) noexcept {
     return std::search(text.begin(), text.end(), word.begin(), word.end(),
                        [](char x, char y) { return lowerAscii(x) == lowerAscii(y); }) != text.end();
@@ -208,8 +206,8 @@ bool isStorey(const QueryRow& row) {
     if (className == "Storey") return true;
     if (className != "CityObjectGroup") return false;
     return std::any_of(row.attributes.begin(), row.attributes.end(), [](const Attribute& attribute) {
-        const bool says = isSameWord(attribute.name, "function") || isSameWord(attribute.name, "class") ||
-                          isSameWord(attribute.name, "usage");
+        const bool says = equalsIgnoringCase(attribute.name, "function") ||
+                          equalsIgnoringCase(attribute.name, "class") || equalsIgnoringCase(attribute.name, "usage");
         const auto* text = std::get_if<std::string>(&attribute.value);
         return says && text != nullptr &&
                (containsWord(*text, "storey") || containsWord(*text, "geschoss") ||

@@ -32,8 +32,6 @@ using Node = Query::Node;
 /// Parses a query; errors as Query::parse().
 [[nodiscard]] Result<Node> parse(std::string_view text);
 
-/// Compares ignoring the case of ASCII letters.
-[[nodiscard]] bool isSameWord(std::string_view a, std::string_view b) noexcept;
 [[nodiscard]] bool containsWord(std::string_view text, std::string_view word) noexcept;
 
 }  // namespace query

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/model/query/query_node.hpp>
 
@@ -99,7 +100,7 @@ private:
     }
 
     [[nodiscard]] bool isKeyword(std::string_view word) const noexcept {
-        return token_.type == Token::Type::Word && isSameWord(token_.text, word);
+        return token_.type == Token::Type::Word && equalsIgnoringCase(token_.text, word);
     }
     bool takeKeyword(std::string_view word) {
         if (!isKeyword(word)) return false;
@@ -239,7 +240,7 @@ private:
                                                                          {"volume", Key::Volume},
                                                                          {"voxels", Key::Voxels}}};
         for (const auto& [name, key] : kKeys)
-            if (isSameWord(name, word)) return key;
+            if (equalsIgnoringCase(name, word)) return key;
         return Key::Attribute;
     }
 

@@ -1,4 +1,5 @@
 #include <svt/core/edit_distance.hpp>
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/model/query.hpp>
 #include <svt/model/query/query_node.hpp>
@@ -54,7 +55,7 @@ std::string unknownClass(const Node& node, Rows rows) {
     for (const QueryRow& row : rows) owned.insert(canonicalClassName(row.className));
     Names names(owned.begin(), owned.end());
     for (const std::string_view name : names)
-        if (query::isSameWord(name, node.value)) return {};
+        if (equalsIgnoringCase(name, node.value)) return {};
     return describe("class", node.value, names, "classes");
 }
 
@@ -78,7 +79,7 @@ std::string unknownAttribute(const Node& node, Rows rows) {
     for (const QueryRow& row : rows)
         for (const Attribute& attribute : row.attributes) {
             names.insert(attribute.name);
-            if (!query::isSameWord(attribute.name, node.name)) continue;
+            if (!equalsIgnoringCase(attribute.name, node.name)) continue;
             const auto* text = std::get_if<std::string>(&attribute.value);
             if (text != nullptr) values.insert(*text);
             hasNumbers = hasNumbers || text == nullptr;
