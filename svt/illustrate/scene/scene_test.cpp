@@ -1,5 +1,6 @@
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/render/camera_presets.hpp>
 
 #include <gtest/gtest.h>
 
