@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks who includes whom. svt/layers.txt is the table; the rules that hold everywhere are below.
 
-  1  A folder includes only what the table gives it, and the table goes one way.
+  1  A folder includes only what the table gives it; the table goes one way and gives nothing that is not used.
   2  What stands at the top of a folder is public. A sub-folder is its inside: nobody else includes it.
   3  Within a folder, its top and its sub-folders include each other one way. In svt/ the sub-folders include the top and
      the top never them, so no public header leaks the inside; in an application the top includes the sub-folders.
@@ -66,6 +66,7 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
     folders = set(allowed) | {"tests"}
     files = sorted(path for part in PARTS for path in (root / part).rglob("*.[ch]pp"))
     rooms = collections.defaultdict(lambda: collections.defaultdict(str))  # folder -> (room, room) -> a place
+    used, used_by_tests = collections.defaultdict(set), collections.defaultdict(set)
     for path in files:
         name = str(path.relative_to(root))
         folder = folder_of(name, folders)
@@ -85,6 +86,7 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
             target = folder_of(other, folders) if other.startswith(("svt/", "apps/", "web/", "bench/", "tests/")) else None
             if target is not None:
                 inner = room_of(other, target)
+                (used_by_tests if is_test else used)[folder].add(target)
                 if target not in may:
                     problems.append(f"{place}: {folder} may not include {target} ({other})")
                 elif inner and target != folder and target not in insides.get("/".join(name.split("/")[:2]), ()):
@@ -106,6 +108,9 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
         expected = {"", "test"} if folder == "core" else {folder, "test"}
         if name.startswith("svt/") and named and not set(named) <= expected:
             problems.append(f"{name}: namespace svt::{(set(named) - expected).pop()} in the folder {folder}")
+    for given, uses, what in ((allowed, used, ""), (in_tests, used_by_tests, "test ")):
+        for folder, below in sorted(given.items()):
+            problems += [f"layers.txt: {what}{folder} does not include {other}" for other in sorted(below - uses[folder])]
     for folder, pairs in sorted(rooms.items()):
         problems += cycles(folder, pairs)
     for directory in sorted({path.parent for path in files}):

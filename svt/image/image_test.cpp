@@ -56,6 +56,10 @@ TEST(Png, DamagedBytesAreBadImages) {
 }
 
 TEST(Png, PicturesOverTheLimitAreRefused) {
+    const auto wide = *encodePng(noise(50, 3, 5));
+    EXPECT_TRUE(decodePng(wide, 50).hasValue());
+    EXPECT_NE(decodePng(wide, 49).error().message().find("50 x 3 pixels are over the limit of 49 x 49"),
+              std::string::npos);
     EXPECT_EQ(encodePng(Image<Rgba8>()).error().code(), Code::BadImage);
     EXPECT_TRUE(encodePng(Image<std::uint16_t>(kMaxPngSize, 1)).hasValue());
     EXPECT_EQ(encodePng(Image<std::uint16_t>(kMaxPngSize + 1, 1)).error().code(), Code::BadImage);

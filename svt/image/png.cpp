@@ -98,14 +98,20 @@ Result<std::vector<std::byte>> encode(const Pixels& pixels) {
 // The pixel format that a reader wants, and its images, allocated once the size is known.
 struct Target {
     bool wantsGray16;
-    Image<Rgba8> color;
-    Image<std::uint16_t> gray;
-    std::vector<png_bytep> rows;
+    std::int32_t maxSize = kMaxPngSize;
+    Image<Rgba8> color{};
+    Image<std::uint16_t> gray{};
+    std::vector<png_bytep> rows{};
 };
 
-// Allocates the target's image; false if memory runs out.
-bool allocate(Target& target, png_uint_32 width, png_uint_32 height) {
+// Allocates the target's image; if that is impossible, the stream's message says why.
+bool allocate(Stream& stream, Target& target, png_uint_32 width, png_uint_32 height) {
     try {
+        stream.message = fmt::format("{} x {} pixels are over the limit of {} x {}", width, height, target.maxSize,
+                                     target.maxSize);
+        const auto limit = static_cast<png_uint_32>(target.maxSize);
+        if (width > limit || height > limit) return false;
+        stream.message = "out of memory";
         const auto w = static_cast<std::int32_t>(width), h = static_cast<std::int32_t>(height);
         if (target.wantsGray16)
             target.gray = Image<std::uint16_t>(w, h);
@@ -128,7 +134,7 @@ bool read(Stream& stream, Target& target) {
         return false;
     }
     png_set_read_fn(png, &stream, onRead);
-    png_set_user_limits(png, kMaxPngSize, kMaxPngSize);
+    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // allocate() has the limit
     png_set_chunk_malloc_max(png, 16u << 20);
     png_read_info(png, info);
     const bool isGray16 = png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png, info) == 16;
@@ -140,11 +146,12 @@ bool read(Stream& stream, Target& target) {
         png_set_strip_16(png);
         png_set_gray_to_rgb(png);
         png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
+        png_set_alpha_mode(png, PNG_ALPHA_PNG, PNG_DEFAULT_sRGB);
     }
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
-    if (!allocate(target, png_get_image_width(png, info), png_get_image_height(png, info)))
-        png_error(png, "out of memory");
+    if (!allocate(stream, target, png_get_image_width(png, info), png_get_image_height(png, info)))
+        png_longjmp(png, 1);
     png_read_image(png, target.rows.data());
     png_read_end(png, nullptr);
     png_destroy_read_struct(&png, &info, nullptr);
@@ -196,20 +203,20 @@ Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16
     return writeBytes(path, encodePng(image));
 }
 
-Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes) {
-    Target target{false, {}, {}, {}};
+Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes, std::int32_t maxSize) {
+    Target target{false, maxSize};
     if (auto decoded = decode(bytes, target); !decoded) return decoded.error();
     return std::move(target.color);
 }
 
-Result<Image<Rgba8>> readPng(const std::filesystem::path& path) {
-    Target target{false, {}, {}, {}};
+Result<Image<Rgba8>> readPng(const std::filesystem::path& path, std::int32_t maxSize) {
+    Target target{false, maxSize};
     if (auto done = readFile(path, target); !done) return done.error();
     return std::move(target.color);
 }
 
 Result<Image<std::uint16_t>> readGrayPng(const std::filesystem::path& path) {
-    Target target{true, {}, {}, {}};
+    Target target{true};
     if (auto done = readFile(path, target); !done) return done.error();
     return std::move(target.gray);
 }

@@ -13,6 +13,8 @@
 
 namespace svt::image {
 
+inline constexpr std::int32_t kMaxPngSize = 16384;  ///< pixels along an axis
+
 /// Encodes an image as RGBA with 8 bits per channel, sRGB.
 /// \param dpi  pixels per inch, for print; 0: not stored
 /// \return the file's bytes, or BadImage if the image is empty, or wider or higher than kMaxPngSize
@@ -25,15 +27,14 @@ namespace svt::image {
 Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image, int dpi = 0);
 Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16_t>& image);
 
-/// Decodes a PNG of any kind to RGBA with 8 bits per channel; 16 bits are truncated to the upper 8, gray is expanded to
-/// three equal channels.
-/// \return the image, or BadImage if the bytes are not a PNG, are damaged, or the image is larger than kMaxPngSize
-[[nodiscard]] Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes);
+/// Decodes a PNG of any kind to RGBA with 8 bits per channel, sRGB: another gamma that the file names is converted, 16
+/// bits are truncated to the upper 8, gray is expanded to three equal channels.
+/// \param maxSize  pixels along an axis; a larger image is refused before memory is taken for it
+/// \return the image, or BadImage if the bytes are not a PNG, are damaged, or the image is larger than `maxSize`
+[[nodiscard]] Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes, std::int32_t maxSize = kMaxPngSize);
 /// The same for a file; CannotOpen if it is missing or unreadable.
-[[nodiscard]] Result<Image<Rgba8>> readPng(const std::filesystem::path& path);
+[[nodiscard]] Result<Image<Rgba8>> readPng(const std::filesystem::path& path, std::int32_t maxSize = kMaxPngSize);
 /// Reads a PNG with 16 bits gray; BadImage for any other kind.
 [[nodiscard]] Result<Image<std::uint16_t>> readGrayPng(const std::filesystem::path& path);
-
-inline constexpr std::int32_t kMaxPngSize = 16384;  ///< pixels along an axis
 
 }  // namespace svt::image

@@ -16,10 +16,12 @@ RIGHT = {
     "svt/volume/grid.hpp": "#pragma once\n#include <svt/core/vec.hpp>\nnamespace svt::volume {}\n",
     "svt/volume/bricks/coder.hpp": "#pragma once\n#include <svt/volume/grid.hpp>\n",
     "svt/volume/file/zip.cpp": "#include <svt/volume/bricks/coder.hpp>\n",
-    "svt/render/caster.hpp": "#pragma once\n#include <svt/volume/grid.hpp>\n",
+    "svt/render/caster.hpp": "#pragma once\n#include <svt/core/vec.hpp>\n#include <svt/volume/grid.hpp>\n",
     "svt/core/file/file.cpp": "#include <unistd.h>\n",
     "apps/cli/main.cpp": "#include <apps/cli/commands/build.hpp>\n",
     "apps/cli/commands/build.hpp": "#pragma once\n#include <svt/render/caster.hpp>\n",
+    "apps/cli/commands/build.cpp": "#include <svt/core/vec.hpp>\n#include <svt/volume/grid.hpp>\n",
+    "tests/cli/volume_test.cpp": "#include <svt/volume/grid.hpp>\n",
     "tests/fuzz/zip_fuzz.cpp": "#include <svt/volume/bricks/coder.hpp>\n",
 }
 
@@ -45,6 +47,11 @@ class CheckLayers(unittest.TestCase):
 
     def test_a_folder_above_is_refused(self):
         self.refused("svt/volume/bad.cpp", "#include <svt/render/caster.hpp>\n", "volume may not include render")
+
+    def test_what_the_table_gives_is_used(self):
+        self.refused("apps/cli/commands/build.cpp", "#include <svt/volume/grid.hpp>\n", "apps/cli does not include core")
+        self.assertEqual(self.problems({"tests/cli/volume_test.cpp": "", "tests/fuzz/zip_fuzz.cpp": ""}),
+                         ["layers.txt: test tests does not include volume"])
 
     def test_the_inside_of_another_folder_is_refused(self):
         self.refused("svt/render/bad.cpp", "#include <svt/volume/bricks/coder.hpp>\n", "is the inside of volume")

@@ -1,12 +1,11 @@
 #include <svt/core/file.hpp>
+#include <svt/image/png.hpp>
 #include <svt/voxelize/patterns.hpp>
 
 #include <fmt/format.h>
-#include <png.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <numeric>
 
 namespace svt::voxelize {
@@ -90,31 +89,19 @@ Result<std::shared_ptr<const PatternTexels>> readPatternImage(const std::filesys
     if (maxColors < 2 || maxColors > static_cast<int>(kMaxPhases))
         return Error(Code::BadArgument,
                      fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMaxPhases));
-    const auto mapped = MappedFile::open(file);
-    if (!mapped) return mapped.error();
-    png_image image;
-    std::memset(&image, 0, sizeof image);
-    image.version = PNG_IMAGE_VERSION;
-    if (png_image_begin_read_from_memory(&image, mapped->bytes().data(), mapped->bytes().size()) == 0)
-        return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
-    if (image.width > kLargestImage || image.height > kLargestImage) {
-        const std::string size = fmt::format("{} x {} pixels are over the limit of {} x {}", image.width, image.height,
-                                             kLargestImage, kLargestImage);
-        png_image_free(&image);
-        return badImage(file, size);
-    }
-    image.format = PNG_FORMAT_RGB;
-    std::vector<std::uint8_t> bytes(PNG_IMAGE_SIZE(image));
-    if (png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) == 0)
-        return badImage(file, fmt::format("not a PNG that can be read: {}", image.message));
+    const auto image = image::readPng(file, kLargestImage);
+    if (!image) return image.error();
     auto texels = std::make_shared<PatternTexels>();
-    texels->dimension = {static_cast<std::int32_t>(image.width), static_cast<std::int32_t>(image.height), 1};
+    texels->dimension = {image->width(), image->height(), 1};
+    std::vector<Pixel> colors;
+    colors.reserve(image->pixels().size());
     // PNG rows run top down, texels bottom up.
-    std::vector<Pixel> colors(std::size_t(image.width) * image.height);
-    for (std::size_t y = 0; y < image.height; ++y)
-        for (std::size_t x = 0; x < image.width; ++x) {
-            const std::size_t from = 3 * (x + image.width * (image.height - 1 - y));
-            colors[x + image.width * y] = {bytes[from], bytes[from + 1], bytes[from + 2]};
+    for (std::int32_t y = image->height() - 1; y >= 0; --y)
+        for (std::int32_t x = 0; x < image->width(); ++x) {
+            const image::Rgba8 pixel = image->at(x, y);
+            // What is transparent lets black through.
+            const auto over = [&](std::uint8_t channel) { return static_cast<std::uint8_t>(channel * pixel.a / 255); };
+            colors.push_back({over(pixel.r), over(pixel.g), over(pixel.b)});
         }
     medianCut(colors, static_cast<std::size_t>(maxColors), *texels);
     return std::shared_ptr<const PatternTexels>(std::move(texels));

@@ -1,12 +1,11 @@
 #include <svt/core/temporary_folder_test.hpp>
+#include <svt/image/png.hpp>
 #include <svt/voxelize/patterns.hpp>
 #include <svt/voxelize/solids_test.hpp>
 #include <svt/voxelize/voxelize.hpp>
 
 #include <gtest/gtest.h>
-#include <png.h>
 
-#include <cstring>
 #include <random>
 
 namespace svt::voxelize {
@@ -285,13 +284,10 @@ TEST(LayPatterns, OnePhaseChangesNothing) {
 // Writes an RGB picture, rows from the top.
 void writePng(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
               const std::vector<std::uint8_t>& rgb) {
-    png_image image;
-    std::memset(&image, 0, sizeof image);
-    image.version = PNG_IMAGE_VERSION;
-    image.width = width;
-    image.height = height;
-    image.format = PNG_FORMAT_RGB;
-    ASSERT_NE(png_image_write_to_file(&image, path.c_str(), 0, rgb.data(), 0, nullptr), 0);
+    image::Image<image::Rgba8> image(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height));
+    for (std::size_t i = 0; i < image.pixels().size(); ++i)
+        image.pixels()[i] = {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2], 255};
+    ASSERT_TRUE(image::writePng(path, image));
 }
 
 TEST(ReadPatternImage, ColoursArePhasesAndRowsRunBottomUp) {
