@@ -107,8 +107,8 @@ struct Target {
 // Allocates the target's image; if that is impossible, the stream's message says why.
 bool allocate(Stream& stream, Target& target, png_uint_32 width, png_uint_32 height) {
     try {
-        stream.message = fmt::format("{} x {} pixels are over the limit of {} x {}", width, height, target.maxSize,
-                                     target.maxSize);
+        stream.message =
+            fmt::format("{} x {} pixels are over the limit of {} x {}", width, height, target.maxSize, target.maxSize);
         const auto limit = static_cast<png_uint_32>(target.maxSize);
         if (width > limit || height > limit) return false;
         stream.message = "out of memory";
@@ -150,8 +150,7 @@ bool read(Stream& stream, Target& target) {
     }
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
-    if (!allocate(stream, target, png_get_image_width(png, info), png_get_image_height(png, info)))
-        png_longjmp(png, 1);
+    if (!allocate(stream, target, png_get_image_width(png, info), png_get_image_height(png, info))) png_longjmp(png, 1);
     png_read_image(png, target.rows.data());
     png_read_end(png, nullptr);
     png_destroy_read_struct(&png, &info, nullptr);
