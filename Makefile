@@ -13,11 +13,13 @@
 #   make fuzz     each fuzz target for a minute (SECONDS=600 for longer)
 #   make mutants  changes in the sources that tests do not notice (FOLDERS="volume voxelize", COUNT=30)
 #   make install  the command with manual and viewer, the libraries: PREFIX=/usr/local DESTDIR=
+#   make package  .deb files for Debian 12: build/package
+#   make npm      the command as WebAssembly for Node.js, an npm package: build/npm
 #   make clean    removes build/
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo install test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: build demo install package npm test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
@@ -75,6 +77,13 @@ install: setup
 	@scripts/build.sh release svt svt_manual
 	@DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX) >build/release/install.log || { cat build/release/install.log >&2; exit 1; }
 	@echo "install: in $(DESTDIR)$(PREFIX)"
+
+package: build viewer
+	@scripts/package.sh
+
+npm: build viewer
+	@scripts/build.sh web svt_node
+	@scripts/npm.sh
 
 clean:
 	@rm -rf build

@@ -7,9 +7,9 @@ install(TARGETS svt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT comman
 
 # Manual pages and completions, printed by the command itself.
 set(manual ${CMAKE_BINARY_DIR}/manual)
-add_custom_command(OUTPUT ${manual}/man1/svt.1 DEPENDS svt ${PROJECT_SOURCE_DIR}/cmake/Manual.cmake
+add_custom_command(OUTPUT ${manual}/man1/svt.1.gz DEPENDS svt ${PROJECT_SOURCE_DIR}/cmake/Manual.cmake
   COMMAND ${CMAKE_COMMAND} -DSVT=$<TARGET_FILE:svt> -DOUTPUT=${manual} -P ${PROJECT_SOURCE_DIR}/cmake/Manual.cmake)
-add_custom_target(svt_manual ALL DEPENDS ${manual}/man1/svt.1)
+add_custom_target(svt_manual ALL DEPENDS ${manual}/man1/svt.1.gz)
 install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT command)
 install(FILES ${manual}/svt.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME svt COMPONENT command)
 install(FILES ${manual}/_svt DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT command)

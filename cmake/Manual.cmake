@@ -1,4 +1,4 @@
-# Writes the manual pages and completions that the command prints.
+# Writes the manual pages, compressed, and the completions that the command prints.
 #   cmake -DSVT=<command> -DOUTPUT=<folder> -P cmake/Manual.cmake
 function(describe file)
   execute_process(COMMAND ${SVT} describe ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
@@ -16,3 +16,5 @@ foreach(n RANGE ${last})
   string(JSON name GET "${described}" commands ${n} name)
   describe(man1/svt-${name}.1 man ${name})
 endforeach()
+file(GLOB pages ${OUTPUT}/man1/*.1)
+execute_process(COMMAND gzip -9nf ${pages} COMMAND_ERROR_IS_FATAL ANY)

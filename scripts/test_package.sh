@@ -8,7 +8,7 @@ build=${1:-build/release}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/usr" >"$work/log"
-for file in bin/svt share/man/man1/svt.1 share/man/man1/svt-render.1 share/bash-completion/completions/svt include/svt/render/ray_caster.hpp; do
+for file in bin/svt share/man/man1/svt.1.gz share/man/man1/svt-render.1.gz share/bash-completion/completions/svt include/svt/render/ray_caster.hpp; do
   [ -s "$work/usr/$file" ] || { echo "package: $file is not installed" >&2; exit 1; }
 done
 # The inside of a folder is no header of the package.

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 sources=$PWD/build/web-sources
 # package=folder of its sources
 packages=(libzstd=zstd pugixml=pugixml simdjson=simdjson highway=highway freetype=freetype libglu=glu zlib=zlib libpng1.6=libpng)
-headers=(fmt nlohmann fast_float)  # Debian's header-only packages, which work for every target
+headers=(fmt nlohmann fast_float CLI)  # Debian's header-only packages, which work for every target
 
 missing=()
 for pair in "${packages[@]}"; do [ -e "$sources/${pair#*=}/.complete" ] || missing+=("$pair"); done

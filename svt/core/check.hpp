@@ -69,10 +69,10 @@ struct Left {
     }
 };
 
-/// `Begin() << a == b` is read as `(Begin() << a) == b`, since << binds more tightly than any comparison.
+/// `Begin() <=> a == b` is read as `(Begin() <=> a) == b`, since <=> binds more tightly than any other comparison.
 struct Begin {
     template <class A>
-    Left<A> operator<<(const A& a) const {
+    Left<A> operator<=>(const A& a) const {
         return {a};
     }
 };
@@ -93,4 +93,4 @@ void verify(const Left<A>& left, const char* condition, const char* file, int li
 }  // namespace svt
 
 /// Stops unless the condition holds: `SVT_CHECK(count == expected)`. Values joined by && are not printed.
-#define SVT_CHECK(...) ::svt::check::verify(::svt::check::Begin() << __VA_ARGS__, #__VA_ARGS__, __FILE__, __LINE__)
+#define SVT_CHECK(...) ::svt::check::verify(::svt::check::Begin() <=> __VA_ARGS__, #__VA_ARGS__, __FILE__, __LINE__)

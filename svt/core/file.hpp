@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -104,5 +105,23 @@ private:
 
 /// The file of the running program; empty where the system does not tell.
 [[nodiscard]] std::filesystem::path executablePath();
+
+/// A path as a user writes it on this system: on Windows, where the program runs under Node.js, '\' separates folders
+/// as '/' does.
+[[nodiscard]] std::filesystem::path userPath(std::string text);
+
+/// A temporary folder that only this user can read, removed with its contents by the destructor.
+class PrivateFolder {
+public:
+    PrivateFolder();
+    PrivateFolder(PrivateFolder&& other) noexcept;
+    PrivateFolder& operator=(PrivateFolder&&) = delete;
+    ~PrivateFolder();
+    /// Empty if the folder could not be created.
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
 
 }  // namespace svt

@@ -106,17 +106,4 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
     return result;
 }
 
-PrivateFolder::PrivateFolder() {
-    std::error_code error;
-    std::string pattern = (std::filesystem::temp_directory_path(error) / "svt-XXXXXX").string();
-    if (!error && ::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-}
-
-PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-
-PrivateFolder::~PrivateFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-}
-
 }  // namespace svt::serve

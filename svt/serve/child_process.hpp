@@ -29,18 +29,4 @@ struct ChildResult {
 [[nodiscard]] ChildResult runChild(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                                    const ChildLimits& limits, const Progress& stop);
 
-/// A temporary folder that only this user can read, removed with its contents by the destructor.
-class PrivateFolder {
-public:
-    PrivateFolder();
-    PrivateFolder(PrivateFolder&& other) noexcept;
-    PrivateFolder& operator=(PrivateFolder&&) = delete;
-    ~PrivateFolder();
-    /// Empty if the folder could not be created.
-    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 }  // namespace svt::serve

@@ -68,6 +68,10 @@ auto find(Range&& range, const Value& value, Projection projection = {}) {
                         [&](const auto& item) { return invoke(projection, item) == value; });
 }
 template <class Range, class Predicate>
+auto find_if(Range&& range, Predicate predicate) {
+    return std::find_if(std::begin(range), std::end(range), predicate);
+}
+template <class Range, class Predicate>
 bool any_of(Range&& range, Predicate predicate) {
     return std::any_of(std::begin(range), std::end(range), predicate);
 }

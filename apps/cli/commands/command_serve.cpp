@@ -2,9 +2,9 @@
 #include <apps/cli/options/site_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
-#include <svt/core/text.hpp>
 
-#include <svt/serve/child_process.hpp>
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 #include <svt/serve/convert_call.hpp>
 #include <svt/serve/host.hpp>
 
@@ -39,7 +39,7 @@ std::string addressOf(const std::string& host, int port) {
     return fmt::format("http://{}:{}/", name, port);
 }
 
-serve::ServerOptions serverOptions(const Arguments& arguments, const serve::PrivateFolder& folder) {
+serve::ServerOptions serverOptions(const Arguments& arguments, const PrivateFolder& folder) {
     constexpr int kUsualPort = 8080;
     serve::ServerOptions options;
     options.host = arguments.host;
@@ -102,7 +102,7 @@ int runServe(const Arguments& arguments) {
     if (!site) return fail(site.error());
     site->add("/api", serve::Bytes::of(abilities(arguments)));
 
-    const serve::PrivateFolder folder;
+    const PrivateFolder folder;
     std::vector<serve::Route> routes{pictureRoute(*models, arguments.site.build.threads)};
     if (arguments.allowUploads) routes.push_back(serve::convertRoute(convertOptions(arguments)));
     const serve::ServerOptions options = serverOptions(arguments, folder);
@@ -139,7 +139,6 @@ Action connectView(Command& command) {
     auto arguments = std::make_shared<Arguments>();
     arguments->isView = true;
     arguments->host = "127.0.0.1";  // this machine alone
-    arguments->isView = true;
     command.set("input", arguments->inputs);
     command.set("--no-browser", arguments->noBrowser);
     arguments->site.connect(command);

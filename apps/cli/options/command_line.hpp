@@ -4,6 +4,8 @@
 
 #include <apps/cli/options/catalog.hpp>
 
+#include <svt/core/file.hpp>
+
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -77,6 +79,8 @@ void Command::assign(const std::string& text, T& to) {
         to = text == "true";
     else if constexpr (std::is_arithmetic_v<T>)
         to = static_cast<T>(number(text));
+    else if constexpr (std::is_same_v<T, std::filesystem::path>)
+        to = userPath(text);
     else
         to = T(text);
 }

@@ -5,7 +5,6 @@
 #include <svt/core/file.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/image/png.hpp>
-#include <svt/serve/child_process.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -25,7 +24,7 @@ Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Dia
     const TerminalProgress progress;
     const auto volume = loadVolume(input, build, progress.get(), diagnostics);
     if (!volume) return volume.error();
-    const serve::PrivateFolder folder;
+    const PrivateFolder folder;
     if (folder.path().empty())
         return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
     const fs::path file = folder.path() / "model.svt";

@@ -277,11 +277,4 @@ Result<std::uint64_t> writeFileAtomically(const fs::path& target, std::string_vi
     return writeFileAtomically(target, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-bool isErrorTerminal() noexcept { return ::isatty(STDERR_FILENO) != 0; }
-
-fs::path executablePath() {
-    std::error_code error;
-    return fs::read_symlink("/proc/self/exe", error);
-}
-
 }  // namespace svt

@@ -1,0 +1,60 @@
+# `make package`: two packages for Debian, of the components of cmake/Install.cmake. `svt` has the command with its manual
+# and page, `libsvt-dev` the static libraries with their headers.
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL command development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/package)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGE_CONTACT "The SVT authors <svt@localhost.localdomain>")
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+
+set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME svt)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
+# OpenGL is optional, and so is a browser that `svt view` may open.
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, xdg-utils")
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "semantic volume textures of building models
+ Turns a semantic building model (CityGML, CityJSON) into a volume in which
+ every point knows which component it belongs to, and draws that volume cut
+ open: moving cross-sections, a sectioning lens, one flat inside the ghost of
+ its tower. Answers with areas, volumes and drawings.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsvt-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+# What cmake/LibraryDependencies.cmake looks for.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libtbb-dev, libpugixml-dev, libsimdjson-dev, nlohmann-json3-dev, \
+zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, libegl-dev, libgles-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "semantic volume textures of building models (development files)
+ Static libraries and headers to read building models, make labelled volumes
+ of them, ask and draw these; a CMake package and a pkg-config file.")
+
+# What Debian wants beside: copyright and changelog, compressed manual pages.
+find_program(GZIP_PROGRAM gzip)
+if(GZIP_PROGRAM)
+  execute_process(COMMAND git -C ${PROJECT_SOURCE_DIR} log -1 --format=%cd --date=rfc OUTPUT_VARIABLE date
+    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(NOT date)
+    set(date "Thu, 01 Jan 1970 00:00:00 +0000")
+  endif()
+  foreach(pair command=svt development=libsvt-dev)
+    string(REPLACE "=" ";" pair ${pair})
+    list(POP_FRONT pair component name)
+    set(folder ${CMAKE_BINARY_DIR}/debian/${name})
+    file(WRITE ${folder}/changelog.Debian "svt (${PROJECT_VERSION}-1) unstable; urgency=medium
+
+  * Version ${PROJECT_VERSION}; what it brings is in CHANGELOG.md of the sources.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${date}
+")
+    execute_process(COMMAND ${GZIP_PROGRAM} -9nf ${folder}/changelog.Debian)
+    install(FILES ${folder}/changelog.Debian.gz ${PROJECT_SOURCE_DIR}/cmake/debian/copyright
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
+  endforeach()
+endif()
+include(CPack)

@@ -1,0 +1,44 @@
+#!/usr/bin/env node
+// The command svt: the program of apps/cli as WebAssembly, with the files of this system.
+import { spawn } from 'node:child_process';
+import { createRequire } from 'node:module';
+import os from 'node:os';
+import path from 'node:path';
+import process from 'node:process';
+import { fileURLToPath } from 'node:url';
+
+import { commandEnvironment, commandPath, hostPath } from '../lib/host.mjs';
+import { serve } from '../lib/server.mjs';
+
+if (Number(process.versions.node.split('.')[0]) < 18) {
+  process.stderr.write(`svt: Node.js 18 or newer is needed; this is ${process.versions.node}\n`);
+  process.exit(1);
+}
+
+function openBrowser(address) {
+  const [program, ...first] =
+    process.platform === 'win32' ? ['cmd', '/c', 'start', ''] : process.platform === 'darwin' ? ['open'] : ['xdg-open'];
+  const child = spawn(program, [...first, address], { stdio: 'ignore', detached: true });
+  child.on('error', () => process.stderr.write('svt: no browser could be started; open the address yourself\n'));
+  child.unref();
+}
+
+const isWindows = process.platform === 'win32';
+let serving;
+const createSvtCommand = createRequire(import.meta.url)('../lib/svt_node.cjs');
+const command = await createSvtCommand({
+  host: {
+    isWindows,
+    isErrorTerminal: Boolean(process.stderr.isTTY),
+    // The page is looked for beside the program: ../share/svt/viewer.
+    program: commandPath(path.resolve(fileURLToPath(import.meta.url)), isWindows),
+    environment: commandEnvironment(process.env, os.tmpdir(), isWindows),
+    path: (given) => hostPath(given, process.cwd(), isWindows),
+    serve: (orders) => {
+      serving = serve(orders, openBrowser);
+    },
+  },
+});
+let code = command.callMain(process.argv.slice(2));
+if (serving) code = await serving;
+process.exitCode = code;
