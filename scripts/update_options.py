@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user, and
-docs/formats/scene.schema.json.
+"""Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
+docs/formats/scene.schema.json, and web/viewer/src/generated/scene_members.ts, from which the viewer page has the
+ranges, choices, defaults and help of its controls.
 
     scripts/update_options.py [--svt build/release/bin/svt] [--check]
 
@@ -17,6 +18,29 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BEGIN, END = "<!-- BEGIN options -->", "<!-- END options -->"
 PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
+PAGE_MEMBERS_BEGIN = """\
+/**
+ * The members of a scene as svt/illustrate/scene/scene_members.cpp declares them, by JSON pointer with * for any index.
+ * Written by scripts/update_options.py; a change by hand is lost.
+ */
+
+export const kSceneMembers = {
+"""
+PAGE_MEMBERS_END = """\
+} as const;
+
+export type SceneMember = keyof typeof kSceneMembers;
+
+/** The members that declare something: SceneMemberWith<"minimum" | "maximum"> are those with a range. */
+export type SceneMemberWith<Key extends string> = {
+  [Name in SceneMember]: (typeof kSceneMembers)[Name] extends Record<Key, unknown> ? Name : never;
+}[SceneMember];
+
+/** The values of a member that has choices. */
+export type ChoiceOf<Name extends SceneMemberWith<"choices">> = (typeof kSceneMembers)[Name]["choices"][number];
+
+export type Unit = (typeof kSceneMembers)[SceneMemberWith<"unit">]["unit"];
+"""
 
 
 def range_text(option: dict) -> str:
@@ -64,13 +88,20 @@ def page_with(page: str, table: str, name: str) -> str:
     return page[: begin + len(BEGIN)] + "\n" + table + "\n" + page[end:]
 
 
+def plain_number(value: float):
+    return int(value) if value == int(value) else value
+
+
+def choice_values(member: dict) -> list:
+    return [int(choice) if member["kind"] == "whole" else choice for choice in member["choices"]]
+
+
 def value_schema(member: dict) -> dict:
     """The schema of one value of a member, without its description and default."""
     if member["kind"] == "flag":
         return {"type": "boolean"}
     if "choices" in member:
-        whole = member["kind"] == "whole"
-        choices = [int(choice) if whole else choice for choice in member["choices"]]
+        choices = choice_values(member)
         return {"const": choices[0]} if len(choices) == 1 else {"enum": choices}
     if member["kind"] == "text":
         return {"type": "string"}
@@ -79,7 +110,7 @@ def value_schema(member: dict) -> dict:
     number = {"type": "integer" if member["kind"] == "whole" else "number"}
     for bound in ("minimum", "maximum"):
         if bound in member:
-            number[bound] = int(member[bound]) if member[bound] == int(member[bound]) else member[bound]
+            number[bound] = plain_number(member[bound])
     return number
 
 
@@ -132,6 +163,25 @@ def scene_schema(described: dict) -> str:
     return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"
 
 
+def page_member(member: dict) -> str:
+    """The line of a member for the page."""
+    values = {"type": member["kind"]}
+    if "unit" in member:
+        values["unit"] = member["unit"]
+    values |= {bound: plain_number(member[bound]) for bound in ("minimum", "maximum") if bound in member}
+    if "choices" in member:
+        values["choices"] = choice_values(member)
+    if "default" in member:
+        values["default"] = default_value(member)
+    values["help"] = member.get("help", "")
+    said = ", ".join(f"{key}: {json.dumps(value, ensure_ascii=False)}" for key, value in values.items())
+    return f"  {json.dumps(member['name'])}: {{ {said} }},\n"
+
+
+def page_members(described: dict) -> str:
+    return PAGE_MEMBERS_BEGIN + "".join(map(page_member, described["sceneMembers"])) + PAGE_MEMBERS_END
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--svt", default=str(ROOT / "build/release/bin/svt"))
@@ -139,7 +189,10 @@ def main() -> int:
     arguments = parser.parse_args()
     described = json.loads(subprocess.run([arguments.svt, "describe", "json"], capture_output=True, text=True, check=True, timeout=30).stdout)
 
-    wanted = {ROOT / "docs/formats/scene.schema.json": scene_schema(described)}
+    wanted = {
+        ROOT / "docs/formats/scene.schema.json": scene_schema(described),
+        ROOT / "web/viewer/src/generated/scene_members.ts": page_members(described),
+    }
     for command in described["commands"]:
         path = ROOT / "docs/user" / f"{command['name']}.md"
         if not path.exists():
@@ -155,6 +208,7 @@ def main() -> int:
         if arguments.check:
             sys.stderr.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), path.name, "svt describe"))
         else:
+            path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(new, encoding="utf-8")
             print(f"updated {path.relative_to(ROOT)}")
     if arguments.check and stale:

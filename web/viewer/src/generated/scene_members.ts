@@ -1,0 +1,64 @@
+/**
+ * The members of a scene as svt/illustrate/scene/scene_members.cpp declares them, by JSON pointer with * for any index.
+ * Written by scripts/update_options.py; a change by hand is lost.
+ */
+
+export const kSceneMembers = {
+  "/format": { type: "text", choices: ["svt-scene"], help: "says that this is a scene" },
+  "/version": { type: "whole", minimum: 1, maximum: 1, help: "of the format" },
+  "/size": { type: "whole", unit: "pixels", minimum: 1, maximum: 16384, default: [1280, 720], help: "width and height" },
+  "/samples": { type: "whole", minimum: 1, maximum: 16, choices: [1, 4, 9, 16], default: 4, help: "rays per pixel" },
+  "/look": { type: "text", choices: ["plain", "paper", "blueprint", "dark"], default: "plain", help: "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)" },
+  "/camera": { type: "object", help: "where the picture is taken from" },
+  "/camera/preset": { type: "text", choices: ["iso", "iso-se", "iso-sw", "iso-ne", "iso-nw", "front", "back", "left", "right", "top", "bottom"], default: "iso", help: "a named view" },
+  "/camera/around": { type: "text", help: "the view shows what the query selects, as large as it fits" },
+  "/camera/parallel": { type: "flag", default: false, help: "parallel projection" },
+  "/camera/fieldOfView": { type: "number", unit: "degrees", minimum: 0.001, maximum: 179.999, default: 30, help: "vertical field of view" },
+  "/camera/zoom": { type: "number", minimum: 0.01, maximum: 100, default: 1, help: "nearer (above 1) or further than the preset" },
+  "/camera/eye": { type: "number", unit: "metres", minimum: -1000000000, maximum: 1000000000, help: "where the viewer stands, from the lower corner of the grid, in world axes" },
+  "/camera/target": { type: "number", unit: "metres", minimum: -1000000000, maximum: 1000000000, help: "what stands in the middle of the picture, from the lower corner of the grid, in world axes" },
+  "/background": { type: "text", help: "#rrggbb, #rgb or a colour name" },
+  "/transparent": { type: "flag", default: false, help: "leave the background transparent" },
+  "/lines": { type: "object", help: "between objects, and where the depth jumps" },
+  "/lines/strength": { type: "number", minimum: 0, maximum: 1, help: "strength of lines between objects" },
+  "/lines/width": { type: "number", unit: "pixels", minimum: 0, maximum: 16, help: "width of lines between objects" },
+  "/lines/cutWidth": { type: "number", unit: "pixels", minimum: 0, maximum: 16, help: "width of lines around what is cut" },
+  "/lines/color": { type: "text", help: "#rrggbb, #rgb or a colour name" },
+  "/hatches": { type: "object", help: "of what is cut" },
+  "/hatches/show": { type: "flag", help: "hatch what is cut, by material or class" },
+  "/hatches/spacing": { type: "number", unit: "metres", minimum: 0.0001, maximum: 10000, help: "distance of hatch lines" },
+  "/ambientOcclusion": { type: "number", minimum: 0, maximum: 1, default: 0.6, help: "how much corners are darkened" },
+  "/names": { type: "text", help: "name the selected at the sides of the picture, with leader lines" },
+  "/passes": { type: "list", minimum: 1, maximum: 64, help: "drawn one after the other" },
+  "/passes/*/show": { type: "text", help: "show only what the query selects" },
+  "/passes/*/hide": { type: "text", help: "hide what the query selects" },
+  "/passes/*/styles": { type: "list", help: "what is given overrides the styles before it" },
+  "/passes/*/styles/*/select": { type: "text", help: "whose style" },
+  "/passes/*/styles/*/ghost": { type: "flag", default: false, help: "coloured air where it was solid, gone where it was air" },
+  "/passes/*/styles/*/color": { type: "text", help: "#rrggbb, #rgb or a colour name" },
+  "/passes/*/styles/*/opacity": { type: "number", minimum: 0, maximum: 1, help: "share of light stopped by 1 m; 1: solid, 0: hidden" },
+  "/passes/*/styles/*/hatch": { type: "text", choices: ["none", "masonry", "concrete", "reinforced-concrete", "timber", "insulation", "earth", "steel", "glass", "general"], help: "of what is cut" },
+  "/passes/*/cut": { type: "text", help: "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'" },
+  "/passes/*/keep": { type: "text", help: "draw nothing outside of a region, such as storey(EG)" },
+  "/passes/*/join": { type: "text", choices: ["over", "replace", "depth"], default: "over", help: "over: in front of what is drawn already; replace: where anything is drawn, all before it is dropped; depth: whichever is nearer in front" },
+  "/passes/*/shell": { type: "text", choices: ["component", "room", "unit", "storey", "building"], help: "draw only the hulls of components, rooms, units, storeys or the building" },
+  "/passes/*/level": { type: "whole", minimum: 0, maximum: 6, help: "level of detail, 0 is the finest" },
+  "/passes/*/lines": { type: "list", help: "feature edges of the model's meshes, at their depth inside the volume" },
+  "/passes/*/lines/*/select": { type: "text", help: "whose edges, visible or not" },
+  "/passes/*/lines/*/width": { type: "number", unit: "pixels", minimum: 0.1, maximum: 64, default: 1, help: "width of the lines" },
+  "/passes/*/lines/*/color": { type: "text", help: "#rrggbb, #rgb or a colour name" },
+  "/passes/*/lines/*/hidden": { type: "text", choices: ["faint", "dashed", "none"], default: "faint", help: "lines behind something opaque" },
+  "/passes/*/meshes": { type: "text", help: "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along each axis" },
+} as const;
+
+export type SceneMember = keyof typeof kSceneMembers;
+
+/** The members that declare something: SceneMemberWith<"minimum" | "maximum"> are those with a range. */
+export type SceneMemberWith<Key extends string> = {
+  [Name in SceneMember]: (typeof kSceneMembers)[Name] extends Record<Key, unknown> ? Name : never;
+}[SceneMember];
+
+/** The values of a member that has choices. */
+export type ChoiceOf<Name extends SceneMemberWith<"choices">> = (typeof kSceneMembers)[Name]["choices"][number];
+
+export type Unit = (typeof kSceneMembers)[SceneMemberWith<"unit">]["unit"];
