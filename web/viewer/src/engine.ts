@@ -4,13 +4,15 @@
  * corner in world axes, as in scenes; pixel coordinates start at the top left.
  */
 
+import type { ChoiceOf } from "./generated/scene_members";
+
 /** A `*.scene.json`: docs/formats/scene.schema.json. The page edits it, the library draws it. */
 export interface Scene {
   format?: "svt-scene";
   version?: 1;
   size?: [number, number];
-  samples?: 1 | 4 | 9 | 16;
-  look?: "plain" | "paper" | "blueprint" | "dark";
+  samples?: Samples;
+  look?: Look;
   camera?: SceneCamera;
   background?: string;
   transparent?: boolean;
@@ -20,6 +22,9 @@ export interface Scene {
   names?: string[];
   passes?: ScenePass[];
 }
+/** Rays per pixel. */
+export type Samples = ChoiceOf<"/samples">;
+export type Look = ChoiceOf<"/look">;
 
 export interface SceneCamera {
   preset?: string;
@@ -37,21 +42,23 @@ export interface ScenePass {
   styles?: SceneStyle[];
   cut?: string;
   keep?: string;
-  join?: "over" | "replace" | "depth";
-  lines?: { select?: string; width?: number; color?: string; hidden?: string }[];
+  join?: ChoiceOf<"/passes/*/join">;
+  lines?: { select?: string; width?: number; color?: string; hidden?: HiddenLines }[];
   meshes?: string[];
   /** Only the hulls of groups at this level of the tree, as made by `svt shell`. */
   shell?: ShellLevel;
   /** Level of detail, 0 (finest) to 6; by default chosen by pixel size. */
   level?: number;
 }
-export type ShellLevel = "component" | "room" | "unit" | "storey" | "building";
+export type ShellLevel = ChoiceOf<"/passes/*/shell">;
+/** How edges behind something opaque are drawn. */
+export type HiddenLines = ChoiceOf<"/passes/*/lines/*/hidden">;
 
 export interface SceneStyle {
   select: string;
   color?: string;
   opacity?: number;
-  hatch?: string;
+  hatch?: ChoiceOf<"/passes/*/styles/*/hatch">;
   ghost?: boolean;
 }
 

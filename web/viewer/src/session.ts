@@ -2,7 +2,8 @@
 
 import { boxOf, withProjection, between, type Box } from "./camera/camera";
 import { PictureLoop, type Quality } from "./canvas/picture_loop";
-import type { Engine, EngineError, FeatureProperties, FrameReport, Pick, Point, SceneCamera, Stretch, VolumeInfo } from "./engine";
+import type { Engine, EngineError, FeatureProperties, FrameReport, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo } from "./engine";
+import { kSceneMembers } from "./generated/scene_members";
 import { indexFeatures, labelOf, type FeatureIndex } from "./state/feature_index";
 import { hashOf } from "./state/link";
 import { ofId } from "./state/queries";
@@ -108,7 +109,7 @@ export class Session extends EventTarget {
     return this.pictureSize[0] / this.pictureSize[1];
   }
 
-  describe(size: [number, number], samples: 1 | 4 | 9 | 16 = 4): Described {
+  describe(size: [number, number], samples?: Samples): Described {
     return sceneOf(this.state, this.box, size, samples);
   }
 
@@ -156,7 +157,7 @@ export class Session extends EventTarget {
   }
 
   private async fit(aspect: number): Promise<void> {
-    await this.goTo("", "iso", false);
+    await this.goTo("", kSceneMembers["/camera/preset"].default, false);
     if (this.state.camera) this.fitted = { camera: this.state.camera, aspect };
   }
 
@@ -248,11 +249,11 @@ export class Session extends EventTarget {
     if (this.isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
     const now = this.state.camera;
     const seen = now ? withProjection(now, false) : null;
-    const from: SceneCamera = seen ? sceneCamera(seen, this.box, this.aspect) : { preset: "iso" };
+    const from: SceneCamera = seen ? sceneCamera(seen, this.box, this.aspect) : { preset: kSceneMembers["/camera/preset"].default };
     try {
       const { eye, target, fieldOfView } = await this.engine.view(query, preset, from);
       if (!eye || !target) return;
-      const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? seen?.fieldOfView ?? 30 };
+      const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? seen?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default };
       this.moveTo(withProjection(camera, now?.parallel ?? false), isFollowed);
     } catch (error) {
       this.fail(error);
@@ -334,7 +335,7 @@ export class Session extends EventTarget {
   }
 
   /** The scene as taken by `svt render --scene`, with effects. */
-  async composed(size: [number, number], samples: 1 | 4 | 9 | 16 = 4) {
+  async composed(size: [number, number], samples?: Samples) {
     const described = this.describe(size, samples);
     if (!this.engine || Object.keys(described.effects).length === 0) return described.scene;
     return this.engine.compose(described.scene, described.effects);

@@ -1,5 +1,7 @@
 /** All texts of the page, English and German side by side. `{x}` is a placeholder. */
 
+import { kSceneMembers, type SceneMember, type Unit } from "./generated/scene_members";
+
 const kTexts = {
   appName: ["Viewer", "Betrachter"],
   tagline: ["Buildings, cut open", "Gebäude, aufgeschnitten"],
@@ -259,6 +261,31 @@ const kTexts = {
   keyTreeHow: ["arrow keys, Enter selects, Space hides, C colours", "Pfeiltasten, Eingabe wählt, Leertaste verbirgt, C färbt"],
 } as const satisfies Record<string, readonly [string, string]>;
 
+/**
+ * German for the help of scene members whose controls show it; the English is the declared one. A key that is not
+ * declared does not compile, so that a help text that changes cannot leave an old translation behind.
+ */
+export const kGermanHelp = {
+  "width and height": "Breite und Höhe",
+  "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
+    "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",
+  "a named view": "eine benannte Ansicht",
+  "parallel projection": "Parallelprojektion",
+  "vertical field of view": "senkrechter Blickwinkel",
+  "hatch what is cut, by material or class": "schraffiert, was geschnitten ist, nach Material oder Klasse",
+  "name the selected at the sides of the picture, with leader lines": "benennt die Auswahl an den Seiten des Bildes, mit Hinweislinien",
+  "#rrggbb, #rgb or a colour name": "#rrggbb, #rgb oder ein englischer Farbname",
+  "share of light stopped by 1 m; 1: solid, 0: hidden": "Anteil des Lichts, den 1 m aufhält; 1: undurchsichtig, 0: verborgen",
+  "draw only the hulls of components, rooms, units, storeys or the building":
+    "zeichnet nur die Hüllen von Bauteilen, Räumen, Wohnungen, Geschossen oder des Gebäudes",
+  "lines behind something opaque": "Linien hinter Undurchsichtigem",
+} as const satisfies { [Help in HelpOf<SceneMember>]?: string };
+
+type HelpOf<Name extends SceneMember> = (typeof kSceneMembers)[Name]["help"];
+type HelpedMember = { [Name in SceneMember]: HelpOf<Name> extends keyof typeof kGermanHelp ? Name : never }[SceneMember];
+
+const kUnitSigns: Record<Unit, string> = { pixels: " px", degrees: "°", metres: " m" };
+
 export type TextKey = keyof typeof kTexts;
 export type Language = "en" | "de";
 
@@ -279,9 +306,20 @@ export function t(key: TextKey, values: Record<string, string | number> = {}): s
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
 }
 
+/** What a member of a scene does, with its unit: the tooltip of its control. */
+export function help(member: HelpedMember): string {
+  const declared: { help: keyof typeof kGermanHelp; unit?: Unit } = kSceneMembers[member];
+  const text: string = current === "de" ? kGermanHelp[declared.help] : declared.help;
+  const unit = declared.unit ? ` (${kUnitSigns[declared.unit].trim()})` : "";
+  return text.charAt(0).toUpperCase() + text.slice(1) + unit;
+}
+
 /** Formats numbers in the chosen language. */
 export function number(value: number, digits: number): string {
   return value.toLocaleString(current, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+}
+export function withUnit(value: number, digits: number, unit: Unit): string {
+  return number(value, digits) + kUnitSigns[unit];
 }
 export function bytes(value: number): string {
   return value < 1e6 ? `${number(value / 1e3, 0)} kB` : `${number(value / 1e6, 1)} MB`;

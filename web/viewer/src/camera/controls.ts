@@ -2,6 +2,7 @@
 
 import type { Pick, Point } from "../engine";
 import type { Session } from "../session";
+import { kOtherFirstValues } from "../state/member_controls";
 import type { Camera } from "../state/view_state";
 import { basisOf, lookAround, orbit, pan, pointAt, walk, zoom } from "./camera";
 import { distance, dot, sub } from "./vec";
@@ -233,5 +234,5 @@ export function stepInside(camera: Camera, floor: number): Camera {
   const level = Math.hypot(forward[0], forward[1]) || 1;
   const eye: Point = [camera.target[0], camera.target[1], eyeHeight];
   const target: Point = [eye[0] + (forward[0] / level) * 3, eye[1] + (forward[1] / level) * 3, eyeHeight];
-  return { ...camera, parallel: false, eye, target, fieldOfView: 65, height: Math.max(1, distance(eye, target)) };
+  return { ...camera, parallel: false, eye, target, fieldOfView: kOtherFirstValues.walkingFieldOfView.value, height: Math.max(1, distance(eye, target)) };
 }

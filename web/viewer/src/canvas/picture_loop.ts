@@ -1,9 +1,10 @@
 /**
- * Draws the session whenever it changes: coarse while it moves, then at full resolution, then with four rays per
- * pixel. Only one frame is requested at a time, always the newest.
+ * Draws the session whenever it changes: coarse while it moves, then at full resolution, then with as many
+ * rays per pixel as a scene has by default. Only one frame is requested at a time, always the newest.
  */
 
-import type { Engine, EngineError, FrameReport } from "../engine";
+import type { Engine, EngineError, FrameReport, Samples } from "../engine";
+import { kSceneMembers } from "../generated/scene_members";
 import type { Described } from "../state/scene_of";
 import { pixelsAt, Resolution } from "./resolution";
 
@@ -14,7 +15,7 @@ export interface PictureHost {
   engine: Engine;
   /** Size of the canvas, device pixels. */
   size(): [number, number];
-  describe(size: [number, number], samples: 1 | 4): Described | null;
+  describe(size: [number, number], samples: Samples): Described | null;
   /** Called when a frame is on the canvas; `token` is the result of take() when it was requested. */
   shown(report: FrameReport, quality: Quality, token: unknown): void;
   take(): unknown;
@@ -83,7 +84,7 @@ export class PictureLoop {
 
   private async draw(quality: Quality): Promise<void> {
     const size = pixelsAt(this.host.size(), quality === "moving" ? this.resolution.share : 1);
-    const described = this.host.describe(size, quality === "fine" ? 4 : 1);
+    const described = this.host.describe(size, quality === "fine" ? kSceneMembers["/samples"].default : 1);
     this.quality = quality;
     if (!described) return;
     const token = this.host.take();

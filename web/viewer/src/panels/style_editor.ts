@@ -1,7 +1,8 @@
 /** Edits colour and opacity of the features selected by a query. */
 
 import { css, html, nothing } from "lit";
-import { t } from "../texts";
+import { help, t } from "../texts";
+import { memberSlider } from "../ui/member_slider";
 import { controls, Part } from "../ui/part";
 import { withStyle } from "../state/view_state";
 
@@ -31,10 +32,9 @@ export class StyleEditor extends Part {
     const color = style?.color ?? this.color, opacity = style?.opacity ?? this.opacity;
     return html`
       <div class="line">
-        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} value=${color} without-format-toggle
+        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} title=${help("/passes/*/styles/*/color")} value=${color} without-format-toggle
           @change=${(e: Event) => this.change({ color: toHex((e.target as HTMLInputElement).value) })}></wa-color-picker>
-        <wa-slider size="s" aria-label=${t("opacityOf", { name: this.label })} label=${t("opacityOf", { name: this.label })} min="0" max="1" step="0.01" .value=${opacity}
-          @input=${(e: Event) => this.change({ opacity: Number((e.target as HTMLInputElement).value) })}></wa-slider>
+        ${memberSlider("opacity", t("opacityOf", { name: this.label }), opacity, (wanted) => this.change({ opacity: wanted }))}
         <output>${Math.round(opacity * 100)} %</output>
       </div>
       ${style ? html`<button class="bare small" @click=${() => this.reset()}>${t("resetStyle")}</button>` : nothing}

@@ -1,6 +1,7 @@
 /** A view as a shell command: `svt render` with options if they suffice, else with a scene file. */
 
 import type { Scene } from "../engine";
+import { kSceneMembers } from "../generated/scene_members";
 import { focusQueries, regionOf, type Described } from "./scene_of";
 import type { ViewState } from "./view_state";
 
@@ -22,16 +23,17 @@ export function commandOf(state: ViewState, { scene, effects }: Described, model
   return words.map(shellWord).join(" ");
 }
 
+/** What is as a scene has it by default is left out: the options of `svt render` have these defaults, too. */
 function options(state: ViewState, scene: Scene, effects: Described["effects"]): string[] {
   const camera = scene.camera ?? {};
-  const words = ["--size", (scene.size ?? [1280, 720]).join("x")];
+  const words = ["--size", (scene.size ?? kSceneMembers["/size"].default).join("x")];
   const add = (option: string, ...values: string[]) => values.forEach((value) => words.push(option, value));
-  if (camera.preset && camera.preset !== "iso") add("--camera", camera.preset);
+  if (camera.preset && camera.preset !== kSceneMembers["/camera/preset"].default) add("--camera", camera.preset);
   if (camera.parallel) words.push("--ortho");
-  if (camera.zoom !== undefined && camera.zoom !== 1) add("--zoom", String(camera.zoom));
+  if (camera.zoom !== undefined && camera.zoom !== kSceneMembers["/camera/zoom"].default) add("--zoom", String(camera.zoom));
   if (camera.eye) add("--eye", camera.eye.join(","));
   if (camera.target) add("--target", camera.target.join(","));
-  if (camera.fieldOfView !== undefined && camera.fieldOfView !== 30) add("--fov", String(camera.fieldOfView));
+  if (camera.fieldOfView !== undefined && camera.fieldOfView !== kSceneMembers["/camera/fieldOfView"].default) add("--fov", String(camera.fieldOfView));
   if (scene.look) add("--look", scene.look);
   if (state.hatches) words.push("--hatch");
   add("--show", ...state.show);
@@ -51,7 +53,7 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   add("--names", ...(scene.names ?? []));
   // Last, since its query is optional.
   if (state.wireframe) {
-    if (state.wireframe !== "faint") add("--hidden-lines", state.wireframe);
+    if (state.wireframe !== kSceneMembers["/passes/*/lines/*/hidden"].default) add("--hidden-lines", state.wireframe);
     words.push("--wireframe");
   }
   return words;

@@ -4,6 +4,8 @@
  */
 
 import type { Scene } from "../engine";
+import { kSceneMembers } from "../generated/scene_members";
+import { isAllowed } from "./member_controls";
 import { initialState, type ViewState } from "./view_state";
 
 const kMaxBytes = 4 << 20;
@@ -85,15 +87,16 @@ function isLike(initial: unknown, given: unknown, key: string): boolean {
 function isCamera(given: unknown): boolean {
   const { eye, target, height, fieldOfView } = given as Record<string, unknown>;
   const isPoint = (p: unknown) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
-  return isPoint(eye) && isPoint(target) && Number(height) > 0 && Number(fieldOfView) > 0 && Number(fieldOfView) < 180;
+  return isPoint(eye) && isPoint(target) && Number(height) > 0 && isAllowed("/camera/fieldOfView", Number(fieldOfView));
 }
 
 /** A scene file as state: its passes are drawn unchanged; camera, look and hatches become the page's own. */
 export function ofScene(scene: Scene, base: ViewState): ViewState {
-  const { eye, target, parallel, fieldOfView } = scene.camera ?? {};
-  const camera = eye && target && !parallel ? { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? 30 } : base.camera;
+  const { eye, target, parallel } = scene.camera ?? {};
+  const fieldOfView = scene.camera?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default;
+  const camera = eye && target && !parallel ? { eye, target, parallel: false, height: 10, fieldOfView } : base.camera;
   return {
-    ...initialState(scene.look ?? "plain"),
+    ...initialState(scene.look ?? kSceneMembers["/look"].default),
     camera,
     hatches: scene.hatches?.show ?? null,
     custom: scene,

@@ -1,8 +1,9 @@
 /** State to scene: a pure function, the only place that determines what is drawn. */
 
-import type { Effects, Point, Scene, SceneCamera, ScenePass } from "../engine";
+import type { Effects, Point, Samples, Scene, SceneCamera, ScenePass } from "../engine";
 import { parallelZoom, type Box } from "../camera/camera";
 import { add, distance, normalized, scale, sub } from "../camera/vec";
+import { kSceneMembers } from "../generated/scene_members";
 import { ofId } from "./queries";
 import type { Camera, Section, ViewState } from "./view_state";
 
@@ -43,7 +44,7 @@ export function focusQueries(state: ViewState): string[] {
   return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
 }
 
-export function sceneCamera(camera: Camera | null, box: Box, aspect: number, named = "iso"): SceneCamera {
+export function sceneCamera(camera: Camera | null, box: Box, aspect: number, named: string = kSceneMembers["/camera/preset"].default): SceneCamera {
   if (!camera) return { preset: named };
   const preset = presetFor(camera);
   if (!camera.parallel)
@@ -103,9 +104,9 @@ function effectsOf(state: ViewState, box: Box): Effects {
  * @param box   of the grid, metres from its lower corner along its axes
  * @param size  of the picture, pixels
  */
-export function sceneOf(state: ViewState, box: Box, size: [number, number], samples: 1 | 4 | 9 | 16 = 4): Described {
+export function sceneOf(state: ViewState, box: Box, size: [number, number], samples: Samples = kSceneMembers["/samples"].default): Described {
   const scene: Scene = { format: "svt-scene", version: 1, size, samples };
-  if (state.look !== "plain") scene.look = state.look;
+  if (state.look !== kSceneMembers["/look"].default) scene.look = state.look;
   const camera = sceneCamera(state.camera, box, size[0] / size[1], state.preset);
   scene.camera = camera;
   if (state.hatches !== null) scene.hatches = { show: state.hatches };

@@ -1,9 +1,7 @@
 /** The complete view as one plain object. `sceneOf()` makes a scene from it; tools modify only this object. */
 
-import type { Context, Point, Scene, SceneStyle, ShellLevel } from "../engine";
-
-export type Look = "plain" | "paper" | "blueprint" | "dark";
-export type HiddenLines = "none" | "faint" | "dashed";
+import type { Context, HiddenLines, Look, Point, Scene, SceneStyle, ShellLevel } from "../engine";
+import { kSceneMembers } from "../generated/scene_members";
 
 /** z is up, except in views straight down or up: there it is the grid's y axis. */
 export interface Camera {
@@ -79,10 +77,10 @@ export interface ViewState {
   custom: Scene | null;
 }
 
-export function initialState(look: Look = "plain"): ViewState {
+export function initialState(look: Look = kSceneMembers["/look"].default): ViewState {
   return {
     camera: null,
-    preset: "iso",
+    preset: kSceneMembers["/camera/preset"].default,
     look,
     hide: [],
     show: [],

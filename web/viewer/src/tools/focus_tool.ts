@@ -2,13 +2,14 @@
 
 import { css, html, nothing } from "lit";
 import type { EngineError, ShellLevel } from "../engine";
+import { kSceneMembers } from "../generated/scene_members";
 import { focusQueries } from "../state/scene_of";
 import type { Effect, Focus } from "../state/view_state";
-import { number, t, type TextKey } from "../texts";
+import { help, number, t } from "../texts";
 import { controls, Part } from "../ui/part";
 import { contextChoice } from "./context_choice";
 
-const kLevels: ShellLevel[] = ["component", "room", "unit", "storey", "building"];
+const kLevels = kSceneMembers["/passes/*/shell"].choices;
 const kEffects = { none: "effectNone", highlight: "effectHighlight", cutaway: "effectCutaway" } as const;
 
 export class FocusTool extends Part {
@@ -54,9 +55,9 @@ export class FocusTool extends Part {
             <output>${number(focus.margin, 2)} m</output></div>`
         : nothing}
       <h3 id="shell-title">${t("shell")}</h3>
-      <select id="shell" aria-labelledby="shell-title" @change=${(e: Event) => this.session.set({ shell: ((e.target as HTMLSelectElement).value || null) as ShellLevel | null })}>
+      <select id="shell" aria-labelledby="shell-title" title=${help("/passes/*/shell")} @change=${(e: Event) => this.session.set({ shell: ((e.target as HTMLSelectElement).value || null) as ShellLevel | null })}>
         <option value="" ?selected=${!shell}>${t("shellOff")}</option>
-        ${kLevels.map((level) => html`<option value=${level} ?selected=${shell === level}>${t(`shell_${level}` as TextKey)}</option>`)}
+        ${kLevels.map((level) => html`<option value=${level} ?selected=${shell === level}>${t(`shell_${level}`)}</option>`)}
       </select>
     `;
   }

@@ -1,12 +1,13 @@
 /** Look, edges, names, legend. */
 
 import { css, html, nothing } from "lit";
-import type { HiddenLines, Look } from "../state/view_state";
-import { t, type TextKey } from "../texts";
+import type { HiddenLines } from "../engine";
+import { kSceneMembers } from "../generated/scene_members";
+import { help, t } from "../texts";
 import { controls, Part } from "../ui/part";
 
-const kLooks: Look[] = ["plain", "paper", "blueprint", "dark"];
-const kLines = ["off", "faint", "dashed", "none"] as const;
+const kLooks = kSceneMembers["/look"].choices;
+const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
 
 export class LookTool extends Part {
   static override styles = [controls, css`.segments { display: flex; } h3:first-child { margin-top: 0; }`];
@@ -21,17 +22,17 @@ export class LookTool extends Part {
     const { look, wireframe, names } = session.state;
     const hasEdges = session.info?.hasEdges ?? false;
     return html`
-      <div class="segments" role="radiogroup" aria-label=${t("look")}>${kLooks.map(
-        (wanted) => html`<button role="radio" aria-checked=${look === wanted} @click=${() => session.set({ look: wanted })}>${t(`look_${wanted}` as TextKey)}</button>`,
+      <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
+        (wanted) => html`<button role="radio" aria-checked=${look === wanted} @click=${() => session.set({ look: wanted })}>${t(`look_${wanted}`)}</button>`,
       )}</div>
       <h3 id="wire-title">${t("wireframe")}</h3>
-      <select id="wireframe" aria-labelledby="wire-title" ?disabled=${!hasEdges} @change=${(e: Event) => {
+      <select id="wireframe" aria-labelledby="wire-title" title=${help("/passes/*/lines/*/hidden")} ?disabled=${!hasEdges} @change=${(e: Event) => {
         const value = (e.target as HTMLSelectElement).value;
         session.set({ wireframe: value === "off" ? null : (value as HiddenLines) });
-      }}>${kLines.map((line) => html`<option value=${line} ?selected=${(wireframe ?? "off") === line}>${t(`wireframe_${line}` as TextKey)}</option>`)}</select>
+      }}>${kLines.map((line) => html`<option value=${line} ?selected=${(wireframe ?? "off") === line}>${t(`wireframe_${line}`)}</option>`)}</select>
       ${hasEdges ? nothing : html`<p class="small quiet">${t("noEdges")}</p>`}
       <div class="row">
-        <label class="check"><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
+        <label class="check" title=${help("/names")}><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
         <label class="check"><input type="checkbox" id="legend" .checked=${session.isLegendShown} @change=${(e: Event) => {
           session.isLegendShown = (e.target as HTMLInputElement).checked;
           session.changed();

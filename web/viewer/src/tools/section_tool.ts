@@ -4,7 +4,7 @@ import { css, html, nothing } from "lit";
 import type { DrawingFormat } from "../engine";
 import { regionOf } from "../state/scene_of";
 import type { Section, SectionAxis } from "../state/view_state";
-import { number, t } from "../texts";
+import { help, number, t } from "../texts";
 import { save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
@@ -45,7 +45,7 @@ export class SectionTool extends Part {
       ${sections.map((section, n) => this.plane(section, n))}
       <div class="row">
         <button class=${sections.length ? "" : "loud"} id="add-plane" @click=${() => this.add()}>${icon("plus", 16)}${t("addPlane")}</button>
-        <label class="check"><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
+        <label class="check" title=${help("/hatches/show")}><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
       </div>
     `;
   }

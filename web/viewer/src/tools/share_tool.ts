@@ -4,15 +4,14 @@ import { css, html, nothing } from "lit";
 import type { Scene } from "../engine";
 import { loadBookmarks, saveBookmarks, type Bookmark } from "../state/bookmarks";
 import { commandOf } from "../state/command";
-import { sceneOf } from "../state/scene_of";
 import { ofScene } from "../state/link";
+import { kOtherFirstValues, kRanges, rangeOfControl } from "../state/member_controls";
+import { sceneOf } from "../state/scene_of";
 import { initialState, type ViewState } from "../state/view_state";
-import { t } from "../texts";
+import { help, t } from "../texts";
 import { copy, save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
-
-const kLargest = 16384;
 
 export class ShareTool extends Part {
   static override properties = {
@@ -39,7 +38,7 @@ export class ShareTool extends Part {
 
   constructor() {
     super();
-    this.size = [1920, 1080];
+    this.size = [...kOtherFirstValues.pictureSize.value];
     this.isDrawing = false;
     this.sceneText = null;
     this.error = "";
@@ -84,10 +83,11 @@ export class ShareTool extends Part {
   }
 
   private side(label: string, axis: 0 | 1) {
-    return html`<input type="number" min="1" max=${kLargest} aria-label=${label} .value=${String(this.size[axis])} @change=${(e: Event) => {
+    const { minimum, maximum, step } = rangeOfControl("pictureSide");
+    return html`<input type="number" min=${minimum} max=${maximum} step=${step} aria-label=${label} title=${help(kRanges.pictureSide.member)} .value=${String(this.size[axis])} @change=${(e: Event) => {
       const value = Math.round(Number((e.target as HTMLInputElement).value));
       const size: [number, number] = [...this.size];
-      size[axis] = Math.min(kLargest, Math.max(1, value || 1));
+      size[axis] = Math.min(maximum, Math.max(minimum, value || minimum));
       this.size = size;
     }} />`;
   }

@@ -3,19 +3,19 @@
 import { css, html, nothing } from "lit";
 import { withProjection } from "../camera/camera";
 import { stepInside } from "../camera/controls";
+import { kSceneMembers } from "../generated/scene_members";
 import type { Session } from "../session";
-import { number, t, type TextKey } from "../texts";
+import { kViews } from "../state/member_controls";
+import { help, t, withUnit } from "../texts";
 import { icon } from "../ui/icons";
+import { memberSlider } from "../ui/member_slider";
 import { controls, Part } from "../ui/part";
-
-/** In the order of the keys 1 to 7. */
-export const kViews = ["iso", "front", "right", "back", "left", "top", "bottom"] as const;
 
 export function setWalking(session: Session, isWalking: boolean): void {
   const { camera } = session.state;
   session.isWalking = isWalking;
   if (!camera) return session.changed();
-  if (!isWalking) return void session.goTo("", "iso");
+  if (!isWalking) return void session.goTo("", kSceneMembers["/camera/preset"].default);
   const floor = session.info?.storeys[0]?.floor ?? session.box.low[2];
   session.moveTo(stepInside(withProjection(camera, false), floor));
 }
@@ -39,18 +39,17 @@ export class ViewsTool extends Part {
     const { camera } = session.state;
     return html`
       <div class="views">${kViews.map(
-        (view, n) => html`<button @click=${() => void session.goTo("", view)}>${t(`view_${view}` as TextKey)} <kbd>${n + 1}</kbd></button>`,
+        (view, n) => html`<button title=${help("/camera/preset")} @click=${() => void session.goTo("", view)}>${t(`view_${view}`)} <kbd>${n + 1}</kbd></button>`,
       )}<button @click=${() => void session.goTo("", null)}>${icon("fit", 16)} <kbd>0</kbd><span class="visually-hidden">${t("fit")}</span></button></div>
       <div class="row">
-        <label class="check"><input type="checkbox" id="parallel" .checked=${camera?.parallel ?? false} ?disabled=${session.isWalking}
+        <label class="check" title=${help("/camera/parallel")}><input type="checkbox" id="parallel" .checked=${camera?.parallel ?? kSceneMembers["/camera/parallel"].default} ?disabled=${session.isWalking}
           @change=${(e: Event) => camera && session.turn(withProjection(session.state.camera!, (e.target as HTMLInputElement).checked))} />${t("parallel")}</label>
         <label class="check"><input type="checkbox" id="walk" .checked=${session.isWalking} @change=${(e: Event) => setWalking(session, (e.target as HTMLInputElement).checked)} />${t("walk")}</label>
       </div>
       ${camera && !camera.parallel
         ? html`<div class="line"><span class="quiet">${t("fieldOfView")}</span>
-            <wa-slider size="s" label=${t("fieldOfView")} aria-label=${t("fieldOfView")} min="10" max="100" step="1" .value=${Math.round(camera.fieldOfView)}
-              @input=${(e: Event) => session.turn({ ...session.state.camera!, fieldOfView: Number((e.target as HTMLInputElement).value) })}></wa-slider>
-            <output>${number(camera.fieldOfView, 0)}°</output></div>`
+            ${memberSlider("fieldOfView", t("fieldOfView"), Math.round(camera.fieldOfView), (fieldOfView) => session.turn({ ...session.state.camera!, fieldOfView }))}
+            <output>${withUnit(camera.fieldOfView, 0, kSceneMembers["/camera/fieldOfView"].unit)}</output></div>`
         : nothing}
       ${session.isWalking ? html`<p class="small quiet">${t("walkHint")}</p>` : nothing}
     `;

@@ -1,0 +1,47 @@
+/**
+ * Ranges, choices and first values of controls that stand for a member of a scene. They are those of the declaration;
+ * what the page narrows or sets otherwise on purpose stands here with its reason, and nowhere else.
+ */
+
+import { kSceneMembers, type ChoiceOf, type SceneMember, type SceneMemberWith } from "../generated/scene_members";
+
+export interface MemberRange {
+  member: SceneMemberWith<"minimum" | "maximum">;
+  /** Of the control alone; a scene may have any value of the range. */
+  step: number;
+  /** Narrower than declared. */
+  minimum?: number;
+  maximum?: number;
+}
+
+export const kRanges = {
+  opacity: { member: "/passes/*/styles/*/opacity", step: 0.01 },
+  // Below, the picture is as good as parallel, which the page has as a projection of its own; above, what lies at the
+  // borders of the picture is stretched out of shape.
+  fieldOfView: { member: "/camera/fieldOfView", step: 1, minimum: 10, maximum: 100 },
+  pictureSide: { member: "/size", step: 1 },
+} as const satisfies Record<string, MemberRange>;
+
+/** What a control lets choose. */
+export function rangeOfControl(control: keyof typeof kRanges): { minimum: number; maximum: number; step: number } {
+  const { member, step, minimum, maximum }: MemberRange = kRanges[control];
+  const declared = kSceneMembers[member];
+  return { minimum: minimum ?? declared.minimum, maximum: maximum ?? declared.maximum, step };
+}
+
+/** Whether a scene may have the value. */
+export function isAllowed(member: SceneMemberWith<"minimum" | "maximum">, value: number): boolean {
+  const { minimum, maximum } = kSceneMembers[member];
+  return value >= minimum && value <= maximum;
+}
+
+/** Named views on buttons, in the order of the keys 1 to 7; the other slanted ones are a turn of the mouse away. */
+export const kViews = ["iso", "front", "right", "back", "left", "top", "bottom"] as const satisfies readonly ChoiceOf<"/camera/preset">[];
+
+/** Where the page begins with another value than a scene that says nothing. */
+export const kOtherFirstValues = {
+  // A picture that is kept goes into documents and slides, so it is as large as the screens that show those.
+  pictureSize: { member: "/size", value: [1920, 1080] },
+  // Who walks stands amidst the rooms, where the declared angle shows a piece of one wall.
+  walkingFieldOfView: { member: "/camera/fieldOfView", value: 65 },
+} as const satisfies Record<string, { member: SceneMember; value: unknown }>;
