@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// The members of a scene file (`*.scene.json`), declared once: parseScene() reads by this table, the options of
-/// `svt render` take their ranges and defaults from it, and docs/formats/scene.schema.json is written from it.
+/// `svt render` take their ranges and defaults from it, and docs/formats/scene.schema.json and the controls' limits of
+/// the viewer page (web/viewer/src/generated/scene_members.ts) are written from it.
 
 #include <svt/core/option.hpp>
 
