@@ -21,7 +21,7 @@ PARTS = ("svt", "apps", "web/wasm", "bench", "tests")
 THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd", "ft2build",
                "EGL/", "GLES3/", "polyclipping", "hwy/")
 POSIX = re.compile(r"(unistd|fcntl|signal|poll|sched|pthread|dlfcn|spawn)\.h$|(sys|netinet|arpa|linux)/")
-MAY_CALL_POSIX = ("svt/core/file/", "svt/core/parallel/", "svt/serve/", "bench/")
+MAY_CALL_POSIX = ("svt/core/file/", "svt/core/machine/", "svt/core/parallel/", "svt/serve/", "bench/")
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^">]+)')
 
 

@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// What the operating system tells of the machine and of this process's share of it, and work in a process of its own.
+/// Where a system does not tell (a browser, Node.js), a value is empty.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace svt {
+
+struct MemoryFigures {
+    std::optional<std::uint64_t> totalBytes;      ///< of the machine
+    std::optional<std::uint64_t> availableBytes;  ///< of the machine, without swapping
+    std::optional<std::uint64_t> limitBytes;      ///< of this process; only where it is below the total
+    std::string limitedBy;                        ///< "control group" or "ulimit -v"; empty without a limit
+};
+[[nodiscard]] MemoryFigures memoryFigures();
+
+/// How many cores the machine has. See hardwareThreads() for how many of them this process may use.
+[[nodiscard]] std::optional<int> machineCores() noexcept;
+
+/// How many cores' worth of time the control group (a container) grants this process, such as 1.5; empty: no limit.
+[[nodiscard]] std::optional<double> grantedCores();
+
+/// Whether there is a desktop that windows can be opened on.
+[[nodiscard]] bool hasDesktop() noexcept;
+
+/// The file that is run when a program is started by `name`; empty: there is none in PATH.
+[[nodiscard]] std::filesystem::path findProgram(std::string_view name);
+
+/// How work in a process of its own ended.
+struct OwnProcessResult {
+    std::string text;   ///< what it said, and what was written to stderr meanwhile; at most 64 KiB
+    std::string fault;  ///< why it did not come to its end, such as "ended by signal 11"; empty: it did
+};
+/// Hands a text to the process that waits.
+using Say = std::function<void(std::string_view)>;
+
+/// Does `work` in a copy of this process and waits for it, so that a crash or an endless loop in code of others (a
+/// graphics driver) ends the copy alone. What was said before stays. Nothing is written to stdout.
+/// Requires that this process has not started threads: the copy has but the calling one, so parallelFor() there would
+/// wait for the others forever. On systems without processes the work is done in this one.
+/// \param seconds  after this time the copy is ended
+[[nodiscard]] OwnProcessResult inOwnProcess(double seconds, const std::function<void(const Say&)>& work);
+
+}  // namespace svt

@@ -1,0 +1,139 @@
+#include <svt/core/machine.hpp>
+
+#include <svt/core/machine/control_group.hpp>
+#include <svt/core/temporary_folder_test.hpp>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+namespace svt {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Linux as far as controlGroupLimits() reads it.
+class ControlGroups : public ::testing::Test {
+protected:
+    void write(const std::string& file, const std::string& text) {
+        fs::create_directories((folder / file).parent_path());
+        test::writeText(folder / file, text);
+    }
+    test::TemporaryFolder folder;
+};
+
+TEST_F(ControlGroups, WithoutFilesThereIsNoLimit) {
+    const ControlGroupLimits limits = controlGroupLimits(folder.path());
+    EXPECT_FALSE(limits.memoryBytes || limits.cores);
+}
+
+TEST_F(ControlGroups, OfVersion2AreReadUpToTheTop) {
+    write("proc/self/cgroup", "0::/user/svt\n");
+    write("sys/fs/cgroup/user/svt/memory.max", "max\n");
+    write("sys/fs/cgroup/user/svt/cpu.max", "150000 100000\n");
+    write("sys/fs/cgroup/user/memory.max", "1000000\n");
+    write("sys/fs/cgroup/user/cpu.max", "max 100000\n");
+    write("sys/fs/cgroup/memory.max", "2000000\n");
+    const ControlGroupLimits limits = controlGroupLimits(folder.path());
+    EXPECT_EQ(limits.memoryBytes, 1000000u);
+    EXPECT_EQ(limits.cores, 1.5);
+}
+
+TEST_F(ControlGroups, OfVersion1AreReadByController) {
+    write("proc/self/cgroup", "12:cpu,cpuacct:/docker/1\n4:memory:/docker/1\n1:name=systemd:/docker/1\n");
+    // A container sees its own group at the top, under the path that the host gives it.
+    write("sys/fs/cgroup/memory/memory.limit_in_bytes", "3000000\n");
+    write("sys/fs/cgroup/cpu,cpuacct/cpu.cfs_quota_us", "50000\n");
+    write("sys/fs/cgroup/cpu,cpuacct/cpu.cfs_period_us", "100000\n");
+    const ControlGroupLimits limits = controlGroupLimits(folder.path());
+    EXPECT_EQ(limits.memoryBytes, 3000000u);
+    EXPECT_EQ(limits.cores, 0.5);
+}
+
+TEST_F(ControlGroups, OfVersion1MayBeWithoutLimit) {
+    write("proc/self/cgroup", "not a group\n2:cpu:/\n");
+    write("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "-1\n");
+    write("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000\n");
+    EXPECT_FALSE(controlGroupLimits(folder.path()).cores);
+}
+
+TEST(Machine, TellsMemoryAndCores) {
+    const MemoryFigures memory = memoryFigures();
+    if (!memory.totalBytes) GTEST_SKIP() << "this system does not tell";
+    EXPECT_GT(*memory.totalBytes, std::uint64_t{1} << 20);
+    ASSERT_TRUE(memory.availableBytes);
+    EXPECT_LE(*memory.availableBytes, *memory.totalBytes);
+    EXPECT_EQ(memory.limitBytes.has_value(), !memory.limitedBy.empty());
+    if (memory.limitBytes) {
+        EXPECT_LT(*memory.limitBytes, *memory.totalBytes);
+    }
+    ASSERT_TRUE(machineCores());
+    EXPECT_GE(*machineCores(), 1);
+}
+
+TEST(Machine, FindsProgramsInThePath) {
+    const test::TemporaryFolder folder;
+    fs::create_directories(folder / "a/folder");
+    fs::create_directories(folder / "b");
+    test::writeText(folder / "a/text", "");
+    test::writeText(folder / "b/program", "#!/bin/sh\n");
+    fs::permissions(folder / "b/program", fs::perms::owner_all);
+    const std::string before = std::getenv("PATH") == nullptr ? "" : std::getenv("PATH");
+    ::setenv("PATH", ((folder / "a").string() + ":" + (folder / "b").string()).c_str(), 1);
+    const fs::path program = findProgram("program"), text = findProgram("text"), other = findProgram("folder");
+    ::setenv("PATH", before.c_str(), 1);
+    EXPECT_EQ(program, folder / "b/program");
+    EXPECT_EQ(text, "") << "cannot be run";
+    EXPECT_EQ(other, "") << "is a folder";
+}
+
+TEST(InOwnProcess, TellsWhatWasSaidAndWrittenToStderr) {
+    const auto result = inOwnProcess(20, [](const Say& say) {
+        say("one\n");
+        std::fputs("two\n", stderr);
+        std::fputs("not this", stdout);
+        std::fflush(stdout);
+    });
+    EXPECT_EQ(result.text, "one\ntwo\n");
+    EXPECT_EQ(result.fault, "");
+}
+
+TEST(InOwnProcess, ACrashEndsTheCopyAlone) {
+    const auto result = inOwnProcess(20, [](const Say& say) {
+        say("before");
+        std::raise(SIGKILL);
+        say("after");
+    });
+    EXPECT_EQ(result.text, "before");
+    EXPECT_EQ(result.fault, "ended by signal 9");
+}
+
+TEST(InOwnProcess, WhatHangsIsEnded) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto result = inOwnProcess(0.2, [](const Say& say) {
+        say("before");
+        std::this_thread::sleep_for(std::chrono::minutes(2));
+    });
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(1));
+    EXPECT_EQ(result.text, "before");
+    EXPECT_EQ(result.fault, "no answer within 0.2 s");
+}
+
+TEST(InOwnProcess, ExceptionsDoNotLeave) {
+    const auto result = inOwnProcess(20, [](const Say&) { throw std::runtime_error("x"); });
+    EXPECT_EQ(result.fault, "ended with code 1");
+}
+
+TEST(InOwnProcess, TextIsBounded) {
+    const auto result = inOwnProcess(20, [](const Say& say) { say(std::string(1 << 20, 'x')); });
+    EXPECT_EQ(result.text.size(), std::size_t{64} * 1024);
+    EXPECT_EQ(result.fault, "");
+}
+
+}  // namespace
+}  // namespace svt

@@ -1,0 +1,22 @@
+// Replaces machine_posix.cpp where a program knows nothing of the machine: in browsers, and as WebAssembly elsewhere.
+#include <svt/core/machine.hpp>
+
+namespace svt {
+
+MemoryFigures memoryFigures() { return {}; }
+
+std::optional<int> machineCores() noexcept { return {}; }
+
+std::optional<double> grantedCores() { return {}; }
+
+bool hasDesktop() noexcept { return false; }
+
+std::filesystem::path findProgram(std::string_view) { return {}; }
+
+OwnProcessResult inOwnProcess(double, const std::function<void(const Say&)>& work) {
+    OwnProcessResult result;
+    work([&result](std::string_view text) { result.text += text; });
+    return result;
+}
+
+}  // namespace svt
