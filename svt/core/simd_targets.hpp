@@ -12,10 +12,14 @@
 #endif
 
 #include <string_view>
+#include <vector>
 
 namespace svt {
 
 /// Name of the instruction set that kernels use on this machine: "AVX3" (AVX-512), "AVX2", "SSE4", "EMU128" (portable).
 [[nodiscard]] std::string_view simdTargetName() noexcept;
+
+/// Names of the instruction sets that kernels are compiled for, the best first.
+[[nodiscard]] std::vector<std::string_view> compiledSimdTargets();
 
 }  // namespace svt

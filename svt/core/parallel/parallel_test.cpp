@@ -1,7 +1,9 @@
 #include <svt/core/parallel.hpp>
+#include <svt/core/simd_targets.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <vector>
 
@@ -48,6 +50,12 @@ TEST(Parallel, MoreThreadsThanCoresAreNoReasonToPrint) {
 }
 
 TEST(Parallel, ThereIsAtLeastOneCore) { EXPECT_GE(hardwareThreads(), 1); }
+
+TEST(SimdTargets, TheOneInUseIsAmongThoseCompiled) {
+    const std::vector<std::string_view> names = compiledSimdTargets();
+    EXPECT_EQ(std::ranges::count(names, simdTargetName()), 1);
+    EXPECT_EQ(std::ranges::count(names, "?"), 0) << "a set of instructions without a name";
+}
 
 }  // namespace
 }  // namespace svt
