@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -47,6 +48,11 @@ EGLDisplay displayOf(const Way& way) {
     return getDisplay == nullptr
                ? EGL_NO_DISPLAY
                : getDisplay(way.platform, reinterpret_cast<void*>(EGL_DEFAULT_DISPLAY), way.attributes.data());
+}
+
+std::string textOf(GLenum name) {
+    const auto* text = reinterpret_cast<const char*>(glGetString(name));
+    return text == nullptr ? "" : text;
 }
 
 }  // namespace
@@ -113,9 +119,14 @@ Result<EglContext> EglContext::make() {
                              tried));
 }
 
-std::string EglContext::renderer() const {
-    const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return name == nullptr ? "" : name;
+std::string EglContext::renderer() const { return textOf(GL_RENDERER); }
+
+std::string EglContext::version() const { return textOf(GL_VERSION); }
+
+bool isSoftwareRenderer(std::string_view renderer) noexcept {
+    constexpr std::string_view kSoftware[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"};
+    return std::ranges::any_of(kSoftware,
+                               [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
 }
 
 }  // namespace svt::render_gl

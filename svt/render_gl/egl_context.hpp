@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace svt::render_gl {
 
@@ -22,6 +23,8 @@ public:
 
     /// GL_RENDERER of the driver, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
     [[nodiscard]] std::string renderer() const;
+    /// GL_VERSION of the driver, such as "OpenGL ES 3.2 Mesa 22.3.6".
+    [[nodiscard]] std::string version() const;
 
 private:
     struct Parts;
@@ -29,5 +32,8 @@ private:
 
     std::unique_ptr<Parts> parts_;
 };
+
+/// Whether a driver of this GL_RENDERER draws with the processor, which the ray caster does faster.
+[[nodiscard]] bool isSoftwareRenderer(std::string_view renderer) noexcept;
 
 }  // namespace svt::render_gl
