@@ -1,5 +1,7 @@
 #include <svt/serve/host.hpp>
 
+#include <svt/core/machine.hpp>
+
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <spawn.h>
@@ -7,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdlib>
 
 namespace svt::serve {
 
@@ -24,8 +25,8 @@ std::string machineName() {
 }
 
 bool openBrowser(const std::string& address) {
-    if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return false;
-    std::string program = "xdg-open", argument = address;
+    if (!hasDesktop()) return false;
+    std::string program(kBrowserOpener), argument = address;
     std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
