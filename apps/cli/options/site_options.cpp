@@ -1,5 +1,6 @@
 #include <apps/cli/options/site_options.hpp>
 
+#include <apps/cli/options/viewer_folder.hpp>
 #include <apps/cli/output/json_output.hpp>
 
 #include <svt/core/file.hpp>
@@ -12,7 +13,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <system_error>
 
 namespace svt::cli {
 namespace {
@@ -122,16 +122,7 @@ void SiteArguments::connect(Command& command) {
     build.connect(command);
 }
 
-Result<fs::path> SiteArguments::viewerFolder() const {
-    std::error_code error;
-    const fs::path folder =
-        !viewer.empty() ? viewer : executablePath().parent_path().parent_path() / "share/svt/viewer";
-    if (fs::is_regular_file(folder / "index.html", error)) return folder;
-    return Error(Code::CannotOpen,
-                 "no viewer is here: index.html is missing; `make viewer` builds one, --viewer names "
-                 "another folder",
-                 Place{folder.string(), 0, 0, {}});
-}
+Result<fs::path> SiteArguments::viewerFolder() const { return findViewerFolder(viewer); }
 
 Result<std::vector<serve::SiteModel>> SiteArguments::load(const std::vector<fs::path>& inputs) const {
     BuildArguments withEdges = build;

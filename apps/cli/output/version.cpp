@@ -11,21 +11,32 @@ namespace svt::cli {
 
 std::string_view versionNumber() noexcept { return SVT_VERSION; }
 
-std::string versionText() {
+BuildFacts buildFacts() {
+    BuildFacts facts;
+    facts.commit = SVT_COMMIT;
+    facts.kind = SVT_BUILD_TYPE;
 #if defined(__clang__)
-    const std::string compiler = fmt::format("Clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+    facts.compiler = fmt::format("Clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
 #elif defined(__GNUC__)
-    const std::string compiler = fmt::format("GCC {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+    facts.compiler = fmt::format("GCC {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
 #else
-    const std::string compiler = "an unknown compiler";
+    facts.compiler = "an unknown compiler";
 #endif
 #ifdef __EMSCRIPTEN__
-    constexpr std::string_view kOpenGl = "none";
+    facts.openGl = "none";
 #else
-    constexpr std::string_view kOpenGl = "OpenGL ES 3.0 by EGL";
+    facts.openGl = "OpenGL ES 3.0 by EGL";
 #endif
-    return fmt::format("svt {}\ncommit    {}\ncompiler  {}, {}\nSIMD      {}\nOpenGL    {}", SVT_VERSION, SVT_COMMIT,
-                       compiler, SVT_BUILD_TYPE, simdTargetName(), kOpenGl);
+#ifdef __OPTIMIZE__
+    facts.isOptimized = true;
+#endif
+    return facts;
+}
+
+std::string versionText() {
+    const BuildFacts facts = buildFacts();
+    return fmt::format("svt {}\ncommit    {}\ncompiler  {}, {}\nSIMD      {}\nOpenGL    {}", SVT_VERSION, facts.commit,
+                       facts.compiler, facts.kind, simdTargetName(), facts.openGl);
 }
 
 }  // namespace svt::cli
