@@ -487,6 +487,7 @@ const std::vector<BadInput> kOptions{
     {"NoOutput", "build without output", "good.gml", kGood, {"build", "good.gml"}, kUsage, "--output"},
     {"BadChoice", "a value that is none of the choices", "good.gml", kGood, buildWith({"--axes", "moon"}), kUsage,
      "--axes.*moon.*world|--axes.*world.*moon"},
+    {"DoctorWithInput", "a file where none is asked for", "", {}, {"doctor", "house.gml"}, kUsage, "house\\.gml"},
     {"UnknownSample", "a sample that does not exist", "", {}, {"sample", "castle", "-o", "o.gml"}, kUsage, "castle"},
     {"SampleWithoutExtension",
      "an output that tells no format",

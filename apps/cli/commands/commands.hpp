@@ -18,6 +18,7 @@ Action connectConvert(Command& command);
 Action connectServe(Command& command);
 Action connectView(Command& command);
 Action connectPublish(Command& command);
+Action connectDoctor(Command& command);
 Action connectDescribe(Command& command);
 
 }  // namespace svt::cli

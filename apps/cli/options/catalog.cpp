@@ -487,8 +487,9 @@ constexpr Option kPage[] = {
     {.name = "-v,--verbose", .kind = Flag, .help = "show all findings", .group = "Page"},
 };
 
-// describe
+// doctor, describe
 
+constexpr Option kDoctor[] = {kInfoOutput[0]};
 constexpr Option kDescribe[] = {
     {.name = "what",
      .choices = "json|man|bash|zsh|fish",
@@ -523,6 +524,7 @@ std::span<const CommandText> commandTexts() {
         {"publish",
          "Write the viewer with models as a folder for any web server",
          {kPublish, kPage, kGrid, kModel, kStyle, kVoxels}},
+        {"doctor", "Say what of this machine can be used, and what to do about what is missing", {kDoctor}},
         {"describe", "Print what the command offers, for other programs", {kDescribe}},
     };
     return kCommands;
