@@ -26,8 +26,11 @@ struct MemoryFigures {
 /// How many cores' worth of time the control group (a container) grants this process, such as 1.5; empty: no limit.
 [[nodiscard]] std::optional<double> grantedCores();
 
+/// Bytes that this user may still write on the disk of `folder`.
+[[nodiscard]] std::optional<std::uint64_t> freeBytes(const std::filesystem::path& folder);
+
 /// Whether there is a desktop that windows can be opened on.
-[[nodiscard]] bool hasDesktop() noexcept;
+[[nodiscard]] std::optional<bool> hasDesktop() noexcept;
 
 /// The file that is run when a program is started by `name`; empty: there is none in PATH.
 [[nodiscard]] std::filesystem::path findProgram(std::string_view name);

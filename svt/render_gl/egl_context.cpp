@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -122,11 +121,5 @@ Result<EglContext> EglContext::make() {
 std::string EglContext::renderer() const { return textOf(GL_RENDERER); }
 
 std::string EglContext::version() const { return textOf(GL_VERSION); }
-
-bool isSoftwareRenderer(std::string_view renderer) noexcept {
-    constexpr std::string_view kSoftware[] = {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"};
-    return std::ranges::any_of(kSoftware,
-                               [&](std::string_view name) { return renderer.find(name) != std::string_view::npos; });
-}
 
 }  // namespace svt::render_gl

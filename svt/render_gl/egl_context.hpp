@@ -4,6 +4,7 @@
 
 #include <svt/core/result.hpp>
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -34,6 +35,10 @@ private:
 };
 
 /// Whether a driver of this GL_RENDERER draws with the processor, which the ray caster does faster.
-[[nodiscard]] bool isSoftwareRenderer(std::string_view renderer) noexcept;
+[[nodiscard]] constexpr bool isSoftwareRenderer(std::string_view renderer) noexcept {
+    for (const std::string_view name : {"llvmpipe", "softpipe", "swrast", "SwiftShader", "Software Rasterizer"})
+        if (renderer.find(name) != std::string_view::npos) return true;
+    return false;
+}
 
 }  // namespace svt::render_gl

@@ -16,4 +16,6 @@ Result<EglContext> EglContext::make() {
 
 std::string EglContext::renderer() const { return {}; }
 
+std::string EglContext::version() const { return {}; }
+
 }  // namespace svt::render_gl

@@ -25,7 +25,7 @@ std::string machineName() {
 }
 
 bool openBrowser(const std::string& address) {
-    if (!hasDesktop()) return false;
+    if (!hasDesktop().value_or(false)) return false;
     std::string program(kBrowserOpener), argument = address;
     std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
     posix_spawn_file_actions_t actions;

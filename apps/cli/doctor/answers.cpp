@@ -48,9 +48,7 @@ void giveUp(Answer& answer, const Error& error) {
 // Files that can be written in a folder: by trying, since permissions say nothing of a disk that is read-only.
 void tryFolder(Answer& answer, const fs::path& folder, State otherwise) {
     constexpr std::uint64_t kLittle = 100'000'000;
-    std::error_code error;
-    const fs::space_info space = fs::space(folder, error);
-    const std::optional<std::uint64_t> free = error ? std::nullopt : std::optional<std::uint64_t>(space.available);
+    const auto free = freeBytes(folder);
     const auto file = AtomicFile::create(folder / "svt-doctor");
     answer.values = {{"path", folder.string()}, {"free", orNull(free)}, {"writable", file.hasValue()}};
     answer.text = folder.string();
@@ -152,13 +150,19 @@ Answer viewerAnswer() {
 
 Answer browserAnswer() {
     Answer answer{"browser", "browser"};
+    const auto isDesktop = hasDesktop();
     const fs::path opener = findProgram(serve::kBrowserOpener);
-    answer.values = {{"opener", opener.empty() ? Json(nullptr) : Json(opener.string())}, {"desktop", hasDesktop()}};
+    answer.values = {{"opener", opener.empty() ? Json(nullptr) : Json(opener.string())},
+                     {"desktop", orNull(isDesktop)}};
+    if (!isDesktop) {
+        answer.text = "not known";
+        return answer;
+    }
     answer.text = opener.string();
     if (opener.empty())
         warn(answer, fmt::format("there is no {} in PATH; install xdg-utils, or open the address that svt view prints",
                                  serve::kBrowserOpener));
-    if (!hasDesktop())
+    if (!*isDesktop)
         warn(answer, "neither DISPLAY nor WAYLAND_DISPLAY is set: without a desktop svt view only prints its address");
     return answer;
 }

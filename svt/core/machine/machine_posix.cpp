@@ -107,7 +107,15 @@ std::optional<int> machineCores() noexcept {
 
 std::optional<double> grantedCores() { return controlGroupLimits("/").cores; }
 
-bool hasDesktop() noexcept { return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr; }
+std::optional<std::uint64_t> freeBytes(const fs::path& folder) {
+    std::error_code error;
+    const fs::space_info space = fs::space(folder, error);
+    return error ? std::nullopt : std::optional<std::uint64_t>(space.available);
+}
+
+std::optional<bool> hasDesktop() noexcept {
+    return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+}
 
 fs::path findProgram(std::string_view name) {
     const char* path = std::getenv("PATH");

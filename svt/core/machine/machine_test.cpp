@@ -76,6 +76,12 @@ TEST(Machine, TellsMemoryAndCores) {
     EXPECT_GE(*machineCores(), 1);
 }
 
+TEST(Machine, TellsFreeBytesOfADiskThatExists) {
+    const test::TemporaryFolder folder;
+    EXPECT_GT(freeBytes(folder.path()).value_or(0), 0u);
+    EXPECT_FALSE(freeBytes(folder / "missing"));
+}
+
 TEST(Machine, FindsProgramsInThePath) {
     const test::TemporaryFolder folder;
     fs::create_directories(folder / "a/folder");

@@ -9,7 +9,10 @@ std::optional<int> machineCores() noexcept { return {}; }
 
 std::optional<double> grantedCores() { return {}; }
 
-bool hasDesktop() noexcept { return false; }
+// Emscripten's file system invents a figure.
+std::optional<std::uint64_t> freeBytes(const std::filesystem::path&) { return {}; }
+
+std::optional<bool> hasDesktop() noexcept { return {}; }
 
 std::filesystem::path findProgram(std::string_view) { return {}; }
 
