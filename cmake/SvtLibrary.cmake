@@ -43,10 +43,27 @@ function(svt_library folder)
   else()
     svt_precompile(svt_${folder} svt_precompiled)
   endif()
+  svt_unity(svt_${folder})
   if(SVT_TESTS AND tests)
     list(TRANSFORM SVT_TEST_LINKS_${folder} PREPEND svt:: OUTPUT_VARIABLE of_tests)
     svt_test(svt_${folder}_test SOURCES ${tests} LINK svt::${folder} ${of_tests} ${ARG_PRIVATE_LINK})
   endif()
+endfunction()
+
+# svt_unity(<target>): compiles sources of a target together, a few at a time, so that what they include is read and
+# instantiated once. Kernels that are compiled once for each set of instructions stay alone.
+function(svt_unity target)
+  if(NOT SVT_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    file(STRINGS ${source} kernel REGEX "HWY_TARGET_INCLUDE|packet_kernel" LIMIT_COUNT 1)
+    if(kernel)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
 endfunction()
 
 # svt_link(<target> <folder> [<targets>...]): links the layers of a folder outside svt/ (svt/layers.txt), and targets.

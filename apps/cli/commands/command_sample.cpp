@@ -42,7 +42,7 @@ int runSample(const Arguments& arguments) {
     if (!file) return fail(file.error());
     std::optional<Error> writeError;
     const auto written = samples::writeSample(kind, *format, arguments.options, [&](std::string_view text) {
-        auto done = file->write(std::as_bytes(std::span(text)));
+        auto done = file->write(text);
         if (!done) writeError = done.error();
         return done.hasValue();
     });
