@@ -91,7 +91,7 @@ TEST(Gaps, AreThoseOfAFlood) {
         }
         const volume::ColumnVolume columns = volume::ColumnVolume::fromDense(n, dense);
         volume::LabelTable table = oneLabelEach(6);
-        table.labels[2].count = 0;  // scalar 3 belongs to nobody
+        table.labels[2].count = 0;  // scalar 3 belongs to no label
         const std::vector<Gap> gaps = findGaps(columns, table);
         std::vector<Gap> expected = gapsByFlood(columns, table.labelOfScalar());
         count += gaps.size();

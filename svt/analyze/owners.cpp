@@ -279,7 +279,7 @@ Ownership divideByOwners(const volume::SemanticVolume& volume, const std::vector
         for (OwnerShare& share : shares[l]) {
             share.volume = volumes[l] * share.area / area;
             if (share.owner == kNoOwner) {
-                result.nobody += share.volume;
+                result.unowned += share.volume;
                 continue;
             }
             OwnerTotal& total = result.owners[share.owner];

@@ -74,7 +74,7 @@ struct OwnerTotal {
 struct Ownership {
     std::vector<OwnerTotal> owners;            ///< as in OwnerTable::names
     std::vector<DividedComponent> components;  ///< by label
-    double nobody = 0;                         ///< m3: the unowned shares of components
+    double unowned = 0;                        ///< m3: the unowned shares of components
     double untouched = 0;                      ///< m3: components that touch no space
 };
 

@@ -101,14 +101,14 @@ TEST(Owners, TheSlabIsDividedByContact) {
     EXPECT_EQ(ada.with, (std::vector<OwnerShare>{{1, 200, 206.25}, {2, 50, 56.25}}));
     double sum = 0;
     for (const OwnerTotal& total : result.owners) sum += total.own + total.alone + total.shared;
-    EXPECT_NEAR(sum + result.nobody + result.untouched, (24 * 20 * 33 + 12 * 20 * 10 - 20 * 30) * 0.125, 1e-9);
+    EXPECT_NEAR(sum + result.unowned + result.untouched, (24 * 20 * 33 + 12 * 20 * 10 - 20 * 30) * 0.125, 1e-9);
 }
 
-TEST(Owners, SpacesThatAreNotNamedAreNobodys) {
+TEST(Owners, SpacesThatAreNotNamedAreUnowned) {
     const auto volume = threeRooms();
     const Ownership result = divide(volume, "a,Ada\n");
     EXPECT_EQ(result.components[0].shares, (std::vector<OwnerShare>{{0, 150, 150}, {kNoOwner, 150, 150}}));
-    EXPECT_NEAR(result.nobody, 150 + 180 * 110.0 / 160, 1e-9);
+    EXPECT_NEAR(result.unowned, 150 + 180 * 110.0 / 160, 1e-9);
     EXPECT_EQ(result.untouched, 0);
     // All rooms of one owner: nothing is shared.
     const Ownership one = divide(volume, "class=BuildingRoom,Ada\n");

@@ -179,7 +179,7 @@ TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {
     asJson.emplace_back("--json");
     asCsv.emplace_back("--csv");
     const json report = runSvtForJson(folder.path(), asJson);
-    EXPECT_EQ(keysOf(report), (Keys{"components", "nobody", "owners", "untouched"}));
+    EXPECT_EQ(keysOf(report), (Keys{"components", "owners", "unowned", "untouched"}));
     ASSERT_EQ(report["owners"].size(), 2u);
     EXPECT_EQ(keysOf(report["owners"][0]), (Keys{"alone", "own", "owner", "shared", "total", "with"}));
     ASSERT_EQ(report["components"].size(), 1u);
@@ -222,7 +222,7 @@ TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
         table += fmt::format("\"name=\"\"{}\"\"\",owner of {}\n", room, room);
     writeText(folder / "owners.csv", table);
     const json report = runSvtForJson(folder.path(), {"query", "f.svt", "all", "--owners", "owners.csv", "--json"});
-    double own = 0, all = report["nobody"].get<double>() + report["untouched"].get<double>(), shares = 0;
+    double own = 0, all = report["unowned"].get<double>() + report["untouched"].get<double>(), shares = 0;
     for (const json& owner : report["owners"]) {
         own += owner["own"].get<double>();
         all += owner["total"].get<double>();

@@ -270,7 +270,7 @@ OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& sele
                                              {"volume", sum},
                                              {"shares", sharesJson(owners, component.shares)}});
     }
-    report.json["nobody"] = ownership.nobody;
+    report.json["unowned"] = ownership.unowned;
     report.json["untouched"] = ownership.untouched;
     return report;
 }
