@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "svt: error: stdout cannot be written: {}\n", error.code().message());
         return kOutput;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "svt: internal error: {}\n", error.what());
-        return kInternal;
+        return fail(svt::Error(svt::Code::Internal,
+                               fmt::format("{}; please report this with the command that led to it", error.what())));
     }
 }

@@ -87,7 +87,7 @@ enum class Code : std::uint16_t {
 struct Place {
     std::string file;          ///< path or name as the caller gave it
     std::uint64_t line = 0;    ///< 1-based; 0: unknown
-    std::uint64_t column = 0;  ///< 1-based; 0: unknown
+    std::uint64_t column = 0;  ///< 1-based; 0: unknown; shown only behind a line
     std::string id;            ///< gml:id or CityJSON id of the feature or geometry
 
     /// "house.gml:12:5 (id 'wall-3')", or empty.

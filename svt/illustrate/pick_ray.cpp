@@ -52,7 +52,8 @@ Result<PickRay> parsePickRay(std::string_view text, const volume::Grid& grid) {
         return ray;
     const Vec3d size =
         scaled(grid.spacing(), {double(grid.dimension().x), double(grid.dimension().y), double(grid.dimension().z)});
-    return bad(fmt::format("passes the whole volume by, which is {:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z));
+    return bad(
+        fmt::format("the ray does not meet the volume, which is {:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z));
 }
 
 }  // namespace svt::illustrate

@@ -88,7 +88,7 @@ struct Scene {
     std::optional<float> lineStrength, lineWidth, cutWidth;
     std::optional<Vec3f> lineColor;
     std::optional<bool> hasHatches;
-    std::optional<double> hatchSpacing;  ///< metres; unset: the largest 1, 2 or 5 * 10^n m below 11 pixels (4.4 to 11)
+    std::optional<double> hatchSpacing;  ///< metres; unset: the largest 1, 2 or 5 * 10^n m within 11 pixels (4.4 to 11)
     std::optional<float> ambientOcclusion;
     std::vector<std::string> names;  ///< queries: labels with name tags beside the picture, see name_tags.hpp
     std::vector<ScenePass> passes{ScenePass{}};

@@ -23,7 +23,8 @@ struct SectionPlane {
 /// Parses a plane through `volume`, one of
 ///     z=1.2  z>1.2      cut away above 1.2 m, measured along the grid's z axis from its lower corner; x and y likewise
 ///     z<1.2             cut away below
-///     storey=EG+1.1     cut away above 1.1 m over the floor of that storey (by name or id; see Query for what is one)
+///     storey=EG+1.1     cut away above 1.1 m over the floor of that storey (by name or id; see Query for what is one);
+///                       without a number, above 1 m
 ///     A,B,C,D           cut away where A x + B y + C z + D > 0; world axes, metres from the grid's lower corner
 /// \return the plane, or
 ///         - BadSection       the text is none of these, a number is not finite, the normal is zero, or the plane

@@ -46,7 +46,7 @@ Result<Vec3f> parseColor(std::string_view text) {
     }
     std::string names;
     for (const auto& entry : kColorNames) names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.first);
-    return Error(Code::BadStyle, fmt::format("'{}' is no colour; write #rrggbb, #rgb or one of {}", text, names));
+    return Error(Code::BadStyle, fmt::format("unknown colour '{}'; write #rrggbb, #rgb or one of {}", text, names));
 }
 
 std::string colorText(Vec3f color) {

@@ -159,7 +159,7 @@ bool read(Stream& stream, Target& target) {
 
 Result<void> decode(std::span<const std::byte> bytes, Target& target) {
     if (bytes.size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) != 0)
-        return Error(Code::BadImage, "not a PNG");
+        return Error(Code::BadImage, "this is not a PNG; save the image as one");
     Stream stream;
     stream.rest = bytes;
     if (read(stream, target)) return {};

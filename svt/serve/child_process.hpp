@@ -13,7 +13,7 @@ namespace svt::serve {
 
 struct ChildLimits {
     std::uint64_t memoryBytes = std::uint64_t{2} << 30;  ///< address space
-    double seconds = 120;                                ///< wall-clock time, and hence CPU time of each core
+    double seconds = 120;                                ///< wall-clock time; CPU time has no limit of its own
     std::uint64_t fileBytes = std::uint64_t{1} << 30;    ///< size of the largest file it may write
 };
 
@@ -25,7 +25,8 @@ struct ChildResult {
 };
 
 /// Runs `arguments[0]` (a path) in `folder` and waits for it to end. It gets no input and its stdout is discarded. It
-/// is killed with all its descendants when it exceeds a limit, when `stop` requests it, or when this thread ends.
+/// is killed with all its descendants when its time is over or `stop` requests it; when this thread ends, it is killed
+/// alone. Beyond the limits of memory and file size its allocations and writes fail.
 [[nodiscard]] ChildResult runChild(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                                    const ChildLimits& limits, const Progress& stop);
 

@@ -29,7 +29,8 @@ Reply refusalOf(std::string_view messages) {
     constexpr std::string_view kStart = "svt: error";
     const std::size_t at = messages.rfind(kStart);
     if (at == std::string_view::npos)
-        return Reply::error(422, codeTag(Code::InputTooBig), "the model needs more memory than it may have");
+        return Reply::error(422, codeTag(Code::InputTooBig),
+                            "the conversion needs more memory than this server allows; choose a smaller model");
     std::string_view line = messages.substr(at + kStart.size());
     line = line.substr(0, line.find('\n'));
     const std::size_t colon = std::min(line.find(": "), line.size());
@@ -47,8 +48,8 @@ Reply replyTo(const ChildResult& result, const ChildLimits& limits, const fs::pa
     if (result.signal != 0)
         return Reply::error(
             422, codeTag(Code::InputTooBig),
-            fmt::format("the conversion was ended by signal {}; the model may need more than the {} MB of "
-                        "memory it may have",
+            fmt::format("the conversion was ended by signal {}; it may need more memory than the {} MB that this "
+                        "server allows",
                         result.signal, limits.memoryBytes >> 20));
     if (result.exitCode != 0) return refusalOf(result.messages);
     auto file = MappedFile::open(volume);
@@ -66,7 +67,7 @@ Reply convert(const ConvertOptions& options, const Request& request, const Progr
     std::error_code error;
     fs::rename(request.bodyFile, folder.path() / name, error);
     if (folder.path().empty() || error)
-        return Reply::error(503, codeTag(Code::DiskFull), "there is no place for the model");
+        return Reply::error(503, codeTag(Code::DiskFull), "no space is left for the model");
     std::vector<std::string> arguments = options.command;
     const std::string volume = "volume.svt.out";
     arguments.insert(arguments.end(), {name, "-o", volume});

@@ -97,7 +97,7 @@ std::optional<HeadError> readRequestLine(std::string_view line, Head& head) {
     if (!isToken(method) || target.find(' ') != std::string_view::npos || hasControl(line))
         return HeadError{400, "a request line is a method, a target and a version"};
     if (version != "HTTP/1.1" && version != "HTTP/1.0")
-        return version.substr(0, 5) == "HTTP/" ? HeadError{505, "only HTTP/1.0 and HTTP/1.1 are spoken here"}
+        return version.substr(0, 5) == "HTTP/" ? HeadError{505, "only HTTP/1.0 and HTTP/1.1 are possible here"}
                                                : HeadError{400, "the request line ends without a version of HTTP"};
     head.request.method = method;
     head.isKeptAlive = version == "HTTP/1.1";
@@ -124,7 +124,7 @@ std::optional<HeadError> readMeaning(Head& head) {
     if (countOf(headers, "content-length") > 1) return HeadError{400, "several Content-Lengths"};
     if (countOf(headers, "content-length") == 1) {
         const auto length = wholeNumber(valueOf(headers, "content-length"));
-        if (!length) return HeadError{400, "Content-Length is no whole number"};
+        if (!length) return HeadError{400, "Content-Length is not a whole number"};
         head.bodyBytes = *length;
     }
     const std::string connection = lowerAscii(valueOf(headers, "connection"));

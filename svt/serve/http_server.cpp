@@ -500,7 +500,7 @@ private:
                                                          connection.head.bodyBytes, worker.route.maxBodyBytes)),
                          false);
         if (worker.admitted > worker.route.queueLength) {
-            Reply refused = Reply::refusal(503, "too many of these are at work; try again");
+            Reply refused = Reply::refusal(503, "too many such requests are at work; try again later");
             refused.headers.emplace_back("Retry-After", "2");
             return reply(connection, std::move(refused), false);
         }
@@ -508,7 +508,7 @@ private:
         connection.job = std::make_shared<Job>(worker.admitted);
         connection.job->request = std::move(connection.head.request);
         if (worker.route.isBodyInFile && !openBodyFile(connection))
-            return reply(connection, Reply::refusal(503, "there is no place for the body"), false);
+            return reply(connection, Reply::refusal(503, "no space is left for the body of the request"), false);
         connection.bodyLeft = connection.head.bodyBytes;
         enter(connection, State::Body, options_.stallSeconds, connection.bodyLeft);
         postpone(connection);
@@ -548,7 +548,8 @@ private:
             while (!bytes.empty()) {
                 const ssize_t written = ::write(connection.bodyFile.get(), bytes.data(), bytes.size());
                 if (written <= 0)
-                    return reply(connection, Reply::refusal(503, "there is no place for the body"), false);
+                    return reply(connection, Reply::refusal(503, "no space is left for the body of the request"),
+                                 false);
                 bytes.remove_prefix(static_cast<std::size_t>(written));
             }
         }

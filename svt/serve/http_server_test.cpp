@@ -49,7 +49,8 @@ TEST(HttpServer, AnswersWithTheHeadersOfSafety) {
 TEST(HttpServer, MethodsAndPaths) {
     const RunningServer server(smallSite(), {echo()});
     EXPECT_EQ(server.ask("GET /missing").status, 404);
-    EXPECT_EQ(server.ask("GET /missing").body, "{\"code\":\"HTTP404\",\"message\":\"nothing is here\"}\n");
+    EXPECT_EQ(server.ask("GET /missing").body,
+              "{\"code\":\"HTTP404\",\"message\":\"there is nothing at this address\"}\n");
     const auto head = server.ask("HEAD /data.svt");
     EXPECT_EQ(head.status, 200);
     EXPECT_EQ(head.header("Content-Length"), "3000000");

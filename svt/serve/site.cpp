@@ -207,7 +207,7 @@ const Resource* Site::find(std::string_view path) const noexcept {
 
 Reply Site::reply(const Request& request) const {
     const Resource* resource = find(request.path);
-    if (resource == nullptr) return Reply::refusal(404, "nothing is here");
+    if (resource == nullptr) return Reply::refusal(404, "there is nothing at this address");
     const bool isHead = request.method == "HEAD";
     if (request.method != "GET" && !isHead) {
         Reply reply = Reply::refusal(405, "only GET and HEAD are possible here");
@@ -260,7 +260,8 @@ Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> model
     Site site;
     if (auto added = site.addFolder(viewer); !added) return added.error();
     if (site.find("/index.html") == nullptr)
-        return cannotOpen(viewer, "the folder has no index.html, so it is no viewer; `make viewer` builds one");
+        return cannotOpen(viewer,
+                          "the folder has no index.html, so it holds no viewer's page; `make viewer` builds it");
     nlohmann::ordered_json list = nlohmann::json::array();
     for (const SiteModel& model : models) {
         const std::string file = "models/" + model.name + ".svt";

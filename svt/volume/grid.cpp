@@ -15,15 +15,15 @@ Result<void> checkDimension(Vec3d dimension) {
         if (!(count >= 2 && count <= Grid::kMaxDimension))
             return Error(
                 Code::BadDimension,
-                fmt::format("dimension {} along {} is out of range; 2 to {} samples are possible. Choose another "
-                            "dimension or spacing.",
+                fmt::format("dimension {} along {} is out of range; 2 to {} samples are possible; choose another "
+                            "dimension or spacing",
                             count, kAxisNames[axis], Grid::kMaxDimension));
     }
     const double columns = dimension.x * dimension.y;
     constexpr double kMaxColumns = 2147483648.0;
     if (columns > kMaxColumns)
         return Error(Code::GridTooLarge,
-                     fmt::format("{} x {} columns are over the limit of {}; choose a coarser spacing.", dimension.x,
+                     fmt::format("{} x {} columns are over the limit of {}; choose a coarser spacing", dimension.x,
                                  dimension.y, kMaxColumns));
     return {};
 }

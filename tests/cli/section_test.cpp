@@ -224,7 +224,7 @@ TEST(Section, ErrorsSayWhatToDo) {
     const Case cases[] = {
         {{"-o", "d.pdf"}, 2, "\\.svg, \\.dxf, \\.geojson"},
         {{}, 2, "nothing to write"},
-        {{"-o", "d.svg", "--plane", "z=99"}, 2, "E503 BadSection.*passes the whole volume by.*from"},
+        {{"-o", "d.svg", "--plane", "z=99"}, 2, "E503 BadSection.*does not meet the volume.*from"},
         {{"-o", "d.svg", "--plane", "q=1"}, 2, "E503 BadSection.*expected z=1.2"},
         {{"-o", "d.svg", "--plane", "0,0,0,1"}, 2, "normal is zero"},
         {{"-o", "d.svg", "--plane", "storey=EG+1"}, 2, "E902|storey"},

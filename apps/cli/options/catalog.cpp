@@ -192,8 +192,8 @@ constexpr Option kRender[] = {
     {.name = "--section",
      .value = "PLANE",
      .help =
-         "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=NAME+1.1, or A,B,C,D; metres from the lower corner; "
-         "z=0..6 moves with --frames",
+         "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=NAME+1.1 (above 1.1 m over its floor), or A,B,C,D; "
+         "metres from the lower corner; z=0..6 moves with --frames",
      .group = "Cut",
      .mayRepeat = true},
     {.name = "--cut", .group = "Cut", .member = "/passes/*/cut"},
@@ -305,12 +305,12 @@ constexpr Option kSection[] = {
     {.name = "--plane",
      .value = "PLANE",
      .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
-     .help = "z=1.2, y<3, x>4, storey=NAME+1.1, or A,B,C,D; metres from the lower corner",
+     .help = "z=1.2, y<3, x>4, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres from the lower corner",
      .group = "Drawing"},
     {.name = "--scale",
      .value = "1:N",
      .byDefault = "1:100",
-     .help = "of the SVG: 1:50 draws 1 m as 20 mm",
+     .help = "scale of the SVG: 1:50 draws 1 m as 20 mm",
      .group = "Drawing"},
     {.name = "--hide",
      .value = "QUERY",
@@ -357,7 +357,7 @@ constexpr Option kQuery[] = {
      .help = "what lies along a ray: a point in metres from the lower corner, and a direction",
      .group = "Report"},
     {.name = "--overlaps", .kind = Flag, .help = "space that two features claim", .group = "Report"},
-    {.name = "--gaps", .kind = Flag, .help = "enclosed air beside the features", .group = "Report"},
+    {.name = "--gaps", .kind = Flag, .help = "enclosed air that belongs to no feature", .group = "Report"},
     {.name = "--owners",
      .value = "T.csv",
      .help = "who owns what: a table of feature and owner; walls between owners are divided",
@@ -405,7 +405,10 @@ constexpr Option kShell[] = {
      .help = "whose label the voxels keep: that of their component, or one per group",
      .group = "Shell"},
     kFaces,
-    {.name = "--levels", .kind = Flag, .help = "list the levels of the model and write nothing", .group = "Output"},
+    {.name = "--levels",
+     .kind = Flag,
+     .help = "list which levels the model has, as --level names them, and write nothing",
+     .group = "Output"},
     kBuildOutput[1],
 };
 constexpr Option kConvert[] = {
@@ -495,7 +498,7 @@ constexpr Option kDescribe[] = {
      .choices = "json|man|bash|zsh|fish",
      .help = "json: all commands and options; man: a manual page; bash, zsh, fish: completions for that shell",
      .isRequired = true},
-    {.name = "command", .otherwise = "the page of svt itself", .help = "of man: the command whose page is printed"},
+    {.name = "command", .otherwise = "the page of svt itself", .help = "with man: the command whose page is printed"},
 };
 
 }  // namespace

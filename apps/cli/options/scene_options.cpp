@@ -100,7 +100,7 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
         if (!parts) return parts.error();
         const auto hatch = render::hatchFromName(parts->second);
         if (!hatch)
-            return Error(Code::BadArgument, fmt::format("--hatch-of '{}': '{}' is no hatch; possible are {}", text,
+            return Error(Code::BadArgument, fmt::format("--hatch-of '{}': unknown hatch '{}'; possible are {}", text,
                                                         parts->second, fmt::join(render::hatchNames(), ", ")));
         pass.styles.push_back({parts->first, {}, {}, *hatch, false});
     }

@@ -12,7 +12,7 @@ Result<std::filesystem::path> findViewerFolder(const std::filesystem::path& give
         !given.empty() ? given : executablePath().parent_path().parent_path() / "share/svt/viewer";
     if (std::filesystem::is_regular_file(folder / "index.html", error)) return folder;
     return Error(Code::CannotOpen,
-                 "no viewer is here: index.html is missing; `make viewer` builds one, --viewer names "
+                 "the viewer's page is missing: this folder has no index.html; `make viewer` builds it, --viewer names "
                  "another folder",
                  Place{folder.string(), 0, 0, {}});
 }

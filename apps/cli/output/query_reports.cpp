@@ -73,8 +73,9 @@ Result<With> parseWith(const std::string& text) {
         else if (word == "box")
             with.box = true;
         else
-            return Error(Code::BadArgument,
-                         fmt::format("--with '{}': '{}' is none of volume, surface, box", text, word));
+            return Error(
+                Code::BadArgument,
+                fmt::format("--with '{}': unknown column '{}'; possible are volume, surface, box", text, word));
         at = end + 1;
     }
     return with;

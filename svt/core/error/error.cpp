@@ -77,7 +77,7 @@ std::string Place::toString() const {
     std::string text = file;
     if (line != 0) text += fmt::format("{}line {}", text.empty() ? "" : ":", line);
     if (line != 0 && !file.empty()) text = fmt::format("{}:{}", file, line);
-    if (column != 0) text += fmt::format(":{}", column);
+    if (line != 0 && column != 0) text += fmt::format(":{}", column);
     if (!id.empty()) text += fmt::format("{}(id '{}')", text.empty() ? "" : " ", id);
     return text;
 }

@@ -24,6 +24,7 @@ TEST(Place, EmptyPartsAreLeftOut) {
     EXPECT_EQ((Place{"a.gml", 0, 0, "b"}).toString(), "a.gml (id 'b')");
     EXPECT_EQ((Place{"", 3, 0, ""}).toString(), "line 3");
     EXPECT_EQ((Place{"", 0, 0, "b"}).toString(), "(id 'b')");
+    EXPECT_EQ((Place{"", 0, 4, ""}).toString(), "");
     EXPECT_EQ(Place{}.toString(), "");
 }
 

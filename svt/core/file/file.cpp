@@ -105,7 +105,7 @@ Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes
     }
     if (static_cast<std::uint64_t>(status.st_size) > maxBytes) {
         ::close(descriptor);
-        return Error(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", status.st_size, maxBytes),
+        return Error(Code::InputTooBig, fmt::format("the file has {} bytes, the limit is {}", status.st_size, maxBytes),
                      Place{path.string(), 0, 0, {}});
     }
     if (static_cast<std::uint64_t>(status.st_size) > SIZE_MAX) {

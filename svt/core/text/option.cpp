@@ -41,9 +41,9 @@ std::string faultOf(const Option& option, std::string_view text) {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-        return fmt::format("'{}' is no number", text);
+        return fmt::format("'{}' is not a number", text);
     if (option.kind == OptionKind::Whole && number != std::floor(number))
-        return fmt::format("'{}' is no whole number", text);
+        return fmt::format("'{}' is not a whole number", text);
     // Beyond 2^53 a double no longer tells neighbours apart.
     if (option.kind == OptionKind::Whole && std::abs(number) > 9007199254740992.0)
         return fmt::format("{} is out of range; it has too many digits", text);

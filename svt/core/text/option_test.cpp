@@ -24,7 +24,7 @@ TEST(Option, ValuesAreHeldAgainstKindRangeAndChoices) {
     for (const char* bad : {"", "x", "1x", "nan", "inf", " 1"}) EXPECT_NE(faultOf(zoom, bad), "") << bad;
     const Option level{.name = "--level", .kind = OptionKind::Whole, .least = 0, .help = ""};
     EXPECT_EQ(faultOf(level, "7"), "");
-    EXPECT_EQ(faultOf(level, "1.5"), "'1.5' is no whole number");
+    EXPECT_EQ(faultOf(level, "1.5"), "'1.5' is not a whole number");
     EXPECT_EQ(faultOf(level, "-1"), "-1 is out of range; possible is at least 0");
     const Option seed{.name = "--seed", .kind = OptionKind::Whole, .least = 0, .help = ""};
     EXPECT_EQ(faultOf(seed, "9007199254740992"), "");

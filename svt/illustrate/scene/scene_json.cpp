@@ -98,7 +98,7 @@ public:
         if (!isFine()) return false;
         const auto choices = splitChoices(sceneMember(path).choices);
         if (std::ranges::find(choices, to) != choices.end()) return true;
-        fail(path, fmt::format("'{}' is no {}; possible are {}", to, what, fmt::join(choices, ", ")));
+        fail(path, fmt::format("unknown {} '{}'; possible are {}", what, to, fmt::join(choices, ", ")));
         return false;
     }
     template <class T, std::size_t N>
@@ -167,7 +167,7 @@ void readPass(Reader& read, const Json& json, const std::string& path, ScenePass
         if (key == "keep") read.text(value, at, pass.keep);
         if (key == "meshes") read.texts(value, at, pass.meshes);
         if (key == "level") read.number(value, at, pass.form.level.emplace());
-        if (std::string level; key == "shell" && read.choice(value, at, "level of shells", level))
+        if (std::string level; key == "shell" && read.choice(value, at, "level of hulls", level))
             pass.form.shell = shellLevelFromName(level);
         if (key == "lines") {
             if (!value.is_array()) return read.fail(at, "expected an array of lines");

@@ -140,8 +140,8 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
     if (meetsGrid(plane, grid)) return plane;
     const auto [low, high] = extentAlong(plane.normal, grid);
     return badSection(fmt::format(
-        "passes the whole volume by: along its normal it lies at {:.3f} m from the lower corner, the volume from "
-        "{:.3f} to {:.3f} m",
+        "the plane does not meet the volume: along its normal it lies at {:.3f} m from the lower corner, the volume "
+        "from {:.3f} to {:.3f} m",
         dot(plane.normal, plane.point - grid.origin()), low, high));
 }
 

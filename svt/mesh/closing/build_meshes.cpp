@@ -300,7 +300,8 @@ void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work
     const std::string leaks = leakText(mesh, origin);
     if (work.gathered.duplicateFaces != 0)
         log.add(Severity::Warning, Code::DuplicateFace,
-                fmt::format("{} faces stand twice in the shell and are used once", work.gathered.duplicateFaces),
+                fmt::format("{} faces or triangles occur twice in the shell; each is used once",
+                            work.gathered.duplicateFaces),
                 place);
     switch (mesh.closure) {
         case Closure::Closed:

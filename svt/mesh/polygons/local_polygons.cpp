@@ -67,8 +67,9 @@ void judge(const Triangulation& result, const model::Polygon& polygon, std::vect
     if (result.planeDeviation > kReportedDeviation)
         findings.push_back(
             {Severity::Warning, Code::NonPlanar,
-             fmt::format("a polygon is up to {:.3f} m away from its plane; its triangles are used as they come{}",
-                         result.planeDeviation, at)});
+             fmt::format(
+                 "the points of a polygon lie up to {:.3f} m off its plane; it is used as triangles between them{}",
+                 result.planeDeviation, at)});
 }
 
 // Rounds to a tenth of a micrometre, so that a decimal number gives the same bits whether it was written out (XML) or

@@ -21,6 +21,15 @@ struct Token {
     std::size_t column = 1;  ///< 1-based byte
 };
 
+// The query as messages show it; a long one is cut off between two characters.
+std::string shown(std::string_view query) {
+    constexpr std::size_t kMostBytes = 200;
+    if (query.size() <= kMostBytes) return std::string(query);
+    std::size_t end = kMostBytes;
+    while (end > 0 && (static_cast<unsigned char>(query[end]) & 0xC0u) == 0x80u) --end;
+    return fmt::format("{}...", query.substr(0, end));
+}
+
 bool isBlank(char c) noexcept { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 class Parser {
@@ -43,7 +52,8 @@ public:
 private:
     void fail(std::size_t column, std::string message) {
         if (!error_)
-            error_ = Error(Code::BadQuery, fmt::format("at column {}: {}", column, message), {"query", 0, column, {}});
+            error_ = Error(Code::BadQuery, fmt::format("the query '{}', column {}: {}", shown(text_), column, message),
+                           {{}, 0, column, {}});
         token_ = {Token::Type::End, {}, column};
         position_ = text_.size();
     }
@@ -95,7 +105,7 @@ private:
             if (isEscaped) ++position_;
             token_.text += text_[position_];
         }
-        if (position_ >= text_.size()) return fail(token_.column, fmt::format("a {} without its end", quote));
+        if (position_ >= text_.size()) return fail(token_.column, fmt::format("the quote {} is not closed", quote));
         ++position_;
     }
 
@@ -132,7 +142,8 @@ private:
 
     Node negation(int depth) {
         if (depth > Query::kMaxDepth) {
-            fail(token_.column, fmt::format("brackets and nots nested deeper than {}", Query::kMaxDepth));
+            fail(token_.column, fmt::format("brackets and 'not' are nested deeper than {} levels, which is the limit",
+                                            Query::kMaxDepth));
             return {};
         }
         afterValue_ = false;
@@ -203,10 +214,10 @@ private:
         const bool isNumber = node.key == Key::Volume || node.key == Key::Voxels;
         const bool isNameLike = node.key == Key::Class || node.key == Key::Id || node.key == Key::Storey;
         if (isNameLike && !isPattern && !isEquality)
-            return fail(opColumn, fmt::format("'{}' knows only = != ~ !~, found '{}'", node.name, op));
+            return fail(opColumn, fmt::format("'{}' can be compared by = != ~ !~, found '{}'", node.name, op));
         if (isNumber && isPattern)
-            return fail(opColumn,
-                        fmt::format("'{}' is a number and knows only = != < <= > >=, found '{}'", node.name, op));
+            return fail(opColumn, fmt::format("'{}' is a number and can be compared by = != < <= > >=, found '{}'",
+                                              node.name, op));
         if (isNumber && !isNumeric(node.value))
             return fail(valueToken.column,
                         fmt::format("expected a number after '{}{}', found '{}'", node.name, op, node.value));
@@ -223,7 +234,7 @@ private:
         const bool isQuoted = token.type == Token::Type::Quoted;
         const std::size_t inside = pattern.error().where().column;
         const std::size_t column = token.column + isQuoted + (inside > 0 ? inside - 1 : 0);
-        fail(column, fmt::format("the regular expression has {}", pattern.error().message()));
+        fail(column, fmt::format("the regular expression cannot be used: {}", pattern.error().message()));
     }
 
     static bool isNumeric(std::string_view text) noexcept {

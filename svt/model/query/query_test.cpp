@@ -226,30 +226,44 @@ std::string errorOf(std::string_view text) {
     if (query) return {};
     EXPECT_EQ(query.error().code(), Code::BadQuery);
     EXPECT_GT(query.error().where().column, 0u) << text;
-    return query.error().message();
+    // What is behind the query itself.
+    const std::string& message = query.error().message();
+    const std::string start = "the query '" + std::string(text) + "', ";
+    return message.rfind(start, 0) == 0 ? message.substr(start.size()) : message;
 }
 
 TEST(QueryParser, ErrorsTellTheColumnAndWhatWasExpected) {
-    EXPECT_EQ(errorOf(""), "at column 1: the query is empty; write 'all' to select everything");
-    EXPECT_EQ(errorOf("class="), "at column 7: expected a value after 'class=', found the end of the query");
+    EXPECT_EQ(errorOf(""), "column 1: the query is empty; write 'all' to select everything");
+    EXPECT_EQ(errorOf("class="), "column 7: expected a value after 'class=', found the end of the query");
     EXPECT_EQ(errorOf("class"),
-              "at column 6: expected one of = != < <= > >= ~ !~ after 'class', found the end of the query");
+              "column 6: expected one of = != < <= > >= ~ !~ after 'class', found the end of the query");
     EXPECT_EQ(errorOf("name=Top 1"),
-              "at column 10: expected 'and', 'or' or the end of the query, found '1'; a value with blanks or brackets "
+              "column 10: expected 'and', 'or' or the end of the query, found '1'; a value with blanks or brackets "
               "needs quotes");
     EXPECT_EQ(errorOf("(id=a"),
-              "at column 6: expected 'and', 'or' or the ')' for the '(' at column 1, found the end of the query");
-    EXPECT_EQ(errorOf("id=a)"), "at column 5: expected 'and', 'or' or the end of the query, found ')'");
+              "column 6: expected 'and', 'or' or the ')' for the '(' at column 1, found the end of the query");
+    EXPECT_EQ(errorOf("id=a)"), "column 5: expected 'and', 'or' or the end of the query, found ')'");
     EXPECT_EQ(errorOf("id=a and"),
-              "at column 9: expected a term such as class=BuildingRoom, 'not' or '(', found the end of the query");
+              "column 9: expected a term such as class=BuildingRoom, 'not' or '(', found the end of the query");
     EXPECT_NE(errorOf("name~a(b)").find("needs quotes"), std::string::npos);
-    EXPECT_EQ(errorOf("under"), "at column 6: expected a value after 'under', found the end of the query");
-    EXPECT_EQ(errorOf("name=\"x"), "at column 6: a \" without its end");
-    EXPECT_EQ(errorOf("class<Room"), "at column 6: 'class' knows only = != ~ !~, found '<'");
-    EXPECT_EQ(errorOf("volume>big"), "at column 8: expected a number after 'volume>', found 'big'");
-    EXPECT_EQ(errorOf("volume~2"), "at column 7: 'volume' is a number and knows only = != < <= > >=, found '~'");
-    EXPECT_EQ(errorOf("name~\"a(b\""), "at column 10: the regular expression has a '(' without ')'");
-    EXPECT_EQ(Query::parse("id=a)").error().where().toString(), "query:5");
+    EXPECT_EQ(errorOf("under"), "column 6: expected a value after 'under', found the end of the query");
+    EXPECT_EQ(errorOf("name=\"x"), "column 6: the quote \" is not closed");
+    EXPECT_EQ(errorOf("class<Room"), "column 6: 'class' can be compared by = != ~ !~, found '<'");
+    EXPECT_EQ(errorOf("volume>big"), "column 8: expected a number after 'volume>', found 'big'");
+    EXPECT_EQ(errorOf("volume~2"), "column 7: 'volume' is a number and can be compared by = != < <= > >=, found '~'");
+    EXPECT_EQ(errorOf("name~\"a(b\""), "column 10: the regular expression cannot be used: a '(' without ')'");
+    EXPECT_EQ(Query::parse("id=a)").error().where().column, 5u);
+    EXPECT_EQ(Query::parse("id=a)").error().toString(),
+              "E901 BadQuery: the query 'id=a)', column 5: expected 'and', 'or' or the end of the query, found ')'");
+}
+
+TEST(QueryParser, ErrorsShowTheBeginOfALongQuery) {
+    // 199 bytes of the query fit; the character at bytes 199 and 200 would be cut in two.
+    const std::string begin = "name=" + std::string(194, 'x');
+    const auto query = Query::parse(begin + "\u00e4 and");
+    ASSERT_FALSE(query);
+    EXPECT_EQ(query.error().message().find("the query '" + begin + "...', column 206: expected a term"), 0u)
+        << query.error().message();
 }
 
 TEST(QueryParser, SpellingsOfTheSameQueryAreEqual) {

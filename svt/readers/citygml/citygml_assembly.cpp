@@ -89,11 +89,11 @@ public:
         applyMaterials(part_, references, resolver, geometries, materials_);
         std::vector<std::vector<model::Geometry>> resolved = resolveAll(resolver, geometries);
         if (resolver.isOverBudget())
-            return Error(
-                Code::InputTooBig,
-                fmt::format("references multiply the geometry beyond the limit of {} steps for a file of {} bytes",
-                            kBudgetBase + kBudgetPerByte * facts_.bytes, facts_.bytes),
-                {facts_.fileName, 0, 0, {}});
+            return Error(Code::InputTooBig,
+                         fmt::format("references repeat the geometry too often: more than {} elements would be read "
+                                     "from a file of {} bytes",
+                                     kBudgetBase + kBudgetPerByte * facts_.bytes, facts_.bytes),
+                         {facts_.fileName, 0, 0, {}});
         for (std::size_t i = 0; i < resolved.size(); ++i) part_.features[i].geometries = std::move(resolved[i]);
         std::move(resolver.placedPolygons().begin(), resolver.placedPolygons().end(),
                   std::back_inserter(part_.polygons));
@@ -195,8 +195,8 @@ private:
                 part_.geometries.push_back({link.feature, target.index, -1});
             } else if (target.kind == Target::Kind::Elsewhere) {
                 report(Severity::Warning, Code::ExternalReference,
-                       fmt::format("{} '{}' stands in another file, which is not read", link.property, shown),
-                       link.offset, owner.id);
+                       fmt::format("{} '{}' is in another file, which is not read", link.property, shown), link.offset,
+                       owner.id);
             } else {
                 report(Severity::Warning, Code::DanglingReference,
                        fmt::format("{}: nothing in this file has the id '{}'", link.property, idOfHref(shown)),
@@ -277,7 +277,7 @@ private:
     void noteUnknown() {
         for (std::size_t i = 0; i < part_.unknownNames.size(); ++i)
             report(Severity::Note, Code::UnknownElement,
-                   fmt::format("<{}> is not known here and was skipped, wherever it stands", part_.unknownNames[i]),
+                   fmt::format("<{}> is not known and was skipped wherever it occurs", part_.unknownNames[i]),
                    part_.unknownOffsets[i], {});
     }
 

@@ -119,7 +119,7 @@ void FeatureReader::readMember(const Element& member, bool continues) {
         if (attributes.hasHref && !attributes.href.starts_with('#'))
             part_.findings.add(
                 Severity::Warning, Code::ExternalReference,
-                fmt::format("the member '{}' stands elsewhere and is not read", attributes.href.substr(0, 200)),
+                fmt::format("the member '{}' is in another file, which is not read", attributes.href.substr(0, 200)),
                 offsetOf_(member.node));
         return;
     }
@@ -153,7 +153,7 @@ void FeatureReader::readId(const Element& element, Feature& feature) {
     feature.id = attributes.id;
     if (attributes.isIdMisspelled)
         part_.findings.add(Severity::Note, Code::MissingId,
-                           "'gml_id' or 'id' stands where 'gml:id' is meant; it is taken as the id",
+                           "'gml_id' or 'id' was found where 'gml:id' is expected; it is taken as the id",
                            offsetOf_(element.node), feature.id);
 }
 
@@ -353,7 +353,7 @@ void FeatureReader::addMembership(FeatureIndex group, FeatureIndex member, std::
 
 void FeatureReader::reportValue(FeatureIndex feature, const Element& property) {
     part_.findings.add(Severity::Warning, Code::BadValue,
-                       fmt::format("the value of '{}' is no number; it is kept as text", property.localName),
+                       fmt::format("the value of '{}' is not a number; it is kept as text", property.localName),
                        offsetOf_(property.node), part_.features[feature].id);
 }
 

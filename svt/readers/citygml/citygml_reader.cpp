@@ -207,7 +207,8 @@ Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, strin
                                          Diagnostics* diagnostics) {
     std::string fileName(name);
     if (bytes.size() > options.maxBytes)
-        return Error(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", bytes.size(), options.maxBytes),
+        return Error(Code::InputTooBig,
+                     fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {fileName, 0, 0, {}});
     const Result<xml::Utf8Text> text = xml::toUtf8(bytes, name);
     if (!text) return text.error();

@@ -336,7 +336,7 @@ void GeometryReader::readPosition(const Element& element, int dimension) {
         };
         const std::optional<Tuples> tuples = parseTuples(xml::textOf(element.node, scratch_), separator("decimal", '.'),
                                                          separator("cs", ','), separator("ts", ' '));
-        if (!tuples) return reportRing(Code::BadValue, "gml:coordinates that are no tuples of numbers", element.node);
+        if (!tuples) return reportRing(Code::BadValue, "gml:coordinates that are not tuples of numbers", element.node);
         numbers_ = tuples->numbers;
         const int size = static_cast<int>(std::min<std::size_t>(tuples->dimension, 4));
         const int found = dimensionOf(numbers_, size, dimension);
@@ -362,11 +362,12 @@ void GeometryReader::readPosition(const Element& element, int dimension) {
 void GeometryReader::addNumbers(string_view text, int stated, int inherited, pugi::xml_node at) {
     numbers_.clear();
     const string_view bad = parseNumbers(text, numbers_);
-    if (!bad.empty()) return reportRing(Code::BadCoordinate, fmt::format("'{}' is no number", bad.substr(0, 40)), at);
+    if (!bad.empty())
+        return reportRing(Code::BadCoordinate, fmt::format("'{}' is not a number", bad.substr(0, 40)), at);
     const int dimension = dimensionOf(numbers_, stated, inherited);
     if (dimension == 0)
         return reportRing(Code::BadValue,
-                          fmt::format("{} numbers are no whole count of 3-D or 2-D positions", numbers_.size()), at);
+                          fmt::format("{} numbers cannot be divided into 3-D or 2-D positions", numbers_.size()), at);
     addPoints(dimension);
 }
 
@@ -433,7 +434,7 @@ NodeIndex GeometryReader::readImplicit(const Element& element) {
             const string_view file = library.hasHref ? library.href : xml::textOf(property.node, scratch_);
             part_.findings.add(
                 Severity::Warning, Code::ExternalReference,
-                fmt::format("the shape stands in another file, '{}', which is not read", file.substr(0, 200)),
+                fmt::format("the shape is in another file, '{}', which is not read", file.substr(0, 200)),
                 offsetOf_(property.node), std::string(attributes.id));
         } else if (name == "relativeGMLGeometry" || name == "relativeGeometry") {
             const bool wasPrototype = std::exchange(isPrototype_, true);

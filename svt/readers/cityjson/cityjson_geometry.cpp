@@ -88,10 +88,20 @@ public:
     }
 
 private:
-    void report(Code code, std::string_view what, Severity severity = Severity::Warning) {
-        object_.diagnostics.add(severity, code, fmt::format("geometry {} {}", geometryNumber_, what),
+    void report(Code code, std::string_view what) { add(code, fmt::format("geometry {} {}", geometryNumber_, what)); }
+
+    // \param part  of the geometry, such as "surface 3"
+    void reportPart(Code code, std::string_view part, std::string_view what) {
+        add(code, fmt::format("geometry {}, {} {}", geometryNumber_, part, what));
+    }
+
+    void add(Code code, std::string message) {
+        object_.diagnostics.add(Severity::Warning, code, std::move(message),
                                 {std::string(context_.origin.file), object_.feature.line, 0, shortened(object_.id)});
     }
+
+    [[nodiscard]] std::string surfaceName() const { return fmt::format("surface {}", surfaceNumber_); }
+    static std::string semanticSurfaceName(std::size_t i) { return fmt::format("semantic surface {}", i); }
 
     void read(json::object geometry) {
         const auto type = textMember(geometry, "type");
@@ -285,9 +295,9 @@ private:
             if (polygon.points.size() - begin > 1 && polygon.points.back() == polygon.points[begin])
                 polygon.points.pop_back();
             if (!hasThreePoints(std::span(polygon.points).subspan(begin))) {
-                report(Code::TooFewPoints,
-                       fmt::format("surface {} has {} ring of fewer than three distinct points; left out",
-                                   surfaceNumber_, isExterior ? "an exterior" : "an interior"));
+                reportPart(Code::TooFewPoints, surfaceName(),
+                           fmt::format("has {} ring of fewer than three distinct points; left out",
+                                       isExterior ? "an exterior" : "an interior"));
                 if (isExterior) return false;
                 polygon.points.resize(begin);
                 continue;
@@ -295,8 +305,7 @@ private:
             polygon.ringEnds.push_back(static_cast<std::uint32_t>(polygon.points.size()));
             isExterior = false;
         }
-        if (polygon.ringEnds.empty())
-            report(Code::TooFewPoints, fmt::format("surface {} has no ring; left out", surfaceNumber_));
+        if (polygon.ringEnds.empty()) reportPart(Code::TooFewPoints, surfaceName(), "has no ring; left out");
         return !polygon.ringEnds.empty();
     }
 
@@ -308,16 +317,16 @@ private:
             }
             const auto index = asInteger(item);
             if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= points_.size()) {
-                report(Code::BadIndex, fmt::format("surface {} refers to vertex {}, there are {}; left out",
-                                                   surfaceNumber_, shortened(simdjson::minify(item)), points_.size()));
+                reportPart(Code::BadIndex, surfaceName(),
+                           fmt::format("refers to vertex {}, there are {}; left out", shortened(simdjson::minify(item)),
+                                       points_.size()));
                 return false;
             }
             const Vec3d point = place(points_[static_cast<std::size_t>(*index)]);
             if (!isFinite(point) ||
                 std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}) > kMaxCoordinate) {
-                report(Code::BadCoordinate,
-                       fmt::format("surface {} uses vertex {}, which is not three usable numbers; left out",
-                                   surfaceNumber_, *index));
+                reportPart(Code::BadCoordinate, surfaceName(),
+                           fmt::format("uses vertex {}, which is not three usable numbers; left out", *index));
                 return false;
             }
             points.push_back(point);
@@ -412,7 +421,7 @@ private:
             if (isUsable(index))
                 parents[i] = static_cast<std::int32_t>(*index);
             else
-                report(Code::DanglingReference, fmt::format("semantic surface {} has a parent that does not exist", i));
+                reportPart(Code::DanglingReference, semanticSurfaceName(i), "has a parent that does not exist");
         }
         for (std::size_t i = 0; i < drafts_.size(); ++i) {
             if (drafts_[i].parent == kNotAnObject) continue;
@@ -422,15 +431,13 @@ private:
             for (const json::element child : *children) {
                 const auto index = asInteger(child);
                 if (!isUsable(index))
-                    report(Code::DanglingReference,
-                           fmt::format("semantic surface {} has a child that does not exist", i));
+                    reportPart(Code::DanglingReference, semanticSurfaceName(i), "has a child that does not exist");
                 else if (parents[*index] == kNoSurface)
                     parents[*index] = static_cast<std::int32_t>(i);
             }
         }
         for (const std::int32_t i : breakCycles(parents))
-            report(Code::ReferenceCycle,
-                   fmt::format("semantic surface {} is its own ancestor; its parent is left out", i));
+            reportPart(Code::ReferenceCycle, semanticSurfaceName(i), "is its own ancestor; its parent is left out");
         for (std::size_t i = 0; i < drafts_.size(); ++i)
             if (drafts_[i].parent != kNotAnObject) drafts_[i].parent = parents[i];
     }
@@ -439,9 +446,9 @@ private:
         if (!value) return;
         const auto index = asInteger(*value);
         if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= drafts_.size())
-            return report(Code::BadIndex,
-                          fmt::format("surface {} refers to semantic surface {}, there are {}", surfaceNumber_,
-                                      shortened(simdjson::minify(*value)), drafts_.size()));
+            return reportPart(Code::BadIndex, surfaceName(),
+                              fmt::format("refers to semantic surface {}, there are {}",
+                                          shortened(simdjson::minify(*value)), drafts_.size()));
         Draft& draft = drafts_[static_cast<std::size_t>(*index)];
         if (draft.parent != kNotAnObject) draft.uses.push_back({polygon, false});
     }
@@ -512,9 +519,9 @@ private:
         for (std::size_t i = 0; i < count; ++i) parents[i] = object_.surfaces[i].parent;
         // Surfaces shared by id between two geometries can form a cycle that neither has alone.
         for (const std::int32_t i : breakCycles(parents)) {
-            report(Code::ReferenceCycle,
-                   fmt::format("semantic surface '{}' is its own ancestor; its parent is left out",
-                               shortened(object_.surfaces[i].feature.id)));
+            reportPart(Code::ReferenceCycle,
+                       fmt::format("semantic surface '{}'", shortened(object_.surfaces[i].feature.id)),
+                       "is its own ancestor; its parent is left out");
         }
         std::vector<std::vector<std::int32_t>> children(count);
         std::vector<std::int32_t> stack, placeOf(count);

@@ -138,7 +138,11 @@ private:
                                      text_[open_.back()] == '{' ? "object" : "array", open_.back())};
     }
     std::optional<JsonFault> tooDeep() const {
-        return JsonFault{position_, Code::InputTooBig, fmt::format("nested deeper than {} levels", maxDepth_)};
+        return JsonFault{
+            position_, Code::InputTooBig,
+            fmt::format(
+                "arrays and objects are nested deeper than {} levels, which is the limit; the file seems to be damaged",
+                maxDepth_)};
     }
     bool fail(std::string message) {
         fault_ = JsonFault{position_, Code::BadJson, std::move(message)};
@@ -276,7 +280,7 @@ Result<json::element> JsonText::parseAgain(std::string_view text, const TextOrig
         return Error(fault->code, fmt::format("at byte {}: {}", fault->offset, fault->message),
                      places.at(fault->offset));
     if (outOfRange.empty())
-        return Error(Code::BadJson, fmt::format("this text is refused: {}", simdjson::error_message(error)),
+        return Error(Code::BadJson, fmt::format("this JSON cannot be read: {}", simdjson::error_message(error)),
                      places.at(0));
     std::string repaired(text);
     for (const TextRange& number : outOfRange) {
@@ -292,7 +296,8 @@ Result<json::element> JsonText::parseAgain(std::string_view text, const TextOrig
     json::element root;
     error = parser_.parse(repaired.data(), repaired.size()).get(root);
     if (error == simdjson::SUCCESS) return root;
-    return Error(Code::BadJson, fmt::format("this text is refused: {}", simdjson::error_message(error)), places.at(0));
+    return Error(Code::BadJson, fmt::format("this JSON cannot be read: {}", simdjson::error_message(error)),
+                 places.at(0));
 }
 
 std::string shortened(std::string_view text) {

@@ -429,7 +429,8 @@ Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std:
                                           const ReadOptions& options, Diagnostics* diagnostics) {
     Diagnostics ignored;
     if (bytes.size() > options.maxBytes)
-        return Error(Code::InputTooBig, fmt::format("{} bytes; at most {} are read", bytes.size(), options.maxBytes),
+        return Error(Code::InputTooBig,
+                     fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
     std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());

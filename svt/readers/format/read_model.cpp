@@ -141,7 +141,8 @@ std::span<const Format> formats() noexcept { return kFormats; }
 Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const ReadOptions& options,
                                        Diagnostics* diagnostics) {
     if (bytes.size() > options.maxBytes)
-        return Error(Code::InputTooBig, fmt::format("{} bytes; the limit is {}", bytes.size(), options.maxBytes),
+        return Error(Code::InputTooBig,
+                     fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
     if (!isGzip(bytes)) return withStatedClasses(readPlain(bytes, name, options, diagnostics));
     const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);

@@ -219,7 +219,8 @@ bool Scanner::enterElement(const Tag& tag) {
     if (depth_ >= maxDepth_)
         return fail(
             Code::InputTooBig,
-            fmt::format("elements are nested deeper than the limit of {}; raise maxDepth if that is meant", maxDepth_),
+            fmt::format("elements are nested deeper than {} levels, which is the limit; the file seems to be damaged",
+                        maxDepth_),
             tag.range.begin);
     if (depth_ < std::size(open_)) open_[depth_] = tag;
     ++depth_;

@@ -649,7 +649,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     if (bricks > kMaxBricks)
         return Error(Code::GridTooLarge,
                      fmt::format("{} bricks are over the limit of {}; choose a coarser spacing or a "
-                                 "coarser level of detail.",
+                                 "coarser level of detail",
                                  bricks, kMaxBricks));
     volume.dimension_ = dimension;
     if (bricks == 0) return volume;
@@ -677,7 +677,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     }
     if (words > 0xFFFFFFFFu)
         return Error(Code::GridTooLarge, fmt::format("the mixed bricks hold {} words, over the limit of {}; choose a "
-                                                     "coarser spacing or a coarser level of detail.",
+                                                     "coarser spacing or a coarser level of detail",
                                                      words, 0xFFFFFFFFu));
     for (std::size_t n = 0; n < tileBricks.size(); ++n) merger.addTile(n, tileBricks[n]);
     parallelFor(tiles.size(), 4, options.threads, [&](std::size_t begin, std::size_t end) {

@@ -204,7 +204,7 @@ Result<ColumnBlocks> ColumnBlocks::open(Vec3i dimension, Scalar scalarCount, std
                                    block.size, block.streamBytes, maxStreamBytes(block.size)));
     }
     if (offset != frameBytes)
-        return bad(fmt::format("the frames of the columns have {} bytes, the index speaks of {}", frameBytes, offset));
+        return bad(fmt::format("the frames of the columns have {} bytes, the index states {}", frameBytes, offset));
     if (const std::uint64_t most = maxArrayBytes(frameBytes); arrayBytes > most)
         return bad(fmt::format("the columns are said to take {} bytes, {} are possible in a file of this size",
                                arrayBytes, most));

@@ -96,8 +96,8 @@ TEST(ColumnBlocks, IndexThatLiesIsRefused) {
     const std::pair<std::function<void(std::vector<ColumnBlock>&)>, const char*> cases[] = {
         {[](auto& index) { index.pop_back(); }, "has 16 bytes, 2 blocks need 32"},
         {[](auto& index) { index.emplace_back(); }, "has 48 bytes"},
-        {[](auto& index) { index[0].size += 1; }, "the index speaks of"},
-        {[](auto& index) { index[1].size = 0; }, "the index speaks of"},
+        {[](auto& index) { index[0].size += 1; }, "the index states"},
+        {[](auto& index) { index[1].size = 0; }, "the index states"},
         {[](auto& index) { index[0].streamBytes = 0xFFFFFFFF; }, "said to unpack to 4294967295"},
         {[](auto& index) { index[0].streamBytes -= 1; }, "no zstd frame of the size"},
         {[](auto& index) { index[0].streamBytes += 1; }, "no zstd frame of the size"},

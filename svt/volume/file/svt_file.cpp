@@ -122,8 +122,8 @@ Result<SvtBlocks> readTables(const Entries& entries) {
     auto labels = readLabelsJson(*labelsText);
     if (!labels) return labels.error();
     if (labels->scalarCount() != header->scalarCount)
-        return bad(fmt::format("svt.json speaks of {} scalars, the labels have {}", header->scalarCount,
-                               labels->scalarCount()));
+        return bad(
+            fmt::format("svt.json states {} scalars, the labels have {}", header->scalarCount, labels->scalarCount()));
     const auto index = entries.stored(kIndex);
     if (!index) return index.error();
     if (auto checked = unpack(*index, index->size, buffer); !checked) return checked.error();

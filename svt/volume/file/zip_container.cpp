@@ -222,7 +222,7 @@ Result<Directory> readEnd(std::span<const std::byte> bytes) {
     if (bytes.size() < kEndSize || load<std::uint32_t>(bytes, bytes.size() - kEndSize) != kEndSignature)
         return bad("the file does not end with the end record of a ZIP: it is cut short, or bytes were added");
     const std::size_t end = bytes.size() - kEndSize;
-    if (load<std::uint16_t>(bytes, end + 20) != 0) return bad("the end record speaks of a comment that is not there");
+    if (load<std::uint16_t>(bytes, end + 20) != 0) return bad("the end record states a comment that is not there");
     if (load<std::uint32_t>(bytes, end + 4) != 0 ||
         load<std::uint16_t>(bytes, end + 8) != load<std::uint16_t>(bytes, end + 10))
         return bad("the archive is split into several files; join them first");
@@ -356,9 +356,9 @@ struct Located {
 Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std::uint64_t offset,
                           std::uint64_t packedSize, std::uint64_t directoryOffset) {
     if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
-        return bad("is said to stand outside the file");
+        return bad("is said to lie outside the file");
     const auto at = static_cast<std::size_t>(offset);
-    if (load<std::uint32_t>(bytes, at) != kLocalSignature) return bad("has no local header where it is said to stand");
+    if (load<std::uint32_t>(bytes, at) != kLocalSignature) return bad("has no local header where it is said to lie");
     const auto method = load<std::uint16_t>(bytes, at + 8);
     if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 6), method); !kind) return kind.error();
     const std::size_t nameSize = load<std::uint16_t>(bytes, at + 26);
@@ -464,10 +464,10 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
         };
         if (const auto reason = wrongName(entry.name); !reason.empty())
             return wrong(fmt::format("has a name that {}", reason));
-        if (!names.insert(entry.name).second) return wrong("stands twice in the file");
+        if (!names.insert(entry.name).second) return wrong("occurs twice in the file");
         if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 8), load<std::uint16_t>(bytes, at + 10)); !kind)
             return wrong(kind.error().message());
-        if (load<std::uint16_t>(bytes, at + 34) != 0) return wrong("stands in another part of a split archive");
+        if (load<std::uint16_t>(bytes, at + 34) != 0) return wrong("is in another part of a split archive");
         entry.size = load<std::uint32_t>(bytes, at + 24);
         entry.isDeflated = load<std::uint16_t>(bytes, at + 10) == kDeflated;
         std::uint64_t packedSize = load<std::uint32_t>(bytes, at + 20);

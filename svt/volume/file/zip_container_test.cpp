@@ -282,7 +282,7 @@ TEST(ZipContainer, HostileNamesAreRefused) {
 TEST(ZipContainer, TheSameNameTwiceIsRefused) {
     RawZip zip = twoEntries();
     zip.entries[1].local.name = zip.entries[1].central.name = "one";
-    expectBad(zip.bytes(), "stands twice");
+    expectBad(zip.bytes(), "occurs twice");
 }
 
 TEST(ZipContainer, EncryptedStreamedAndStrangelyCompressedEntriesAreRefused) {
