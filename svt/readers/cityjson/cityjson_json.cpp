@@ -277,8 +277,7 @@ Result<json::element> JsonText::parseAgain(std::string_view text, const TextOrig
     LocationFinder places(text, origin);
     std::vector<TextRange> outOfRange;
     if (const auto fault = findJsonFault(text, maxDepth, outOfRange))
-        return Error(fault->code, fmt::format("at byte {}: {}", fault->offset, fault->message),
-                     places.at(fault->offset));
+        return Error(fault->code, fault->message, places.at(fault->offset));
     if (outOfRange.empty())
         return Error(Code::BadJson, fmt::format("this JSON cannot be read: {}", simdjson::error_message(error)),
                      places.at(0));
