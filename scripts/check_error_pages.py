@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails if an error code lacks its page, its row in the index or its name in the program, or if a page lacks its code.
+"""Fails if an error code lacks its page, its row in the index or its name in the program, or if a page lacks its code or
+an example. A test of tests/cli runs the commands of the examples.
 
     scripts/check_error_pages.py [ROOT]
 """
@@ -8,6 +9,19 @@ import sys
 from pathlib import Path
 
 SECTIONS = ["## When", "## Example", "## What to do"]
+
+
+def example_findings(text: str, tag: str, name: str) -> list[str]:
+    """What an example lacks: commands and the message that they lead to, or the reason why there is none."""
+    example = text.partition("\n## Example\n")[2].partition("\n## ")[0]
+    if re.search(r"^No message has this code: \S", example, re.M):
+        return []
+    found = []
+    if not re.search(rf"^svt: (error|warning|note) {tag} {name}: \S", example, re.M):
+        found.append(f"docs/errors/{tag}.md: no example message 'svt: error {tag} {name}: ...' (or warning, note)")
+    if "\n```sh\n" not in example and not re.search(r"^No command is shown: \S", example, re.M):
+        found.append(f"docs/errors/{tag}.md: neither commands (```sh) nor 'No command is shown: WHY'")
+    return found
 
 
 def findings(root: Path) -> list[str]:
@@ -36,8 +50,7 @@ def findings(root: Path) -> list[str]:
         text = page.read_text(encoding="utf-8")
         if text.splitlines()[:1] != [f"# {tag} {name}"]:
             found.append(f"docs/errors/{tag}.md: the title must be '# {tag} {name}'")
-        if f"\n{tag} {name}: " not in text:
-            found.append(f"docs/errors/{tag}.md: no example message that begins with '{tag} {name}: '")
+        found += example_findings(text, tag, name)
         found += [f"docs/errors/{tag}.md: no section '{part}'" for part in SECTIONS if f"\n{part}\n" not in text]
 
     known = {f"{tag}.md" for tag in tags} | {"README.md"}

@@ -1,6 +1,7 @@
 // Every command shown in the documents works as written. Blocks of ```sh in README.md and docs/user/*.md are
 // run line by line in one folder per document; lines that do not start with the command (or with build/release/bin/svt)
 // are skipped. A server command runs until it has printed its address, and must then end successfully when stopped.
+// The example of a page in docs/errors is run as a whole, and must print the message that the page shows.
 #include "run_command.hpp"
 
 #include <algorithm>
@@ -68,8 +69,17 @@ std::string untilItServes(const std::string& text) {
            "kill -TERM $server\nwait $server\ncode=$?\ncat address messages\nexit $code\n";
 }
 
-// Runs a line in a shell that has `svt` in its path, as a reader would. A trailing comment `# exit N` states an exit
-// code other than 0.
+// Runs text in a shell that has `svt` in its path, as a reader would; stdout goes to run.log, stderr to run.err.
+int runScript(const fs::path& folder, const std::string& text) {
+    static const Installed installed;
+    const std::string at = folder.string();
+    writeText(folder / "run.sh", "PATH='" + installed.bin() + "':$PATH\ncd '" + at + "'\n" + text + "\n");
+    const int status =
+        std::system(("timeout 60 sh '" + at + "/run.sh' > '" + at + "/run.log' 2> '" + at + "/run.err'").c_str());
+    return WEXITSTATUS(status);
+}
+
+// Runs a line. A trailing comment `# exit N` states an exit code other than 0.
 void expectWorks(const fs::path& folder, const ShownCommand& command, const fs::path& document) {
     int expected = 0;
     const std::size_t at = command.text.rfind("# exit ");
@@ -77,17 +87,38 @@ void expectWorks(const fs::path& folder, const ShownCommand& command, const fs::
     std::string text = command.text;
     constexpr std::string_view kBuilt = "build/release/bin/svt ";
     if (text.rfind(kBuilt, 0) == 0) text = "svt " + text.substr(kBuilt.size());
-    static const Installed installed;
     if (text.rfind("svt serve ", 0) == 0 || text.rfind("svt view ", 0) == 0) text = untilItServes(text);
-    writeText(folder / "run.sh", "PATH='" + installed.bin() + "':$PATH\ncd '" + folder.string() + "'\n" + text + "\n");
-    const std::string log = (folder / "run.log").string();
-    const int status =
-        std::system(("timeout 60 sh '" + (folder / "run.sh").string() + "' > '" + log + "' 2>&1").c_str());
+    const int exitCode = runScript(folder, text);
     // Not every machine has a graphics driver.
     constexpr int kNoGraphics = 6;
-    if (WEXITSTATUS(status) == kNoGraphics && text.find(" --gl") != std::string::npos) return;
-    EXPECT_EQ(WEXITSTATUS(status), expected) << document << ":" << command.line << ": " << command.text << "\n"
-                                             << readText(log);
+    if (exitCode == kNoGraphics && text.find(" --gl") != std::string::npos) return;
+    EXPECT_EQ(exitCode, expected) << document << ":" << command.line << ": " << command.text << "\n"
+                                  << readText(folder / "run.log") << readText(folder / "run.err");
+}
+
+// What a page of docs/errors shows under "Example".
+struct ErrorExample {
+    std::string commands;               ///< of its block ```sh; empty: none is shown
+    std::vector<std::string> messages;  ///< lines of its other block
+};
+
+ErrorExample exampleOf(const fs::path& page) {
+    std::ifstream in(page);
+    ErrorExample example;
+    bool isExample = false, isOpen = false, isShell = false;
+    for (std::string line; std::getline(in, line);) {
+        if (line.rfind("## ", 0) == 0) isExample = line == "## Example";
+        if (!isExample) continue;
+        if (line.rfind("```", 0) == 0) {
+            isOpen = !isOpen;
+            isShell = line == "```sh";
+        } else if (isOpen && isShell) {
+            example.commands += line + "\n";
+        } else if (isOpen) {
+            example.messages.push_back(line);
+        }
+    }
+    return example;
 }
 
 TEST(Documents, CommandsOfTheReadmeWork) {
@@ -129,19 +160,45 @@ TEST(Documents, CommandsOfTheUserDocsWork) {
     EXPECT_GT(count, 20u);
 }
 
-TEST(Documents, EveryLinkLeadsToAFile) {
-    const fs::path docs = fs::path(SVT_SOURCE_DIR) / "docs/user";
-    if (!fs::exists(docs)) GTEST_SKIP() << "there is no docs/user";
+TEST(Documents, CommandsOfTheErrorPagesPrintTheirMessages) {
+    const fs::path docs = fs::path(SVT_SOURCE_DIR) / "docs/errors";
+    if (!fs::exists(docs)) GTEST_SKIP() << "there is no docs/errors";
+    std::size_t count = 0;
     for (const auto& entry : fs::directory_iterator(docs)) {
-        if (entry.path().extension() != ".md") continue;
-        const std::string text = readText(entry.path());
-        for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
-            std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
-            if (target.rfind("http", 0) == 0) continue;
-            target = target.substr(0, target.find('#'));
-            if (target.empty()) continue;
-            EXPECT_TRUE(fs::exists(entry.path().parent_path() / target)) << entry.path() << ": " << target;
-        }
+        const ErrorExample example = exampleOf(entry.path());
+        if (example.commands.empty()) continue;
+        const bool needsFullDevice = example.commands.find("/dev/full") != std::string::npos;
+        if (needsFullDevice && !fs::exists("/dev/full")) continue;
+        const TemporaryFolder folder;
+        (void)runScript(folder.path(), example.commands);
+        const std::string printed = "\n" + readText(folder / "run.err");
+        EXPECT_FALSE(example.messages.empty()) << entry.path();
+        for (const std::string& message : example.messages)
+            EXPECT_NE(printed.find("\n" + message + "\n"), std::string::npos)
+                << entry.path() << " shows\n"
+                << message << "\nbut its commands print" << printed;
+        ++count;
+    }
+    EXPECT_GT(count, 40u);
+}
+
+void expectLinksLeadToFiles(const fs::path& page) {
+    const std::string text = readText(page);
+    for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+        std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+        if (target.rfind("http", 0) == 0) continue;
+        target = target.substr(0, target.find('#'));
+        if (target.empty()) continue;
+        EXPECT_TRUE(fs::exists(page.parent_path() / target)) << page << ": " << target;
+    }
+}
+
+TEST(Documents, EveryLinkLeadsToAFile) {
+    for (const char* folder : {"docs/user", "docs/errors"}) {
+        const fs::path docs = fs::path(SVT_SOURCE_DIR) / folder;
+        if (!fs::exists(docs)) GTEST_SKIP() << "there is no " << folder;
+        for (const auto& entry : fs::directory_iterator(docs))
+            if (entry.path().extension() == ".md") expectLinksLeadToFiles(entry.path());
     }
 }
 
