@@ -245,7 +245,7 @@ Answer testOpenGlAnswer(const GlProbe& probe) {
                      {"differing", probe.differing}};
     if (probe.differing > few) {
         answer.text.clear();
-        warn(answer, fmt::format("{} of {} pixels are others than on the CPU; renew the graphics driver, or draw "
+        warn(answer, fmt::format("{} of {} pixels differ from those on the CPU; update the graphics driver, or draw "
                                  "without --gl",
                                  probe.differing, probe.pixels));
     }
