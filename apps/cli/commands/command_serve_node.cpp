@@ -31,7 +31,8 @@ struct Arguments {
 
 int runServe(const Arguments& arguments) {
     if (arguments.allowUploads)
-        return fail(Error(Code::BadArgument, "--allow-uploads is not possible under Node.js; use the program for Linux"));
+        return fail(
+            Error(Code::BadArgument, "--allow-uploads is not possible under Node.js; use the program for Linux"));
     if (arguments.inputs.empty()) return fail(Error(Code::BadArgument, "nothing to show; give a .svt or a model file"));
     const auto viewer = arguments.site.viewerFolder();
     if (!viewer) return fail(viewer.error());
