@@ -50,56 +50,64 @@ struct PeerRun {
     const char* note = "";
 };
 
+// The peers that are there, loaded with the solids.
+struct Peers {
+    Peer<SolidPeer> vtk, openVdb;
+    std::vector<PeerRun> runs;  // those of one peer side by side
+};
+
+Peers loadPeers(const Solids& solids, const volume::Grid& grid, bool withOpenVdb, Row& row) {
+    Peers peers{makeVtkStencils(), withOpenVdb ? makeOpenVdb() : Peer<SolidPeer>{}, {}};
+    for (const Peer<SolidPeer>* peer : {&peers.vtk, &peers.openVdb}) {
+        if (peer->peer != nullptr)
+            peer->peer->load(solids.meshes, grid);
+        else if (!peer->missing.empty())
+            row.missing.push_back(peer->missing);
+    }
+    if (SolidPeer* vtk = peers.vtk.peer.get(); vtk != nullptr) {
+        peers.runs.push_back({vtk, SolidStep::Inside, "", "stencil per object; no image, no labels"});
+        peers.runs.push_back({vtk, SolidStep::Mask, " + images", "stencil and 8-bit image per object; no labels"});
+        peers.runs.push_back({vtk, SolidStep::Labels, " + labels", "stencils written into one dense 16-bit volume"});
+    }
+    if (SolidPeer* openVdb = peers.openVdb.peer.get(); openVdb != nullptr)
+        peers.runs.push_back(
+            {openVdb, SolidStep::Inside, "", "signed distances per object, band of one voxel; no labels"});
+    return peers;
+}
+
+Result<voxelize::VoxelizeResult> runOurs(const Solids& solids, const volume::Grid& grid, int threads,
+                                         bool keepThinParts) {
+    voxelize::VoxelizeOptions options;
+    options.threads = threads;
+    options.keepThinParts = keepThinParts;
+    return voxelize::voxelize(solids.meshes, grid, solids.claims, options);
+}
+
 Result<Row> voxelizeRow(const Workload& workload, const Solids& solids, Vec3i dimension, bool withOpenVdb,
                         const BenchOptions& options) {
     tell(fmt::format("voxelize {} {}", workload.name, sizeText(dimension)));
     const auto grid = gridOver(workload, dimension);
     if (!grid) return grid.error();
-
-    const auto run = [&](int threads, bool keepThinParts) {
-        voxelize::VoxelizeOptions voxelizeOptions;
-        voxelizeOptions.threads = threads;
-        voxelizeOptions.keepThinParts = keepThinParts;
-        return voxelize::voxelize(solids.meshes, *grid, solids.claims, voxelizeOptions);
-    };
-    const auto ours = run(0, true);
+    const auto ours = runOurs(solids, *grid, 0, true);
     if (!ours) return ours.error();
 
     Row row;
     row.stage = "voxelize";
     row.input = workload.name;
     row.size = sizeText(dimension);
-    const Peer<SolidPeer> vtk = makeVtkStencils(), openVdb = withOpenVdb ? makeOpenVdb() : Peer<SolidPeer>{};
-    std::vector<PeerRun> peerRuns;
-    for (const Peer<SolidPeer>* peer : {&vtk, &openVdb}) {
-        if (peer->peer != nullptr)
-            peer->peer->load(solids.meshes, *grid);
-        else if (!peer->missing.empty())
-            row.missing.push_back(peer->missing);
-    }
-    if (vtk.peer != nullptr) {
-        peerRuns.push_back({vtk.peer.get(), SolidStep::Inside, "", "stencil per object; no image, no labels"});
-        peerRuns.push_back(
-            {vtk.peer.get(), SolidStep::Mask, " + images", "stencil and 8-bit image per object; no labels"});
-        peerRuns.push_back(
-            {vtk.peer.get(), SolidStep::Labels, " + labels", "stencils written into one dense 16-bit volume"});
-    }
-    if (openVdb.peer != nullptr)
-        peerRuns.push_back(
-            {openVdb.peer.get(), SolidStep::Inside, "", "signed distances per object, band of one voxel; no labels"});
-
+    const Peers peers = loadPeers(solids, *grid, withOpenVdb, row);
     DenseLabels labels;
     std::vector<Contestant> contestants;
-    contestants.push_back({"SVT", [&] { static_cast<void>(run(0, true).hasValue()); }});
-    contestants.push_back({"SVT, one thread", [&] { static_cast<void>(run(1, true).hasValue()); }});
-    for (const PeerRun& p : peerRuns)
+    contestants.push_back({"SVT", [&] { static_cast<void>(runOurs(solids, *grid, 0, true).hasValue()); }});
+    contestants.push_back({"SVT, one thread", [&] { static_cast<void>(runOurs(solids, *grid, 1, true).hasValue()); }});
+    for (const PeerRun& p : peers.runs)
         contestants.push_back({p.peer->name() + p.what, [&, p] {
                                    labels = {};
                                    p.peer->run(p.step, solids.order, solids.scalars, &labels);
                                }});
     const auto measured = measureInTurns(contestants, options.measure);
     // The peers use voxel centers and lose parts thinner than a voxel, so they are compared with the same rule.
-    const auto centersOnly = run(0, false);
+    const auto centersOnly = runOurs(solids, *grid, 0, false);
     if (!centersOnly) return centersOnly.error();
     row.ours = measured[0];
     row.resultBytes = ours->columns.sizeBytes();
@@ -107,12 +115,13 @@ Result<Row> voxelizeRow(const Workload& workload, const Solids& solids, Vec3i di
     row.extra["triangles"] = solids.meshes.triangleCount();
     row.extra["thin_voxels"] = std::accumulate(ours->thinVoxels.begin(), ours->thinVoxels.end(), std::uint64_t{0});
     row.comparisons.push_back({measured[1], "the same work on one core", Json::object(), false});
-    for (std::size_t p = 0; p < peerRuns.size(); ++p) {
-        Comparison comparison{measured[p + 2], peerRuns[p].note, Json::object(), true};
-        const bool isLastOfPeer = p + 1 == peerRuns.size() || peerRuns[p + 1].peer != peerRuns[p].peer;
+    for (std::size_t p = 0; p < peers.runs.size(); ++p) {
+        const PeerRun& run = peers.runs[p];
+        Comparison comparison{measured[p + 2], run.note, Json::object(), true};
+        const bool isLastOfPeer = p + 1 == peers.runs.size() || peers.runs[p + 1].peer != run.peer;
         if (isLastOfPeer) {
             labels = {};
-            peerRuns[p].peer->run(SolidStep::Labels, solids.order, solids.scalars, &labels);
+            run.peer->run(SolidStep::Labels, solids.order, solids.scalars, &labels);
             comparison.extra["agreement"] = comparisonJson(compareVoxels(centersOnly->columns, labels));
         }
         row.comparisons.push_back(std::move(comparison));

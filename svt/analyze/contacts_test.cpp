@@ -142,9 +142,16 @@ TEST(Contacts, PhasesOfAPatternAreOneBody) {
     EXPECT_NEAR(contacts[0].area, 6 * 256, 1e-9);
 }
 
-// The same from a dense array, face by face.
-std::vector<Contact> contactsByVoxels(const volume::ColumnVolume& columns, const volume::Grid& grid,
-                                      const volume::LabelTable& table) {
+// A face of a voxel between two labels, in a cube of 8 x 8 x 8 voxels.
+struct Face {
+    int axis, side;
+    Vec3i at;  // within the cube
+};
+using Faces = std::vector<Face>;
+using FacesByPair = std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<Vec3i, Faces>>;
+
+// All faces between two labels, by the pair of labels and by cube.
+FacesByPair findFaces(const volume::ColumnVolume& columns, const volume::LabelTable& table) {
     const auto labelOf = table.labelOfScalar();
     const Vec3i n = columns.dimension();
     const auto labelAt = [&](Vec3i p) {
@@ -152,11 +159,7 @@ std::vector<Contact> contactsByVoxels(const volume::ColumnVolume& columns, const
             if (p[axis] < 0 || p[axis] >= n[axis]) return volume::kNoLabel;
         return labelOf[columns.scalarAt(p.x, p.y, p.z)];
     };
-    struct Face {
-        int axis, side;
-        Vec3i at;
-    };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<Vec3i, std::vector<Face>>> cells;
+    FacesByPair found;
     for (std::int32_t k = 0; k <= n.z; ++k)
         for (std::int32_t j = 0; j <= n.y; ++j)
             for (std::int32_t i = 0; i <= n.x; ++i)
@@ -165,60 +168,77 @@ std::vector<Contact> contactsByVoxels(const volume::ColumnVolume& columns, const
                     --below[axis];
                     const std::uint32_t low = labelAt(below), high = labelAt({i, j, k});
                     if (low != high)
-                        cells[{std::min(low, high), std::max(low, high)}][{i / 8, j / 8, k / 8}].push_back(
+                        found[{std::min(low, high), std::max(low, high)}][{i / 8, j / 8, k / 8}].push_back(
                             {axis, low < high ? 1 : 0, {i & 7, j & 7, k & 7}});
                 }
-    std::vector<Contact> contacts;
-    for (const auto& [pair, ofPair] : cells) {
-        Contact contact{pair.first, pair.second, 0, {}};
-        for (const auto& [cell, faces] : ofPair) {
-            Vec3d area;
-            const auto reach = [&](int axis, int along) {
-                int longest = 0;
-                for (int side = 0; side < 2; ++side) {
-                    int low = 8, high = -1;
-                    for (const Face& face : faces)
-                        if (face.axis == axis && face.side == side) {
-                            low = std::min(low, face.at[along]);
-                            high = std::max(high, face.at[along]);
-                        }
-                    longest = std::max(longest, high - low + 1);
-                }
-                return longest;
-            };
-            const auto meetsSide = [&](int axis, int along) {
-                return std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
-                    return face.axis == axis && (face.at[along] == 0 || face.at[along] == 7);
-                });
-            };
-            std::array<std::size_t, 3> counts{};
-            for (const Face& face : faces) {
-                ++counts[std::size_t(face.axis)];
-                ++contact.faces[std::size_t(face.axis)];
-                area[face.axis] += grid.voxelVolume() / grid.spacing()[face.axis];
-            }
-            bool isBox = true;
-            for (int a = 0; a < 3; ++a) {
-                if (counts[std::size_t(a)] == 0) continue;
-                isBox = isBox && reach(a, a) == 1;
-                for (int b = 0; b < 3; ++b) {
-                    if (a == b || counts[std::size_t(b)] == 0) continue;
-                    const bool isLong = reach(a, b) >= 2;
-                    isBox = isBox && (isLong || (meetsSide(a, b) && reach(b, a) >= 2));
-                }
-            }
-            double squares = 0;
-            for (int a = 0; a < 3; ++a) {
-                bool isApart = counts[std::size_t(a)] > 16 && reach(a, a) == 1;
-                for (int b = 0; b < 3; ++b)
-                    if (b != a && counts[std::size_t(b)] != 0) isApart = isApart && reach(b, a) >= 3;
-                if (isBox || isApart)
-                    contact.area += area[a];
-                else
-                    squares += area[a] * area[a];
-            }
-            contact.area += std::sqrt(squares);
+    return found;
+}
+
+// How far the faces across `axis` that look to one side lie apart along `along`, the larger of both sides.
+int reachOf(const Faces& faces, int axis, int along) {
+    int longest = 0;
+    for (int side = 0; side < 2; ++side) {
+        int low = 8, high = -1;
+        for (const Face& face : faces) {
+            if (face.axis != axis || face.side != side) continue;
+            low = std::min(low, face.at[along]);
+            high = std::max(high, face.at[along]);
         }
+        longest = std::max(longest, high - low + 1);
+    }
+    return longest;
+}
+
+bool meetsSide(const Faces& faces, int axis, int along) {
+    return std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
+        return face.axis == axis && (face.at[along] == 0 || face.at[along] == 7);
+    });
+}
+
+// True if the faces of a cube are sides of a box rather than steps of a slope.
+bool isBox(const Faces& faces, const std::array<std::size_t, 3>& counts) {
+    bool result = true;
+    for (int a = 0; a < 3; ++a) {
+        if (counts[std::size_t(a)] == 0) continue;
+        result = result && reachOf(faces, a, a) == 1;
+        for (int b = 0; b < 3; ++b) {
+            if (a == b || counts[std::size_t(b)] == 0) continue;
+            const bool isLong = reachOf(faces, a, b) >= 2;
+            result = result && (isLong || (meetsSide(faces, a, b) && reachOf(faces, b, a) >= 2));
+        }
+    }
+    return result;
+}
+
+void addCube(const Faces& faces, const volume::Grid& grid, Contact& contact) {
+    Vec3d area;
+    std::array<std::size_t, 3> counts{};
+    for (const Face& face : faces) {
+        ++counts[std::size_t(face.axis)];
+        ++contact.faces[std::size_t(face.axis)];
+        area[face.axis] += grid.voxelVolume() / grid.spacing()[face.axis];
+    }
+    const bool areSides = isBox(faces, counts);
+    double squares = 0;
+    for (int a = 0; a < 3; ++a) {
+        bool isApart = counts[std::size_t(a)] > 16 && reachOf(faces, a, a) == 1;
+        for (int b = 0; b < 3; ++b)
+            if (b != a && counts[std::size_t(b)] != 0) isApart = isApart && reachOf(faces, b, a) >= 3;
+        if (areSides || isApart)
+            contact.area += area[a];
+        else
+            squares += area[a] * area[a];
+    }
+    contact.area += std::sqrt(squares);
+}
+
+// The same from a dense array, face by face.
+std::vector<Contact> contactsByVoxels(const volume::ColumnVolume& columns, const volume::Grid& grid,
+                                      const volume::LabelTable& table) {
+    std::vector<Contact> contacts;
+    for (const auto& [pair, cubes] : findFaces(columns, table)) {
+        Contact contact{pair.first, pair.second, 0, {}};
+        for (const auto& [place, faces] : cubes) addCube(faces, grid, contact);
         contacts.push_back(contact);
     }
     return contacts;

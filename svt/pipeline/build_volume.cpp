@@ -147,6 +147,82 @@ Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshS
                     low.x, low.y, low.z, high.x, high.y, high.z, grid.origin().x, grid.origin().y, grid.origin().z));
 }
 
+// What there is of a model before its voxels.
+struct Prepared {
+    mesh::MeshSet meshes;
+    volume::Grid grid;
+    LabelledObjects labelled;
+};
+
+Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
+    mesh::MeshOptions meshOptions;
+    meshOptions.lod = options.lod;
+    meshOptions.threads = options.threads;
+    meshOptions.progress = options.progress;
+    auto meshes = mesh::buildMeshes(model, meshOptions, log);
+    if (!meshes) return meshes.error();
+    const auto grid = chooseGrid(*meshes, options);
+    if (!grid) return grid.error();
+    if (options.grid)
+        if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
+    addCapFeatures(model, *meshes);
+    std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
+    if (options.style != nullptr) sheets.push_back(options.style);
+    auto labelled = makeLabels(model, *meshes, sheets);
+    if (!labelled) return labelled.error();
+    return Prepared{std::move(*meshes), *grid, std::move(*labelled)};
+}
+
+// Voxelizes all objects, then thematic bodies, then patterns.
+Result<voxelize::VoxelizeResult> makeVoxels(const Prepared& prepared, const std::vector<voxelize::BodyGroup>& groups,
+                                            const BuildOptions& options) {
+    voxelize::VoxelizeOptions voxelizeOptions;
+    voxelizeOptions.sheets = options.sheets;
+    voxelizeOptions.keepThinParts = options.keepThinParts;
+    voxelizeOptions.threads = options.threads;
+    voxelizeOptions.progress = options.progress;
+    const auto& [meshes, grid, labelled] = prepared;
+    auto voxels = voxelize::voxelize(meshes, grid, labelled.claims, voxelizeOptions);
+    if (!voxels) return voxels;
+    if (!groups.empty())
+        voxels->columns = voxelize::assignThematicBodies(voxels->columns, grid, meshes, groups, options.threads);
+    if (!labelled.patterns.empty())
+        voxels->columns =
+            voxelize::layPatterns(voxels->columns, grid, meshes.origin, labelled.patterns, options.threads);
+    return voxels;
+}
+
+// Enters into the label table what only the voxels tell.
+void fillLabels(const voxelize::VoxelizeResult& voxels, const std::vector<voxelize::BodyGroup>& groups,
+                Prepared& prepared) {
+    LabelledObjects& labelled = prepared.labelled;
+    volume::LabelTable& table = labelled.table;
+    fillOverlaps(labelled, voxels.overlaps, table);
+    const std::vector<std::uint64_t> counts = voxels.columns.countVoxels(table.scalarCount());
+    for (volume::Label& label : table.labels)
+        for (volume::Scalar s = 0; s < label.count; ++s) label.voxels += counts[label.first + s];
+    for (std::size_t o = 0; o < prepared.meshes.objects.size(); ++o) {
+        volume::Label& label = table.labels[labelled.labelOfObject[o]];
+        label.thinVoxels = voxels.thinVoxels[o];
+        label.uncertainVoxels = voxels.uncertainVoxels[o];
+    }
+    for (const voxelize::BodyGroup& group : groups)
+        for (const std::uint32_t surface : group.surfaces) {
+            volume::Label& label = table.labels[labelled.labelOfObject[surface]];
+            label.filling = volume::Filling::Body;
+            label.volume = double(label.voxels) * prepared.grid.voxelVolume();
+        }
+}
+
+void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
+    report.objects = meshes.objects.size();
+    report.triangles = meshes.triangleCount();
+    for (const mesh::ObjectMesh& object : meshes.objects) {
+        if (object.closure != mesh::Closure::Surface && object.leakCount != 0) ++report.open;
+        if (object.closure == mesh::Closure::TJunctions) ++report.tJunctions;
+    }
+}
+
 }  // namespace
 
 Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads,
@@ -205,68 +281,27 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     BuildOutput output;
     BuildReport& report = output.report;
     auto start = Clock::now();
-    mesh::MeshOptions meshOptions;
-    meshOptions.lod = options.lod;
-    meshOptions.threads = options.threads;
-    meshOptions.progress = options.progress;
-    const auto meshes = mesh::buildMeshes(model, meshOptions, log);
-    if (!meshes) return meshes.error();
-    const auto grid = chooseGrid(*meshes, options);
-    if (!grid) return grid.error();
-    if (options.grid)
-        if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
-    addCapFeatures(model, *meshes);
-    std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
-    if (options.style != nullptr) sheets.push_back(options.style);
-    auto labelled = makeLabels(model, *meshes, sheets);
-    if (!labelled) return labelled.error();
+    auto prepared = prepare(model, options, log);
+    if (!prepared) return prepared.error();
+    const auto& [meshes, grid, labelled] = *prepared;
     report.seconds.mesh = secondsSince(start);
 
     start = Clock::now();
-    voxelize::VoxelizeOptions voxelizeOptions;
-    voxelizeOptions.sheets = options.sheets;
-    voxelizeOptions.keepThinParts = options.keepThinParts;
-    voxelizeOptions.threads = options.threads;
-    voxelizeOptions.progress = options.progress;
-    auto voxels = voxelize::voxelize(*meshes, *grid, labelled->claims, voxelizeOptions);
-    if (!voxels) return voxels.error();
     std::vector<voxelize::BodyGroup> groups;
-    if (options.assignThematicBodies) groups = findBodyGroups(*meshes, *labelled);
-    if (!groups.empty())
-        voxels->columns = voxelize::assignThematicBodies(voxels->columns, *grid, *meshes, groups, options.threads);
-    if (!labelled->patterns.empty())
-        voxels->columns =
-            voxelize::layPatterns(voxels->columns, *grid, meshes->origin, labelled->patterns, options.threads);
+    if (options.assignThematicBodies) groups = findBodyGroups(meshes, labelled);
+    auto voxels = makeVoxels(*prepared, groups, options);
+    if (!voxels) return voxels.error();
     report.seconds.voxelize = secondsSince(start);
 
     start = Clock::now();
-    volume::LabelTable& table = labelled->table;
-    fillOverlaps(*labelled, voxels->overlaps, table);
-    const std::vector<std::uint64_t> counts = voxels->columns.countVoxels(table.scalarCount());
-    for (volume::Label& label : table.labels)
-        for (volume::Scalar s = 0; s < label.count; ++s) label.voxels += counts[label.first + s];
-    for (std::size_t o = 0; o < meshes->objects.size(); ++o) {
-        volume::Label& label = table.labels[labelled->labelOfObject[o]];
-        label.thinVoxels = voxels->thinVoxels[o];
-        label.uncertainVoxels = voxels->uncertainVoxels[o];
-        const mesh::ObjectMesh& object = meshes->objects[o];
-        if (object.closure != mesh::Closure::Surface && object.leakCount != 0) ++report.open;
-        if (object.closure == mesh::Closure::TJunctions) ++report.tJunctions;
-    }
-    for (const voxelize::BodyGroup& group : groups)
-        for (const std::uint32_t surface : group.surfaces) {
-            volume::Label& label = table.labels[labelled->labelOfObject[surface]];
-            label.filling = volume::Filling::Body;
-            label.volume = double(label.voxels) * grid->voxelVolume();
-        }
-    auto vectors = makeVectorParts(*meshes, labelled->labelOfObject, *grid, options.vectors, options.threads);
+    fillLabels(*voxels, groups, *prepared);
+    countObjects(meshes, report);
+    auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors, options.threads);
     if (!vectors) return vectors.error();
     output.volume.vectors = std::move(*vectors);
-    output.volume.planes = voxelize::findFacePlanes(*meshes, *grid);
-    report.objects = meshes->objects.size();
-    report.triangles = meshes->triangleCount();
-    output.volume.grid = *grid;
-    output.volume.labels = std::move(table);
+    output.volume.planes = voxelize::findFacePlanes(meshes, grid);
+    output.volume.grid = grid;
+    output.volume.labels = std::move(prepared->labelled.table);
     output.volume.columns = std::move(voxels->columns);
     output.volume.crsName = model.crs.name;
     output.volume.modelName = model.name;

@@ -50,6 +50,17 @@ bool isEqual(std::span<const T> a, std::span<const T> b) noexcept {
     return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
+// Replaces `runs` by those of the column whose lowest sample is scalars[base]; `layer` samples lie in each layer.
+void findRuns(std::span<const Scalar> scalars, std::size_t base, std::size_t layer, std::int32_t height,
+              std::vector<Run>& runs) {
+    runs.clear();
+    for (std::int32_t k = 0; k < height; ++k) {
+        const Scalar scalar = scalars[base + layer * std::size_t(k)];
+        if (runs.empty() || runs.back().scalar != scalar) runs.push_back({0, scalar});
+        runs.back().end = static_cast<std::uint32_t>(k + 1);
+    }
+}
+
 }  // namespace
 
 ColumnVolume ColumnVolume::fromTiles(Vec3i dimension, std::vector<ColumnTileData> tiles) {
@@ -78,12 +89,7 @@ ColumnVolume ColumnVolume::fromDense(Vec3i dimension, std::span<const Scalar> sc
                 for (std::int32_t x = 0; x < width; ++x) {
                     const std::size_t base =
                         std::size_t(tileX * kTileSize + x) + nx * std::size_t(tileY * kTileSize + y);
-                    runs.clear();
-                    for (std::int32_t k = 0; k < dimension.z; ++k) {
-                        const Scalar scalar = scalars[base + nx * ny * std::size_t(k)];
-                        if (runs.empty() || runs.back().scalar != scalar) runs.push_back({0, scalar});
-                        runs.back().end = static_cast<std::uint32_t>(k + 1);
-                    }
+                    findRuns(scalars, base, nx * ny, dimension.z, runs);
                     row[std::size_t(x)] = builder.addColumn(runs);
                 }
                 builder.addRow(row);

@@ -9,36 +9,31 @@
 
 namespace svt::volume::test {
 
-/// A building with two rooms, a wall with a pattern of three phases and a storey as group; `dimension` of at least
-/// 8 x 8 x 8 samples. Its strings have characters that are hard to write.
-inline SemanticVolume sampleVolume(Vec3i dimension = {70, 66, 9}) {
-    SemanticVolume volume;
-    const double turn = 0.6;
-    volume.grid = *Grid::fromParts(dimension, {0.05, 0.1, 1.0 / 3.0}, {458877.03, 5438353.7, -0.1},
-                                   {Vec3d{turn, 0.8, 0}, Vec3d{-0.8, turn, 0}, Vec3d{0, 0, 1}});
-    volume.crsName = "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783";
-    volume.modelName = "Haus \"Ängström\" \\ 1\n2. Zeile\t\x01";
-    volume.source = "haus.gml";
+/// One attribute of each type, and of each value that is hard to write.
+inline std::vector<Attribute> sampleAttributes() {
+    return {{"text",
+             std::string("Gr\xC3\xBC\xC3\x9F"
+                         "e \xF0\x9F\x8F\xA0 \"'\\/\n\r\t\x7F"),
+             ""},
+            {"", std::string(), ""},
+            {"smallest", std::numeric_limits<std::int64_t>::min(), ""},
+            {"largest", std::numeric_limits<std::int64_t>::max(), ""},
+            {"huge", 1e308, "m"},
+            {"tiny", std::numeric_limits<double>::denorm_min(), "m\xC2\xB2"},
+            {"five", 5.0, ""},
+            {"minus zero", -0.0, ""},
+            {"third", 1.0 / 3.0, ""},
+            {"infinite", std::numeric_limits<double>::infinity(), ""},
+            {"yes", true, ""},
+            {"no", false, ""}};
+}
 
-    auto& labels = volume.labels.labels;
-    labels.resize(5);
+/// A building with two rooms, a wall with three scalars and a storey as group.
+inline std::vector<Label> sampleLabels() {
+    std::vector<Label> labels(5);
     labels[0] = {
         .id = "building", .className = "Building", .name = "", .attributes = {}, .subtreeEnd = 4, .groups = {}};
-    labels[0].attributes = {{"text",
-                             std::string("Gr\xC3\xBC\xC3\x9F"
-                                         "e \xF0\x9F\x8F\xA0 \"'\\/\n\r\t\x7F"),
-                             ""},
-                            {"", std::string(), ""},
-                            {"smallest", std::numeric_limits<std::int64_t>::min(), ""},
-                            {"largest", std::numeric_limits<std::int64_t>::max(), ""},
-                            {"huge", 1e308, "m"},
-                            {"tiny", std::numeric_limits<double>::denorm_min(), "m\xC2\xB2"},
-                            {"five", 5.0, ""},
-                            {"minus zero", -0.0, ""},
-                            {"third", 1.0 / 3.0, ""},
-                            {"infinite", std::numeric_limits<double>::infinity(), ""},
-                            {"yes", true, ""},
-                            {"no", false, ""}};
+    labels[0].attributes = sampleAttributes();
     labels[1] = {.id = "room-1",
                  .className = "BuildingRoom",
                  .name = "Küche",
@@ -74,10 +69,12 @@ inline SemanticVolume sampleVolume(Vec3i dimension = {70, 66, 9}) {
     labels[3].first = 5;
     labels[3].count = 1;
     labels[4] = {.id = "storey", .className = "Storey", .name = "EG", .attributes = {}, .subtreeEnd = 5, .groups = {}};
-    volume.labels.overlaps = {{1, 3, 12, false}, {2, 1, 7, true}};
-    volume.labels.phaseColors.resize(6, {0.5f, 0.25f, 0.125f});
+    return labels;
+}
 
-    std::vector<Scalar> dense(volume.grid.sampleCount());
+/// The rooms on both sides of the wall; its phases change from sample to sample.
+inline std::vector<Scalar> sampleScalars(Vec3i dimension) {
+    std::vector<Scalar> dense(std::size_t(dimension.x) * std::size_t(dimension.y) * std::size_t(dimension.z));
     for (std::int32_t k = 0; k < dimension.z; ++k)
         for (std::int32_t j = 0; j < dimension.y; ++j)
             for (std::int32_t i = 0; i < dimension.x; ++i) {
@@ -89,9 +86,26 @@ inline SemanticVolume sampleVolume(Vec3i dimension = {70, 66, 9}) {
                 dense[std::size_t(i) +
                       std::size_t(dimension.x) * (std::size_t(j) + std::size_t(dimension.y) * std::size_t(k))] = scalar;
             }
-    volume.columns = ColumnVolume::fromDense(dimension, dense);
+    return dense;
+}
+
+/// A building with two rooms, a wall with a pattern of three phases and a storey as group; `dimension` of at least
+/// 8 x 8 x 8 samples. Its strings have characters that are hard to write.
+inline SemanticVolume sampleVolume(Vec3i dimension = {70, 66, 9}) {
+    SemanticVolume volume;
+    const double turn = 0.6;
+    volume.grid = *Grid::fromParts(dimension, {0.05, 0.1, 1.0 / 3.0}, {458877.03, 5438353.7, -0.1},
+                                   {Vec3d{turn, 0.8, 0}, Vec3d{-0.8, turn, 0}, Vec3d{0, 0, 1}});
+    volume.crsName = "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783";
+    volume.modelName = "Haus \"Ängström\" \\ 1\n2. Zeile\t\x01";
+    volume.source = "haus.gml";
+
+    volume.labels.labels = sampleLabels();
+    volume.labels.overlaps = {{1, 3, 12, false}, {2, 1, 7, true}};
+    volume.labels.phaseColors.resize(6, {0.5f, 0.25f, 0.125f});
+    volume.columns = ColumnVolume::fromDense(dimension, sampleScalars(dimension));
     const auto voxels = volume.columns.countVoxels(6);
-    for (Label& label : labels)
+    for (Label& label : volume.labels.labels)
         for (Scalar s = 0; s < label.count; ++s) label.voxels += voxels[label.first + s];
     return volume;
 }

@@ -61,32 +61,59 @@ ShellOptions thin() {
 }
 
 // The definition, voxel by voxel: background by flood fill, boxes by looking at each of their voxels.
-std::vector<Scalar> bruteForce(const SemanticVolume& volume, const std::vector<std::uint32_t>& groupOf, Vec3i reach,
-                               const std::set<std::uint32_t>& keptGroups) {
-    const Vec3i n = volume.grid.dimension();
-    const auto index = [&](Vec3i p) {
-        return std::size_t(p.x) + std::size_t(n.x) * (std::size_t(p.y) + std::size_t(n.y) * std::size_t(p.z));
-    };
-    const auto isInGrid = [&](Vec3i p) {
-        return p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < n.x && p.y < n.y && p.z < n.z;
-    };
-    const auto labelOf = volume.labels.labelOfScalar();
-    constexpr std::int64_t kAir = -1, kOther = -2;
-    std::vector<std::int64_t> group;
-    std::vector<Vec3i> all;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i) {
-                const std::uint32_t l = labelOf[volume.columns.scalarAt(i, j, k)];
-                group.push_back(l == kNoLabel ? kAir : groupOf[l] == kNoLabel ? kOther : groupOf[l]);
-                all.push_back({i, j, k});
-            }
-    std::vector<bool> isSeen(group.size(), false);
-    const std::vector<Vec3i> sides{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (const Vec3i start : all) {
-        if (group[index(start)] != kAir || isSeen[index(start)]) continue;
+class BruteForce {
+public:
+    BruteForce(const SemanticVolume& volume, const std::vector<std::uint32_t>& groupOf)
+        : volume_(volume), n_(volume.grid.dimension()) {
+        const auto labelOf = volume.labels.labelOfScalar();
+        for (std::int32_t k = 0; k < n_.z; ++k)
+            for (std::int32_t j = 0; j < n_.y; ++j)
+                for (std::int32_t i = 0; i < n_.x; ++i) {
+                    const std::uint32_t l = labelOf[volume.columns.scalarAt(i, j, k)];
+                    group_.push_back(l == kNoLabel ? kAir : groupOf[l] == kNoLabel ? kOther : groupOf[l]);
+                    all_.push_back({i, j, k});
+                }
+        giveAirToGroups();
+    }
+
+    [[nodiscard]] std::vector<Scalar> shell(Vec3i reach, const std::set<std::uint32_t>& keptGroups) const {
+        std::vector<Scalar> shell;
+        for (const Vec3i p : all_) {
+            const std::int64_t own = group_[index(p)];
+            const bool isKept = own >= 0 && keptGroups.contains(static_cast<std::uint32_t>(own));
+            shell.push_back(isHull(p, reach) && isKept ? volume_.columns.scalarAt(p.x, p.y, p.z) : 0);
+        }
+        return shell;
+    }
+
+private:
+    static constexpr std::int64_t kAir = -1, kOther = -2;
+
+    [[nodiscard]] std::size_t index(Vec3i p) const {
+        return std::size_t(p.x) + std::size_t(n_.x) * (std::size_t(p.y) + std::size_t(n_.y) * std::size_t(p.z));
+    }
+
+    [[nodiscard]] bool isInGrid(Vec3i p) const {
+        return p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < n_.x && p.y < n_.y && p.z < n_.z;
+    }
+
+    // Air that only one group shuts in belongs to it.
+    void giveAirToGroups() {
+        std::vector<bool> isSeen(group_.size(), false);
+        for (const Vec3i start : all_) {
+            if (group_[index(start)] != kAir || isSeen[index(start)]) continue;
+            std::vector<Vec3i> part;
+            const std::set<std::int64_t> around = fill(start, isSeen, part);
+            // Not seen again: the part keeps its place, but has the group's number from here on.
+            if (around.size() == 1 && *around.begin() != kOther)
+                for (const Vec3i p : part) group_[index(p)] = *around.begin();
+        }
+    }
+
+    // Fills the part of the air that `start` lies in; returns the groups around it.
+    std::set<std::int64_t> fill(Vec3i start, std::vector<bool>& isSeen, std::vector<Vec3i>& part) const {
+        const std::vector<Vec3i> sides{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
         std::deque<Vec3i> open{start};
-        std::vector<Vec3i> part;
         std::set<std::int64_t> around;
         isSeen[index(start)] = true;
         while (!open.empty()) {
@@ -97,34 +124,33 @@ std::vector<Scalar> bruteForce(const SemanticVolume& volume, const std::vector<s
                 const Vec3i q = p + side;
                 if (!isInGrid(q)) {
                     around.insert(kOther);
-                } else if (group[index(q)] != kAir) {
-                    around.insert(group[index(q)]);
+                } else if (group_[index(q)] != kAir) {
+                    around.insert(group_[index(q)]);
                 } else if (!isSeen[index(q)]) {
                     isSeen[index(q)] = true;
                     open.push_back(q);
                 }
             }
         }
-        // Not seen again: the part keeps its place, but has the group's number from here on.
-        if (around.size() == 1 && *around.begin() != kOther)
-            for (const Vec3i p : part) group[index(p)] = *around.begin();
+        return around;
     }
-    std::vector<Scalar> shell;
-    for (const Vec3i p : all) {
-        const Scalar scalar = volume.columns.scalarAt(p.x, p.y, p.z);
-        const std::int64_t own = group[index(p)];
-        bool isHull = false;
+
+    [[nodiscard]] bool isHull(Vec3i p, Vec3i reach) const {
+        bool result = false;
         for (std::int32_t dz = -reach.z; dz <= reach.z; ++dz)
             for (std::int32_t dy = -reach.y; dy <= reach.y; ++dy)
                 for (std::int32_t dx = -reach.x; dx <= reach.x; ++dx) {
                     const Vec3i q = p + Vec3i{dx, dy, dz};
-                    isHull = isHull || !isInGrid(q) || group[index(q)] != own;
+                    result = result || !isInGrid(q) || group_[index(q)] != group_[index(p)];
                 }
-        const bool isKept = own >= 0 && keptGroups.contains(static_cast<std::uint32_t>(own));
-        shell.push_back(isHull && isKept ? scalar : 0);
+        return result;
     }
-    return shell;
-}
+
+    const SemanticVolume& volume_;
+    Vec3i n_;
+    std::vector<std::int64_t> group_;  // of each voxel, or kAir, or kOther
+    std::vector<Vec3i> all_;
+};
 
 std::vector<volume::Label> oneLabelPerScalar(std::uint32_t scalars) {
     std::vector<volume::Label> labels;
@@ -151,7 +177,8 @@ TEST(Shell, IsThatOfVoxelByVoxel) {
             seed % 5 == 4 ? std::set<std::uint32_t>{1, 2} : std::set<std::uint32_t>{0, 1, 2, 3};
         const std::int32_t reach = 1 + static_cast<std::int32_t>(seed % 3);
         const auto shell = extractShell(volume, groupOf, options);
-        const auto expected = ColumnVolume::fromDense(n, bruteForce(volume, groupOf, {reach, reach, reach}, kept));
+        const auto expected =
+            ColumnVolume::fromDense(n, BruteForce(volume, groupOf).shell({reach, reach, reach}, kept));
         if (!shell) {
             EXPECT_EQ(shell.error().code(), Code::NothingSelected) << shell.error().toString();
             EXPECT_EQ(ColumnVolume::fromDense(n, std::vector<Scalar>(std::size_t(n.x * n.y * n.z), 0)), expected);
@@ -184,7 +211,7 @@ TEST(Shell, WideReachAndCavities) {
     for (const std::vector<std::uint32_t>& groupOf : {std::vector<std::uint32_t>{0, 1}, {0, 0}}) {
         const auto shell = extractShell(volume, groupOf, options);
         ASSERT_TRUE(shell) << shell.error().toString();
-        EXPECT_EQ(shell->columns, ColumnVolume::fromDense(n, bruteForce(volume, groupOf, {10, 5, 1}, {0, 1})));
+        EXPECT_EQ(shell->columns, ColumnVolume::fromDense(n, BruteForce(volume, groupOf).shell({10, 5, 1}, {0, 1})));
     }
     // A reach of more than a tile, 66 x 33 x 7 voxels: only the middle of the one group is deep inside.
     options.thickness = 0.66;

@@ -285,6 +285,57 @@ bool isFlat(const ObjectMesh& mesh) {
     return std::abs(signedVolume(mesh.vertices, mesh.triangles)) < 1e-6 * area * std::sqrt(area);
 }
 
+// Meshes of all sources, each with its closing test.
+MeshSet gatherMeshes(const std::vector<Source>& sources, const LocalPolygons& polygons, const MeshOptions& options,
+                     std::vector<Work>& work) {
+    MeshSet meshes;
+    meshes.origin = polygons.origin;
+    meshes.objects.resize(sources.size());
+    parallelFor(sources.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            ObjectMesh& mesh = meshes.objects[i];
+            mesh.feature = sources[i].feature;
+            mesh.lod = sources[i].lod;
+            mesh.isAssembled = sources[i].isAssembled;
+            work[i].gathered = gather(sources[i], polygons, mesh);
+            testClosing(mesh, work[i], options);
+        }
+    });
+    return meshes;
+}
+
+void capOpenShell(ObjectMesh& mesh, const MeshOptions& options) {
+    const std::vector<Triangle> uncapped = mesh.triangles;
+    capPlanarHoles(mesh, options.capDeviation);
+    mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
+    if (isFlat(mesh)) {
+        // A footprint or a single face: there is no volume to fill.
+        mesh.triangles = uncapped;
+        mesh.caps.clear();
+        mesh.openEdges = findOpenEdges(mesh.triangles);
+        mesh.closure = Closure::Surface;
+    }
+}
+
+// Closes the open objects with solid meaning, where they can be: by faces of adjoining features, then by caps.
+Result<void> closeShells(const BuildingModel& model, const std::vector<Source>& sources, const LocalPolygons& polygons,
+                         const MeshOptions& options, MeshSet& meshes, std::vector<Work>& work) {
+    std::optional<FaceFinder> finder;  // made for the first open object
+    for (std::size_t i = 0; i < meshes.objects.size(); ++i) {
+        ObjectMesh& mesh = meshes.objects[i];
+        if (mesh.openEdges.empty() || !sources[i].hasSolidMeaning) continue;
+        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while closing shells");
+        if (!finder) finder.emplace(polygons, model);
+        work[i].gathered.pointIds.resize(mesh.vertices.size(), kNoPoint);
+        mesh.complementedFaces = finder->complement(mesh, work[i].gathered.pointIds, work[i].gathered.polygons);
+        if (mesh.openEdges.empty())
+            mesh.closure = Closure::Complemented;
+        else
+            capOpenShell(mesh, options);
+    }
+    return {};
+}
+
 std::string leakText(const ObjectMesh& mesh, Vec3d origin) {
     std::string text;
     for (std::size_t i = 0; i < std::min<std::size_t>(mesh.leaks.size(), 3); ++i) {
@@ -369,44 +420,10 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while meshing");
     Progress::tell(options.progress, "mesh", 0.4);
 
-    MeshSet meshes;
-    meshes.origin = polygons.origin;
-    meshes.objects.resize(sources.size());
     std::vector<Work> work(sources.size());
-    parallelFor(sources.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            ObjectMesh& mesh = meshes.objects[i];
-            mesh.feature = sources[i].feature;
-            mesh.lod = sources[i].lod;
-            mesh.isAssembled = sources[i].isAssembled;
-            work[i].gathered = gather(sources[i], polygons, mesh);
-            testClosing(mesh, work[i], options);
-        }
-    });
-
-    std::optional<FaceFinder> finder;
-    for (std::size_t i = 0; i < meshes.objects.size(); ++i) {
-        ObjectMesh& mesh = meshes.objects[i];
-        if (mesh.openEdges.empty() || !sources[i].hasSolidMeaning) continue;
-        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while closing shells");
-        if (!finder) finder.emplace(polygons, model);
-        work[i].gathered.pointIds.resize(mesh.vertices.size(), kNoPoint);
-        mesh.complementedFaces = finder->complement(mesh, work[i].gathered.pointIds, work[i].gathered.polygons);
-        if (mesh.openEdges.empty()) {
-            mesh.closure = Closure::Complemented;
-            continue;
-        }
-        const std::vector<Triangle> uncapped = mesh.triangles;
-        capPlanarHoles(mesh, options.capDeviation);
-        mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
-        if (isFlat(mesh)) {
-            // A footprint or a single face: there is no volume to fill.
-            mesh.triangles = uncapped;
-            mesh.caps.clear();
-            mesh.openEdges = findOpenEdges(mesh.triangles);
-            mesh.closure = Closure::Surface;
-        }
-    }
+    MeshSet meshes = gatherMeshes(sources, polygons, options, work);
+    if (const auto closed = closeShells(model, sources, polygons, options, meshes, work); !closed)
+        return closed.error();
     Progress::tell(options.progress, "mesh", 0.7);
 
     parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace svt::mesh {
 namespace {
@@ -38,6 +39,69 @@ int gainOf(const std::vector<DirectedEdge>& edges, const std::map<DirectedEdge, 
         gain += found != need.end() && found->second > 0 ? 1 : -1;
     }
     return gain;
+}
+
+struct Choice {
+    model::PolygonIndex polygon;
+    bool isReversed;
+};
+
+// Greedy: takes the first candidate with a positive gain. A rejected candidate is tried again when the need of one of
+// its edges has changed.
+std::vector<Choice> chooseFaces(const std::vector<model::PolygonIndex>& candidates,
+                                const std::vector<std::vector<DirectedEdge>>& edgesOf,
+                                std::map<DirectedEdge, int> need) {
+    std::map<DirectedEdge, std::vector<std::size_t>> users;  // undirected edge (low, high) -> candidates
+    std::set<std::size_t> waiting;
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+        for (const auto& [a, b] : edgesOf[c]) users[std::minmax(a, b)].push_back(c);
+        waiting.insert(waiting.end(), c);
+    }
+    std::vector<Choice> chosen;
+    std::vector<std::uint8_t> isChosen(candidates.size(), 0);
+    while (!waiting.empty()) {
+        const std::size_t c = *waiting.begin();
+        waiting.erase(waiting.begin());
+        const int gain = gainOf(edgesOf[c], need, false), reversedGain = gainOf(edgesOf[c], need, true);
+        if (std::max(gain, reversedGain) <= 0) continue;
+        const bool isReversed = reversedGain > gain;
+        chosen.push_back({candidates[c], isReversed});
+        isChosen[c] = 1;
+        for (const auto& [a, b] : edgesOf[c]) {
+            const DirectedEdge used = isReversed ? DirectedEdge{b, a} : DirectedEdge{a, b};
+            if (int& missing = need[used]; missing > 0)
+                --missing;
+            else
+                ++need[{used.second, used.first}];
+            for (const std::size_t user : users[std::minmax(a, b)])
+                if (isChosen[user] == 0) waiting.insert(user);
+        }
+    }
+    return chosen;
+}
+
+// Adds the triangles of the chosen faces; a vertex where the mesh has none yet joins `pointIds`, too.
+void addFaces(const std::vector<Choice>& chosen, const LocalPolygons& polygons, ObjectMesh& mesh,
+              std::vector<std::uint32_t>& pointIds) {
+    std::map<std::uint32_t, std::uint32_t> vertexOfPoint;
+    for (std::uint32_t v = 0; v < pointIds.size(); ++v)
+        if (pointIds[v] != kNoPoint) vertexOfPoint.emplace(pointIds[v], v);
+    for (const Choice& choice : chosen) {
+        for (const auto& corners : polygons.trianglesOf(choice.polygon)) {
+            Triangle triangle;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::uint32_t point = polygons.pointIds[corners[c]];
+                const auto [it, isNew] = vertexOfPoint.emplace(point, static_cast<std::uint32_t>(mesh.vertices.size()));
+                if (isNew) {
+                    mesh.vertices.push_back(polygons.points[corners[c]]);
+                    pointIds.push_back(point);
+                }
+                triangle.corners[c] = it->second;
+            }
+            if (choice.isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
+            mesh.triangles.push_back(triangle);
+        }
+    }
 }
 
 }  // namespace
@@ -74,61 +138,11 @@ std::uint32_t FaceFinder::complement(ObjectMesh& mesh, std::vector<std::uint32_t
     std::sort(candidates.begin(), candidates.end());
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
 
-    struct Choice {
-        model::PolygonIndex polygon;
-        bool isReversed;
-    };
-    // Greedy: takes the first candidate with a positive gain. A rejected candidate is tried again when the need of one
-    // of its edges has changed.
-    std::vector<std::vector<DirectedEdge>> edgesOf(candidates.size());
-    std::map<DirectedEdge, std::vector<std::size_t>> users;  // undirected edge (low, high) -> candidates
-    std::set<std::size_t> waiting;
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-        edgesOf[c] = ringEdges(polygons_, model_, candidates[c]);
-        for (const auto& [a, b] : edgesOf[c]) users[std::minmax(a, b)].push_back(c);
-        waiting.insert(waiting.end(), c);
-    }
-    std::vector<Choice> chosen;
-    std::vector<std::uint8_t> isChosen(candidates.size(), 0);
-    while (!waiting.empty()) {
-        const std::size_t c = *waiting.begin();
-        waiting.erase(waiting.begin());
-        const int gain = gainOf(edgesOf[c], need, false), reversedGain = gainOf(edgesOf[c], need, true);
-        if (std::max(gain, reversedGain) <= 0) continue;
-        const bool isReversed = reversedGain > gain;
-        chosen.push_back({candidates[c], isReversed});
-        isChosen[c] = 1;
-        for (const auto& [a, b] : edgesOf[c]) {
-            const DirectedEdge used = isReversed ? DirectedEdge{b, a} : DirectedEdge{a, b};
-            if (int& missing = need[used]; missing > 0)
-                --missing;
-            else
-                ++need[{used.second, used.first}];
-            for (const std::size_t user : users[std::minmax(a, b)])
-                if (isChosen[user] == 0) waiting.insert(user);
-        }
-    }
+    std::vector<std::vector<DirectedEdge>> edgesOf;
+    for (const model::PolygonIndex candidate : candidates) edgesOf.push_back(ringEdges(polygons_, model_, candidate));
+    const std::vector<Choice> chosen = chooseFaces(candidates, edgesOf, std::move(need));
     if (chosen.empty()) return 0;
-
-    std::map<std::uint32_t, std::uint32_t> vertexOfPoint;
-    for (std::uint32_t v = 0; v < pointIds.size(); ++v)
-        if (pointIds[v] != kNoPoint) vertexOfPoint.emplace(pointIds[v], v);
-    for (const Choice& choice : chosen) {
-        for (const auto& corners : polygons_.trianglesOf(choice.polygon)) {
-            Triangle triangle;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::uint32_t point = polygons_.pointIds[corners[c]];
-                const auto [it, isNew] = vertexOfPoint.emplace(point, static_cast<std::uint32_t>(mesh.vertices.size()));
-                if (isNew) {
-                    mesh.vertices.push_back(polygons_.points[corners[c]]);
-                    pointIds.push_back(point);
-                }
-                triangle.corners[c] = it->second;
-            }
-            if (choice.isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
-            mesh.triangles.push_back(triangle);
-        }
-    }
+    addFaces(chosen, polygons_, mesh, pointIds);
     mesh.openEdges = findOpenEdges(mesh.triangles);
     return static_cast<std::uint32_t>(chosen.size());
 }

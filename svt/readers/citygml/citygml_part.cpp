@@ -27,6 +27,47 @@ void mergeFeature(model::Feature& into, model::Feature&& more) {
     append(into.children, std::move(more.children));
 }
 
+// Makes the indices of `next` those that its content gets behind that of `before`. With `mergesFirst` feature 0 of
+// `next` is the last root of `before`.
+void shiftIndices(Part& next, const Part& before, bool mergesFirst) {
+    const auto polygonBase = static_cast<std::uint32_t>(before.polygons.size());
+    const auto nodeBase = static_cast<std::uint32_t>(before.nodes.size());
+    const auto idBase = static_cast<std::uint32_t>(before.ids.size());
+    const auto hrefBase = static_cast<std::uint32_t>(before.hrefs.size());
+    const auto placementBase = static_cast<std::uint32_t>(before.placements.size());
+    const auto featureBase = static_cast<std::uint32_t>(before.features.size()) - (mergesFirst ? 1 : 0);
+    const auto feature = [&](FeatureIndex index) -> FeatureIndex {
+        if (index == model::kNoFeature) return index;
+        return mergesFirst && index == 0 ? before.roots.back() : index + featureBase;
+    };
+
+    for (Node& node : next.nodes) {
+        node.firstChild = shifted(node.firstChild, nodeBase);
+        node.nextSibling = shifted(node.nextSibling, nodeBase);
+        node.id = shifted(node.id, idBase);
+        if (node.kind == NodeKind::Polygon) node.payload += polygonBase;
+        if (node.kind == NodeKind::Reference) node.payload += hrefBase;
+        if (node.kind == NodeKind::Implicit) node.payload = shifted(node.payload, placementBase);
+    }
+    for (FeatureGeometry& geometry : next.geometries) {
+        geometry.feature = feature(geometry.feature);
+        geometry.node += nodeBase;
+    }
+    for (Link& link : next.links) {
+        link.feature = feature(link.feature);
+        link.href += hrefBase;
+    }
+    for (model::Membership& membership : next.memberships) {
+        membership.group = feature(membership.group);
+        membership.member = feature(membership.member);
+    }
+    for (model::Feature& added : next.features) {
+        added.parent = feature(added.parent);
+        for (FeatureIndex& child : added.children) child = feature(child);
+    }
+    for (FeatureIndex& root : next.roots) root = feature(root);
+}
+
 }  // namespace
 
 void Findings::add(Severity severity, Code code, std::string message, std::uint64_t offset, std::string id) {
@@ -56,42 +97,8 @@ void Part::addCrsName(std::string_view name, std::uint64_t offset) {
 }
 
 void Part::join(Part&& next) {
-    const auto polygonBase = static_cast<std::uint32_t>(polygons.size());
-    const auto nodeBase = static_cast<std::uint32_t>(nodes.size());
-    const auto idBase = static_cast<std::uint32_t>(ids.size());
-    const auto hrefBase = static_cast<std::uint32_t>(hrefs.size());
-    const auto placementBase = static_cast<std::uint32_t>(placements.size());
     const bool mergesFirst = next.continuesRoot && !next.features.empty() && !roots.empty();
-    const auto featureBase = static_cast<std::uint32_t>(features.size()) - (mergesFirst ? 1 : 0);
-    const auto feature = [&](FeatureIndex index) -> FeatureIndex {
-        if (index == model::kNoFeature) return index;
-        return mergesFirst && index == 0 ? roots.back() : index + featureBase;
-    };
-
-    for (Node& node : next.nodes) {
-        node.firstChild = shifted(node.firstChild, nodeBase);
-        node.nextSibling = shifted(node.nextSibling, nodeBase);
-        node.id = shifted(node.id, idBase);
-        if (node.kind == NodeKind::Polygon) node.payload += polygonBase;
-        if (node.kind == NodeKind::Reference) node.payload += hrefBase;
-        if (node.kind == NodeKind::Implicit) node.payload = shifted(node.payload, placementBase);
-    }
-    for (FeatureGeometry& geometry : next.geometries) {
-        geometry.feature = feature(geometry.feature);
-        geometry.node += nodeBase;
-    }
-    for (Link& link : next.links) {
-        link.feature = feature(link.feature);
-        link.href += hrefBase;
-    }
-    for (model::Membership& membership : next.memberships) {
-        membership.group = feature(membership.group);
-        membership.member = feature(membership.member);
-    }
-    for (model::Feature& added : next.features) {
-        added.parent = feature(added.parent);
-        for (FeatureIndex& child : added.children) child = feature(child);
-    }
+    shiftIndices(next, *this, mergesFirst);
     for (MaterialRecord& record : next.materials)
         if (record.inheritsTheme) record.theme = lastTheme.value_or("");
 
@@ -102,7 +109,7 @@ void Part::join(Part&& next) {
         mergeFeature(features[roots.back()], std::move(*firstFeature));
         ++firstFeature, ++firstOffset, ++firstRoot;
     }
-    for (; firstRoot != next.roots.end(); ++firstRoot) roots.push_back(feature(*firstRoot));
+    roots.insert(roots.end(), firstRoot, next.roots.end());
     features.insert(features.end(), std::make_move_iterator(firstFeature),
                     std::make_move_iterator(next.features.end()));
     featureOffsets.insert(featureOffsets.end(), firstOffset, next.featureOffsets.end());

@@ -289,6 +289,51 @@ private:
                                         hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
     }
 
+    // For lanes on a plane of a brick: the side of it that the ray comes from; for the others `face`.
+    HWY_INLINE VI planeFaces(M onPlane, VI face) const {
+        const D d;
+        const DI di;
+        const auto* planes = reinterpret_cast<const double*>(pass_.volume.planes.data());
+        V3 normal;  // voxel space
+        std::int64_t first = 0;
+        if (isSame(crossedPlane_, onPlane, first)) {
+            const double* same = planes + 4 * first;
+            normal = broadcast({same[0], same[1], same[2]});
+        } else {
+            const VI plane = hn::ShiftLeft<5>(hn::IfThenElseZero(toInts(onPlane), crossedPlane_));
+            const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(planes + n, plane)); };
+            normal = {part(0), part(1), part(2)};
+        }
+        const M isAway =
+            hn::Gt(dot(normal, {vectors_.x.direction, vectors_.y.direction, vectors_.z.direction}), hn::Zero(d));
+        const VI front = hn::Add(hn::Add(crossedPlane_, crossedPlane_), hn::Set(di, 6));
+        const VI side = hn::IfThenElse(toInts(isAway), hn::Add(front, hn::Set(di, 1)), front);
+        return hn::IfThenElse(toInts(onPlane), side, face);
+    }
+
+    // As Surface::normal and Surface::outwardIndex.
+    HWY_INLINE void loadFaces(M lanes, VI face) {
+        const D d;
+        V3 normal, outwardIndex;
+        std::int64_t first = 0;
+        if (isSame(face, lanes, first)) {
+            const PacketFace& same = pass_.faces[first];
+            normal = broadcast({same.normal[0], same.normal[1], same.normal[2]});
+            outwardIndex = broadcast({same.outwardIndex[0], same.outwardIndex[1], same.outwardIndex[2]});
+        } else {
+            static_assert(sizeof(PacketFace) == 64);
+            const VI place = hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), face));
+            const auto* numbers = reinterpret_cast<const double*>(pass_.faces);
+            const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(numbers + n, place)); };
+            normal = {part(0), part(1), part(2)};
+            outwardIndex = {part(3), part(4), part(5)};
+        }
+        const auto keep = [&](V value, V known) { return hn::IfThenElse(lanes, value, known); };
+        normal_ = {keep(normal.x, normal_.x), keep(normal.y, normal_.y), keep(normal.z, normal_.z)};
+        outwardIndex_ = {keep(outwardIndex.x, outwardIndex_.x), keep(outwardIndex.y, outwardIndex_.y),
+                         keep(outwardIndex.z, outwardIndex_.z)};
+    }
+
     // As SurfaceLight::findNormal(); also lights what is not opaque.
     HWY_INLINE void findSurfaces(M lanes, M opaque, M isBody, VI scalar, M isVoxel) {
         const D d;
@@ -324,44 +369,9 @@ private:
             }
         }
         const M onPlane = hn::And(lanes, andNot(isCap, isOblique));
-        if (any(onPlane)) {
-            const auto* planes = reinterpret_cast<const double*>(pass_.volume.planes.data());
-            V3 normal;  // voxel space
-            std::int64_t first = 0;
-            if (isSame(crossedPlane_, onPlane, first)) {
-                const double* same = planes + 4 * first;
-                normal = broadcast({same[0], same[1], same[2]});
-            } else {
-                const VI plane = hn::ShiftLeft<5>(hn::IfThenElseZero(toInts(onPlane), crossedPlane_));
-                const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(planes + n, plane)); };
-                normal = {part(0), part(1), part(2)};
-            }
-            const M isAway =
-                hn::Gt(dot(normal, {vectors_.x.direction, vectors_.y.direction, vectors_.z.direction}), zero);
-            const VI front = hn::Add(hn::Add(crossedPlane_, crossedPlane_), hn::Set(di, 6));
-            const VI side = hn::IfThenElse(toInts(isAway), hn::Add(front, hn::Set(di, 1)), front);
-            face = hn::IfThenElse(toInts(onPlane), side, face);
-        }
-        // As Surface::normal and Surface::outwardIndex.
-        V3 normal, outwardIndex;
-        std::int64_t first = 0;
-        if (isSame(face, lanes, first)) {
-            const PacketFace& same = pass_.faces[first];
-            normal = broadcast({same.normal[0], same.normal[1], same.normal[2]});
-            outwardIndex = broadcast({same.outwardIndex[0], same.outwardIndex[1], same.outwardIndex[2]});
-        } else {
-            static_assert(sizeof(PacketFace) == 64);
-            const VI place = hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), face));
-            const auto* numbers = reinterpret_cast<const double*>(pass_.faces);
-            const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(numbers + n, place)); };
-            normal = {part(0), part(1), part(2)};
-            outwardIndex = {part(3), part(4), part(5)};
-        }
-        const auto keep = [&](V value, V known) { return hn::IfThenElse(lanes, value, known); };
-        normal_ = {keep(normal.x, normal_.x), keep(normal.y, normal_.y), keep(normal.z, normal_.z)};
-        outwardIndex_ = {keep(outwardIndex.x, outwardIndex_.x), keep(outwardIndex.y, outwardIndex_.y),
-                         keep(outwardIndex.z, outwardIndex_.z)};
-        cavity_ = keep(zero, cavity_);
+        if (any(onPlane)) face = planeFaces(onPlane, face);
+        loadFaces(lanes, face);
+        cavity_ = hn::IfThenElse(lanes, zero, cavity_);
         isOnCap_ = andNot(lanes, isOnCap_);
         isAroundEye_ = andNot(lanes, isAroundEye_);
         isUnlit_ = hn::Or(isUnlit_, hn::And(lanes, opaque));

@@ -163,6 +163,8 @@ std::vector<render::MeshTriangle> octahedra(const Model& model) {
     return triangles;
 }
 
+// A table, one entry for each look.
+// NOLINTNEXTLINE(readability-function-size)
 const std::vector<Look>& lineStyles() {
     static const std::vector<Look> all{
         {"Opaque", [](const Model& m) { return frameOf(m); }},

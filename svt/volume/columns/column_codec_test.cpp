@@ -164,6 +164,8 @@ TEST(ColumnCodec, FewCommandsCannotFillTheMemory) {
     EXPECT_NE(tiles.error().message().find("more bytes than"), std::string::npos) << tiles.error().message();
 }
 
+// A table, one line for each way to be wrong.
+// NOLINTNEXTLINE(readability-function-size)
 TEST(ColumnCodec, WrongStreamsAreRefused) {
     using enum BlockStream;
     const struct {

@@ -34,31 +34,46 @@ struct Block {
     std::array<std::int32_t, 3> low, size;  // samples
 };
 
+// The columns of a tile.
+struct TileArea {
+    std::int32_t firstColumn, firstRow, width, height;
+};
+
+// Of each column of a tile the lowest and one past the highest sample of a group; low >= high where it has none.
+struct SampleRanges {
+    std::vector<std::int32_t> low, high;
+};
+
 // Splits a tile of one group into pieces per column, bottom up.
 class TileSplitter {
 public:
-    TileSplitter(const Group& group, const volume::Grid& grid, Vec3d origin, std::int32_t firstColumn,
-                 std::int32_t firstRow, std::int32_t width, std::int32_t height)
+    TileSplitter(const Group& group, const volume::Grid& grid, Vec3d origin, const TileArea& area, SampleRanges ranges)
         : group_(group),
           grid_(grid),
           origin_(origin),
-          firstColumn_(firstColumn),
-          firstRow_(firstRow),
-          width_(width),
-          height_(height),
-          pieces_(std::size_t(width) * std::size_t(height)),
-          spacing_(grid.spacing()) {}
+          firstColumn_(area.firstColumn),
+          firstRow_(area.firstRow),
+          width_(area.width),
+          height_(area.height),
+          ranges_(std::move(ranges)),
+          pieces_(std::size_t(width_) * std::size_t(height_)),
+          spacing_(grid.spacing()) {
+        split();
+    }
 
-    // `low` and `high` per column: the lowest and one past the highest sample of the group; low >= high where the
-    // column has none.
-    void split(const std::vector<std::int32_t>& low, const std::vector<std::int32_t>& high) {
-        low_ = &low;
-        high_ = &high;
+    [[nodiscard]] const BodyGroup& source() const { return *group_.source; }
+
+    [[nodiscard]] const std::vector<Piece>& pieces(std::int32_t i, std::int32_t j) const {
+        return pieces_[std::size_t(i - firstColumn_) + std::size_t(width_) * std::size_t(j - firstRow_)];
+    }
+
+private:
+    void split() {
         std::int32_t bottom = INT32_MAX, top = 0;
-        for (std::size_t c = 0; c < low.size(); ++c) {
-            if (low[c] >= high[c]) continue;
-            bottom = std::min(bottom, low[c]);
-            top = std::max(top, high[c]);
+        for (std::size_t c = 0; c < ranges_.low.size(); ++c) {
+            if (ranges_.low[c] >= ranges_.high[c]) continue;
+            bottom = std::min(bottom, ranges_.low[c]);
+            top = std::max(top, ranges_.high[c]);
         }
         if (bottom >= top) return;
         std::vector<std::uint32_t> all(group_.faces.size());
@@ -68,16 +83,12 @@ public:
             visit({{0, 0, z}, {kSlab, kSlab, kSlab}}, all);
     }
 
-    [[nodiscard]] const std::vector<Piece>& pieces(std::int32_t i, std::int32_t j) const {
-        return pieces_[std::size_t(i - firstColumn_) + std::size_t(width_) * std::size_t(j - firstRow_)];
-    }
-
-private:
     [[nodiscard]] bool isNeeded(const Block& block) const {
         for (std::int32_t y = block.low[1]; y < std::min(block.low[1] + block.size[1], height_); ++y)
             for (std::int32_t x = block.low[0]; x < std::min(block.low[0] + block.size[0], width_); ++x) {
                 const std::size_t column = std::size_t(x) + std::size_t(width_) * std::size_t(y);
-                if ((*low_)[column] < block.low[2] + block.size[2] && (*high_)[column] > block.low[2]) return true;
+                if (ranges_.low[column] < block.low[2] + block.size[2] && ranges_.high[column] > block.low[2])
+                    return true;
             }
         return false;
     }
@@ -142,11 +153,70 @@ private:
     const volume::Grid& grid_;
     Vec3d origin_;
     std::int32_t firstColumn_, firstRow_, width_, height_;
+    SampleRanges ranges_;
     std::vector<std::vector<Piece>> pieces_;
     Vec3d spacing_;
-    const std::vector<std::int32_t>* low_ = nullptr;
-    const std::vector<std::int32_t>* high_ = nullptr;
 };
+
+// Groups without a face are left out.
+std::vector<Group> prepareGroups(const std::vector<BodyGroup>& groups, const mesh::MeshSet& meshes) {
+    std::vector<Group> prepared;
+    for (const BodyGroup& source : groups) {
+        Group group;
+        group.source = &source;
+        for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
+            const mesh::ObjectMesh& mesh = meshes.objects[source.surfaces[s]];
+            for (const mesh::Triangle& t : mesh.triangles)
+                group.faces.push_back(
+                    {mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]], s});
+        }
+        if (!group.faces.empty()) prepared.push_back(std::move(group));
+    }
+    return prepared;
+}
+
+// The groups with samples in a tile, in the order of its runs.
+std::vector<const Group*> groupsIn(const volume::ColumnTile& tile, const std::vector<Group>& groups) {
+    std::vector<const Group*> present;
+    for (const Run& run : tile.runs) {
+        const auto group = std::find_if(groups.begin(), groups.end(),
+                                        [&](const Group& known) { return known.source->from == run.scalar; });
+        if (group != groups.end() && std::find(present.begin(), present.end(), &*group) == present.end())
+            present.push_back(&*group);
+    }
+    return present;
+}
+
+SampleRanges sampleRanges(const ColumnVolume& columns, const TileArea& area, Scalar scalar) {
+    SampleRanges ranges;
+    ranges.low.resize(std::size_t(area.width) * std::size_t(area.height), INT32_MAX);
+    ranges.high.resize(ranges.low.size(), 0);
+    for (std::int32_t y = 0; y < area.height; ++y)
+        for (std::int32_t x = 0; x < area.width; ++x) {
+            const std::size_t c = std::size_t(x) + std::size_t(area.width) * std::size_t(y);
+            std::uint32_t begin = 0;
+            for (const Run& run : columns.column(area.firstColumn + x, area.firstRow + y)) {
+                if (run.scalar == scalar) {
+                    ranges.low[c] = std::min(ranges.low[c], static_cast<std::int32_t>(begin));
+                    ranges.high[c] = static_cast<std::int32_t>(run.end);
+                }
+                begin = run.end;
+            }
+        }
+    return ranges;
+}
+
+// Appends the samples [begin, end) of column (i, j) with the scalars of the surfaces nearest to them.
+void appendPieces(const TileSplitter& splitter, std::int32_t i, std::int32_t j, std::uint32_t begin, std::uint32_t end,
+                  std::vector<Run>& out) {
+    for (const Piece& piece : splitter.pieces(i, j)) {
+        const auto pieceEnd = std::min(static_cast<std::uint32_t>(piece.end), end);
+        if (pieceEnd <= begin) continue;
+        out.push_back({pieceEnd, splitter.source().scalars[piece.surface]});
+        begin = pieceEnd;
+        if (begin == end) break;
+    }
+}
 
 }  // namespace
 
@@ -175,75 +245,30 @@ double distanceToTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) noexcept {
 
 ColumnVolume assignThematicBodies(const ColumnVolume& columns, const volume::Grid& grid, const mesh::MeshSet& meshes,
                                   const std::vector<BodyGroup>& groups, int threads) {
-    std::vector<Group> prepared;
-    for (const BodyGroup& source : groups) {
-        Group group;
-        group.source = &source;
-        for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
-            const mesh::ObjectMesh& mesh = meshes.objects[source.surfaces[s]];
-            for (const mesh::Triangle& t : mesh.triangles)
-                group.faces.push_back(
-                    {mesh.vertices[t.corners[0]], mesh.vertices[t.corners[1]], mesh.vertices[t.corners[2]], s});
-        }
-        if (!group.faces.empty()) prepared.push_back(std::move(group));
-    }
-    const auto groupOf = [&](Scalar scalar) {
-        for (std::size_t g = 0; g < prepared.size(); ++g)
-            if (prepared[g].source->from == scalar) return static_cast<std::ptrdiff_t>(g);
-        return std::ptrdiff_t{-1};
-    };
-
+    const std::vector<Group> prepared = prepareGroups(groups, meshes);
     return rewriteColumns(
         columns,
         [&](std::int32_t tileX, std::int32_t tileY, const volume::ColumnTile& tile) -> ColumnRewriter {
-            std::vector<std::ptrdiff_t> present;
-            for (const Run& run : tile.runs)
-                if (const auto g = groupOf(run.scalar);
-                    g >= 0 && std::find(present.begin(), present.end(), g) == present.end())
-                    present.push_back(g);
+            const std::vector<const Group*> present = groupsIn(tile, prepared);
             if (present.empty()) return {};
-            const std::int32_t firstColumn = tileX * ColumnVolume::kTileSize,
-                               firstRow = tileY * ColumnVolume::kTileSize;
-            const std::int32_t width = columns.tileWidth(tileX), height = columns.tileHeight(tileY);
-            auto splitters = std::make_shared<std::vector<std::pair<Scalar, std::unique_ptr<TileSplitter>>>>();
-            for (const std::ptrdiff_t g : present) {
-                const Group& group = prepared[std::size_t(g)];
-                std::vector<std::int32_t> low(std::size_t(width) * std::size_t(height), INT32_MAX), high(low.size(), 0);
-                for (std::int32_t y = 0; y < height; ++y)
-                    for (std::int32_t x = 0; x < width; ++x) {
-                        const std::size_t c = std::size_t(x) + std::size_t(width) * std::size_t(y);
-                        std::uint32_t begin = 0;
-                        for (const Run& run : columns.column(firstColumn + x, firstRow + y)) {
-                            if (run.scalar == group.source->from) {
-                                low[c] = std::min(low[c], static_cast<std::int32_t>(begin));
-                                high[c] = static_cast<std::int32_t>(run.end);
-                            }
-                            begin = run.end;
-                        }
-                    }
-                splitters->emplace_back(
-                    group.source->from,
-                    std::make_unique<TileSplitter>(group, grid, meshes.origin, firstColumn, firstRow, width, height));
-                splitters->back().second->split(low, high);
-            }
-            return [splitters, &prepared, groupOf](std::int32_t i, std::int32_t j, std::span<const Run> runs,
-                                                   std::vector<Run>& out) {
+            const TileArea area{tileX * ColumnVolume::kTileSize, tileY * ColumnVolume::kTileSize,
+                                columns.tileWidth(tileX), columns.tileHeight(tileY)};
+            // Shared, because a rewriter can be copied.
+            auto splitters = std::make_shared<std::vector<TileSplitter>>();
+            splitters->reserve(present.size());
+            for (const Group* group : present)
+                splitters->emplace_back(*group, grid, meshes.origin, area,
+                                        sampleRanges(columns, area, group->source->from));
+            return [splitters](std::int32_t i, std::int32_t j, std::span<const Run> runs, std::vector<Run>& out) {
                 std::uint32_t begin = 0;
                 for (const Run& run : runs) {
-                    const auto found = std::find_if(splitters->begin(), splitters->end(),
-                                                    [&](const auto& entry) { return entry.first == run.scalar; });
-                    if (found == splitters->end()) {
+                    const auto found = std::find_if(
+                        splitters->begin(), splitters->end(),
+                        [&](const TileSplitter& splitter) { return splitter.source().from == run.scalar; });
+                    if (found == splitters->end())
                         out.push_back(run);
-                    } else {
-                        const BodyGroup& group = *prepared[std::size_t(groupOf(run.scalar))].source;
-                        for (const Piece& piece : found->second->pieces(i, j)) {
-                            const auto end = std::min(static_cast<std::uint32_t>(piece.end), run.end);
-                            if (end <= begin) continue;
-                            out.push_back({end, group.scalars[piece.surface]});
-                            begin = end;
-                            if (begin == run.end) break;
-                        }
-                    }
+                    else
+                        appendPieces(*found, i, j, begin, run.end, out);
                     begin = run.end;
                 }
             };

@@ -137,6 +137,21 @@ Defaults defaultsOf(PatternKind kind) noexcept {
     return {{1, 1, 1}, 0.01};
 }
 
+// Appends the samples [begin, end) of column (i, j), each with the phase of the object's pattern at it.
+void appendPhases(const PatternedObject& object, const volume::Grid& grid, Vec3d localOrigin, std::int32_t i,
+                  std::int32_t j, std::uint32_t begin, std::uint32_t end, std::vector<volume::Run>& out) {
+    for (std::uint32_t k = begin; k < end; ++k) {
+        const Vec3d local = grid.worldFromIndex({double(i), double(j), double(k)}) - localOrigin - object.axes.origin;
+        const Vec3d uvw{dot(local, object.axes.directions[0]), dot(local, object.axes.directions[1]),
+                        dot(local, object.axes.directions[2])};
+        const volume::Scalar scalar = object.first + object.pattern.phaseAt(uvw);
+        if (!out.empty() && out.back().scalar == scalar && out.back().end == k)
+            out.back().end = k + 1;
+        else
+            out.push_back({k + 1, scalar});
+    }
+}
+
 }  // namespace
 
 std::string_view patternName(PatternKind kind) noexcept {
@@ -267,23 +282,10 @@ volume::ColumnVolume layPatterns(const volume::ColumnVolume& columns, const volu
                     std::uint32_t begin = 0;
                     for (const volume::Run& run : runs) {
                         const auto found = byScalar.find(run.scalar);
-                        if (found == byScalar.end()) {
+                        if (found == byScalar.end())
                             out.push_back(run);
-                        } else {
-                            const PatternedObject& object = *found->second;
-                            for (std::uint32_t k = begin; k < run.end; ++k) {
-                                const Vec3d local = grid.worldFromIndex({double(i), double(j), double(k)}) -
-                                                    localOrigin - object.axes.origin;
-                                const Vec3d uvw{dot(local, object.axes.directions[0]),
-                                                dot(local, object.axes.directions[1]),
-                                                dot(local, object.axes.directions[2])};
-                                const volume::Scalar scalar = object.first + object.pattern.phaseAt(uvw);
-                                if (!out.empty() && out.back().scalar == scalar && out.back().end == k)
-                                    out.back().end = k + 1;
-                                else
-                                    out.push_back({k + 1, scalar});
-                            }
-                        }
+                        else
+                            appendPhases(*found->second, grid, localOrigin, i, j, begin, run.end, out);
                         begin = run.end;
                     }
                 };

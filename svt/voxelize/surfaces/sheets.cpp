@@ -100,6 +100,93 @@ bool touchesBox(const std::array<Vec3d, 3>& triangle, Vec3d center, double h) {
     return true;
 }
 
+// Adds, as boxes, the voxels k0..k1 of column (i, j) that the triangle touches within `reach` of their samples.
+void addTouched(const std::array<Vec3d, 3>& triangle, double reach, std::int32_t i, std::int32_t j, std::int32_t k0,
+                std::int32_t k1, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
+    std::int32_t begin = -1;
+    for (std::int32_t k = k0; k <= k1 + 1; ++k) {
+        const bool isTouched = k <= k1 && touchesBox(triangle, {double(i), double(j), double(k)}, reach);
+        if (isTouched && begin < 0) begin = k;
+        if (!isTouched && begin >= 0) {
+            boxes.push_back({j, j + 1, i, i + 1, begin, k, claim});
+            begin = -1;
+        }
+    }
+}
+
+// A face of a solid, and the material behind it.
+struct ThinFace {
+    std::array<Vec3d, 3> corners;  // local space
+    std::array<Vec3d, 3> edges;    // from each corner to the next, index space
+    Vec3d normal;                  // as long as twice its area, index space
+    Vec3d inward;                  // to the other side of the material, index space
+    int axis;                      // along which the normal is longest
+    double chord;                  // samples of material along the axis
+};
+
+// Returns false if the material behind the triangle is as thick as a voxel along the dominant axis.
+bool findThinFace(const mesh::Triangle& triangle, const std::vector<Vec3d>& vertices,
+                  const IndexFromLocal& indexFromLocal, ThinFace& face) {
+    const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]], c = vertices[triangle.corners[2]];
+    face.inward = indexFromLocal.direction(-normalized(cross(b - a, c - a)) * double(triangle.thickness));
+    const Vec3d ab = indexFromLocal.direction(b - a), ac = indexFromLocal.direction(c - a);
+    face.corners = {a, b, c};
+    face.edges = {ab, indexFromLocal.direction(c - b), -ac};
+    face.normal = cross(ab, ac);
+    const Vec3d size{std::abs(face.normal.x), std::abs(face.normal.y), std::abs(face.normal.z)};
+    face.axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    if (!(size[face.axis] > 0)) return false;
+    face.chord = std::abs(dot(face.normal, face.inward) / face.normal[face.axis]);
+    return !(face.chord >= 1);
+}
+
+// The first sample strictly above a height, wherever the corners of its triangle lie.
+std::int64_t sampleOver(std::int64_t height) {
+    constexpr std::int64_t kOne = std::int64_t{1} << Height::kBits;
+    return ((height - kOne) >> (Height::kBits + kQuantaBits)) + 1;
+}
+
+// Adds the nearest sample of each sample line along the dominant axis that meets the material behind the face, but no
+// sample in it.
+void addMissedSamples(const ThinFace& face, const ScanTriangle& scan, Vec3i dimension, std::uint32_t claim,
+                      std::vector<ClaimedBox>& boxes) {
+    const ScanAxes& axes = kScanAxes[face.axis];
+    const auto depth = static_cast<std::int64_t>(std::ldexp(face.chord * double(kQuanta), Height::kBits));
+    constexpr std::int64_t kHalf = std::int64_t{1} << (Height::kBits + kQuantaBits - 1);
+    scanRows(scan, 0, along(dimension, axes.y), 0, along(dimension, axes.x),
+             [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
+                 const std::int64_t base = scan.height.base + scan.height.slopeY * row;
+                 addRowOfSamples(axes, row, begin, end, claim, boxes, [&](std::int32_t x) {
+                     const std::int64_t entry = base + scan.height.slopeX * x;
+                     if (sampleOver(entry) != sampleOver(entry + depth)) return -1;
+                     const std::int64_t sample = sampleOver(entry + depth / 2 - kHalf);
+                     return static_cast<std::int32_t>(sample >= 0 && sample < along(dimension, axes.z) ? sample : -1);
+                 });
+             });
+}
+
+// A rod: the face is narrower than a voxel, so sample lines may miss it. Draws one line along its longest edge, in the
+// middle of the material, one voxel per step of its dominant axis. All faces around a rod give nearly the same line;
+// duplicates are skipped.
+void addRod(const ThinFace& face, const IndexFromLocal& indexFromLocal, Vec3i dimension, std::uint32_t claim,
+            SampleLines& rodLines, std::vector<ClaimedBox>& boxes) {
+    std::size_t longest = 0;
+    double longestLength = 0;
+    for (std::size_t e = 0; e < 3; ++e) {
+        const double l = length(face.edges[e]);
+        if (l > longestLength) {
+            longestLength = l;
+            longest = e;
+        }
+    }
+    if (!(longestLength > 0) || length(face.normal) / longestLength >= 1) return;
+    const Vec3d from = indexFromLocal.point(face.corners[longest]) + face.inward * 0.5, way = face.edges[longest];
+    if (!rodLines.add(nearestSample(from), nearestSample(from + way))) return;
+    const double reach = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+    const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
+    for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, boxes);
+}
+
 }  // namespace
 
 void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
@@ -159,15 +246,7 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
                     k0 = static_cast<std::int32_t>(std::max<double>(k0, std::floor(at - reach)));
                     k1 = static_cast<std::int32_t>(std::min<double>(k1, std::ceil(at + reach)));
                 }
-                std::int32_t begin = -1;
-                for (std::int32_t k = k0; k <= k1 + 1; ++k) {
-                    const bool isTouched = k <= k1 && touchesBox(corner, {double(i), double(j), double(k)}, kTouch);
-                    if (isTouched && begin < 0) begin = k;
-                    if (!isTouched && begin >= 0) {
-                        boxes.push_back({j, j + 1, i, i + 1, begin, k, claim});
-                        begin = -1;
-                    }
-                }
+                addTouched(corner, kTouch, i, j, k0, k1, claim, boxes);
             }
         }
     }
@@ -181,61 +260,15 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         if (!(triangle.thickness < widest)) continue;  // the material behind this face is thicker than a voxel
-        const Vec3d a = vertices[triangle.corners[0]], b = vertices[triangle.corners[1]],
-                    c = vertices[triangle.corners[2]];
-        const Vec3d inward = indexFromLocal.direction(-normalized(cross(b - a, c - a)) * double(triangle.thickness));
-        const Vec3d ab = indexFromLocal.direction(b - a), ac = indexFromLocal.direction(c - a);
-        const Vec3d normal = cross(ab, ac);
-        const Vec3d size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        if (!(size[axis] > 0)) continue;
-        const double chord = std::abs(dot(normal, inward) / normal[axis]);
-        if (chord >= 1) continue;
-
-        const ScanAxes& axes = kScanAxes[axis];
+        ThinFace face;
+        if (!findThinFace(triangle, vertices, indexFromLocal, face)) continue;
         ScanTriangle scan;
+        // Only faces that look down the axis; the opposite faces of the part would yield the same voxels.
         if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], axes, scan) &&
-            scan.sign > 0) {
-            // Only faces that look down the axis; the opposite faces of the part would yield the same voxels.
-            const auto depth = static_cast<std::int64_t>(std::ldexp(chord * double(kQuanta), Height::kBits));
-            const std::int64_t half = std::int64_t{1} << (Height::kBits + kQuantaBits - 1);
-            scanRows(scan, 0, along(dimension, axes.y), 0, along(dimension, axes.x),
-                     [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
-                         const std::int64_t base = scan.height.base + scan.height.slopeY * row;
-                         addRowOfSamples(axes, row, begin, end, claim, raw, [&](std::int32_t x) {
-                             const std::int64_t entry = base + scan.height.slopeX * x;
-                             const std::int64_t one = std::int64_t{1} << Height::kBits;
-                             const auto above = [&](std::int64_t height) {
-                                 return ((height - one) >> (Height::kBits + kQuantaBits)) + 1;
-                             };
-                             if (above(entry) != above(entry + depth)) return -1;
-                             const std::int64_t sample = above(entry + depth / 2 - half);
-                             return static_cast<std::int32_t>(sample >= 0 && sample < along(dimension, axes.z) ? sample
-                                                                                                               : -1);
-                         });
-                     });
-        }
-        // A rod: the face is narrower than a voxel, so sample lines may miss it. Draw one line along its longest edge,
-        // in the middle of the material, one voxel per step of its dominant axis. All faces around a rod give nearly
-        // the same line; duplicates are skipped.
-        const Vec3d corners[3] = {a, b, c};
-        const Vec3d edges[3] = {ab, indexFromLocal.direction(c - b), -ac};
-        std::size_t longest = 0;
-        double longestLength = 0;
-        for (std::size_t e = 0; e < 3; ++e) {
-            const double l = length(edges[e]);
-            if (l > longestLength) {
-                longestLength = l;
-                longest = e;
-            }
-        }
-        if (!(longestLength > 0) || length(normal) / longestLength >= 1) continue;
-        const Vec3d from = indexFromLocal.point(corners[longest]) + inward * 0.5, way = edges[longest];
-        if (!rodLines.add(nearestSample(from), nearestSample(from + way))) continue;
-        const double reach = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
-        const int steps = 1 + static_cast<int>(std::min(reach, 1e6));
-        for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, raw);
+                      mesh.points[triangle.corners[2]], kScanAxes[face.axis], scan) &&
+            scan.sign > 0)
+            addMissedSamples(face, scan, dimension, claim, raw);
+        addRod(face, indexFromLocal, dimension, claim, rodLines, raw);
     }
     return addDisjoint(raw, boxes);
 }

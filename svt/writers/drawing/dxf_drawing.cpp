@@ -160,6 +160,27 @@ private:
 
     void tables() {
         section("TABLES");
+        viewportTable();
+        lineTypeTable();
+        layerTable();
+        textStyleTable();
+        table("VIEW", "5", 0);
+        endTable();
+        table("UCS", "6", 0);
+        endTable();
+        table("APPID", "7", 1);
+        record("APPID", "28", "7", "AcDbRegAppTableRecord", "ACAD");
+        endTable();
+        table("DIMSTYLE", "8", 1);
+        tag(100, "AcDbDimStyleTable");
+        record("DIMSTYLE", "29", "8", "AcDbDimStyleTableRecord", "Standard");
+        endTable();
+        blockRecordTable();
+        endSection();
+    }
+
+    // The view that a program shows first: all of the drawing.
+    void viewportTable() {
         table("VPORT", "1", 1);
         record("VPORT", "21", "1", "AcDbViewportTableRecord", "*Active");
         const double width = std::max(high_.u - low_.u, 1.0), height = std::max(high_.v - low_.v, 1.0);
@@ -176,6 +197,9 @@ private:
         number(41, 1.5);
         number(42, 50);
         endTable();
+    }
+
+    void lineTypeTable() {
         table("LTYPE", "2", 3);
         for (const auto& [handle, name] :
              {std::pair("22", "ByBlock"), std::pair("23", "ByLayer"), std::pair("24", "Continuous")}) {
@@ -186,6 +210,9 @@ private:
             tag(40, "0");
         }
         endTable();
+    }
+
+    void layerTable() {
         table("LAYER", "3", static_cast<int>(layers_.size()) + 2);
         const auto layer = [&](std::string_view handle, std::string_view name, int color) {
             record("LAYER", handle, "3", "AcDbLayerTableRecord", name);
@@ -198,6 +225,9 @@ private:
         layer("26", "TEXT", 7);
         for (const auto& [name, className] : layers_) layer(newHandle(), name, colorOf(className));
         endTable();
+    }
+
+    void textStyleTable() {
         table("STYLE", "4", 1);
         record("STYLE", "27", "4", "AcDbTextStyleTableRecord", "Standard");
         tag(40, "0");
@@ -208,17 +238,9 @@ private:
         tag(3, "arial.ttf");
         tag(4, "");
         endTable();
-        table("VIEW", "5", 0);
-        endTable();
-        table("UCS", "6", 0);
-        endTable();
-        table("APPID", "7", 1);
-        record("APPID", "28", "7", "AcDbRegAppTableRecord", "ACAD");
-        endTable();
-        table("DIMSTYLE", "8", 1);
-        tag(100, "AcDbDimStyleTable");
-        record("DIMSTYLE", "29", "8", "AcDbDimStyleTableRecord", "Standard");
-        endTable();
+    }
+
+    void blockRecordTable() {
         table("BLOCK_RECORD", "9", 2);
         for (const auto& [handle, name] : {std::pair("1A", "*Model_Space"), std::pair("1B", "*Paper_Space")}) {
             tag(0, "BLOCK_RECORD");
@@ -230,7 +252,6 @@ private:
             tag(340, "0");
         }
         endTable();
-        endSection();
     }
 
     void blocks() {
