@@ -1,5 +1,7 @@
 #include <svt/render/light/cap_hatch.hpp>
 
+#include <svt/render/picture_constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,14 +16,14 @@ void hatchCap(const PreparedFrame& frame, std::size_t pass, double u, double v, 
     const volume::Grid& grid = frame.volumes.front().grid;
     // The hatch's vertical axis is the grid's up direction projected onto the face; on nearly horizontal faces, north.
     const Vec3d north = grid.axes()[1], level = grid.axes()[2];
-    const Vec3d above = std::abs(dot(normal, level)) < 0.9 ? level : north;
+    const Vec3d above = std::abs(dot(normal, level)) < kLevelCap ? level : north;
     const Vec3d up = normalized(above - normal * dot(normal, above));
     const Vec3d right = cross(up, normal);
     const double depth = static_cast<double>(sample.depth);
     const Vec3d point = frame.rays().worldAt(u, v, depth) - grid.origin();
     const double pixel = frame.rays().pixelSize(depth);
     // At a grazing angle a pixel covers more of the face.
-    const double facing = std::max(std::abs(dot(normal, frame.rays().forward())), 0.15);
+    const double facing = std::max(std::abs(dot(normal, frame.rays().forward())), kLeastCapFacing);
     const HatchPen pen{style.spacing, static_cast<double>(style.width) * pixel,
                        pixel / (facing * std::sqrt(double(frame.spec.samplesPerPixel)))};
     const auto ink = static_cast<float>(hatchCoverage(hatch, dot(point, right), dot(point, up), pen)) * style.strength;

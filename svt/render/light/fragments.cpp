@@ -1,5 +1,6 @@
 #include <svt/render/light/fragments.hpp>
 #include <svt/render/light/surface_light.hpp>
+#include <svt/render/picture_constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace {
 using Kind = LinearStyle::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Depth bias of lines towards the viewer, voxels.
-constexpr double kVoxelsBefore = 1.5;
 
 bool isBefore(const Fragment& a, const Fragment& b) noexcept { return a.depth < b.depth; }
 
@@ -67,7 +66,7 @@ std::span<LineHit> FragmentFinder::findLines(std::size_t pass, double u, double 
     return lineHits_;
 }
 
-// Lines within two voxels of depth count as one, as strong as the strongest.
+// Lines near in depth count as one, as strong as the strongest.
 void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragments& fragments) const {
     if (hits.empty()) return;
     const PassShapes& shapes = frame_.passes[pass].shapes;
@@ -86,7 +85,7 @@ void FragmentFinder::addLines(std::size_t pass, std::span<LineHit> hits, Fragmen
     for (std::size_t begin = 0; begin < hits.size();) {
         LineHit joined = hits[begin];
         std::size_t end = begin + 1;
-        for (; end < hits.size() && hits[end].depth - joined.depth <= 2 * voxelSize; ++end) {
+        for (; end < hits.size() && hits[end].depth - joined.depth <= kVoxelsTogether * voxelSize; ++end) {
             if (hits[end].opacity > joined.opacity) {
                 joined.opacity = hits[end].opacity;
                 joined.line = hits[end].line;

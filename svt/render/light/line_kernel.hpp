@@ -4,6 +4,7 @@
 /// packet kernel, and for one ray, with the same results to the last bit.
 
 #include <svt/render/pass_shapes.hpp>
+#include <svt/render/picture_constants.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,6 @@ struct LineView {
     double pixelSize;        ///< metres at depth 1; at any depth if orthographic
     double depthBias;        ///< constant depth bias towards the viewer, metres
 };
-
-/// Additional depth bias, in half widths of the line: beside the line, its surface may be nearer to the viewer.
-inline constexpr double kHalfWidthsBefore = 4;
 
 /// Makes a hit, with the line's opacity where it is hidden.
 /// \param along  place on the line, 0..1 from its start

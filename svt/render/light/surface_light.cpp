@@ -1,5 +1,7 @@
 #include <svt/render/light/surface_light.hpp>
 
+#include <svt/render/picture_constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,8 +47,9 @@ Surface SurfaceLight::findNormal(const LinearStyle& style, const SurfaceHit& hit
     } else if (style.isBody && hit.isVoxel) {
         const SurfaceNormal& fitted = normalAt(hit.voxel, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
         found = volume_.directions.directions(toDouble(fitted.indexNormal));
-        surface.cavity =
-            std::clamp((double(fitted.filledShare) - double(SurfaceNormal::kPlaneFilledShare) - 0.05) * 2.5, 0.0, 1.0);
+        surface.cavity = std::clamp(
+            (double(fitted.filledShare) - double(SurfaceNormal::kPlaneFilledShare) - kCavityFrom) * kCavityGain, 0.0,
+            1.0);
     } else {
         found = volume_.directions.axis(hit.axis);
         isAway = hit.direction[hit.axis] > 0;
@@ -72,7 +75,7 @@ const SurfaceNormal& SurfaceLight::normalAt(Vec3i voxel, int axis, int sign) con
 
 // 1 where nothing occludes, less in corners.
 double SurfaceLight::openness(Vec3d point, Vec3d outwardIndex, double cavity) const noexcept {
-    const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, outwardIndex) + 0.35 * cavity);
+    const double occlusion = std::min(1.0, pass_.occlusion.occlusion(point, outwardIndex) + kCavityOcclusion * cavity);
     return 1 - double(frame_.spec.light.ambientOcclusion) * occlusion;
 }
 
@@ -81,8 +84,9 @@ double SurfaceLight::lightOn(Vec3d normal, Vec3d view, double open) const noexce
     const Light& light = frame_.spec.light;
     const double key = std::max(0.0, dot(normal, frame_.towardsLight));
     const double facing = std::max(0.0, dot(normal, view));
-    const double sky = 0.80 + 0.20 * normal.z;
-    return double(light.ambient) * open * (0.82 * sky + 0.18 * facing) + double(light.key) * key * (0.45 + 0.55 * open);
+    const double sky = kSkyAside + kSkyAbove * normal.z;
+    return double(light.ambient) * open * (kSkyShare * sky + kViewerShare * facing) +
+           double(light.key) * key * (kKeyShut + kKeyOpen * open);
 }
 
 }  // namespace svt::render

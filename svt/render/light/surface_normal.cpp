@@ -16,11 +16,8 @@ constexpr VoxelWindow makeBall() {
     return ball;
 }
 constexpr VoxelWindow kBall = makeBall();
-constexpr std::int32_t kBallVoxels = 179;
 constexpr std::uint64_t kDisc = kBall[3];   // the ball's central layer: 37 cells
 constexpr std::int32_t kDiscSquares = 108;  // sum of (x - 3)^2 over the disc, and of (y - 3)^2
-// Fewer cells than this are the edge of a step, not a face; a corner of two edges has 16.
-constexpr std::int32_t kFacePlaces = 12;
 constexpr std::uint64_t kMiddle = std::uint64_t{1} << (3 + 8 * 3);
 
 // Population count, and sums of x - 3 and of y - 3 over the set bits. SIMD within a register: counts of pairs, then
@@ -200,7 +197,7 @@ struct Slopes {
 
     // Whether the slopes are at most 1 and most of the disc has a height: then no other axis gives a better fit.
     [[nodiscard]] bool isGentle() const noexcept {
-        return isValid && places >= 24 && std::max(std::abs(p), std::abs(q)) <= 1;
+        return isValid && places >= kGentlePlaces && std::max(std::abs(p), std::abs(q)) <= 1;
     }
     [[nodiscard]] Vec3f normal(int axis, int sign) const noexcept {
         Vec3f n;

@@ -4,6 +4,7 @@
 
 #include <svt/core/hash.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/render/picture_constants.hpp>
 #include <svt/volume/brick_volume.hpp>
 
 #include <algorithm>
@@ -73,7 +74,7 @@ struct SurfaceNormal {
     /// concave corners.
     float filledShare = 0;
 
-    static constexpr float kPlaneFilledShare = 71.0f / 179;
+    static constexpr float kPlaneFilledShare = static_cast<float>(kPlaneVoxels) / kBallVoxels;
 };
 
 /// Normal of the surface next to the centre of a window. The window is centred on the voxel in front of the surface, so

@@ -9,11 +9,17 @@
 /// by ray.
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
+#include <svt/render/picture_constants.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
 namespace {
+
+// Planes are read as four numbers each, normal and offset.
+using Plane = volume::BrickPlane;
+static_assert(sizeof(Plane) == 4 * sizeof(double) && offsetof(Plane, normal) == 0 &&
+              sizeof(Plane::normal) == 3 * sizeof(double) && offsetof(Plane, offset) == 3 * sizeof(double));
 
 // As expOfMinus() of the plain caster.
 HWY_INLINE V expOfMinus(V x) {
@@ -241,7 +247,7 @@ private:
             occlusion = hn::Add(
                 occlusion,
                 hn::Mul(hn::Set(d, level.weight), hn::Min(one, hn::Mul(sample(level, point), hn::Set(d, level.gain)))));
-        occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, 0.35), cavity_)));
+        occlusion = hn::Min(one, hn::Add(occlusion, hn::Mul(hn::Set(d, kCavityOcclusion), cavity_)));
         const V open = hn::Sub(one, hn::Mul(hn::Set(d, pass_.ambientOcclusion), occlusion));
         return hn::IfThenElse(isAroundEye_, one, open);
     }
@@ -282,11 +288,12 @@ private:
         const V3 view = loadV3(rays_.view, first_);
         const V key = hn::Max(zero, dot(normal_, broadcast(pass_.towardsLight)));
         const V facing = hn::Max(zero, dot(normal_, view));
-        const V sky = hn::Add(hn::Set(d, 0.80), hn::Mul(hn::Set(d, 0.20), normal_.z));
-        const V ambient = hn::Mul(hn::Mul(hn::Set(d, pass_.ambient), open),
-                                  hn::Add(hn::Mul(hn::Set(d, 0.82), sky), hn::Mul(hn::Set(d, 0.18), facing)));
+        const V sky = hn::Add(hn::Set(d, kSkyAside), hn::Mul(hn::Set(d, kSkyAbove), normal_.z));
+        const V ambient =
+            hn::Mul(hn::Mul(hn::Set(d, pass_.ambient), open),
+                    hn::Add(hn::Mul(hn::Set(d, kSkyShare), sky), hn::Mul(hn::Set(d, kViewerShare), facing)));
         return hn::Add(ambient, hn::Mul(hn::Mul(hn::Set(d, pass_.key), key),
-                                        hn::Add(hn::Set(d, 0.45), hn::Mul(hn::Set(d, 0.55), open))));
+                                        hn::Add(hn::Set(d, kKeyShut), hn::Mul(hn::Set(d, kKeyOpen), open))));
     }
 
     // For lanes on a plane of a brick: the side of it that the ray comes from; for the others `face`.
@@ -321,7 +328,8 @@ private:
             normal = broadcast({same.normal[0], same.normal[1], same.normal[2]});
             outwardIndex = broadcast({same.outwardIndex[0], same.outwardIndex[1], same.outwardIndex[2]});
         } else {
-            static_assert(sizeof(PacketFace) == 64);
+            static_assert(sizeof(PacketFace) == 64 && offsetof(PacketFace, normal) == 0 &&
+                          offsetof(PacketFace, outwardIndex) == 3 * sizeof(double));
             const VI place = hn::ShiftLeft<6>(hn::IfThenElseZero(toInts(lanes), face));
             const auto* numbers = reinterpret_cast<const double*>(pass_.faces);
             const auto part = [&](int n) { return hn::BitCast(d, gatherBytes(numbers + n, place)); };
@@ -409,14 +417,15 @@ private:
         const M coded = andNot(isBelow(entry, pass_.volume.uniformBoxes), isBox);
         if (!any(coded)) return {none, none, none};
         const VI box = hn::IfThenElseZero(toInts(coded), hn::ShiftLeft<4>(entry));
-        // SameLabelBox has 16 bytes: min and max (3 x 16 bits each), then the scalar, at byte 12. The 64 bits from byte
-        // 8 on have the scalar, here the number of a code, in their upper half. The size is asserted elsewhere only, in
-        // volume_textures.cpp of render_gl.
+        // The 64 bits from byte 8 on have the scalar, here the number of a code, in their upper half.
+        static_assert(sizeof(volume::SameLabelBox) == 16 && offsetof(volume::SameLabelBox, scalar) == 12);
+        static_assert(sizeof(volume::Scalar) == 4);
         const VI code = hn::IfThenElseZero(
             toInts(coded),
             shiftRight<32>(gatherBytes(reinterpret_cast<const std::byte*>(pass_.volume.boxes.data()) + 8, box)));
         const VI place = hn::Add(hn::ShiftLeft<4>(code), hn::ShiftLeft<3>(code));
-        static_assert(sizeof(volume::BrickVolume::BoxCoding) == 24 && volume::BrickVolume::kMaxPlanes == 3);
+        using Coding = volume::BrickVolume::BoxCoding;
+        static_assert(sizeof(Coding) == 24 && offsetof(Coding, plane) == 8 && sizeof(Coding::plane) == 3 * 4);
         const auto* codes = reinterpret_cast<const std::byte*>(pass_.volume.codes.data());
         const VI both = gatherBytes(codes + 8, place), rest = gatherBytes(codes + 16, place);
         const auto known = [&](VI planes) { return hn::IfThenElse(toInts(coded), planes, none); };
@@ -444,8 +453,8 @@ private:
             const V distance = hn::Add(dot(normal, point), number(3));
             const V along = hn::IfThenElse(hn::Eq(faceAxis, hn::Zero(d)), normal.x,
                                            hn::IfThenElse(hn::Eq(faceAxis, hn::Set(d, 1.0)), normal.y, normal.z));
-            const M isNear = hn::And(
-                isThere, hn::And(hn::Lt(hn::Abs(distance), hn::Set(d, 0.75)), hn::Gt(hn::Abs(along), hn::Set(d, 0.2))));
+            const M isNear = hn::And(isThere, hn::And(hn::Lt(hn::Abs(distance), hn::Set(d, kSeamDistance)),
+                                                      hn::Gt(hn::Abs(along), hn::Set(d, kSeamSlope))));
             found = hn::IfThenElse(toInts(isNear), plane, found);
             lanes = andNot(isNear, lanes);
         };

@@ -1,13 +1,12 @@
 #include <svt/render/picture/tile_renderer.hpp>
 
+#include <svt/render/picture_constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace svt::render {
 namespace {
-
-// Opacity of a border line on a fully transparent sample.
-constexpr float kGlassLine = 0.5f;
 
 Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
 
@@ -244,13 +243,13 @@ float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d
     const double difference = static_cast<double>(other.depth) - static_cast<double>(sample.depth);
     // Depth of the sample's tangent plane at the other ray. At a grazing angle one voxel is a large step in depth.
     const Vec3d normal = toDouble(sample.normal);
-    const double facing = std::max(-dot(normal, frame_.rays().forward()), 0.02);
+    const double facing = std::max(-dot(normal, frame_.rays().forward()), kLeastFacing);
     const double predicted = dot(normal, aside) / facing;
     // A step of one voxel in a face of one object is no border, though the side of the step faces the viewer.
-    const double otherFacing = std::max(-dot(toDouble(other.normal), frame_.rays().forward()), 0.02);
+    const double otherFacing = std::max(-dot(toDouble(other.normal), frame_.rays().forward()), kLeastFacing);
     const double grazing = sample.object == other.object ? std::min(facing, otherFacing) : facing;
-    const double tolerance =
-        (1 + 2 / grazing) * frame_.volumes[sample.volume].voxelSize + length(aside) + 0.7 * std::abs(predicted);
+    const double tolerance = (1 + 2 / grazing) * frame_.volumes[sample.volume].voxelSize + length(aside) +
+                             kDepthTolerance * std::abs(predicted);
     const bool isJump = std::abs(difference - predicted) > tolerance;
     const bool isOtherLabel = sample.object != other.object || sample.isCap != other.isCap;
     if (!isJump && !isOtherLabel) return 0;

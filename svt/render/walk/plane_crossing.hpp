@@ -2,6 +2,7 @@
 /// \file
 /// Where a ray crosses the planes of a coded brick, and which plane belongs to a label that starts on a brick's face.
 
+#include <svt/render/picture_constants.hpp>
 #include <svt/render/voxel_ray.hpp>
 #include <svt/volume/brick_volume.hpp>
 
@@ -36,7 +37,7 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
 }
 
 /// Planes of adjacent bricks for one surface may not quite meet; then a label starts on the face between the bricks, a
-/// seam. Finds the plane that the surface has there: the first of `planes` near the point at t (0.75 voxels) whose
+/// seam. Finds the plane that the surface has there: the first of `planes` near the point at t (kSeamDistance) whose
 /// normal has a component along `axis`, that of the face; BrickVolume::kNoPlane if there is none.
 [[nodiscard]] inline std::uint32_t nearPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t, int axis,
                                              const BrickPlanes& planes) noexcept {
@@ -45,7 +46,7 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
         if (number == volume::BrickVolume::kNoPlane) continue;
         const volume::BrickPlane& plane = volume.planes()[number];
         const double distance = dot(plane.normal, point) + plane.offset;
-        if (std::abs(distance) < 0.75 && std::abs(plane.normal[axis]) > 0.2) return number;
+        if (std::abs(distance) < kSeamDistance && std::abs(plane.normal[axis]) > kSeamSlope) return number;
     }
     return volume::BrickVolume::kNoPlane;
 }

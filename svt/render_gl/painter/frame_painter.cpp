@@ -3,6 +3,7 @@
 #include <svt/image/color.hpp>
 #include <svt/render/camera_rays.hpp>
 #include <svt/render_gl/painter/shader_sources.hpp>
+#include <svt/render_gl/painter/shared_constants.hpp>
 #include <svt/render_gl/painter/view_depth.hpp>
 
 #include <fmt/format.h>
@@ -16,8 +17,6 @@ namespace {
 
 /// Side of the render targets, samples: 32 MB for each set.
 constexpr std::int32_t kTargetSamples = 1024;
-/// Stands for infinity in shaders; kFar of tables.glsl.
-constexpr float kFar = 3.0e38f;
 
 std::int32_t reachOf(float width, int side) {
     return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
@@ -96,7 +95,7 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
                                            {"HATCHES", has(kHatches)},
                                            {"SHAPES", has(kShapes)},
                                            {"TRIANGLES", has(kTriangles)}});
-    std::vector<std::string_view> sources{shaders::tables(), shaders::ray()};
+    std::vector<std::string_view> sources{sharedConstants(), shaders::tables(), shaders::ray()};
     if (has(kClips) != 0) sources.push_back(shaders::clips());
     sources.push_back(shaders::light());
     if (has(kFitted) != 0) sources.push_back(shaders::fitted());
@@ -112,7 +111,7 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
 Result<void> FramePainter::prepareResolve() {
     const std::size_t which = parts_->spec.borders.strength > 0 ? 1 : 0;
     if (resolve_[which]) return {};
-    const std::array sources{shaders::tables(), shaders::resolve()};
+    const std::array sources{sharedConstants(), shaders::tables(), shaders::resolve()};
     auto program =
         Program::make(definesOf({{"ROW_BITS", parts_->limits.rowBits}, {"BORDERS", static_cast<int>(which)}}), sources);
     if (!program) return program.error();
@@ -183,7 +182,7 @@ void FramePainter::castGrid(const SampleGrid& grid) {
         program.set("perSample", 2.0 / (spec.width * grid.side), 2.0 / (spec.height * grid.side));
         program.set("samplesAPixel", double(grid.side));
         if ((passNeeds_[n] & kHatches) != 0) setHatches(program, grid.side);
-        program.set("join", n == 0 ? 3u : static_cast<GLuint>(spec.passes[n].join));
+        program.set("join", n == 0 ? GLuint{kFirstPass} : static_cast<GLuint>(spec.passes[n].join));
         program.bind("colorBefore", n > 0 ? color_[1 - last_] : parts_->textures.boxes);
         program.bind("hitBefore", n > 0 ? hit_[1 - last_] : parts_->textures.boxes);
         drawPicture();

@@ -2,8 +2,10 @@
 
 #include <svt/render/pass_shapes.hpp>
 #include <svt/render/pass_table.hpp>
+#include <svt/render_gl/painter/shared_constants.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace svt::render_gl {
 namespace {
@@ -68,15 +70,15 @@ Result<void> PassTextures::updateStyles(const render::Pass& pass, const render::
     bodies_.clear();
     hasOpaque_ = hasTranslucent_ = hasHatches_ = false;
     for (const LinearStyle& style : table.styles()) {
-        append(words, {style.color.x, style.color.y, style.color.z}, style.density);
-        const auto hatch = static_cast<std::uint32_t>(pass.styles[style.label].hatch);
-        const std::uint32_t flags =
-            static_cast<std::uint32_t>(style.kind) | std::uint32_t{style.isBody} << 2 | hatch << 8;
-        words.insert(words.end(), {flags, style.object, bitsOf(style.surface), style.label});
+        const render::Hatch hatch = pass.styles[style.label].hatch;
+        const std::array<std::uint32_t, 4 * kStyleTexels> texels{
+            bitsOf(style.color.x), bitsOf(style.color.y), bitsOf(style.color.z), bitsOf(style.density),
+            flagsOf(style, hatch), style.object,          bitsOf(style.surface), style.label};
+        words.insert(words.end(), texels.begin(), texels.end());
         bodies_.push_back(style.isBody);
         hasOpaque_ = hasOpaque_ || style.kind == LinearStyle::Kind::Opaque;
         hasTranslucent_ = hasTranslucent_ || style.kind == LinearStyle::Kind::Translucent;
-        hasHatches_ = hasHatches_ || hatch != 0;
+        hasHatches_ = hasHatches_ || hatch != render::Hatch::None;
     }
     styleCount_ = static_cast<std::uint32_t>(table.styles().size());
     if (auto set = styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;

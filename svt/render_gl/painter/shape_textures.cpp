@@ -1,9 +1,12 @@
 #include <svt/render_gl/painter/shape_textures.hpp>
 
 #include <svt/render/pass_shapes.hpp>
+#include <svt/render/picture_constants.hpp>
+#include <svt/render_gl/painter/shared_constants.hpp>
 #include <svt/render_gl/painter/view_depth.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <vector>
@@ -13,43 +16,47 @@ namespace {
 
 using render::PassShapes;
 
-/// Lines of 3 texels, then looks of 3, then triangles of 6; see shapes.glsl.
+/// Lines, then styles of lines, then triangles; see shapes.glsl.
 class ShapeTable {
 public:
     [[nodiscard]] const std::vector<std::uint32_t>& words() const noexcept { return words_; }
     [[nodiscard]] std::uint32_t texels() const noexcept { return static_cast<std::uint32_t>(words_.size() / 4); }
 
     void add(const render::PictureLine& line) {
-        addFloats(line.x, line.y, line.dx, line.dy);
-        addFloats(line.perSquaredLength, line.depth, line.depthChange, line.length);
-        words_.insert(words_.end(), {line.style, 0u, 0u, 0u});
+        append<kLineTexels>({texel(line.x, line.y, line.dx, line.dy),
+                             texel(line.perSquaredLength, line.depth, line.depthChange, line.length),
+                             Texel{line.style}});
     }
     void add(const render::LineStyle& style) {
-        addFloats(style.color.x, style.color.y, style.color.z, style.halfWidth);
-        addFloats(style.darkest, style.hiddenOpacity, style.dash, style.period);
-        words_.insert(words_.end(), {static_cast<std::uint32_t>(style.hidden), 0u, 0u, 0u});
+        append<kLineStyleTexels>({texel(style.color, style.halfWidth),
+                                  texel(style.darkest, style.hiddenOpacity, style.dash, style.period),
+                                  Texel{static_cast<std::uint32_t>(style.hidden)}});
     }
     /// \param from  origin of the corners, relative to the eye, metres
-    void add(const render::PictureTriangle& triangle, Vec3d from, std::uint32_t hatch) {
-        for (const Vec3d corner : triangle.corners) addVector(corner - from, 0);
-        addVector(triangle.normal, 0);
+    void add(const render::PictureTriangle& triangle, Vec3d from, render::Hatch hatch) {
+        const auto& [a, b, c] = triangle.corners;
         const render::LinearStyle& style = triangle.style;
-        addVector({style.color.x, style.color.y, style.color.z}, triangle.opacity);
-        const std::uint32_t flags =
-            static_cast<std::uint32_t>(style.kind) | std::uint32_t{style.isBody} << 2 | hatch << 8;
-        words_.insert(words_.end(), {flags, style.object, bitsOf(style.surface), style.label});
+        append<kTriangleTexels>({texel(a - from, 0), texel(b - from, 0), texel(c - from, 0), texel(triangle.normal, 0),
+                                 texel({style.color.x, style.color.y, style.color.z}, triangle.opacity),
+                                 Texel{flagsOf(style, hatch), style.object, bitsOf(style.surface), style.label}});
     }
 
 private:
-    void addFloats(double x, double y, double z, double w) {
-        for (const double value : {x, y, z, w}) words_.push_back(bitsOf(static_cast<float>(value)));
+    using Texel = std::array<std::uint32_t, 4>;
+    static Texel texel(double x, double y, double z, double w) {
+        return {bitsOf(static_cast<float>(x)), bitsOf(static_cast<float>(y)), bitsOf(static_cast<float>(z)),
+                bitsOf(static_cast<float>(w))};
     }
-    void addVector(Vec3d v, double w) { addFloats(v.x, v.y, v.z, w); }
+    static Texel texel(Vec3d v, double w) { return texel(v.x, v.y, v.z, w); }
+    template <std::size_t kTexels>
+    void append(const std::array<Texel, kTexels>& texels) {
+        for (const Texel& words : texels) words_.insert(words_.end(), words.begin(), words.end());
+    }
 
     std::vector<std::uint32_t> words_;
 };
 
-/// The shapes near each square of 4 x 4 pixels.
+/// The shapes near each square of the picture.
 struct SortedShapes {
     std::uint32_t countX, countY;
     std::vector<std::uint32_t> squares;  ///< by square: first in the list, lines, triangles, 0
@@ -57,15 +64,18 @@ struct SortedShapes {
     std::uint32_t triangleCount = 0;
 
     SortedShapes(const PassShapes& shapes, const render::FrameSpec& spec)
-        : countX(static_cast<std::uint32_t>(spec.width + 3) / 4),
-          countY(static_cast<std::uint32_t>(spec.height + 3) / 4) {
+        : countX(squaresIn(spec.width)), countY(squaresIn(spec.height)) {
         std::unordered_map<const std::uint32_t*, std::uint32_t> known;  // squares may share a list
         for (std::uint32_t y = 0; y < countY; ++y)
             for (std::uint32_t x = 0; x < countX; ++x)
-                add(shapes.near(2 * (4.0 * x + 2) / spec.width - 1, 1 - 2 * (4.0 * y + 2) / spec.height), known);
+                add(shapes.near(2 * middleOf(x) / spec.width - 1, 1 - 2 * middleOf(y) / spec.height), known);
     }
 
 private:
+    static std::uint32_t squaresIn(std::int32_t pixels) {
+        return static_cast<std::uint32_t>(pixels + kSquarePixels - 1) / kSquarePixels;
+    }
+    static double middleOf(std::uint32_t square) { return kSquarePixels * (square + 0.5); }
     void add(std::span<const std::uint32_t> near, std::unordered_map<const std::uint32_t*, std::uint32_t>& known) {
         if (near.empty()) {
             squares.insert(squares.end(), {0u, 0u, 0u, 0u});
@@ -109,7 +119,7 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
     const Vec3d from = rays.forward() * middleDepthOf(spec.camera, rays, grid, middle);
     for (std::uint32_t n = 0; n < sorted.triangleCount; ++n) {
         const render::PictureTriangle& triangle = shapes->triangle(n);
-        table.add(triangle, from, static_cast<std::uint32_t>(pass.styles[triangle.style.label].hatch));
+        table.add(triangle, from, pass.styles[triangle.style.label].hatch);
     }
     isEmpty_ = false;
     hasTriangles_ = sorted.triangleCount > 0;
@@ -129,8 +139,8 @@ void ShapeTextures::setUniforms(Program& program) const {
     program.set("lineSamples", lineSamples_);
     program.set("linePixelPerDepth", isPerspective_ ? pixelSize_ : 0.0);
     program.set("linePixelSize", isPerspective_ ? 0.0 : pixelSize_);
-    program.set("depthBias", 1.5 * voxelSize_);
-    program.set("lineTogether", 2 * voxelSize_);
+    program.set("depthBias", render::kVoxelsBefore * voxelSize_);
+    program.set("lineTogether", render::kVoxelsTogether * voxelSize_);
 }
 
 }  // namespace svt::render_gl

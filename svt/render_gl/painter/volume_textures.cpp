@@ -1,6 +1,9 @@
 #include <svt/render_gl/painter/volume_textures.hpp>
 
+#include <svt/render_gl/painter/shared_constants.hpp>
+
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,11 +12,19 @@ namespace {
 
 using volume::BrickVolume;
 
-// Arrays are uploaded without conversion, so their layout in memory is that of the texels. The packet kernel
-// (packet_shader-inl.hpp) reads SameLabelBox by byte offset as well.
-static_assert(sizeof(volume::SameLabelBox) == 16);
-static_assert(sizeof(BrickVolume::BoxCoding) == 24);
-static_assert(sizeof(BrickVolume::PaletteBrick) == 16);
+using volume::SameLabelBox;
+
+// Arrays are uploaded without conversion, so their layout in memory is that of the texels; see findStep() and
+// voxelScalar() in ray.glsl.
+static_assert(sizeof(SameLabelBox) == 16 && offsetof(SameLabelBox, min) == 0 && offsetof(SameLabelBox, max) == 6 &&
+              offsetof(SameLabelBox, scalar) == 12);
+using Coding = BrickVolume::BoxCoding;
+static_assert(sizeof(Coding) == 8 * kCodeTexels && offsetof(Coding, cut) == 0 && offsetof(Coding, cutAxes) == 6 &&
+              offsetof(Coding, plane) == 8 && offsetof(Coding, firstSideScalar) == 20);
+using PaletteBrick = BrickVolume::PaletteBrick;
+static_assert(sizeof(PaletteBrick) == 16 && offsetof(PaletteBrick, palette) == 0 &&
+              offsetof(PaletteBrick, bitPlanes) == 4 && offsetof(PaletteBrick, bitPlaneCount) == 8 &&
+              offsetof(PaletteBrick, paletteSize) == 12);
 static_assert(sizeof(volume::Scalar) == 4);
 
 // Planes as floats, for positions relative to `middle`.
@@ -28,7 +39,7 @@ std::vector<float> planesFrom(Vec3i middle, std::span<const volume::BrickPlane> 
     return values;
 }
 
-// Number of the palette brick of each brick; all bits set if the brick has one scalar.
+// Number of the palette brick of each brick; kNone if the brick has one scalar.
 std::vector<std::uint32_t> patternsOf(const BrickVolume& volume) {
     std::vector<std::uint32_t> patterns;
     const Vec3i count = volume.brickCount();
@@ -37,7 +48,7 @@ std::vector<std::uint32_t> patternsOf(const BrickVolume& volume) {
             for (std::int32_t x = 0; x < count.x; ++x) {
                 const BrickVolume::Entry entry = volume.entry(x, y, z);
                 patterns.push_back(entry.isMixed() ? static_cast<std::uint32_t>(volume.paletteBrickNumber(entry))
-                                                   : 0xFFFFFFFFu);
+                                                   : kNone);
             }
     return patterns;
 }
@@ -75,7 +86,7 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
         {made.index, GLenum(isNarrow ? GL_R16UI : GL_R32UI),
          isNarrow ? static_cast<const void*>(arrays.narrow.data()) : arrays.wide.data(), count, isNarrow ? 2u : 4u},
         {made.boxes, GL_RGBA32UI, arrays.boxes.data(), arrays.boxes.size(), 16},
-        {made.codes, GL_RG32UI, arrays.codes.data(), 3 * arrays.codes.size(), 8},
+        {made.codes, GL_RG32UI, arrays.codes.data(), kCodeTexels * arrays.codes.size(), 8},
         {made.bricks, GL_RGBA32UI, arrays.bricks.data(), arrays.bricks.size(), 16},
         {made.palettes, GL_R32UI, arrays.palettes.data(), arrays.palettes.size(), 4},
         {made.words, GL_RG32UI, arrays.words.data(), arrays.words.size(), 8},

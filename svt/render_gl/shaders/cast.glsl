@@ -1,13 +1,11 @@
 // Casts one ray under one pass, and composites it with the passes before.
 uniform usampler2D colorBefore, hitBefore;
-uniform uint join;  // 0 over, 1 replace, 2 depth; 3 the first pass
+uniform uint join;  // kJoinOver, ..., or kFirstPass
 uniform float opaqueAt, labelAt;
 uniform vec2 firstSample, perSample;  // first sample, from the picture's upper left corner; 2 / samples of the picture
 
 layout(location = 0) out uvec4 sampleColor;  // bits of floats: linear light, premultiplied, and opacity
 layout(location = 1) out uvec4 sampleHit;    // label, object, depth (float; kFar: none), normal; bit 30: cap, 31: lens
-
-const uint kCap = 0x40000000u, kLens = 0x80000000u;
 
 vec3 color;
 float transmittance;
@@ -42,12 +40,12 @@ bool hasHit() { return hitDepth < kFar; }
 void add(float alpha) {
     float share = transmittance * alpha;
     float light = 1.0 + (surfaceLight - 1.0) * uintBitsToFloat(style.z);
-    color += floatsOf(styles, 2u * scalar).rgb * (share * light * lineLight());
+    color += floatsOf(styles, kStyleTexels * scalar).rgb * (share * light * lineLight());
     transmittance -= share;
     if (hasHit() || 1.0 - transmittance <= labelAt) return;
     hitLabel = style.w;
     hitObject = style.y;
-    hitHatch = style.x >> 8;
+    hitHatch = style.x >> kHatchShift;
     hitDepth = runFrom + middleDepth;
     hitNormal = surfaceNormal;
     hitIsCap = surfaceIsCap;
@@ -78,11 +76,11 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
                 runIsFirst = isFirst;
                 isFirst = false;
             }
-            style = scalar < styleCount ? elementOf(styles, 2u * scalar + 1u) : uvec4(0u);
-            uint kind = style.x & 3u;
-            if (kind == 0u) {
+            style = scalar < styleCount ? elementOf(styles, kStyleTexels * scalar + 1u) : uvec4(0u);
+            uint kind = style.x & kKindBits;
+            if (kind == kHidden) {
                 object = kNone;
-            } else if (style.y != object || kind == 2u) {
+            } else if (style.y != object || kind == kOpaque) {
                 isSameObject = style.y == object;
                 object = style.y;
                 isNew = true;
@@ -94,7 +92,8 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
             if (meetsShape) end = shapeAt;
 #endif
 #if TRANSLUCENT
-            if (kind == 1u) add(1.0 - exp(-floatsOf(styles, 2u * scalar).a * metresPerT * max(end - t, 0.0)));
+            if (kind == kTranslucent)
+                add(1.0 - exp(-floatsOf(styles, kStyleTexels * scalar).a * metresPerT * max(end - t, 0.0)));
             hasEnded = isDone();
             if (hasEnded) break;
 #endif
@@ -123,7 +122,7 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
         runCap = runIsFirst ? cap : kNone;
         surfaceIsCap = runCap != kNone;
         surfaceNormal = facingNormal(runCap, runIsFirst);
-        hasEnded = (style.x & 3u) == 2u;
+        hasEnded = (style.x & kKindBits) == kOpaque;
         if (hasEnded) break;
         surfaceLight = lightOn(surfaceNormal, 1.0);
     }
@@ -173,7 +172,7 @@ void castPass() {
     bool isOpaque = hasEnded && !isDone();
 #if !SHAPES
     // Where nothing is met, the cleared target already says so; discarding is cheaper than writing.
-    if (join == 3u && !isOpaque && transmittance >= 1.0) discard;
+    if (join == kFirstPass && !isOpaque && transmittance >= 1.0) discard;
 #endif
     if (isOpaque) {
         // There is no surface inside an object.
@@ -217,11 +216,11 @@ void main() {
     uint normal = packedDirection(hitNormal) | (hitIsCap ? kCap : 0u);
     uvec4 hit = uvec4(hitLabel, hitObject, floatBitsToUint(hitDepth), normal);
     vec4 light = vec4(color, alpha);
-    if (join != 3u) {
+    if (join != kFirstPass) {
         vec4 before = uintBitsToFloat(texelFetch(colorBefore, at, 0));
         uvec4 seen = texelFetch(hitBefore, at, 0);
         float depthBefore = uintBitsToFloat(seen.z);
-        if (join == 1u) {
+        if (join == kJoinReplace) {
             if (alpha <= 0.0) {
                 light = before;
                 hit = seen;
@@ -229,7 +228,7 @@ void main() {
                 hit.w |= kLens;
             }
         } else {
-            bool isFront = join == 0u || hitDepth <= depthBefore;
+            bool isFront = join == kJoinOver || hitDepth <= depthBefore;
             vec4 front = isFront ? light : before, back = isFront ? before : light;
             light = front + back * (1.0 - front.a);
             bool isSeen = isFront ? hasHit() : depthBefore < kFar;

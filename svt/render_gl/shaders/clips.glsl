@@ -77,11 +77,11 @@ void meetRound(inout Stretch s, uint number) {
 Stretch stretchOf(inout uint number) {
     Stretch s = Stretch(-kFar, kFar, kNone, kNone);
     uvec4 part = elementOf(clips, number++);
-    for (uint n = 0u; n < 16u; ++n) {
+    for (uint n = 0u; n < kMaxFaces; ++n) {
         if (n >= part.x) break;
         meetHalfSpace(s, number++);
     }
-    for (uint n = 0u; n < 16u; ++n) {
+    for (uint n = 0u; n < kMaxFaces; ++n) {
         if (n >= part.y) break;
         meetRound(s, number);
         number += 4u;
@@ -98,13 +98,13 @@ bool nextInterval(inout float from, inout float to, out uint cap) {
         bool hasMoved = false;
         uint number = 0u;
         to = end;
-        for (uint r = 0u; r < 32u; ++r) {
+        for (uint r = 0u; r < kMaxClipParts; ++r) {
             if (r >= clipRegions) break;
             uvec4 region = elementOf(clips, number++);
             bool isKept = region.x != 0u;
             float next = kFar, reached = -kFar;
             uint nextCap = kNone;
-            for (uint p = 0u; p < 32u; ++p) {
+            for (uint p = 0u; p < kMaxClipParts; ++p) {
                 if (p >= region.y) break;
                 Stretch s = stretchOf(number);
                 if (!(s.enter < s.leave)) continue;

@@ -47,9 +47,8 @@ int count64(uvec2 bits) { return sumsOf(bits).x; }
 
 const uvec2 kDisc = uvec2(0x7F7F3E1Cu, 0x001C3E7Fu);
 const uvec2 kMiddlePlace = uvec2(0x08000000u, 0u);
-const int kFacePlaces = 12;
 
-// The ball of 179 voxels, by layer.
+// The ball of kBallVoxels, by layer.
 uvec2 ballOf(int z) {
     int aside = abs(z - 3);
     return aside < 2    ? kDisc
@@ -57,7 +56,9 @@ uvec2 ballOf(int z) {
                         : uvec2(0x1C1C0000u, 0x0000001Cu);
 }
 
-bool isBody(uint number) { return number < styleCount && (elementOf(styles, 2u * number + 1u).x & 4u) != 0u; }
+bool isBody(uint number) {
+    return number < styleCount && (elementOf(styles, kStyleTexels * number + 1u).x & kBodyBit) != 0u;
+}
 
 // Mask of the body voxels in one layer of a brick.
 uvec2 bodyWord(ivec3 brick, uint layer) {
@@ -209,7 +210,7 @@ vec3 fittedNormal(bool isNeeded, out float cavity) {
         voxels += sums.x;
         moment += ivec3(sums.yz, (z - 3) * sums.x);
     }
-    cavity = clamp((float(voxels - 71) / 179.0 - 0.05) * 2.5, 0.0, 1.0);
+    cavity = clamp((float(voxels - kPlaneVoxels) / float(kBallVoxels) - kCavityFrom) * kCavityGain, 0.0, 1.0);
 
     vec3 fitted = faceNormal;
     int across = axis, along = side;
@@ -227,7 +228,7 @@ vec3 fittedNormal(bool isNeeded, out float cavity) {
         vec3 slopes = slopesOf(tops);
         vec3 normal = slopes.z < 0.0 ? -vec3(moment) : slopeNormal(slopes, across, float(along));
         if (attempt == 0) {
-            if (slopes.z >= 24.0 && max(abs(slopes.x), abs(slopes.y)) <= 1.0) {
+            if (slopes.z >= float(kGentlePlaces) && max(abs(slopes.x), abs(slopes.y)) <= 1.0) {
                 fitted = normal;
                 break;
             }

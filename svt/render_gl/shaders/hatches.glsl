@@ -64,24 +64,24 @@ float gravel(vec2 p) {
 float hatchCoverage(uint hatch, vec2 p) {
     if (spacing < 2.0 * blur) return min(0.5, 0.7 * lineWidth / spacing);
     float across = (p.x - p.y) / kRoot2, along = (p.x + p.y) / kRoot2;
-    if (hatch == 1u) return stripes(across, spacing);
-    if (hatch == 2u) return gravel(p);
-    if (hatch == 3u) {
+    if (hatch == kHatchMasonry) return stripes(across, spacing);
+    if (hatch == kHatchConcrete) return gravel(p);
+    if (hatch == kHatchReinforcedConcrete) {
         bool isDashed = mod(abs(round(across / spacing)), 2.0) == 1.0;
         return isDashed && fract(along / (2.4 * spacing)) > 0.65 ? 0.0 : stripes(across, spacing);
     }
-    if (hatch == 4u) {
+    if (hatch == kHatchTimber) {
         float bend = 0.35 * spacing * sin(p.x / (2.1 * spacing) + 0.9 * sin(p.y / (3.0 * spacing)));
         return stripes(p.y + bend, 0.8 * spacing);
     }
-    if (hatch == 5u) {
+    if (hatch == kHatchInsulation) {
         float band = 3.0 * spacing, tooth = 0.75 * spacing;
         float height = p.y - band * floor(p.y / band);
         float way = p.x / tooth - 2.0 * floor(p.x / (2.0 * tooth));
         float wave = band * (way < 1.0 ? way : 2.0 - way), slope = band / tooth;
         return max(stripes(p.y, band), lineInk(abs(height - wave) / sqrt(1.0 + slope * slope)));
     }
-    if (hatch == 6u) {
+    if (hatch == kHatchEarth) {
         float field = 4.0 * spacing;
         vec2 number = floor(p / field), place = p - (number + 0.5) * field;
         bool isTurned = mod(abs(number.x + number.y), 2.0) == 1.0;
@@ -89,23 +89,24 @@ float hatchCoverage(uint hatch, vec2 p) {
         float way = (isTurned ? place.x - place.y : place.x + place.y) / kRoot2;
         return abs(way) > 0.42 * field || abs(off) > 1.2 * spacing ? 0.0 : stripes(off, spacing);
     }
-    if (hatch == 7u) return max(stripes(across, 2.0 * spacing), stripes(across - 0.5 * spacing, 2.0 * spacing));
-    if (hatch == 8u) {
+    if (hatch == kHatchSteel)
+        return max(stripes(across, 2.0 * spacing), stripes(across - 0.5 * spacing, 2.0 * spacing));
+    if (hatch == kHatchGlass) {
         float at = along / (6.0 * spacing) + randomOf(round(across / (1.5 * spacing)), 0.0, 6u);
         return fract(at) < 0.3 ? stripes(across, 1.5 * spacing) : 0.0;
     }
-    return hatch == 9u ? stripes(across, 2.0 * spacing) : 0.0;
+    return hatch == kHatchGeneral ? stripes(across, 2.0 * spacing) : 0.0;
 }
 
 // Coverage by ink at the point of a cap that the ray meets at `depth`.
 float inkOn(uint hatch, vec3 normal, float depth) {
-    if (hatch == 0u) return 0.0;
+    if (hatch == kHatchNone) return 0.0;
     // The vertical axis is the grid's up direction projected onto the face; on nearly horizontal faces, north.
-    vec3 above = abs(dot(normal, gridUp)) < 0.9 ? gridUp : gridNorth;
+    vec3 above = abs(dot(normal, gridUp)) < kLevelCap ? gridUp : gridNorth;
     vec3 upwards = normalize(above - normal * dot(normal, above)), aside = cross(upwards, normal);
     vec3 point = worldFromIndex * (origin + direction * (depth - middleDepth) - originFromMiddle);
     float pixel = pixelPerDepth * depth + pixelSize;
-    float facing = max(abs(dot(normal, cameraForward)), 0.15);
+    float facing = max(abs(dot(normal, cameraForward)), kLeastCapFacing);
     spacing = hatchSpacing;
     lineWidth = hatchWidth * pixel;
     blur = pixel / (facing * samplesAlong);

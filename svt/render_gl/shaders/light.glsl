@@ -5,11 +5,11 @@ uniform mat3 worldFromCovector;  // normals of planes from voxel space to world 
 uniform mat3 indexFromWorld;     // for directions
 uniform vec3 towardsLight;
 uniform float lightKey, lightAmbient, lightOcclusion;
-uniform int occlusionLevels;  // 4; a uniform, so that compilers do not unroll the loop
+uniform int occlusionLevels;  // kOcclusionLevels; a uniform, so that compilers do not unroll the loop
 uniform float occlusionCell;  // voxels along a block of the finest level; doubles with each level
-uniform ivec3 occlusionCount[4];
-uniform uint occlusionFirst[4];
-uniform vec2 occlusionGain[4];  // gain, weight
+uniform ivec3 occlusionCount[kOcclusionLevels];
+uniform uint occlusionFirst[kOcclusionLevels];
+uniform vec2 occlusionGain[kOcclusionLevels];  // gain, weight
 
 vec3 view;  // towards the viewer
 
@@ -18,14 +18,14 @@ vec3 worldNormal(vec3 covector) { return normalize(worldFromCovector * covector)
 uvec3 planesOf(ivec3 brick) {
     uint entry = entryAt(brick);
     if (entry < uniformBoxes || entry >= boxCount) return uvec3(kNone);
-    uint code = 3u * elementOf(boxes, entry).w;
+    uint code = kCodeTexels * elementOf(boxes, entry).w;
     return uvec3(elementOf(codes, code + 1u).xy, elementOf(codes, code + 2u).x);
 }
 
 bool isNear(uint number, vec3 point) {
     if (number == kNone) return false;
     vec4 p = floatsOf(planes, number);
-    return abs(dot(p.xyz, point) + p.w) < 0.75 && abs(componentOf(p.xyz, axis)) > 0.2;
+    return abs(dot(p.xyz, point) + p.w) < kSeamDistance && abs(componentOf(p.xyz, axis)) > kSeamSlope;
 }
 
 // Planes of adjacent bricks for one surface may not quite meet; see render::seamPlane().
@@ -67,8 +67,9 @@ vec3 facingNormal(uint cap, bool isFirst) {
 
 float lightOn(vec3 normal, float open) {
     float key = max(0.0, dot(normal, towardsLight)), facing = max(0.0, dot(normal, view));
-    float sky = 0.80 + 0.20 * normal.z;
-    return lightAmbient * open * (0.82 * sky + 0.18 * facing) + lightKey * key * (0.45 + 0.55 * open);
+    float sky = kSkyAside + kSkyAbove * normal.z;
+    float ambient = lightAmbient * open * (kSkyShare * sky + kViewerShare * facing);
+    return ambient + lightKey * key * (kKeyShut + kKeyOpen * open);
 }
 
 // Opaque voxels per block around a point, interpolated trilinearly.
@@ -99,5 +100,5 @@ float openness(vec3 normal, float cavity, float at) {
         taken += occlusionGain[level].y *
                  min(1.0, coverageAt(level, point + outwardIndex * occlusionCell * float(1 << level)) *
                               occlusionGain[level].x);
-    return 1.0 - lightOcclusion * min(1.0, taken + 0.35 * cavity);
+    return 1.0 - lightOcclusion * min(1.0, taken + kCavityOcclusion * cavity);
 }

@@ -116,8 +116,9 @@ void findStep() {
     stepEnd = min(exitTimes.x, min(exitTimes.y, exitTimes.z));
     endsInside = false;
     if (isVoxel || entry < uniformBoxes) return;
-    uvec2 cuts = elementOf(codes, 3u * scalar).xy, oblique = elementOf(codes, 3u * scalar + 1u).xy;
-    uvec2 rest = elementOf(codes, 3u * scalar + 2u).xy;  // third plane, first label
+    uint code = kCodeTexels * scalar;
+    uvec2 cuts = elementOf(codes, code).xy, oblique = elementOf(codes, code + 1u).xy;
+    uvec2 rest = elementOf(codes, code + 2u).xy;  // third plane, first label
     uint axes = cuts.y >> 16, side = 0u, bit = 1u;
     ivec3 place = ivec3(cuts.x & 0xFFFFu, cuts.x >> 16, cuts.y & 0xFFFFu);
     vec3 times = planeTimes(place);

@@ -21,8 +21,7 @@ struct Seen {
 
 Seen seenAt(ivec2 at) {
     uvec4 hit = texelFetch(hitSamples, at, 0);
-    return Seen(hit.y, uintBitsToFloat(hit.z), unpackedDirection(hit.w), (hit.w & 0x40000000u) != 0u,
-                (hit.w & 0x80000000u) != 0u);
+    return Seen(hit.y, uintBitsToFloat(hit.z), unpackedDirection(hit.w), (hit.w & kCap) != 0u, (hit.w & kLens) != 0u);
 }
 
 #if BORDERS
@@ -43,11 +42,11 @@ float lineBetween(Seen a, Seen b, vec3 aside, bool isFirst) {
     if (b.depth >= kFar || isRim(a, b)) return 1.0;
     if (isRim(b, a)) return 0.0;
     float difference = b.depth - a.depth;
-    float facing = max(-dot(a.normal, cameraForward), 0.02);
+    float facing = max(-dot(a.normal, cameraForward), kLeastFacing);
     float predicted = dot(a.normal, aside) / facing;
-    float facingOther = max(-dot(b.normal, cameraForward), 0.02);
+    float facingOther = max(-dot(b.normal, cameraForward), kLeastFacing);
     float grazing = a.object == b.object ? min(facing, facingOther) : facing;
-    float tolerance = (1.0 + 2.0 / grazing) * voxelSize + length(aside) + 0.7 * abs(predicted);
+    float tolerance = (1.0 + 2.0 / grazing) * voxelSize + length(aside) + kDepthTolerance * abs(predicted);
     bool isJump = abs(difference - predicted) > tolerance;
     bool isOther = a.object != b.object || a.isCap != b.isCap;
     if (!isJump && !isOther) return 0.0;
@@ -61,7 +60,7 @@ float lineOn(ivec2 at) {
     float size = samplePerDepth * a.depth + sampleSize;
     int most = a.isCap || a.isLens ? margin : lineReach;
     float line = 0.0;
-    for (int reach = 1; reach <= 64; ++reach) {
+    for (int reach = 1; reach <= kMaxReach; ++reach) {
         if (reach > most || line >= 1.0) break;
         for (int n = 0; n < 4; ++n) {
             ivec2 way = n == 0 ? ivec2(1, 0) : n == 1 ? ivec2(-1, 0) : n == 2 ? ivec2(0, -1) : ivec2(0, 1);
@@ -84,7 +83,7 @@ void main() {
     ivec2 place = pictureFirst + ivec2(int(gl_FragCoord.x), -int(gl_FragCoord.y));
     vec3 color = vec3(0.0);
     float alpha = 0.0;
-    for (int n = 0; n < 16; ++n) {
+    for (int n = 0; n < kMaxSide * kMaxSide; ++n) {
         if (n >= side * side) break;
         ivec2 at = (place - tileFirst) * side + ivec2(n % side, n / side) + margin;
         vec4 light = uintBitsToFloat(texelFetch(colorSamples, at, 0));
@@ -94,7 +93,7 @@ void main() {
         line = lineStrength * lineOn(at);
 #endif
         // A line is visible, however transparent the sample.
-        float covered = light.a + (1.0 - light.a) * line * 0.5;
+        float covered = light.a + (1.0 - light.a) * line * kGlassLine;
         color += min(light.rgb, 1.0) * (1.0 - line) + lineColor * (line * covered);
         alpha += covered;
     }

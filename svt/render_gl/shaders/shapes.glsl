@@ -1,6 +1,6 @@
 // Lines and triangles that a ray meets, in order of depth. Only the next one of each kind is kept; when it has been
 // drawn, the one after it is searched for.
-uniform usampler2D shapeSquares, shapeList, shapeTable;  // by square of 4 x 4 pixels; numbers of shapes; the shapes
+uniform usampler2D shapeSquares, shapeList, shapeTable;  // by square of the picture; numbers of shapes; the shapes
 uniform ivec2 shapeSquareCount;
 uniform uint lineStylesFirst, trianglesFirst;  // first element in shapeTable
 uniform float lineSamples;                // along a pixel
@@ -27,21 +27,21 @@ float lineLight() { return linesLeft; }
 
 // t at which the ray meets a line; kFar if it does not.
 float meetLine(uint number, out float coverage, out float hidden, out uint lineStyle) {
-    vec4 place = floatsOf(shapeTable, 3u * number), depths = floatsOf(shapeTable, 3u * number + 1u);
-    lineStyle = elementOf(shapeTable, 3u * number + 2u).x;
-    vec4 first = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle),
-         more = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle + 1u);
+    vec4 place = floatsOf(shapeTable, kLineTexels * number), depths = floatsOf(shapeTable, kLineTexels * number + 1u);
+    lineStyle = elementOf(shapeTable, kLineTexels * number + 2u).x;
+    vec4 first = floatsOf(shapeTable, lineStylesFirst + kLineStyleTexels * lineStyle),
+         more = floatsOf(shapeTable, lineStylesFirst + kLineStyleTexels * lineStyle + 1u);
     vec2 aside = pixelPlace - place.xy;
     float along = clamp(dot(aside, place.zw) * depths.x, 0.0, 1.0);
     coverage = min((first.w - length(aside - along * place.zw)) * lineSamples + 0.5, more.x);
     hidden = 0.0;
     if (coverage <= 0.0) return kFar;
-    uint kind = elementOf(shapeTable, lineStylesFirst + 3u * lineStyle + 2u).x;
-    if (kind != 0u) hidden = coverage * more.y;
+    uint kind = elementOf(shapeTable, lineStylesFirst + kLineStyleTexels * lineStyle + 2u).x;
+    if (kind != kHiddenLinesNone) hidden = coverage * more.y;
     float pixels = along * depths.w;
-    if (kind == 2u && pixels - floor(pixels / more.w) * more.w > more.z) hidden = 0.0;
+    if (kind == kHiddenLinesDashed && pixels - floor(pixels / more.w) * more.w > more.z) hidden = 0.0;
     float seen = depths.y + depths.z * along, depth = isPerspective ? 1.0 / seen : seen;
-    float bias = depthBias + 4.0 * first.w * (linePixelPerDepth * depth + linePixelSize);
+    float bias = depthBias + kHalfWidthsBefore * first.w * (linePixelPerDepth * depth + linePixelSize);
     return max(depth - bias, 0.0) - middleDepth;
 }
 
@@ -65,7 +65,7 @@ void findLine() {
         if (coverage < lineOpacity || (coverage == lineOpacity && at >= nearest)) continue;
         lineOpacity = coverage;
         nearest = at;
-        nextLineColor = floatsOf(shapeTable, lineStylesFirst + 3u * lineStyle).rgb;
+        nextLineColor = floatsOf(shapeTable, lineStylesFirst + kLineStyleTexels * lineStyle).rgb;
     }
 }
 
@@ -73,11 +73,11 @@ void findLine() {
 #if CLIPS
 bool isDrawnAt(float at) {
     uint number = 0u;
-    for (uint r = 0u; r < 32u; ++r) {
+    for (uint r = 0u; r < kMaxClipParts; ++r) {
         if (r >= clipRegions) break;
         uvec4 region = elementOf(clips, number++);
         bool isInside = false;
-        for (uint p = 0u; p < 32u; ++p) {
+        for (uint p = 0u; p < kMaxClipParts; ++p) {
             if (p >= region.y) break;
             Stretch s = stretchOf(number);
             isInside = isInside || (s.enter <= at && at < s.leave);
@@ -92,7 +92,7 @@ bool isDrawnAt(float at) { return at >= raySpan.x && at < raySpan.y; }
 
 // t at which the ray crosses a triangle; kFar if it does not.
 float meetTriangle(uint number, out bool isEntering) {
-    uint first = trianglesFirst + 6u * number;
+    uint first = trianglesFirst + kTriangleTexels * number;
     vec4 corner = floatsOf(shapeTable, first), second = floatsOf(shapeTable, first + 1u);
     vec4 third = floatsOf(shapeTable, first + 2u), across = floatsOf(shapeTable, first + 3u);
     vec3 a = corner.xyz - worldOrigin, b = second.xyz - worldOrigin, c = third.xyz - worldOrigin;
@@ -105,7 +105,7 @@ float meetTriangle(uint number, out bool isEntering) {
     return at > -middleDepth ? at : kFar;
 }
 
-uint objectOf(uint triangle) { return elementOf(shapeTable, trianglesFirst + 6u * triangle + 5u).y; }
+uint objectOf(uint triangle) { return elementOf(shapeTable, trianglesFirst + kTriangleTexels * triangle + 5u).y; }
 
 void findTriangle() {
     float after = triangleAt;
@@ -113,7 +113,7 @@ void findTriangle() {
     bool wasEntering = triangleEnters;
     triangleAt = kFar;
     for (uint n = 0u; n < shapes.z; ++n) {
-        uint number = elementOf(shapeList, shapes.x + shapes.y + n).x & 0x7FFFFFFFu;
+        uint number = elementOf(shapeList, shapes.x + shapes.y + n).x & ~kTriangle;
         bool isEntering;
         float at = meetTriangle(number, isEntering);
         if (at < after || (at == after && number <= last) || at >= triangleAt) continue;
@@ -128,10 +128,10 @@ void findTriangle() {
 }
 
 void addSurface(uint number, vec3 normal, float at, bool isCap) {
-    uint first = trianglesFirst + 6u * number;
+    uint first = trianglesFirst + kTriangleTexels * number;
     vec4 surfaceStyle = floatsOf(shapeTable, first + 4u);
     uvec4 kind = elementOf(shapeTable, first + 5u);
-    bool isOpen = (kind.x & 4u) == 0u || lightOcclusion <= 0.0;
+    bool isOpen = (kind.x & kBodyBit) == 0u || lightOcclusion <= 0.0;
     float lit = lightOn(normal, isOpen ? 1.0 : openness(normal, 0.0, at));
     float share = transmittance * surfaceStyle.a;
     color += surfaceStyle.rgb * ((1.0 + (lit - 1.0) * uintBitsToFloat(kind.z)) * share * linesLeft);
@@ -139,7 +139,7 @@ void addSurface(uint number, vec3 normal, float at, bool isCap) {
     if (hasHit() || 1.0 - transmittance <= labelAt) return;
     hitLabel = kind.w;
     hitObject = kind.y;
-    hitHatch = kind.x >> 8;
+    hitHatch = kind.x >> kHatchShift;
     hitDepth = at + middleDepth;
     hitNormal = normal;
     hitIsCap = isCap;
@@ -155,7 +155,7 @@ bool addCutBody(float at, uint cap) {
         float latest = -kFar;
         uint object = 0u;
         for (uint m = 0u; m < shapes.z; ++m) {
-            uint number = elementOf(shapeList, shapes.x + shapes.y + m).x & 0x7FFFFFFFu;
+            uint number = elementOf(shapeList, shapes.x + shapes.y + m).x & ~kTriangle;
             bool isEntering;
             float met = meetTriangle(number, isEntering);
             if (met > at || met >= before || met <= latest) continue;
@@ -167,7 +167,7 @@ bool addCutBody(float at, uint cap) {
         float entered = -kFar;
         uint body = 0u;
         for (uint m = 0u; m < shapes.z; ++m) {
-            uint number = elementOf(shapeList, shapes.x + shapes.y + m).x & 0x7FFFFFFFu;
+            uint number = elementOf(shapeList, shapes.x + shapes.y + m).x & ~kTriangle;
             bool isEntering;
             float met = meetTriangle(number, isEntering);
             if (met >= kFar || objectOf(number) != object) continue;
@@ -181,7 +181,8 @@ bool addCutBody(float at, uint cap) {
         }
         before = latest;
         if (balance != 0 || inside <= 0) continue;
-        if ((elementOf(shapeTable, trianglesFirst + 6u * body + 5u).x & 3u) != 2u) return false;
+        uint flags = elementOf(shapeTable, trianglesFirst + kTriangleTexels * body + 5u).x;
+        if ((flags & kKindBits) != kOpaque) return false;
         vec3 normal = worldNormal(capDirection(cap, origin + at * direction));
         addSurface(body, dot(normal, worldDirection) > 0.0 ? -normal : normal, at, true);
         return true;
@@ -194,7 +195,7 @@ bool addCutBody(float at, uint cap) {
 
 void beginShapes(vec2 samplePlace) {
     pixelPlace = samplePlace / samplesAPixel;
-    ivec2 square = clamp(ivec2(pixelPlace * 0.25), ivec2(0), shapeSquareCount - 1);
+    ivec2 square = clamp(ivec2(pixelPlace * (1.0 / float(kSquarePixels))), ivec2(0), shapeSquareCount - 1);
     shapes = elementOf(shapeSquares, uint(square.x + shapeSquareCount.x * square.y));
     vec2 place = samplePlace * perSample - 1.0;
     worldOrigin = worldOriginRight * place.x - worldOriginUp * place.y;
@@ -223,7 +224,7 @@ void addShape() {
     } else {
 #if TRIANGLES
         if (!isOver && triangleAt > -kFar) {
-            vec3 normal = floatsOf(shapeTable, trianglesFirst + 6u * nextTriangle + 3u).xyz;
+            vec3 normal = floatsOf(shapeTable, trianglesFirst + kTriangleTexels * nextTriangle + 3u).xyz;
             addSurface(nextTriangle, triangleEnters ? normal : -normal, triangleAt, false);
         }
         findTriangle();
