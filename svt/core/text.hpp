@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Text that comes from files: UTF-8 with every byte checked, and letter case of ASCII alone, whatever the locale.
+/// Text that comes from files: UTF-8 with every byte checked; digits, blanks and letter case of ASCII alone, whatever
+/// the locale.
 
 #include <cstddef>
 #include <cstdint>
@@ -43,6 +44,11 @@ void appendUtf8(char32_t code, std::string& to);
 
 /// Count of characters of valid UTF-8; in other text, of bytes that continue none.
 [[nodiscard]] std::size_t characterCount(std::string_view text) noexcept;
+
+/// 0 to 9.
+[[nodiscard]] constexpr bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
+/// Space, tab or the end of a line: what separates words in XML, JSON and queries.
+[[nodiscard]] constexpr bool isBlank(char c) noexcept { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
 /// A to Z become a to z; other bytes stay.
 [[nodiscard]] constexpr char lowerAscii(char c) noexcept {

@@ -25,6 +25,8 @@ struct Vec3 {
     friend constexpr auto operator<=>(const Vec3&, const Vec3&) = default;
 };
 
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 using Vec3d = Vec3<double>;
 using Vec3f = Vec3<float>;
 using Vec3i = Vec3<std::int32_t>;
@@ -36,6 +38,11 @@ template <class T>
 template <class T>
 [[nodiscard]] constexpr Vec3<T> cross(Vec3<T> a, Vec3<T> b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+/// The same vector in double precision.
+template <class T>
+[[nodiscard]] constexpr Vec3d toDouble(Vec3<T> v) noexcept {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 /// Component-wise product.
 template <class T>
@@ -54,10 +61,8 @@ template <class T>
 
 /// Axis-aligned box; empty until a point is added.
 struct Box3d {
-    Vec3d min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-    Vec3d max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-              -std::numeric_limits<double>::infinity()};
+    Vec3d min{kInfinity, kInfinity, kInfinity};
+    Vec3d max{-kInfinity, -kInfinity, -kInfinity};
 
     [[nodiscard]] bool isEmpty() const noexcept { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
     void add(Vec3d p) noexcept {

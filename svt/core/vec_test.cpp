@@ -17,6 +17,11 @@ TEST(Vec3, ArithmeticIsComponentWise) {
     EXPECT_EQ(scaled(a, b), (Vec3d{10, 40, 120}));
 }
 
+TEST(Vec3, DoublesHoldWhatTheVectorHeld) {
+    EXPECT_EQ(toDouble(Vec3i{-2147483647, 0, 2147483647}), (Vec3d{-2147483647, 0, 2147483647}));
+    EXPECT_EQ(toDouble(Vec3f{0.5f, -0.0f, 0.1f}), (Vec3d{0.5, -0.0, double(0.1f)}));
+}
+
 TEST(Vec3, IndexReachesTheComponents) {
     Vec3i v{7, 8, 9};
     EXPECT_EQ(v[0], 7);

@@ -1,15 +1,12 @@
 #include <svt/core/edit_distance.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 namespace svt {
-namespace {
-
-char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-}  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit) {
     const std::size_t more = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
@@ -20,10 +17,10 @@ std::size_t editDistance(std::string_view a, std::string_view b, std::size_t lim
         row[0] = i;
         std::size_t least = i;
         for (std::size_t k = 1; k <= b.size(); ++k) {
-            const bool isSame = lower(a[i - 1]) == lower(b[k - 1]);
+            const bool isSame = lowerAscii(a[i - 1]) == lowerAscii(b[k - 1]);
             row[k] = std::min({last[k] + 1, row[k - 1] + 1, last[k - 1] + (isSame ? 0 : 1)});
-            const bool isSwapped =
-                i > 1 && k > 1 && lower(a[i - 1]) == lower(b[k - 2]) && lower(a[i - 2]) == lower(b[k - 1]);
+            const bool isSwapped = i > 1 && k > 1 && lowerAscii(a[i - 1]) == lowerAscii(b[k - 2]) &&
+                                   lowerAscii(a[i - 2]) == lowerAscii(b[k - 1]);
             if (isSwapped) row[k] = std::min(row[k], beforeLast[k - 2] + 1);
             least = std::min(least, row[k]);
         }

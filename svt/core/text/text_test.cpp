@@ -27,6 +27,14 @@ TEST(Utf8, WrongBytesAreFound) {
     }
 }
 
+TEST(Ascii, DigitsAndBlanksAreThoseOfAsciiAlone) {
+    for (int code = 0; code < 256; ++code) {
+        const auto c = static_cast<char>(code);
+        EXPECT_EQ(isDigit(c), std::string_view("0123456789").find(c) != std::string_view::npos) << code;
+        EXPECT_EQ(isBlank(c), std::string_view(" \t\r\n").find(c) != std::string_view::npos) << code;
+    }
+}
+
 TEST(Ascii, OnlyItsLettersChangeCase) {
     EXPECT_EQ(lowerAscii("EG Küche ÄÖ [@Z]"), "eg küche ÄÖ [@z]");
     EXPECT_TRUE(equalsIgnoringCase("EG", "eg"));
