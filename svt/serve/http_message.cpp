@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view kLineEnd = "\r\n";
 
 bool isTokenCharacter(char c) noexcept {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+    return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
            std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
 }
 
@@ -47,7 +47,7 @@ std::optional<std::uint64_t> wholeNumber(std::string_view text) noexcept {
 }
 
 int hexDigit(char c) noexcept {
-    if (c >= '0' && c <= '9') return c - '0';
+    if (isDigit(c)) return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
     if (c >= 'A' && c <= 'F') return c - 'A' + 10;
     return -1;

@@ -26,7 +26,7 @@ constexpr std::size_t kMaxSearchedBytes = 4096;
 template <class T>
 bool parses(std::string_view text, T& value) noexcept {
     // from_chars also accepts "inf" and "nan", which are names rather than numbers here.
-    const bool looksNumeric = !text.empty() && (text[0] == '-' || text[0] == '.' || (text[0] >= '0' && text[0] <= '9'));
+    const bool looksNumeric = !text.empty() && (text[0] == '-' || text[0] == '.' || isDigit(text[0]));
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
     return looksNumeric && parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
 }

@@ -30,8 +30,6 @@ std::string shown(std::string_view query) {
     return fmt::format("{}...", query.substr(0, end));
 }
 
-bool isBlank(char c) noexcept { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
 class Parser {
 public:
     explicit Parser(std::string_view text) : text_(text) {}

@@ -178,7 +178,7 @@ private:
 
     bool number(std::int32_t& value) {
         const std::size_t begin = position_;
-        for (value = 0; !atEnd() && pattern_[position_] >= '0' && pattern_[position_] <= '9'; ++position_)
+        for (value = 0; !atEnd() && isDigit(pattern_[position_]); ++position_)
             value = std::min(value * 10 + (pattern_[position_] - '0'), kMaxRepeats + 1);
         return position_ > begin;
     }
@@ -265,7 +265,7 @@ private:
             ranges = {{character, character}};
             return true;
         }
-        const bool isAlphanumeric = (lower >= 'a' && lower <= 'z') || (letter >= '0' && letter <= '9');
+        const bool isAlphanumeric = (lower >= 'a' && lower <= 'z') || isDigit(letter);
         if (isAlphanumeric) {
             fail(fmt::format("the escape '\\{}', which is not supported", letter));
             return false;

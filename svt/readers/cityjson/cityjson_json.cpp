@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t kMessageBytes = 200;
 
-bool isBlank(char c) noexcept { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
-
 /// True if a well-formed number is too large for the types it may be read as.
 bool isTooLarge(std::string_view number) noexcept {
     const char* begin = number.data();

@@ -100,7 +100,7 @@ std::string describeUnknown(string_view text) {
     if (trimmed[0] == '{' || trimmed[0] == '[') return "this is JSON, but no CityJSON";
     const bool isText = std::all_of(
         trimmed.begin(), trimmed.begin() + std::min<std::ptrdiff_t>(64, static_cast<std::ptrdiff_t>(trimmed.size())),
-        [](char c) { return static_cast<unsigned char>(c) >= 0x20 || xml::isBlank(c); });
+        [](char c) { return static_cast<unsigned char>(c) >= 0x20 || isBlank(c); });
     if (!isText) return "this is binary data of an unknown kind";
     return fmt::format("this is text of an unknown kind, it begins with '{}'",
                        trimmed.substr(0, std::min<std::size_t>(24, trimmed.find_first_of("\r\n"))));

@@ -1,5 +1,6 @@
 #include <svt/readers/gml/gml_crs.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/readers/gml/gml_crs_table.hpp>
 
 #include <algorithm>
@@ -24,8 +25,6 @@ std::size_t findIgnoringCase(string_view text, string_view word) noexcept {
                                    [](char a, char b) { return lower(a) == lower(b); });
     return found == text.end() ? string_view::npos : static_cast<std::size_t>(found - text.begin());
 }
-
-bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 // The last run of digits in `text` as a number; 0 if there is none or it is not a code.
 int lastNumber(string_view text) noexcept {

@@ -1,5 +1,7 @@
 #include <svt/readers/gml/gml_numbers.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,9 +13,6 @@ namespace svt::readers::gml {
 namespace {
 
 using std::string_view;
-
-constexpr bool isBlank(char c) noexcept { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
-constexpr bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 // Powers of ten that a double holds exactly.
 constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,

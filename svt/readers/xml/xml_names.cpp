@@ -1,5 +1,7 @@
 #include <svt/readers/xml/xml_names.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <algorithm>
 
 namespace svt::readers::xml {

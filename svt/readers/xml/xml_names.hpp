@@ -98,7 +98,6 @@ private:
 /// Text of an element without surrounding blanks. Text split by comments or CDATA is joined in `scratch`.
 [[nodiscard]] std::string_view textOf(pugi::xml_node element, std::string& scratch);
 
-[[nodiscard]] constexpr bool isBlank(char c) noexcept { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
 }  // namespace svt::readers::xml

@@ -1,5 +1,6 @@
 #include <svt/readers/xml/xml_scanner.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 
 #include <fmt/format.h>

@@ -21,8 +21,7 @@ std::string plainName(std::string_view name, std::string_view fallback) {
     if (name.empty()) return std::string(fallback);
     std::string plain(name);
     for (char& c : plain) {
-        const bool isPlain =
-            (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+        const bool isPlain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || isDigit(c) || c == '_' || c == '-';
         if (!isPlain) c = '_';
     }
     return plain;
@@ -49,9 +48,7 @@ std::string planeText(const illustrate::SectionDrawing& drawing, const volume::G
 
 std::uint32_t epsgCodeOf(std::string_view crsName) noexcept {
     constexpr std::string_view kName = "epsg";
-    const auto isDigit = [&](std::size_t at) {
-        return at < crsName.size() && crsName[at] >= '0' && crsName[at] <= '9';
-    };
+    const auto isDigitAt = [&](std::size_t at) { return at < crsName.size() && isDigit(crsName[at]); };
     for (std::size_t at = 0; at + kName.size() < crsName.size(); ++at) {
         std::size_t n = 0;
         while (n < kName.size() && lowerAscii(crsName[at + n]) == kName[n]) ++n;
@@ -64,11 +61,11 @@ std::uint32_t epsgCodeOf(std::string_view crsName) noexcept {
                 ++next;
             std::uint32_t number = 0;
             const std::size_t first = next;
-            for (; isDigit(next) && next < first + 7; ++next)
+            for (; isDigitAt(next) && next < first + 7; ++next)
                 number = 10 * number + static_cast<std::uint32_t>(crsName[next] - '0');
             if (next > first) code = number;
             if (next < crsName.size() && crsName[next] == '.')
-                while (next < crsName.size() && (crsName[next] == '.' || isDigit(next))) ++next;
+                while (next < crsName.size() && (crsName[next] == '.' || isDigitAt(next))) ++next;
         }
         return code;
     }
