@@ -7,7 +7,6 @@
 namespace svt::mesh {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kLeafSize = 4;
 
 struct Node {

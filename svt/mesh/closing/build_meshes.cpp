@@ -22,7 +22,6 @@ using model::Feature;
 using model::FeatureIndex;
 using model::SurfaceUse;
 
-constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 constexpr std::size_t kMaxLeaks = 100;
 
 // The source of one mesh: a feature and the faces of its geometry.

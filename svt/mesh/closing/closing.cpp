@@ -11,8 +11,6 @@
 namespace svt::mesh {
 namespace {
 
-constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
-
 using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 // Directed edges of a polygon's rings in welded points.

@@ -6,9 +6,14 @@
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace svt::mesh {
+
+/// A vertex of a mesh that is none of the welded points of the polygons.
+inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 
 /// An index of polygons by their edges. Built once for all open objects.
 class FaceFinder {
@@ -22,7 +27,7 @@ public:
     /// Adds faces of other features whose edges are the missing partners of `mesh.openEdges`, for example the face of a
     /// wall that is shared by two solids but listed by only one of them. A face is added if it closes more edges than
     /// it opens. Updates `mesh.openEdges`.
-    /// \param pointIds  per vertex of the mesh: its welded point in the polygons, or 0xFFFFFFFF; new vertices are added
+    /// \param pointIds  per vertex of the mesh: its welded point in the polygons, or kNoPoint; new vertices are added
     /// \param own       polygons that the mesh has already, ascending
     /// \return count of faces added
     std::uint32_t complement(ObjectMesh& mesh, std::vector<std::uint32_t>& pointIds,
