@@ -32,7 +32,7 @@ constexpr std::array<Preset, 11> kPresets{{
     {"bottom", {0, 0, 1}, {0, 1, 0}},
 }};
 
-constexpr auto kNames = [] {
+constexpr auto kPresetNames = [] {
     std::array<std::string_view, kPresets.size()> names{};
     for (std::size_t n = 0; n < names.size(); ++n) names[n] = kPresets[n].name;
     return names;
@@ -108,7 +108,7 @@ Result<Camera> presetCamera(std::string_view name, Vec3d middle, Vec3d size, con
     const auto preset = std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
     if (preset == kPresets.end())
         return Error(Code::BadCamera,
-                     fmt::format("there is no camera '{}'; possible are {}", name, fmt::join(kNames, ", ")));
+                     fmt::format("there is no camera '{}'; possible are {}", name, fmt::join(kPresetNames, ", ")));
     return checkedCamera(*preset, middle, size, axes, options);
 }
 
@@ -116,7 +116,7 @@ constexpr Axes kWorldAxes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 
 }  // namespace
 
-std::span<const std::string_view> cameraPresetNames() noexcept { return kNames; }
+std::span<const std::string_view> cameraPresetNames() noexcept { return kPresetNames; }
 
 Result<Camera> cameraPreset(std::string_view name, const Box3d& bounds, const PresetOptions& options) {
     return presetCamera(name, bounds.center(), bounds.size(), kWorldAxes, options);

@@ -1,3 +1,4 @@
+#include <svt/render/frame/share.hpp>
 #include <svt/render/frame_spec.hpp>
 
 #include <fmt/format.h>
@@ -7,9 +8,6 @@
 
 namespace svt::render {
 namespace {
-
-bool isShare(float value) noexcept { return value >= 0 && value <= 1; }
-bool isColor(Vec3f color) noexcept { return isShare(color.x) && isShare(color.y) && isShare(color.z); }
 
 Result<void> checkCamera(const Camera& camera) {
     if (!isFinite(camera.eye) || !isFinite(camera.target) || !isFinite(camera.up))

@@ -8,7 +8,7 @@
 namespace svt::render {
 namespace {
 
-constexpr std::array<std::string_view, 10> kNames{
+constexpr std::array<std::string_view, 10> kHatchNames{
     "none", "masonry", "concrete", "reinforced-concrete", "timber", "insulation", "earth", "steel", "glass", "general"};
 
 // Coverage by a line at `distance` from its centre line.
@@ -125,14 +125,14 @@ double hatchCoverage(Hatch hatch, double u, double v, const HatchPen& pen) noexc
     return 0;
 }
 
-std::string_view hatchName(Hatch hatch) noexcept { return kNames[static_cast<std::size_t>(hatch)]; }
+std::string_view hatchName(Hatch hatch) noexcept { return kHatchNames[static_cast<std::size_t>(hatch)]; }
 
-std::span<const std::string_view> hatchNames() noexcept { return kNames; }
+std::span<const std::string_view> hatchNames() noexcept { return kHatchNames; }
 
 std::optional<Hatch> hatchFromName(std::string_view name) noexcept {
-    const auto found = std::ranges::find(kNames, name);
-    if (found == kNames.end()) return std::nullopt;
-    return static_cast<Hatch>(found - kNames.begin());
+    const auto found = std::ranges::find(kHatchNames, name);
+    if (found == kHatchNames.end()) return std::nullopt;
+    return static_cast<Hatch>(found - kHatchNames.begin());
 }
 
 }  // namespace svt::render

@@ -1,3 +1,4 @@
+#include <svt/render/frame/share.hpp>
 #include <svt/render/shapes.hpp>
 
 #include <fmt/format.h>
@@ -5,11 +6,10 @@
 namespace svt::render {
 namespace {
 
-bool isShare(float value) noexcept { return value >= 0 && value <= 1; }
 Error bad(std::string message) { return Error(Code::BadFrame, std::move(message)); }
 
 Result<void> checkSet(const LineSet& set, std::size_t number) {
-    if (!isShare(set.color.x) || !isShare(set.color.y) || !isShare(set.color.z) || !isShare(set.hiddenOpacity))
+    if (!isColor(set.color) || !isShare(set.hiddenOpacity))
         return bad(fmt::format("lines {}: colour and opacity must be 0 to 1", number));
     if (!(set.width >= 0.1f && set.width <= 64))
         return bad(

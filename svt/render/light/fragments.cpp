@@ -11,8 +11,6 @@ namespace {
 
 using Kind = LinearStyle::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 bool isBefore(const Fragment& a, const Fragment& b) noexcept { return a.depth < b.depth; }
 
 bool isDrawn(std::span<const DrawnInterval> drawn, double depth) noexcept {

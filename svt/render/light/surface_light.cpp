@@ -8,8 +8,6 @@
 namespace svt::render {
 namespace {
 
-Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
-
 std::uint64_t part(std::int32_t c, int shift) noexcept { return static_cast<std::uint64_t>(c) << shift; }
 
 }  // namespace

@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace svt::render::HWY_NAMESPACE {
@@ -31,8 +30,6 @@ using V = hn::Vec<D>;
 using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 using MI = hn::Mask<DI>;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct V3 {
     V x, y, z;

@@ -44,7 +44,6 @@ Vec3d towardsLight(const Light& light, const CameraRays& rays) {
 // Bounds of the volume's box in the picture, one pixel wider; the whole picture if the box reaches the eye plane.
 PixelRect drawnPixels(const CameraRays& rays, const volume::Grid& grid, const FrameSpec& spec) {
     const PixelRect whole{0, 0, static_cast<double>(spec.width), static_cast<double>(spec.height)};
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     PixelRect rect{kInfinity, kInfinity, -kInfinity, -kInfinity};
     const Vec3i n = grid.dimension();
     double nearest = kInfinity, farthest = -kInfinity;
@@ -104,7 +103,6 @@ Result<PreparedPass> preparedPass(const Pass& pass, const PreparedFrame& frame, 
 Result<PreparedFrame> prepareFrame(std::span<const DrawnVolume> volumes, const FrameSpec& spec,
                                    const CastOptions& options, bool isReference) {
     PreparedFrame frame{.spec = spec, .options = options, .isReference = isReference, .isAdaptive = options.isAdaptive};
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     frame.drawn = {kInfinity, kInfinity, -kInfinity, -kInfinity};
     for (const DrawnVolume& drawn : volumes) {
         const PreparedVolume& volume = frame.volumes.emplace_back(drawn, spec);

@@ -8,8 +8,6 @@
 namespace svt::render {
 namespace {
 
-Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
-
 std::int32_t reachOf(float width, std::int32_t side) noexcept {
     return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
 }

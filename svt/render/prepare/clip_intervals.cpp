@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace svt::render {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Transforms a covector from world to voxel space: the gradient of dot(direction, p) with respect to voxel coordinates.
 Vec3d inVoxels(Vec3d direction, const volume::Grid& grid) {

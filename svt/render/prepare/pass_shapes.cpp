@@ -7,22 +7,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <unordered_set>
 
 namespace svt::render {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Width of the border around the picture for which shapes are binned, pixels; TileRenderer casts rays there for border
 /// lines.
-constexpr double kMargin = 2;
+constexpr double kPictureMargin = 2;
 /// Shorter lines are left out, pixels: those of distant round profiles would merge into blots.
 constexpr double kShortest = 0.5;
 /// Maximum entries in the lists of all tiles, and in those of all squares.
 constexpr std::size_t kMaxEntries = std::size_t{1} << 26;
-
-Vec3d toDouble(Vec3f v) noexcept { return {v.x, v.y, v.z}; }
 
 bool isOutside(double x, double y, double dx, double dy, double middleX, double middleY, double halfX, double halfY) {
     return std::abs(dx * (middleY - y) - dy * (middleX - x)) > std::abs(dx) * halfY + std::abs(dy) * halfX;
@@ -236,8 +232,8 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
     std::size_t entries = 0;
     const auto add = [&](std::uint32_t shape) {
         const Square bounds = boundsOf(shape);
-        if (!(bounds.right >= -kMargin && bounds.bottom >= -kMargin && bounds.left <= width_ + kMargin &&
-              bounds.top <= height_ + kMargin))
+        if (!(bounds.right >= -kPictureMargin && bounds.bottom >= -kPictureMargin &&
+              bounds.left <= width_ + kPictureMargin && bounds.top <= height_ + kPictureMargin))
             return;
         const auto tileAt = [this](double pixel, std::int32_t count) {
             return static_cast<std::int32_t>(std::clamp((pixel + margin_) / kTilePixels, 0.0, count - 1.0));
@@ -245,8 +241,9 @@ Result<void> PassShapes::sortIntoTiles(int threads) {
         const std::int32_t endX = tileAt(bounds.right, tilesX_), endY = tileAt(bounds.bottom, tilesY_);
         for (std::int32_t y = tileAt(bounds.top, tilesY_); y <= endY; ++y)
             for (std::int32_t x = tileAt(bounds.left, tilesX_); x <= endX; ++x) {
-                const Square square{beginOf(x, kTilePixels) - kMargin, beginOf(y, kTilePixels) - kMargin,
-                                    beginOf(x + 1, kTilePixels) + kMargin, beginOf(y + 1, kTilePixels) + kMargin};
+                const Square square{beginOf(x, kTilePixels) - kPictureMargin, beginOf(y, kTilePixels) - kPictureMargin,
+                                    beginOf(x + 1, kTilePixels) + kPictureMargin,
+                                    beginOf(y + 1, kTilePixels) + kPictureMargin};
                 if (!touches(shape, square)) continue;
                 tiles_[static_cast<std::size_t>(x + tilesX_ * y)].shapes.push_back(shape);
                 ++entries;
@@ -296,34 +293,35 @@ void PassShapes::sortIntoSquares(Tile& tile, std::int32_t tileX, std::int32_t ti
             return static_cast<std::int32_t>(std::clamp(
                 std::floor((pixel - beginOf(tileAt, kTilePixels)) / kSquarePixels), 0.0, kTileSquares - 1.0));
         };
-        const std::int32_t endX = squareAt(bounds.right + kMargin, tileX),
-                           endY = squareAt(bounds.bottom + kMargin, tileY);
+        const std::int32_t endX = squareAt(bounds.right + kPictureMargin, tileX),
+                           endY = squareAt(bounds.bottom + kPictureMargin, tileY);
         if (shape < kTriangle) {
             // Row by row of squares.
             const double left = beginOf(tileX, kTilePixels), right = left + kTilePixels;
-            for (std::int32_t y = squareAt(bounds.top - kMargin, tileY); y <= endY; ++y) {
+            for (std::int32_t y = squareAt(bounds.top - kPictureMargin, tileY); y <= endY; ++y) {
                 const std::int32_t row = tileY * kTileSquares + y;
-                const double squareTop = beginOf(row, kSquarePixels) - (row == 0 ? kMargin : 0);
-                const double squareBottom = beginOf(row + 1, kSquarePixels) + (row >= squaresY_ - 1 ? kMargin : 0);
+                const double squareTop = beginOf(row, kSquarePixels) - (row == 0 ? kPictureMargin : 0);
+                const double squareBottom =
+                    beginOf(row + 1, kSquarePixels) + (row >= squaresY_ - 1 ? kPictureMargin : 0);
                 const auto [first, last] = spanOf(lines_[shape], squareTop, squareBottom);
-                if (!(last >= left - kMargin && first <= right + kMargin)) continue;
+                if (!(last >= left - kPictureMargin && first <= right + kPictureMargin)) continue;
                 const std::int32_t end = squareAt(last, tileX);
                 for (std::int32_t x = squareAt(first, tileX); x <= end; ++x)
                     found.emplace_back(static_cast<std::uint32_t>(x + kTileSquares * y), shape);
             }
             continue;
         }
-        for (std::int32_t y = squareAt(bounds.top - kMargin, tileY); y <= endY; ++y)
-            for (std::int32_t x = squareAt(bounds.left - kMargin, tileX); x <= endX; ++x) {
+        for (std::int32_t y = squareAt(bounds.top - kPictureMargin, tileY); y <= endY; ++y)
+            for (std::int32_t x = squareAt(bounds.left - kPictureMargin, tileX); x <= endX; ++x) {
                 Square square{beginOf(tileX * kTileSquares + x, kSquarePixels),
                               beginOf(tileY * kTileSquares + y, kSquarePixels), 0, 0};
                 square.right = square.left + kSquarePixels;
                 square.bottom = square.top + kSquarePixels;
                 const std::int32_t squareX = tileX * kTileSquares + x, squareY = tileY * kTileSquares + y;
-                if (squareX == 0) square.left -= kMargin;
-                if (squareY == 0) square.top -= kMargin;
-                if (squareX >= squaresX_ - 1) square.right += kMargin;
-                if (squareY >= squaresY_ - 1) square.bottom += kMargin;
+                if (squareX == 0) square.left -= kPictureMargin;
+                if (squareY == 0) square.top -= kPictureMargin;
+                if (squareX >= squaresX_ - 1) square.right += kPictureMargin;
+                if (squareY >= squaresY_ - 1) square.bottom += kPictureMargin;
                 const bool isApart = bounds.right < square.left || bounds.left > square.right ||
                                      bounds.bottom < square.top || bounds.top > square.bottom;
                 if (!isApart && touches(shape, square))

@@ -17,7 +17,7 @@ using volume::BrickVolume;
 
 constexpr std::size_t kSlabs = VisibleHull::kSlabs, kFixed = 13, kOfPlanes = kSlabs - kFixed;
 // Widening of the slabs: far above rounding errors, also in single precision.
-constexpr double kMargin = 0.25;  // voxels
+constexpr double kSlabMargin = 0.25;  // voxels
 
 // Directions of the fixed slabs: the axes and their diagonals.
 constexpr std::array<Vec3d, kFixed> kDirections{{{1, 0, 0},
@@ -173,14 +173,13 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
         Linear& moved = rays.isPerspective() ? rise_ : height_;
         moved.byU[n] = dot(along, right);
         moved.byV[n] = dot(along, up);
-        low_[n] = double(extents.low[n]) - kMargin;
-        high_[n] = double(extents.high[n]) + kMargin;
+        low_[n] = double(extents.low[n]) - kSlabMargin;
+        high_[n] = double(extents.high[n]) + kSlabMargin;
     }
 }
 
 RaySpan VisibleHull::spanOf(const ViewRect& rect) const noexcept {
     if (isEmpty_) return {0, 0};
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double u = (rect.left + rect.right) / 2, v = (rect.low + rect.high) / 2;
     const double halfU = (rect.right - rect.left) / 2, halfV = (rect.high - rect.low) / 2;
     double from = 0, to = kInfinity;

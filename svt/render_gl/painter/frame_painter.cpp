@@ -22,9 +22,6 @@ std::int32_t reachOf(float width, int side) {
     return std::max(1, static_cast<std::int32_t>(width * static_cast<float>(side) / 2));
 }
 
-Vec3d toDouble(Vec3i v) { return {double(v.x), double(v.y), double(v.z)}; }
-Vec3d toDouble(Vec3f v) { return {v.x, v.y, v.z}; }
-
 Vec3d towardsLight(const render::Light& light, const render::CameraRays& rays) {
     Vec3d direction = light.direction;
     if (light.space == render::Light::Space::Camera)

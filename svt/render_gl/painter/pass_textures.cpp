@@ -24,8 +24,6 @@ Vec3d inVoxels(Vec3d direction, const volume::Grid& grid) {
     return result;
 }
 
-Vec3d toDouble(Vec3i v) { return {double(v.x), double(v.y), double(v.z)}; }
-
 void appendPart(std::vector<std::uint32_t>& words, const render::ConvexPart& part, const volume::Grid& grid,
                 Vec3i middle) {
     words.insert(words.end(), {static_cast<std::uint32_t>(part.halfSpaces.size()),
