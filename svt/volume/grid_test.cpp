@@ -8,7 +8,6 @@
 namespace svt::volume {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::array<Vec3d, 3> kIdentity{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 
 void expectNear(Vec3d a, Vec3d b, double tolerance) {

@@ -39,7 +39,7 @@ struct VectorParts {
     /// \param origin  Grid::origin()
     [[nodiscard]] Vec3d position(std::uint32_t point, Vec3d origin) const noexcept {
         const Vec3i p = points[point];
-        return origin + Vec3d{double(p.x), double(p.y), double(p.z)} * kUnit;
+        return origin + toDouble(p) * kUnit;
     }
     friend bool operator==(const VectorParts&, const VectorParts&) = default;
 };

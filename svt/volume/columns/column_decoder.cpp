@@ -8,8 +8,6 @@
 namespace svt::volume {
 namespace {
 
-constexpr std::int32_t kTile = ColumnVolume::kTileSize;
-
 std::int64_t fromZigzag(std::uint32_t value) noexcept {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
 }
@@ -230,8 +228,8 @@ private:
         std::uint32_t begin = 0;
         for (const Segment& segment : above_) {
             while (begin < segment.end) {
-                const std::uint32_t tileX = begin / kTile, base = tileX * kTile;
-                const std::uint32_t end = std::min<std::uint32_t>(segment.end, base + kTile);
+                const std::uint32_t tileX = begin / ColumnVolume::kTileSize, base = tileX * ColumnVolume::kTileSize;
+                const std::uint32_t end = std::min<std::uint32_t>(segment.end, base + ColumnVolume::kTileSize);
                 assemblies[tileX].set(begin - base, end - base, segment.column);
                 begin = end;
             }

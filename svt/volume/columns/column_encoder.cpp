@@ -7,7 +7,6 @@
 namespace svt::volume {
 namespace {
 
-constexpr std::int32_t kTile = ColumnVolume::kTileSize;
 /// How many segments ahead to search for a column in the row above, and for an upper column in the current row.
 constexpr std::size_t kLookAhead = 3;
 static_assert(kLookAhead + 1 == kReplace, "kinds 0 to 3 leave out 0 to 3 segments");
@@ -57,9 +56,9 @@ private:
 
     /// Whether row y equals the row before according to the row numbers of all tiles.
     [[nodiscard]] bool isRepeatOfRow(std::int32_t y) const noexcept {
-        const auto inTile = static_cast<std::size_t>(y % kTile);
+        const auto inTile = static_cast<std::size_t>(y % ColumnVolume::kTileSize);
         if (inTile == 0) return false;
-        const auto first = static_cast<std::size_t>(y / kTile * shape_.tilesX());
+        const auto first = static_cast<std::size_t>(y / ColumnVolume::kTileSize * shape_.tilesX());
         for (std::size_t t = first; t < first + static_cast<std::size_t>(shape_.tilesX()); ++t)
             if (tiles_[t].rowOf[inTile] != tiles_[t].rowOf[inTile - 1]) return false;
         return true;
@@ -69,11 +68,11 @@ private:
     void readRow(std::int32_t y) {
         row_.clear();
         for (std::int32_t tileX = 0; tileX < shape_.tilesX(); ++tileX) {
-            const auto t = static_cast<std::size_t>(y / kTile * shape_.tilesX() + tileX);
+            const auto t = static_cast<std::size_t>(y / ColumnVolume::kTileSize * shape_.tilesX() + tileX);
             const auto width = static_cast<std::size_t>(shape_.tileWidth(tileX));
-            const std::size_t number = tiles_[t].rowOf[static_cast<std::size_t>(y % kTile)];
+            const std::size_t number = tiles_[t].rowOf[static_cast<std::size_t>(y % ColumnVolume::kTileSize)];
             const auto columns = tiles_[t].rowColumns.subspan(number * width, width);
-            const auto base = static_cast<std::uint32_t>(tileX * kTile);
+            const auto base = static_cast<std::uint32_t>(tileX * ColumnVolume::kTileSize);
             for (std::size_t x = 0; x < width;) {
                 const std::uint16_t local = columns[x];
                 do ++x;

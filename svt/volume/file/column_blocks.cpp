@@ -1,7 +1,9 @@
 #include <svt/core/parallel.hpp>
 #include <svt/volume/column_blocks.hpp>
 #include <svt/volume/columns/column_codec.hpp>
+#include <svt/volume/file/bad_volume.hpp>
 #include <svt/volume/file/zip_container.hpp>
+#include <svt/volume/file/zstd_frame.hpp>
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -10,22 +12,16 @@
 #include <array>
 #include <atomic>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <optional>
 
 namespace svt::volume {
 namespace {
 
-/// zstd level. Measured on FZK-Haus: 19 takes ten times as long and saves 5 to 8 %; 3 is three times as fast and 15 %
-/// larger.
-constexpr int kLevel = 9;
 /// Streams of at least this many bytes get their own entropy tables.
 constexpr std::size_t kOwnTables = 512;
 constexpr std::uint32_t kMaxBlockBytes = 0xFFFFFFFFu;
 static_assert(sizeof(ColumnBlock) == 16);
-
-Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
 /// Maximum bytes of the streams in a frame of `size` bytes. zstd could reach higher ratios, real columns never do.
 constexpr std::uint64_t maxStreamBytes(std::uint64_t size) noexcept { return (1u << 20) + 1024 * size; }
@@ -92,7 +88,7 @@ bool compress(ZSTD_CCtx* context, const BlockStreams& streams, ColumnBlock& bloc
     for (const auto& stream : streams) total += stream.size();
     if (total > kMaxBlockBytes) return false;
     ZSTD_CCtx_reset(context, ZSTD_reset_session_and_parameters);
-    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, kLevel);
+    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, kZstdLevel);
     ZSTD_CCtx_setPledgedSrcSize(context, total);
     frame.resize(ZSTD_compressBound(total) + 32 * (kBlockStreams + 1));
     ZSTD_outBuffer out{frame.data(), frame.size(), 0};
@@ -185,8 +181,8 @@ Result<ColumnBlocks> ColumnBlocks::open(Vec3i dimension, Scalar scalarCount, std
                                         std::uint64_t frameBytes) {
     const BlockLayout layout(dimension);
     if (index.size() != layout.count() * sizeof(ColumnBlock))
-        return bad(fmt::format("the index of the columns has {} bytes, {} blocks need {}", index.size(), layout.count(),
-                               layout.count() * sizeof(ColumnBlock)));
+        return badVolume(fmt::format("the index of the columns has {} bytes, {} blocks need {}", index.size(),
+                                     layout.count(), layout.count() * sizeof(ColumnBlock)));
     ColumnBlocks blocks;
     blocks.dimension_ = dimension;
     blocks.scalarCount_ = scalarCount;
@@ -200,14 +196,15 @@ Result<ColumnBlocks> ColumnBlocks::open(Vec3i dimension, Scalar scalarCount, std
         offset += block.size;
         arrayBytes += block.arrayBytes;
         if (block.streamBytes > maxStreamBytes(block.size))
-            return bad(fmt::format("block {} of the columns: {} bytes are said to unpack to {}, {} are possible", b,
-                                   block.size, block.streamBytes, maxStreamBytes(block.size)));
+            return badVolume(fmt::format("block {} of the columns: {} bytes are said to unpack to {}, {} are possible",
+                                         b, block.size, block.streamBytes, maxStreamBytes(block.size)));
     }
     if (offset != frameBytes)
-        return bad(fmt::format("the frames of the columns have {} bytes, the index states {}", frameBytes, offset));
+        return badVolume(
+            fmt::format("the frames of the columns have {} bytes, the index states {}", frameBytes, offset));
     if (const std::uint64_t most = maxArrayBytes(frameBytes); arrayBytes > most)
-        return bad(fmt::format("the columns are said to take {} bytes, {} are possible in a file of this size",
-                               arrayBytes, most));
+        return badVolume(fmt::format("the columns are said to take {} bytes, {} are possible in a file of this size",
+                                     arrayBytes, most));
     return blocks;
 }
 
@@ -220,7 +217,8 @@ Result<std::vector<ColumnTileData>> ColumnBlocks::decodeBlock(std::size_t number
                                                               std::span<const std::byte> frame) const {
     const ColumnBlock& block = blocks_[number];
     const auto wrong = [&](std::string_view reason) {
-        return bad(fmt::format("block {} of the columns: {}; the file is damaged, build it again", number, reason));
+        return badVolume(
+            fmt::format("block {} of the columns: {}; the file is damaged, build it again", number, reason));
     };
     if (frame.size() != block.size) return wrong("its frame is cut short");
     if (const std::uint32_t crc = crc32Of(frame); crc != block.crc)

@@ -1,4 +1,5 @@
 #include <svt/volume/face_planes.hpp>
+#include <svt/volume/file/bad_volume.hpp>
 #include <svt/volume/file/zstd_frame.hpp>
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 namespace svt::volume {
 namespace {
 
-constexpr std::string_view kWhat = "the face planes";
+constexpr std::string_view kPlanesName = "the face planes";
 constexpr std::size_t kMaxPlanes = std::size_t{1} << 24;
 /// Minimum bytes of a plane: 1 for the number of its normal, 8 for the offset, 6 for the box. And bytes of a normal.
 constexpr std::uint64_t kPlaneBytes = 1 + 8 + 6, kNormalBytes = 24;
@@ -21,7 +22,7 @@ constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
 
 using NormalBits = std::array<std::uint64_t, 3>;
 
-Error bad(const std::string& message) { return Error(Code::BadVolume, fmt::format("{}: {}", kWhat, message)); }
+Error badPlanes(const std::string& message) { return badVolume(fmt::format("{}: {}", kPlanesName, message)); }
 
 NormalBits bitsOf(Vec3d normal) noexcept {
     return {std::bit_cast<std::uint64_t>(normal.x), std::bit_cast<std::uint64_t>(normal.y),
@@ -126,14 +127,14 @@ Result<void> checkFacePlanes(std::span<const FacePlane> planes, Vec3i dimension)
         const FacePlane& face = planes[p];
         const double size = length(face.plane.normal);
         if (!(std::abs(size - 1) <= kLengthTolerance))
-            return bad(fmt::format("the normal of plane {} has length {}, it must be 1", p, size));
+            return badPlanes(fmt::format("the normal of plane {} has length {}, it must be 1", p, size));
         if (!std::isfinite(face.plane.offset))
-            return bad(fmt::format("plane {} has the offset {}, it must be finite", p, face.plane.offset));
+            return badPlanes(fmt::format("plane {} has the offset {}, it must be finite", p, face.plane.offset));
         for (int axis = 0; axis < 3; ++axis) {
             const int begin = face.min[static_cast<std::size_t>(axis)], end = face.max[static_cast<std::size_t>(axis)];
             if (begin >= end || end > dimension[axis])
-                return bad(fmt::format("plane {} is within voxels [{}, {}) along {}, there are {}", p, begin, end,
-                                       "xyz"[axis], dimension[axis]));
+                return badPlanes(fmt::format("plane {} is within voxels [{}, {}) along {}, there are {}", p, begin, end,
+                                             "xyz"[axis], dimension[axis]));
         }
     }
     return {};
@@ -163,29 +164,29 @@ Result<std::vector<std::byte>> compressFacePlanes(std::span<const FacePlane> pla
     }
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const FacePlane& face : planes) writer.number(std::uint32_t{face.max[axis]} - face.min[axis]);
-    return compressNumbers(writer.bytes(), kWhat);
+    return compressNumbers(writer.bytes(), kPlanesName);
 }
 
 Result<std::vector<FacePlane>> readFacePlanes(std::span<const std::byte> frame, Vec3i dimension) {
-    const auto bytes = unpackNumbers(frame, kWhat);
+    const auto bytes = unpackNumbers(frame, kPlanesName);
     if (!bytes) return bytes.error();
     NumberReader reader(*bytes);
     const std::uint64_t count = reader.number();
     if (!reader.isGood() || count * kPlaneBytes > reader.left())
-        return bad(fmt::format("{} planes are said to be in {} bytes", count, reader.left()));
-    if (count > kMaxPlanes) return bad(fmt::format("{} planes are over the limit of {}", count, kMaxPlanes));
+        return badPlanes(fmt::format("{} planes are said to be in {} bytes", count, reader.left()));
+    if (count > kMaxPlanes) return badPlanes(fmt::format("{} planes are over the limit of {}", count, kMaxPlanes));
     std::vector<FacePlane> planes(static_cast<std::size_t>(count));
     std::uint32_t normalCount = 0;
     const std::vector<NormalUse> uses = readUses(reader, planes.size(), normalCount);
-    if (uses.size() != planes.size()) return bad("a plane has the normal of none before it");
+    if (uses.size() != planes.size()) return badPlanes("a plane has the normal of none before it");
     if (normalCount * kNormalBytes > reader.left())
-        return bad(fmt::format("{} normals are said to be in {} bytes", normalCount, reader.left()));
+        return badPlanes(fmt::format("{} normals are said to be in {} bytes", normalCount, reader.left()));
     readNormals(reader, uses, normalCount, planes);
     readOffsets(reader, planes);
     const bool isInRange = readBoxes(reader, planes);
-    if (!reader.isGood()) return bad("a number is cut short or longer than 32 bits");
-    if (reader.left() != 0) return bad(fmt::format("{} bytes are left over", reader.left()));
-    if (!isInRange) return bad("a box reaches beyond voxel 65535");
+    if (!reader.isGood()) return badPlanes("a number is cut short or longer than 32 bits");
+    if (reader.left() != 0) return badPlanes(fmt::format("{} bytes are left over", reader.left()));
+    if (!isInRange) return badPlanes("a box reaches beyond voxel 65535");
     if (auto checked = checkFacePlanes(planes, dimension); !checked) return checked.error();
     return planes;
 }

@@ -1,4 +1,5 @@
 #include <svt/core/file.hpp>
+#include <svt/volume/file/bad_volume.hpp>
 #include <svt/volume/file/zip_container.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_json.hpp>
@@ -25,8 +26,6 @@ constexpr std::string_view kBlocks = "columns/blocks";
 constexpr std::string_view kVectors = "meshes/parts";
 constexpr std::string_view kPlanes = "meshes/planes";
 constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes};
-
-Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
 Error named(const Error& error, const std::string& file) {
     return Error(error.code(), error.message(), Place{file, 0, 0, {}});
@@ -61,7 +60,7 @@ public:
     [[nodiscard]] Result<ZipEntry> find(std::string_view name) const {
         for (const ZipEntry& entry : entries_)
             if (entry.name == name) return entry;
-        return bad(fmt::format("the entry '{}' is missing; the file is no complete .svt, build it again", name));
+        return badVolume(fmt::format("the entry '{}' is missing; the file is no complete .svt, build it again", name));
     }
     /// Data of a stored or deflated entry, with checked CRC; unpacked into `buffer` if deflated.
     [[nodiscard]] Result<std::string_view> text(std::string_view name, std::uint64_t maxBytes,
@@ -76,7 +75,7 @@ public:
     [[nodiscard]] Result<ZipEntry> stored(std::string_view name) const {
         auto entry = find(name);
         if (entry && entry->isDeflated)
-            return bad(fmt::format(
+            return badVolume(fmt::format(
                 "the entry '{}' is deflated, it must be stored; pack the file again with 'zip -0 -X'", name));
         return entry;
     }
@@ -96,9 +95,9 @@ private:
 };
 
 Result<Entries> openEntries(std::span<const std::byte> bytes) {
-    if (bytes.empty()) return bad("the file is empty");
+    if (bytes.empty()) return badVolume("the file is empty");
     if (!looksLikeSvt(bytes))
-        return bad(
+        return badVolume(
             "this is no .svt: a ZIP whose first entry is 'mimetype' with 'application/vnd.svt+zip' is expected, "
             "and the file may be cut short. Build one from a model with 'svt build'.");
     auto found = readZip(bytes);
@@ -112,7 +111,8 @@ Result<SvtBlocks> readTables(const Entries& entries) {
     if (!mime) return mime.error();
     const auto mimeText = entries.text(kMimeEntry, mime->size, buffer);
     if (!mimeText) return mimeText.error();
-    if (*mimeText != kMimeType) return bad("the entry 'mimetype' says something else than application/vnd.svt+zip");
+    if (*mimeText != kMimeType)
+        return badVolume("the entry 'mimetype' says something else than application/vnd.svt+zip");
     const auto headerText = entries.text(kHeader, kMaxHeaderBytes, buffer);
     if (!headerText) return headerText.error();
     auto header = readHeaderJson(*headerText);
@@ -122,7 +122,7 @@ Result<SvtBlocks> readTables(const Entries& entries) {
     auto labels = readLabelsJson(*labelsText);
     if (!labels) return labels.error();
     if (labels->scalarCount() != header->scalarCount)
-        return bad(
+        return badVolume(
             fmt::format("svt.json states {} scalars, the labels have {}", header->scalarCount, labels->scalarCount()));
     const auto index = entries.stored(kIndex);
     if (!index) return index.error();

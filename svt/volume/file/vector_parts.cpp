@@ -1,3 +1,4 @@
+#include <svt/volume/file/bad_volume.hpp>
 #include <svt/volume/file/zstd_frame.hpp>
 #include <svt/volume/vector_parts.hpp>
 
@@ -8,11 +9,11 @@
 namespace svt::volume {
 namespace {
 
-constexpr std::string_view kWhat = "the vector parts";
+constexpr std::string_view kPartsName = "the vector parts";
 /// Minimum bytes of a point, a segment and a triangle.
 constexpr std::uint64_t kPointBytes = 3, kSegmentBytes = 3, kTriangleBytes = 4;
 
-Error bad(const std::string& message) { return Error(Code::BadVolume, fmt::format("{}: {}", kWhat, message)); }
+Error badParts(const std::string& message) { return badVolume(fmt::format("{}: {}", kPartsName, message)); }
 
 std::uint32_t bitsOf(std::int32_t value) noexcept { return static_cast<std::uint32_t>(value); }
 
@@ -22,12 +23,12 @@ Result<void> checkPart(const std::vector<Part>& list, Corners corners, std::stri
     std::uint32_t before = 0;
     for (std::size_t n = 0; n < list.size(); ++n) {
         if (list[n].label >= labelCount)
-            return bad(fmt::format("{} {} is of label {}, there are {}", name, n, list[n].label, labelCount));
-        if (list[n].label < before) return bad(fmt::format("{} {} is out of the order of labels", name, n));
+            return badParts(fmt::format("{} {} is of label {}, there are {}", name, n, list[n].label, labelCount));
+        if (list[n].label < before) return badParts(fmt::format("{} {} is out of the order of labels", name, n));
         before = list[n].label;
         for (const std::uint32_t point : list[n].*corners)
             if (point >= pointCount)
-                return bad(fmt::format("{} {} uses point {}, there are {}", name, n, point, pointCount));
+                return badParts(fmt::format("{} {} uses point {}, there are {}", name, n, point, pointCount));
     }
     return {};
 }
@@ -70,18 +71,18 @@ Result<std::vector<std::byte>> compressVectorParts(const VectorParts& parts) {
     };
     writeList(parts.segments, &VectorParts::Segment::ends);
     writeList(parts.triangles, &VectorParts::Triangle::corners);
-    return compressNumbers(writer.bytes(), kWhat);
+    return compressNumbers(writer.bytes(), kPartsName);
 }
 
 Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_t labelCount) {
-    const auto bytes = unpackNumbers(frame, kWhat);
+    const auto bytes = unpackNumbers(frame, kPartsName);
     if (!bytes) return bytes.error();
     NumberReader reader(*bytes);
     const std::uint64_t points = reader.number(), segments = reader.number(), triangles = reader.number();
     if (!reader.isGood() ||
         points * kPointBytes + segments * kSegmentBytes + triangles * kTriangleBytes > reader.left())
-        return bad(fmt::format("{} points, {} segments and {} triangles are said to be in {} bytes", points, segments,
-                               triangles, reader.left()));
+        return badParts(fmt::format("{} points, {} segments and {} triangles are said to be in {} bytes", points,
+                                    segments, triangles, reader.left()));
     VectorParts parts;
     parts.points.resize(static_cast<std::size_t>(points));
     parts.segments.resize(static_cast<std::size_t>(segments));
@@ -102,8 +103,8 @@ Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_
     };
     readList(parts.segments, &VectorParts::Segment::ends);
     readList(parts.triangles, &VectorParts::Triangle::corners);
-    if (!reader.isGood()) return bad("a number is cut short or longer than 32 bits");
-    if (reader.left() != 0) return bad(fmt::format("{} bytes are left over", reader.left()));
+    if (!reader.isGood()) return badParts("a number is cut short or longer than 32 bits");
+    if (reader.left() != 0) return badParts(fmt::format("{} bytes are left over", reader.left()));
     if (auto checked = checkVectorParts(parts, labelCount); !checked) return checked.error();
     return parts;
 }

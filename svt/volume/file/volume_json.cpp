@@ -1,4 +1,5 @@
 #include <svt/core/text.hpp>
+#include <svt/volume/file/bad_volume.hpp>
 #include <svt/volume/volume_json.hpp>
 
 #include <fmt/format.h>
@@ -21,8 +22,6 @@ using nlohmann::json;
 constexpr int kMaxDepth = 16;
 /// Limit of the count of values in one label or one other list element.
 constexpr std::size_t kMaxElementValues = 1'000'000;
-
-Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
 // ---------------------------------------------------------------------------------------------- writing
 
@@ -84,7 +83,7 @@ public:
     [[nodiscard]] bool isGood() const noexcept { return !error_; }
     [[nodiscard]] Error error() const { return *error_; }
     void fail(std::string_view what) {
-        if (!error_) error_ = bad(fmt::format("{} {}", where_, what));
+        if (!error_) error_ = badVolume(fmt::format("{} {}", where_, what));
     }
 
     [[nodiscard]] bool has(const char* key) const { return isGood() && object_.contains(key); }
@@ -241,7 +240,8 @@ class LabelsCollector {
 public:
     bool operator()(int depth, json::parse_event_t event, json& value) {
         using Event = json::parse_event_t;
-        if (depth > kMaxDepth) throw StopParsing{bad(fmt::format("labels.json: nested deeper than {}", kMaxDepth))};
+        if (depth > kMaxDepth)
+            throw StopParsing{badVolume(fmt::format("labels.json: nested deeper than {}", kMaxDepth))};
         if (++valuesSinceElement_ > kMaxElementValues)
             throw StopParsing{Error(Code::InputTooBig,
                                     fmt::format("labels.json: more than {} values in one element", kMaxElementValues))};
@@ -279,8 +279,8 @@ private:
 
 Error parseError(std::string_view entry, const json::exception& exception) {
     const auto* syntax = dynamic_cast<const json::parse_error*>(&exception);
-    return bad(syntax != nullptr ? fmt::format("{}: no well-formed JSON at byte {}", entry, syntax->byte)
-                                 : fmt::format("{}: a number is out of range", entry));
+    return badVolume(syntax != nullptr ? fmt::format("{}: no well-formed JSON at byte {}", entry, syntax->byte)
+                                       : fmt::format("{}: a number is out of range", entry));
 }
 
 Result<void> checkVersion(Members& members) {
@@ -291,7 +291,7 @@ Result<void> checkVersion(Members& members) {
     members.read("version", version);
     unsigned major = 0;
     std::size_t digits = 0;
-    while (digits < version.size() && digits < 6 && version[digits] >= '0' && version[digits] <= '9')
+    while (digits < version.size() && digits < 6 && isDigit(version[digits]))
         major = major * 10 + static_cast<unsigned>(version[digits++] - '0');
     if (members.isGood() && (digits == 0 || digits >= version.size() || version[digits] != '.' || major == 0))
         members.fail("has a 'version' that is not like 1.0");
@@ -433,7 +433,8 @@ Result<SvtHeader> readHeaderJson(std::string_view text) {
     json object;
     try {
         object = json::parse(text.begin(), text.end(), [](int depth, json::parse_event_t, json&) {
-            if (depth > kMaxDepth) throw StopParsing{bad(fmt::format("svt.json: nested deeper than {}", kMaxDepth))};
+            if (depth > kMaxDepth)
+                throw StopParsing{badVolume(fmt::format("svt.json: nested deeper than {}", kMaxDepth))};
             return true;
         });
     } catch (const json::exception& exception) {
@@ -476,7 +477,7 @@ Result<SvtHeader> readHeaderJson(std::string_view text) {
     }
     if (!members.isGood()) return members.error();
     auto grid = Grid::fromParts(samples, spacing, origin, axes);
-    if (!grid) return bad("svt.json: " + grid.error().message());
+    if (!grid) return badVolume("svt.json: " + grid.error().message());
     header.grid = *grid;
     return header;
 }
@@ -488,9 +489,9 @@ Result<LabelTable> readLabelsJson(std::string_view text) {
     LabelsCollector collector;
     try {
         const json rest = json::parse(text.begin(), text.end(), std::ref(collector));
-        if (!rest.is_object() || !rest.contains("labels")) return bad("labels.json has no list 'labels'");
+        if (!rest.is_object() || !rest.contains("labels")) return badVolume("labels.json has no list 'labels'");
         for (const json& list : rest)
-            if (!list.is_array()) return bad("labels.json: 'labels', 'overlaps' and 'phaseColors' must be lists");
+            if (!list.is_array()) return badVolume("labels.json: 'labels', 'overlaps' and 'phaseColors' must be lists");
     } catch (const json::exception& exception) {
         return parseError("labels.json", exception);
     } catch (const StopParsing& stop) {
@@ -503,9 +504,10 @@ Result<LabelTable> readLabelsJson(std::string_view text) {
 Result<void> checkLabels(const LabelTable& table) {
     const std::size_t count = table.labels.size();
     const auto wrong = [&](std::size_t number, std::string_view what) {
-        return bad(fmt::format("label {} of {} ('{}') {}", number, count, table.labels[number].id.substr(0, 80), what));
+        return badVolume(
+            fmt::format("label {} of {} ('{}') {}", number, count, table.labels[number].id.substr(0, 80), what));
     };
-    if (count >= kNoLabel) return bad("more labels than 32 bits can number");
+    if (count >= kNoLabel) return badVolume("more labels than 32 bits can number");
     std::vector<std::uint32_t> ancestors;
     std::uint64_t scalarEnd = 1;
     for (std::size_t i = 0; i < count; ++i) {
@@ -541,13 +543,13 @@ Result<void> checkLabels(const LabelTable& table) {
     }
     for (const Overlap& overlap : table.overlaps)
         if (overlap.a >= count || overlap.b >= count)
-            return bad(fmt::format("an overlap names labels {} and {}, {} exist", overlap.a, overlap.b, count));
+            return badVolume(fmt::format("an overlap names labels {} and {}, {} exist", overlap.a, overlap.b, count));
     if (!table.phaseColors.empty() && table.phaseColors.size() != table.scalarCount())
-        return bad(
+        return badVolume(
             fmt::format("{} phase colors found, {} or none expected", table.phaseColors.size(), table.scalarCount()));
     for (const Vec3f color : table.phaseColors)
         if (!std::isfinite(color.x) || !std::isfinite(color.y) || !std::isfinite(color.z))
-            return bad("a phase color is no finite number");
+            return badVolume("a phase color is no finite number");
     return {};
 }
 

@@ -1,6 +1,7 @@
 #include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/parallel.hpp>
+#include <svt/volume/file/bad_volume.hpp>
 #include <svt/volume/file/zip_container.hpp>
 
 #include <fmt/format.h>
@@ -50,8 +51,6 @@ constexpr std::size_t kCrcPiece = std::size_t{4} << 20;
 constexpr std::size_t kDeflatePiece = std::size_t{1} << 20;
 constexpr std::uint16_t kStored = 0;
 constexpr std::uint16_t kDeflated = 8;
-
-Error bad(std::string message) { return Error(Code::BadVolume, std::move(message)); }
 
 /// Builds a record of little-endian fields.
 class Record {
@@ -220,12 +219,13 @@ struct Directory {
 
 Result<Directory> readEnd(std::span<const std::byte> bytes) {
     if (bytes.size() < kEndSize || load<std::uint32_t>(bytes, bytes.size() - kEndSize) != kEndSignature)
-        return bad("the file does not end with the end record of a ZIP: it is cut short, or bytes were added");
+        return badVolume("the file does not end with the end record of a ZIP: it is cut short, or bytes were added");
     const std::size_t end = bytes.size() - kEndSize;
-    if (load<std::uint16_t>(bytes, end + 20) != 0) return bad("the end record states a comment that is not there");
+    if (load<std::uint16_t>(bytes, end + 20) != 0)
+        return badVolume("the end record states a comment that is not there");
     if (load<std::uint32_t>(bytes, end + 4) != 0 ||
         load<std::uint16_t>(bytes, end + 8) != load<std::uint16_t>(bytes, end + 10))
-        return bad("the archive is split into several files; join them first");
+        return badVolume("the archive is split into several files; join them first");
     Directory directory{load<std::uint16_t>(bytes, end + 10), load<std::uint32_t>(bytes, end + 16),
                         load<std::uint32_t>(bytes, end + 12)};
     std::size_t directoryEnd = end;
@@ -233,7 +233,7 @@ Result<Directory> readEnd(std::span<const std::byte> bytes) {
     if (is64) {
         if (end < kLocator64Size + kEnd64Size ||
             load<std::uint32_t>(bytes, end - kLocator64Size) != kLocator64Signature)
-            return bad("the ZIP64 locator is missing before the end record");
+            return badVolume("the ZIP64 locator is missing before the end record");
         const std::size_t end64 = end - kLocator64Size - kEnd64Size;
         if (load<std::uint64_t>(bytes, end - kLocator64Size + 8) != end64 ||
             load<std::uint32_t>(bytes, end - kLocator64Size + 4) != 0 ||
@@ -241,7 +241,7 @@ Result<Directory> readEnd(std::span<const std::byte> bytes) {
             load<std::uint32_t>(bytes, end64) != kEnd64Signature ||
             load<std::uint64_t>(bytes, end64 + 4) != kEnd64Size - 12 || load<std::uint64_t>(bytes, end64 + 16) != 0 ||
             load<std::uint64_t>(bytes, end64 + 24) != load<std::uint64_t>(bytes, end64 + 32))
-            return bad("the ZIP64 end record is damaged");
+            return badVolume("the ZIP64 end record is damaged");
         const Directory large{load<std::uint64_t>(bytes, end64 + 32), load<std::uint64_t>(bytes, end64 + 48),
                               load<std::uint64_t>(bytes, end64 + 40)};
         const auto differs = [](std::uint64_t small, std::uint64_t sentinel, std::uint64_t value) {
@@ -249,18 +249,18 @@ Result<Directory> readEnd(std::span<const std::byte> bytes) {
         };
         if (differs(directory.count, kIn64Count, large.count) || differs(directory.offset, kIn64, large.offset) ||
             differs(directory.size, kIn64, large.size))
-            return bad("the ZIP64 end record and the end record contradict each other");
+            return badVolume("the ZIP64 end record and the end record contradict each other");
         directory = large;
         directoryEnd = end64;
     }
     if (directory.offset > directoryEnd || directory.size != directoryEnd - directory.offset)
-        return bad(
+        return badVolume(
             fmt::format("the central directory is said to have {} bytes at {}, which is not what lies before its "
                         "end at {}: the file is cut short or damaged",
                         directory.size, directory.offset, directoryEnd));
     if (directory.count > kMaxEntries || directory.count > directory.size / kCentralSize)
-        return bad(fmt::format("{} entries are said to be in {} bytes of central directory, which cannot be",
-                               directory.count, directory.size));
+        return badVolume(fmt::format("{} entries are said to be in {} bytes of central directory, which cannot be",
+                                     directory.count, directory.size));
     return directory;
 }
 
@@ -321,25 +321,25 @@ std::optional<std::span<const std::byte>> zip64Field(std::span<const std::byte> 
 /// Replaces fields with the value "see ZIP64" by those of the extra field, in the order of the specification.
 Result<void> resolve64(std::span<const std::byte> extra, std::initializer_list<std::uint64_t*> fields) {
     const auto data = zip64Field(extra);
-    if (!data) return bad("has an extra field that is damaged");
+    if (!data) return badVolume("has an extra field that is damaged");
     std::size_t at = 0;
     for (std::uint64_t* field : fields) {
         if (*field != kIn64) continue;
-        if (data->size() < at + 8) return bad("lacks a size or offset in its ZIP64 field");
+        if (data->size() < at + 8) return badVolume("lacks a size or offset in its ZIP64 field");
         *field = load<std::uint64_t>(*data, at);
         at += 8;
     }
-    if (at != data->size()) return bad("has a ZIP64 field with more than is needed");
+    if (at != data->size()) return badVolume("has a ZIP64 field with more than is needed");
     return {};
 }
 
 Result<void> checkKind(std::uint16_t flags, std::uint16_t method) {
-    if ((flags & kFlagEncrypted) != 0) return bad("is encrypted; a .svt holds plain entries only");
+    if ((flags & kFlagEncrypted) != 0) return badVolume("is encrypted; a .svt holds plain entries only");
     if ((flags & kFlagDescriptor) != 0)
-        return bad("has its size after the data; a .svt has it in front. Pack the file again with 'zip -0 -X'");
-    if ((flags & ~kFlagUtf8) != 0) return bad(fmt::format("has flags 0x{:04x} that are not understood", flags));
+        return badVolume("has its size after the data; a .svt has it in front. Pack the file again with 'zip -0 -X'");
+    if ((flags & ~kFlagUtf8) != 0) return badVolume(fmt::format("has flags 0x{:04x} that are not understood", flags));
     if (method != kStored && method != kDeflated)
-        return bad(
+        return badVolume(
             fmt::format("is compressed with method {}; a .svt holds entries that are stored or deflated", method));
     return {};
 }
@@ -356,16 +356,17 @@ struct Located {
 Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std::uint64_t offset,
                           std::uint64_t packedSize, std::uint64_t directoryOffset) {
     if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
-        return bad("is said to lie outside the file");
+        return badVolume("is said to lie outside the file");
     const auto at = static_cast<std::size_t>(offset);
-    if (load<std::uint32_t>(bytes, at) != kLocalSignature) return bad("has no local header where it is said to lie");
+    if (load<std::uint32_t>(bytes, at) != kLocalSignature)
+        return badVolume("has no local header where it is said to lie");
     const auto method = load<std::uint16_t>(bytes, at + 8);
     if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 6), method); !kind) return kind.error();
     const std::size_t nameSize = load<std::uint16_t>(bytes, at + 26);
     const std::size_t extraSize = load<std::uint16_t>(bytes, at + 28);
     const std::uint64_t dataOffset = offset + kLocalSize + nameSize + extraSize;
     if (dataOffset > directoryOffset || packedSize > directoryOffset - dataOffset)
-        return bad(fmt::format("has {} bytes at {}, which reach outside the file", packedSize, dataOffset));
+        return badVolume(fmt::format("has {} bytes at {}, which reach outside the file", packedSize, dataOffset));
     std::uint64_t localSize = load<std::uint32_t>(bytes, at + 22);
     std::uint64_t localPacked = load<std::uint32_t>(bytes, at + 18);
     const auto extra = bytes.subspan(at + kLocalSize + nameSize, extraSize);
@@ -373,7 +374,7 @@ Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std:
     if (textAt(bytes, at + kLocalSize, nameSize) != entry.name || localSize != entry.size ||
         localPacked != packedSize || load<std::uint32_t>(bytes, at + 14) != entry.crc ||
         (method == kDeflated) != entry.isDeflated)
-        return bad("differs between its local header and the central directory");
+        return badVolume("differs between its local header and the central directory");
     entry.data = bytes.subspan(static_cast<std::size_t>(dataOffset), static_cast<std::size_t>(packedSize));
     return Located{entry, offset, dataOffset + packedSize};
 }
@@ -450,17 +451,17 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
     const std::size_t end = at + static_cast<std::size_t>(directory->size);
     for (std::uint64_t e = 0; e < directory->count; ++e) {
         if (end - at < kCentralSize || load<std::uint32_t>(bytes, at) != kCentralSignature)
-            return bad(fmt::format("entry {} of the central directory is damaged", e));
+            return badVolume(fmt::format("entry {} of the central directory is damaged", e));
         const std::size_t nameSize = load<std::uint16_t>(bytes, at + 28);
         const std::size_t extraSize = load<std::uint16_t>(bytes, at + 30);
         const std::size_t commentSize = load<std::uint16_t>(bytes, at + 32);
         if (nameSize + extraSize + commentSize > end - at - kCentralSize)
-            return bad(fmt::format("entry {} of the central directory reaches beyond its end", e));
+            return badVolume(fmt::format("entry {} of the central directory reaches beyond its end", e));
         ZipEntry entry;
         entry.name = textAt(bytes, at + kCentralSize, nameSize);
         entry.crc = load<std::uint32_t>(bytes, at + 16);
         const auto wrong = [&](std::string_view what) {
-            return bad(fmt::format("entry {} {}", shown(entry.name), what));
+            return badVolume(fmt::format("entry {} {}", shown(entry.name), what));
         };
         if (const auto reason = wrongName(entry.name); !reason.empty())
             return wrong(fmt::format("has a name that {}", reason));
@@ -481,7 +482,7 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
         found.push_back(*located);
         at += kCentralSize + nameSize + extraSize + commentSize;
     }
-    if (at != end) return bad("the central directory holds more than its entries");
+    if (at != end) return badVolume("the central directory holds more than its entries");
 
     std::vector<std::size_t> order(found.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -489,8 +490,8 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
               [&](std::size_t a, std::size_t b) { return found[a].begin < found[b].begin; });
     for (std::size_t o = 1; o < order.size(); ++o)
         if (found[order[o]].begin < found[order[o - 1]].end)
-            return bad(fmt::format("entries {} and {} overlap", shown(found[order[o - 1]].entry.name),
-                                   shown(found[order[o]].entry.name)));
+            return badVolume(fmt::format("entries {} and {} overlap", shown(found[order[o - 1]].entry.name),
+                                         shown(found[order[o]].entry.name)));
     std::vector<ZipEntry> entries;
     entries.reserve(found.size());
     for (const Located& located : found) entries.push_back(located.entry);
@@ -505,10 +506,10 @@ Result<std::span<const std::byte>> unpack(const ZipEntry& entry, std::uint64_t m
     std::span<const std::byte> data = entry.data;
     if (entry.isDeflated) {
         if (entry.size > maxUnpacked(data.size()))
-            return bad(fmt::format("entry {} is said to unpack from {} bytes to {}, {} are possible", shown(entry.name),
-                                   data.size(), entry.size, maxUnpacked(data.size())));
+            return badVolume(fmt::format("entry {} is said to unpack from {} bytes to {}, {} are possible",
+                                         shown(entry.name), data.size(), entry.size, maxUnpacked(data.size())));
         if (!inflateInto(entry, buffer))
-            return bad(
+            return badVolume(
                 fmt::format("entry {} cannot be unpacked: the file is damaged. Copy it again or build the "
                             "volume again.",
                             shown(entry.name)));

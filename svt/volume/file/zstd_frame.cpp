@@ -8,8 +8,6 @@
 namespace svt::volume {
 namespace {
 
-constexpr int kLevel = 9;
-
 /// Maximum unpacked size of a frame of `size` bytes. zstd could reach higher ratios, real numbers never do.
 std::uint64_t maxBytes(std::uint64_t size) noexcept {
     return std::min((std::uint64_t{1} << 20) + 1024 * size, kMaxNumberBytes);
@@ -19,7 +17,7 @@ std::uint64_t maxBytes(std::uint64_t size) noexcept {
 
 Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> bytes, std::string_view what) {
     std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
-    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kLevel);
+    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kZstdLevel);
     if (ZSTD_isError(size) != 0) return Error(Code::BadArgument, fmt::format("{} cannot be compressed", what));
     frame.resize(size);
     if (bytes.size() > maxBytes(size))

@@ -12,6 +12,10 @@
 
 namespace svt::volume {
 
+/// Compression level of all zstd frames of a file. Measured on the columns of FZK-Haus: 19 takes ten times as long and
+/// saves 5 to 8 %; 3 is three times as fast and 15 % larger.
+inline constexpr int kZstdLevel = 9;
+
 /// Maximum unpacked size of any frame, bytes.
 inline constexpr std::uint64_t kMaxNumberBytes = 0xFFFFFFFFu;
 
