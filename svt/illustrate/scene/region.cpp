@@ -24,12 +24,6 @@ using Parts = std::vector<ConvexPart>;
 
 constexpr int kMaxDepth = 32;
 
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) c = lowerAscii(c);
-    return result;
-}
-
 // Twice the signed area of triangle a, b, c; positive if counter-clockwise.
 double twiceSignedArea(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
@@ -97,7 +91,7 @@ private:
     bool takeKeyword(std::string_view keyword) {
         skipBlanks();
         const std::size_t end = at_ + keyword.size();
-        if (lower(text_.substr(at_, keyword.size())) != keyword) return false;
+        if (lowerAscii(text_.substr(at_, keyword.size())) != keyword) return false;
         if (end < text_.size() && std::isspace(static_cast<unsigned char>(text_[end])) == 0 && text_[end] != '(')
             return false;
         at_ = end;
@@ -184,7 +178,7 @@ private:
     Result<Parts> parsePrimitive() {
         const std::size_t begin = at_;
         while (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
-        const std::string name = lower(text_.substr(begin, at_ - begin));
+        const std::string name = lowerAscii(text_.substr(begin, at_ - begin));
         if (at_ == text_.size() || text_[at_] != '(' || name.empty()) {
             at_ = begin;
             return parsePlane();

@@ -1,6 +1,7 @@
 #include <svt/illustrate/scene_members.hpp>
 
 #include <svt/core/check.hpp>
+#include <svt/core/text.hpp>
 #include <svt/render/frame_spec.hpp>
 
 #include <algorithm>
@@ -190,7 +191,7 @@ bool matches(std::string_view pattern, std::string_view pointer) noexcept {
             if (pointer.front() == '*')
                 pointer.remove_prefix(1);
             else
-                while (!pointer.empty() && pointer.front() >= '0' && pointer.front() <= '9') pointer.remove_prefix(1);
+                while (!pointer.empty() && isDigit(pointer.front())) pointer.remove_prefix(1);
         } else {
             if (pattern.front() != pointer.front()) return false;
             pointer.remove_prefix(1);

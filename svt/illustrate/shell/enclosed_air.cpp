@@ -18,9 +18,9 @@ std::uint32_t joined(std::uint32_t a, std::uint32_t b) noexcept {
 }
 
 // Union-find; each set knows what surrounds it. The smaller number becomes the root.
-class Parts {
+class AirParts {
 public:
-    explicit Parts(std::size_t count = 0) : parent_(count), around_(count, 0) {
+    explicit AirParts(std::size_t count = 0) : parent_(count), around_(count, 0) {
         std::iota(parent_.begin(), parent_.end(), 0u);
     }
     std::uint32_t add() {
@@ -54,7 +54,7 @@ private:
 // Joins the background of two adjacent columns, and records what surrounds it.
 template <class PartOfA, class PartOfB>
 void joinColumns(std::span<const Run> a, PartOfA partOfA, std::span<const Run> b, PartOfB partOfB,
-                 std::span<const std::uint32_t> valueOfScalar, Parts& parts) {
+                 std::span<const std::uint32_t> valueOfScalar, AirParts& parts) {
     std::uint32_t airA = 0, airB = 0;
     for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
         const std::uint32_t valueA = valueOfScalar[a[i].scalar], valueB = valueOfScalar[b[j].scalar];
@@ -170,14 +170,14 @@ private:
                 partOfNode[node] = partOfNode[root];
             }
         }
-        parts_ = Parts();
+        parts_ = AirParts();
     }
 
     const ColumnTile& tile_;
     std::span<const std::uint32_t> valueOfScalar_;
     std::int32_t tileX_ = 0, tileY_ = 0;
     bool isLastX_ = false, isLastY_ = false;
-    Parts parts_;
+    AirParts parts_;
 };
 
 EnclosedAir EnclosedAir::none(const ColumnVolume& columns) {
@@ -199,7 +199,7 @@ EnclosedAir EnclosedAir::find(const ColumnVolume& columns, std::span<const std::
     std::vector<std::uint32_t> base(tileCount + 1, 0);
     for (std::size_t t = 0; t < tileCount; ++t)
         base[t + 1] = base[t] + static_cast<std::uint32_t>(scans[t].around.size());
-    Parts parts(base.back());
+    AirParts parts(base.back());
     for (std::size_t t = 0; t < tileCount; ++t)
         for (std::size_t p = 0; p < scans[t].around.size(); ++p)
             parts.note(base[t] + static_cast<std::uint32_t>(p), scans[t].around[p]);

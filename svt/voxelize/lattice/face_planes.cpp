@@ -23,7 +23,7 @@ struct Facet {
     std::uint32_t plane = mesh::kNoPlane;
 };
 
-struct Group {
+struct PlaneGroup {
     volume::BrickPlane plane;
     Box3d box;
     double area = 0;
@@ -77,7 +77,7 @@ public:
     explicit GroupsByPlace(Vec3d center) : center_(center) {}
 
     // The group of an existing plane within kNearby of all corners, or a new group.
-    std::size_t find(const Facet& facet, std::vector<Group>& groups) {
+    std::size_t find(const Facet& facet, std::vector<PlaneGroup>& groups) {
         const volume::BrickPlane own = planeThrough(facet.normal, facet.corners[0]);
         const std::array<double, 4> place{own.normal.x * kCellsPerNormal, own.normal.y * kCellsPerNormal,
                                           own.normal.z * kCellsPerNormal, heightOver(own, center_)};
@@ -143,7 +143,7 @@ volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
 }
 
 // nullopt where the faces lie outside the grid.
-std::optional<volume::FacePlane> clipped(const Group& group, Vec3i dimension) noexcept {
+std::optional<volume::FacePlane> clipped(const PlaneGroup& group, Vec3i dimension) noexcept {
     volume::FacePlane face{rounded(group.plane), {}, {}};
     for (int axis = 0; axis < 3; ++axis) {
         const double low = std::floor(group.box.min[axis]), high = std::ceil(group.box.max[axis]);
@@ -161,7 +161,7 @@ std::optional<volume::FacePlane> clipped(const Group& group, Vec3i dimension) no
 std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshSet& meshes, const volume::Grid& grid) {
     const IndexFromLocal indexFromLocal(meshes, grid);
     const Vec3i n = grid.dimension();
-    std::vector<Group> groups;
+    std::vector<PlaneGroup> groups;
     GroupsByPlace byPlace({n.x / 2.0, n.y / 2.0, n.z / 2.0});
     constexpr std::size_t kNone = ~std::size_t{0};
     std::vector<std::size_t> groupOf(meshes.planes.size(), kNone);
@@ -178,10 +178,11 @@ std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshSet& meshes, const
         groups[group].area += facet.area;
         for (const Vec3d corner : facet.corners) groups[group].box.add(corner);
     }
-    std::erase_if(groups, [](const Group& group) { return group.area < kSmallestArea; });
-    std::stable_sort(groups.begin(), groups.end(), [](const Group& p, const Group& q) { return p.area > q.area; });
+    std::erase_if(groups, [](const PlaneGroup& group) { return group.area < kSmallestArea; });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const PlaneGroup& p, const PlaneGroup& q) { return p.area > q.area; });
     std::vector<volume::FacePlane> planes;
-    for (const Group& group : groups)
+    for (const PlaneGroup& group : groups)
         if (const auto face = clipped(group, n)) planes.push_back(*face);
     return planes;
 }

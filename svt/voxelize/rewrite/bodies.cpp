@@ -19,7 +19,7 @@ struct Face {
     std::uint32_t surface;  // index into BodyGroup::surfaces
 };
 
-struct Group {
+struct PreparedGroup {
     const BodyGroup* source = nullptr;
     std::vector<Face> faces;
 };
@@ -47,7 +47,8 @@ struct SampleRanges {
 // Splits a tile of one group into pieces per column, bottom up.
 class TileSplitter {
 public:
-    TileSplitter(const Group& group, const volume::Grid& grid, Vec3d origin, const TileArea& area, SampleRanges ranges)
+    TileSplitter(const PreparedGroup& group, const volume::Grid& grid, Vec3d origin, const TileArea& area,
+                 SampleRanges ranges)
         : group_(group),
           grid_(grid),
           origin_(origin),
@@ -149,7 +150,7 @@ private:
                           kept);
     }
 
-    const Group& group_;
+    const PreparedGroup& group_;
     const volume::Grid& grid_;
     Vec3d origin_;
     std::int32_t firstColumn_, firstRow_, width_, height_;
@@ -159,10 +160,10 @@ private:
 };
 
 // Groups without a face are left out.
-std::vector<Group> prepareGroups(const std::vector<BodyGroup>& groups, const mesh::MeshSet& meshes) {
-    std::vector<Group> prepared;
+std::vector<PreparedGroup> prepareGroups(const std::vector<BodyGroup>& groups, const mesh::MeshSet& meshes) {
+    std::vector<PreparedGroup> prepared;
     for (const BodyGroup& source : groups) {
-        Group group;
+        PreparedGroup group;
         group.source = &source;
         for (std::uint32_t s = 0; s < source.surfaces.size(); ++s) {
             const mesh::ObjectMesh& mesh = meshes.objects[source.surfaces[s]];
@@ -176,11 +177,11 @@ std::vector<Group> prepareGroups(const std::vector<BodyGroup>& groups, const mes
 }
 
 // The groups with samples in a tile, in the order of its runs.
-std::vector<const Group*> groupsIn(const volume::ColumnTile& tile, const std::vector<Group>& groups) {
-    std::vector<const Group*> present;
+std::vector<const PreparedGroup*> groupsIn(const volume::ColumnTile& tile, const std::vector<PreparedGroup>& groups) {
+    std::vector<const PreparedGroup*> present;
     for (const Run& run : tile.runs) {
         const auto group = std::find_if(groups.begin(), groups.end(),
-                                        [&](const Group& known) { return known.source->from == run.scalar; });
+                                        [&](const PreparedGroup& known) { return known.source->from == run.scalar; });
         if (group != groups.end() && std::find(present.begin(), present.end(), &*group) == present.end())
             present.push_back(&*group);
     }
@@ -245,18 +246,18 @@ double distanceToTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) noexcept {
 
 ColumnVolume assignThematicBodies(const ColumnVolume& columns, const volume::Grid& grid, const mesh::MeshSet& meshes,
                                   const std::vector<BodyGroup>& groups, int threads) {
-    const std::vector<Group> prepared = prepareGroups(groups, meshes);
+    const std::vector<PreparedGroup> prepared = prepareGroups(groups, meshes);
     return rewriteColumns(
         columns,
         [&](std::int32_t tileX, std::int32_t tileY, const volume::ColumnTile& tile) -> ColumnRewriter {
-            const std::vector<const Group*> present = groupsIn(tile, prepared);
+            const std::vector<const PreparedGroup*> present = groupsIn(tile, prepared);
             if (present.empty()) return {};
             const TileArea area{tileX * ColumnVolume::kTileSize, tileY * ColumnVolume::kTileSize,
                                 columns.tileWidth(tileX), columns.tileHeight(tileY)};
             // Shared, because a rewriter can be copied.
             auto splitters = std::make_shared<std::vector<TileSplitter>>();
             splitters->reserve(present.size());
-            for (const Group* group : present)
+            for (const PreparedGroup* group : present)
                 splitters->emplace_back(*group, grid, meshes.origin, area,
                                         sampleRanges(columns, area, group->source->from));
             return [splitters](std::int32_t i, std::int32_t j, std::span<const Run> runs, std::vector<Run>& out) {
