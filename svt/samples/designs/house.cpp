@@ -21,6 +21,7 @@
 
 namespace svt::samples {
 namespace {
+namespace house {
 
 constexpr Length kWidth = 11000, kDepth = 9000, kWall = 365;
 constexpr Length kEast = kWidth - kWall, kNorth = kDepth - kWall;  // inner faces
@@ -402,8 +403,9 @@ private:
     int bedroom1_ = 0, bedroom2_ = 0, bedroom3_ = 0, bath_ = 0, gallery_ = 0, dressing_ = 0, loft_ = 0;
 };
 
+}  // namespace house
 }  // namespace
 
-Plan housePlan() { return HouseDesign().build(); }
+Plan housePlan() { return house::HouseDesign().build(); }
 
 }  // namespace svt::samples

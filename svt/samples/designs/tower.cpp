@@ -17,6 +17,7 @@
 
 namespace svt::samples {
 namespace {
+namespace tower {
 
 constexpr Length kExterior = 300, kHeavy = 240, kLight = 115;
 constexpr Length kClear = 2840, kSlab = kTowerStoreyHeight - kClear;
@@ -388,10 +389,11 @@ private:
     Piece risingHole_, arrivingHole_, liftHole_;
 };
 
+}  // namespace tower
 }  // namespace
 
-Plan towerPlan(const TowerStorey& storey) { return TowerDesign(storey).build(); }
+Plan towerPlan(const TowerStorey& storey) { return tower::TowerDesign(storey).build(); }
 
-Point towerSize(int flats) { return {interiorWidth(flats) + 2 * kExterior, kDepth, 0}; }
+Point towerSize(int flats) { return {tower::interiorWidth(flats) + 2 * tower::kExterior, tower::kDepth, 0}; }
 
 }  // namespace svt::samples

@@ -17,6 +17,7 @@
 
 namespace svt::samples {
 namespace {
+namespace village {
 
 constexpr Length kWall = 365, kPartition = 240;
 constexpr Length kClear = 2550, kStoreyHeight = 2750;
@@ -138,8 +139,9 @@ private:
     std::vector<int> storeyFeatures_;
 };
 
+}  // namespace village
 }  // namespace
 
-Plan villageHousePlan(const VillageHouse& house) { return VillageDesign(house).build(); }
+Plan villageHousePlan(const VillageHouse& house) { return village::VillageDesign(house).build(); }
 
 }  // namespace svt::samples

@@ -17,9 +17,9 @@
 namespace svt::samples {
 namespace {
 
-class Writer {
+class CityGml2Writer {
 public:
-    Writer(SampleSource& source, bool isThematic, TextSink& out)
+    CityGml2Writer(SampleSource& source, bool isThematic, TextSink& out)
         : source_(source), isThematic_(isThematic), out_(out), gml_(out) {}
 
     void write() {
@@ -437,6 +437,8 @@ private:
 
 }  // namespace
 
-void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out) { Writer(source, isThematic, out).write(); }
+void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out) {
+    CityGml2Writer(source, isThematic, out).write();
+}
 
 }  // namespace svt::samples

@@ -11,9 +11,9 @@
 namespace svt::samples {
 namespace {
 
-class Writer {
+class CityGml3Writer {
 public:
-    Writer(SampleSource& source, TextSink& out) : source_(source), out_(out), gml_(out) {}
+    CityGml3Writer(SampleSource& source, TextSink& out) : source_(source), out_(out), gml_(out) {}
 
     void write() {
         out_
@@ -57,15 +57,15 @@ private:
         appearance();
         out_ << "<bldg:function>" << document_.function << "</bldg:function><bldg:roofType>" << document_.roofType
              << "</bldg:roofType><bldg:storeysAboveGround>" << document_.storeys << "</bldg:storeysAboveGround>\n";
-        eachTop(Kind::Element, "buildingConstructiveElement", &Writer::element);
-        eachTop(Kind::Installation, "buildingInstallation", &Writer::installation);
-        eachTop(Kind::Room, "buildingRoom", &Writer::room);
-        eachTop(Kind::Storey, "buildingSubdivision", &Writer::storey);
+        eachTop(Kind::Element, "buildingConstructiveElement", &CityGml3Writer::element);
+        eachTop(Kind::Installation, "buildingInstallation", &CityGml3Writer::installation);
+        eachTop(Kind::Room, "buildingRoom", &CityGml3Writer::room);
+        eachTop(Kind::Storey, "buildingSubdivision", &CityGml3Writer::storey);
         out_ << "</bldg:Building>\n</core:cityObjectMember>\n";
     }
 
     // Writes every component of the kind that belongs directly to the building, inside the property.
-    void eachTop(Kind kind, std::string_view property, void (Writer::*writeOne)(const PlacedPlan&, int)) {
+    void eachTop(Kind kind, std::string_view property, void (CityGml3Writer::*writeOne)(const PlacedPlan&, int)) {
         for (const PlacedPlan& placed : document_.plans)
             for (std::size_t c = 0; c < placed.plan->components.size() && !out_.hasFailed(); ++c) {
                 const Component& component = placed.plan->components[c];
@@ -77,7 +77,7 @@ private:
     }
 
     void eachChild(const PlacedPlan& placed, int parent, Kind kind, std::string_view property,
-                   void (Writer::*writeOne)(const PlacedPlan&, int)) {
+                   void (CityGml3Writer::*writeOne)(const PlacedPlan&, int)) {
         for (const int child : placed.plan->children[std::size_t(parent)]) {
             if (placed.plan->components[std::size_t(child)].kind != kind) continue;
             out_ << "<" << property << ">";
@@ -162,8 +162,8 @@ private:
         for (const Attribute& attribute : c.attributes)
             if (attribute.name == "loadBearing")
                 out_ << "<con:isStructuralElement>" << toText(attribute.value) << "</con:isStructuralElement>";
-        eachChild(placed, component, Kind::Window, "con:filling", &Writer::filling);
-        eachChild(placed, component, Kind::Door, "con:filling", &Writer::filling);
+        eachChild(placed, component, Kind::Window, "con:filling", &CityGml3Writer::filling);
+        eachChild(placed, component, Kind::Door, "con:filling", &CityGml3Writer::filling);
         function(placed, component);
         out_ << "</bldg:BuildingConstructiveElement>";
     }
@@ -230,8 +230,8 @@ private:
             out_ << "<gml:surfaceMember xlink:href=\"#" << polygonId(id, f) << "\"/>\n";
         out_ << "</gml:Shell></gml:exterior></gml:Solid></core:lod3Solid>\n";
         function(placed, component);
-        eachChild(placed, component, Kind::Furniture, "bldg:buildingFurniture", &Writer::furniture);
-        eachChild(placed, component, Kind::Installation, "bldg:buildingInstallation", &Writer::installation);
+        eachChild(placed, component, Kind::Furniture, "bldg:buildingFurniture", &CityGml3Writer::furniture);
+        eachChild(placed, component, Kind::Installation, "bldg:buildingInstallation", &CityGml3Writer::installation);
         out_ << "</bldg:BuildingRoom>";
     }
 
@@ -281,6 +281,6 @@ private:
 
 }  // namespace
 
-void writeCityGml3(SampleSource& source, TextSink& out) { Writer(source, out).write(); }
+void writeCityGml3(SampleSource& source, TextSink& out) { CityGml3Writer(source, out).write(); }
 
 }  // namespace svt::samples

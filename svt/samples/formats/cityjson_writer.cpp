@@ -33,9 +33,9 @@ std::size_t instanceCount(const Plan& plan) {
     return count;
 }
 
-class Writer {
+class CityJsonWriter {
 public:
-    Writer(SampleSource& source, TextSink& out) : source_(source), out_(out) {}
+    CityJsonWriter(SampleSource& source, TextSink& out) : source_(source), out_(out) {}
 
     void writeDocument() {
         head();
@@ -351,8 +351,8 @@ private:
 
 }  // namespace
 
-void writeCityJson(SampleSource& source, TextSink& out) { Writer(source, out).writeDocument(); }
+void writeCityJson(SampleSource& source, TextSink& out) { CityJsonWriter(source, out).writeDocument(); }
 
-void writeCityJsonSeq(SampleSource& source, TextSink& out) { Writer(source, out).writeSequence(); }
+void writeCityJsonSeq(SampleSource& source, TextSink& out) { CityJsonWriter(source, out).writeSequence(); }
 
 }  // namespace svt::samples
