@@ -12,7 +12,8 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+// BuildArguments are those of all commands that build; these are of this command alone.
+struct BuildCommandArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     std::filesystem::path gridOf;
@@ -20,7 +21,7 @@ struct Arguments {
     bool json = false, verbose = false, strict = false;
 };
 
-void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const Arguments& arguments) {
+void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const BuildCommandArguments& arguments) {
     const auto dimension = built.volume.grid.dimension();
     const auto spacing = built.volume.grid.spacing();
     fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n",
@@ -37,7 +38,7 @@ Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const Build
     return volume->grid;
 }
 
-int runBuild(const Arguments& arguments) {
+int runBuild(const BuildCommandArguments& arguments) {
     std::optional<pipeline::StyleSheet> sheet;
     auto options = arguments.build.options(sheet);
     if (!options) return fail(options.error());
@@ -91,7 +92,7 @@ int runBuild(const Arguments& arguments) {
 }  // namespace
 
 Action connectBuild(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<BuildCommandArguments>();
     command.set("input", arguments->inputs);
     command.set("--output", arguments->output);
     arguments->build.connect(command);

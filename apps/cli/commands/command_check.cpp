@@ -10,7 +10,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
     std::vector<std::filesystem::path> inputs;
     double lod = -1;
     bool json = false, verbose = false;
@@ -68,7 +68,7 @@ void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, 
         fmt::print("    {} edges match only up to T-junctions (tight)\n", object.tJunctionCount);
 }
 
-int runCheck(const Arguments& arguments) {
+int runCheck(const CheckArguments& arguments) {
     Diagnostics diagnostics;
     Result<model::BuildingModel> model = [&] {
         const TerminalProgress progress;
@@ -115,7 +115,7 @@ int runCheck(const Arguments& arguments) {
 }  // namespace
 
 Action connectCheck(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<CheckArguments>();
     command.set("input", arguments->inputs);
     command.set("--lod", arguments->lod);
     command.set("--json", arguments->json);

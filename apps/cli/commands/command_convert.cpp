@@ -11,13 +11,13 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
     std::filesystem::path input, output;
     std::string encoding, faces;
     BuildArguments build;
 };
 
-int runConvert(const Arguments& arguments) {
+int runConvert(const ConvertArguments& arguments) {
     const std::string extension = arguments.output.extension().string();
     if (extension != ".nrrd" && extension != ".glb")
         return fail(Error(Code::BadArgument, fmt::format("'{}': cannot write '{}'; possible are .nrrd and .glb",
@@ -47,7 +47,7 @@ int runConvert(const Arguments& arguments) {
 }  // namespace
 
 Action connectConvert(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ConvertArguments>();
     command.set("input", arguments->input);
     command.set("output", arguments->output);
     command.set("--encoding", arguments->encoding);

@@ -16,7 +16,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct DescribeArguments {
     std::string what, command;
 };
 
@@ -58,7 +58,7 @@ Json describedJson() {
     return json;
 }
 
-int runDescribe(const Arguments& arguments) {
+int runDescribe(const DescribeArguments& arguments) {
     if (arguments.what == "json") {
         print(describedJson());
         return kDone;
@@ -78,7 +78,7 @@ int runDescribe(const Arguments& arguments) {
 }  // namespace
 
 Action connectDescribe(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<DescribeArguments>();
     command.set("what", arguments->what);
     command.set("command", arguments->command);
     return [arguments] { return runDescribe(*arguments); };

@@ -10,7 +10,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct DoctorArguments {
     bool json = false;
 };
 
@@ -45,7 +45,7 @@ private:
     Json json_ = Json::object();
 };
 
-int runDoctor(const Arguments& arguments) {
+int runDoctor(const DoctorArguments& arguments) {
     Report report(arguments.json);
     report.add(programAnswer());
     report.add(processorAnswer());
@@ -70,7 +70,7 @@ int runDoctor(const Arguments& arguments) {
 }  // namespace
 
 Action connectDoctor(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<DoctorArguments>();
     command.set("--json", arguments->json);
     return [arguments] { return runDoctor(*arguments); };
 }

@@ -8,7 +8,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
     std::filesystem::path input;
     BuildArguments build;
     bool json = false, tree = false;
@@ -53,7 +53,7 @@ void printFigures(const volume::SemanticVolume& volume) {
     fmt::print("overlaps   {} pairs\n", volume.labels.overlaps.size());
 }
 
-int runInfo(const Arguments& arguments) {
+int runInfo(const InfoArguments& arguments) {
     Diagnostics diagnostics;
     Result<volume::SemanticVolume> loaded = [&] {
         const TerminalProgress progress;
@@ -86,7 +86,7 @@ int runInfo(const Arguments& arguments) {
 }  // namespace
 
 Action connectInfo(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<InfoArguments>();
     command.set("input", arguments->input);
     arguments->build.connect(command);
     command.set("--json", arguments->json);

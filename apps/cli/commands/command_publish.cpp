@@ -7,14 +7,14 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct PublishArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     SiteArguments site;
     bool mayReplace = false;
 };
 
-int runPublish(const Arguments& arguments) {
+int runPublish(const PublishArguments& arguments) {
     const auto viewer = arguments.site.viewerFolder();
     if (!viewer) return fail(viewer.error());
     const auto models = arguments.site.load(arguments.inputs);
@@ -31,7 +31,7 @@ int runPublish(const Arguments& arguments) {
 }  // namespace
 
 Action connectPublish(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<PublishArguments>();
     command.set("input", arguments->inputs);
     command.set("--output", arguments->output);
     command.set("--force", arguments->mayReplace);

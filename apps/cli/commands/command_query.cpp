@@ -12,7 +12,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct QueryArguments {
     std::filesystem::path input;
     std::string query;
     std::string with, along;
@@ -35,7 +35,7 @@ void printFeatures(const volume::LabelTable& table, const Labels& selected) {
     }
 }
 
-int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
     With with;
     if (!arguments.with.empty()) {
         const auto parsed = parseWith(arguments.with);
@@ -54,7 +54,8 @@ int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, 
     return kDone;
 }
 
-Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& selected,
+                         const QueryArguments& arguments) {
     const int threads = arguments.build.threads;
     if (arguments.neighbors) return neighborTable(volume, selected, threads);
     if (arguments.overlaps) return overlapTable(volume, selected);
@@ -74,7 +75,7 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
     return parcelTable(volume, selected, *parcels, threads);
 }
 
-int printReport(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+int printReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
     const auto table = makeReport(volume, selected, arguments);
     if (!table) return fail(table.error());
     if (arguments.json)
@@ -86,7 +87,7 @@ int printReport(const volume::SemanticVolume& volume, const Labels& selected, co
     return kDone;
 }
 
-int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const Arguments& arguments) {
+int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
     const auto file = MappedFile::open(arguments.owners);
     if (!file) return fail(file.error());
     const auto owners = analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels);
@@ -104,7 +105,7 @@ int printOwners(const volume::SemanticVolume& volume, const Labels& selected, co
     return kDone;
 }
 
-int runQuery(const Arguments& arguments) {
+int runQuery(const QueryArguments& arguments) {
     if (auto parsed = model::Query::parse(arguments.query); !parsed) return fail(parsed.error());
     if (arguments.reportCount() > 1)
         return fail(
@@ -130,7 +131,7 @@ int runQuery(const Arguments& arguments) {
 }  // namespace
 
 Action connectQuery(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<QueryArguments>();
     command.set("input", arguments->input);
     command.set("query", arguments->query);
     command.set("--with", arguments->with);

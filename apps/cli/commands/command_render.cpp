@@ -18,7 +18,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct RenderArguments {
     std::filesystem::path input, output, labelOutput, depthOutput, sceneOutput;
     BuildArguments build;
     SceneArguments scene;
@@ -72,7 +72,7 @@ std::filesystem::path numbered(const std::filesystem::path& file, int frame, int
     return result;
 }
 
-Result<void> writeBuffers(const render::Frame& frame, const Arguments& arguments, int number) {
+Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arguments, int number) {
     const auto at = [&](const std::filesystem::path& file) { return numbered(file, number, arguments.frames); };
     if (auto written = image::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()); !written)
         return written;
@@ -95,7 +95,7 @@ BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene)
     return build;
 }
 
-int runRender(const Arguments& arguments) {
+int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     const auto first = arguments.scene.toScene(0, arguments.frames);
     if (!first) return fail(first.error());
@@ -133,7 +133,7 @@ int runRender(const Arguments& arguments) {
 }  // namespace
 
 Action connectRender(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<RenderArguments>();
     command.set("input", arguments->input);
     command.set("--output", arguments->output);
     arguments->scene.connect(command);

@@ -12,13 +12,13 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct SampleArguments {
     std::string kind, format;
     std::filesystem::path output;
     samples::SampleOptions options;
 };
 
-Result<samples::SampleFormat> formatOf(const Arguments& arguments) {
+Result<samples::SampleFormat> formatOf(const SampleArguments& arguments) {
     if (arguments.format == "citygml3") return samples::SampleFormat::CityGml3;
     if (arguments.format == "citygml2") return samples::SampleFormat::CityGml2;
     if (arguments.format == "cityjson") return samples::SampleFormat::CityJson2;
@@ -32,7 +32,7 @@ Result<samples::SampleFormat> formatOf(const Arguments& arguments) {
                              arguments.output.string()));
 }
 
-int runSample(const Arguments& arguments) {
+int runSample(const SampleArguments& arguments) {
     const auto format = formatOf(arguments);
     if (!format) return fail(format.error());
     const auto kind = arguments.kind == "house"   ? samples::SampleKind::House
@@ -55,7 +55,7 @@ int runSample(const Arguments& arguments) {
 }  // namespace
 
 Action connectSample(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<SampleArguments>();
     command.set("kind", arguments->kind);
     command.set("--output", arguments->output);
     command.set("--format", arguments->format);

@@ -17,7 +17,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct SectionArguments {
     std::filesystem::path input;
     std::vector<std::filesystem::path> outputs, tables;
     std::string plane, scale;
@@ -38,7 +38,7 @@ Result<double> parseScale(const std::string& text) {
     return scale;
 }
 
-Result<void> checkOutputs(const Arguments& arguments) {
+Result<void> checkOutputs(const SectionArguments& arguments) {
     for (const std::filesystem::path& path : arguments.outputs)
         if (const std::string e = path.extension().string(); e != ".svg" && e != ".dxf" && e != ".geojson")
             return Error(Code::BadArgument, fmt::format("-o '{}': cannot write '{}'; possible are .svg, .dxf, .geojson",
@@ -62,7 +62,7 @@ Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, co
     return writers::writeSvg(drawing, volume, path, options);
 }
 
-int runSection(const Arguments& arguments) {
+int runSection(const SectionArguments& arguments) {
     if (auto checked = checkOutputs(arguments); !checked) return fail(checked.error());
     const auto scale = parseScale(arguments.scale);
     if (!scale) return fail(scale.error());
@@ -101,7 +101,7 @@ int runSection(const Arguments& arguments) {
 }  // namespace
 
 Action connectSection(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<SectionArguments>();
     command.set("input", arguments->input);
     command.set("--output", arguments->outputs);
     command.set("--plane", arguments->plane);

@@ -15,7 +15,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct ServeArguments {
     std::vector<std::filesystem::path> inputs;
     SiteArguments site;
     std::string host;
@@ -39,7 +39,7 @@ std::string addressOf(const std::string& host, int port) {
     return fmt::format("http://{}:{}/", name, port);
 }
 
-serve::ServerOptions serverOptions(const Arguments& arguments, const PrivateFolder& folder) {
+serve::ServerOptions serverOptions(const ServeArguments& arguments, const PrivateFolder& folder) {
     constexpr int kUsualPort = 8080;
     serve::ServerOptions options;
     options.host = arguments.host;
@@ -54,7 +54,7 @@ serve::ServerOptions serverOptions(const Arguments& arguments, const PrivateFold
     return options;
 }
 
-serve::ConvertOptions convertOptions(const Arguments& arguments) {
+serve::ConvertOptions convertOptions(const ServeArguments& arguments) {
     constexpr std::uint64_t kMb = std::uint64_t{1} << 20;
     serve::ConvertOptions options;
     options.command = {"/proc/self/exe", "build"};
@@ -66,7 +66,7 @@ serve::ConvertOptions convertOptions(const Arguments& arguments) {
 }
 
 // What this server offers besides files; a published folder has no such resource.
-std::string abilities(const Arguments& arguments) {
+std::string abilities(const ServeArguments& arguments) {
     Json json;
     json["picture"] = true;
     json["convert"] = arguments.allowUploads;
@@ -74,7 +74,7 @@ std::string abilities(const Arguments& arguments) {
     return json.dump() + "\n";
 }
 
-void announce(const Arguments& arguments, const serve::ServerOptions& options, int port) {
+void announce(const ServeArguments& arguments, const serve::ServerOptions& options, int port) {
     if (options.port != 0 && port != options.port)
         fmt::print(stderr, "svt: port {} is taken; this is port {}\n", options.port, port);
     if (!serve::isLoopback(arguments.host))
@@ -91,7 +91,7 @@ void announce(const Arguments& arguments, const serve::ServerOptions& options, i
     fmt::print(stderr, "svt: Ctrl-C stops\n");
 }
 
-int runServe(const Arguments& arguments) {
+int runServe(const ServeArguments& arguments) {
     if (arguments.inputs.empty() && !arguments.allowUploads)
         return fail(Error(Code::BadArgument, "nothing to show; give a .svt or a model file, or --allow-uploads"));
     const auto viewer = arguments.site.viewerFolder();
@@ -122,7 +122,7 @@ int runServe(const Arguments& arguments) {
 }  // namespace
 
 Action connectServe(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ServeArguments>();
     command.set("input", arguments->inputs);
     command.set("--port", arguments->port);
     command.set("--host", arguments->host);
@@ -136,7 +136,7 @@ Action connectServe(Command& command) {
 }
 
 Action connectView(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ServeArguments>();
     arguments->isView = true;
     arguments->host = "127.0.0.1";  // this machine alone
     command.set("input", arguments->inputs);

@@ -17,7 +17,7 @@ EM_JS(void, svtHostServe, (const char* orders), { Module["host"]["serve"](JSON.p
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct ServeArguments {
     std::vector<std::filesystem::path> inputs;
     SiteArguments site;
     std::string host = "127.0.0.1";
@@ -29,7 +29,7 @@ struct Arguments {
     bool isView = false, noBrowser = false;
 };
 
-int runServe(const Arguments& arguments) {
+int runServe(const ServeArguments& arguments) {
     if (arguments.allowUploads)
         return fail(
             Error(Code::BadArgument, "--allow-uploads is not possible under Node.js; use the program for Linux"));
@@ -61,7 +61,7 @@ int runServe(const Arguments& arguments) {
 }  // namespace
 
 Action connectServe(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ServeArguments>();
     command.set("input", arguments->inputs);
     command.set("--port", arguments->port);
     command.set("--host", arguments->host);
@@ -75,7 +75,7 @@ Action connectServe(Command& command) {
 }
 
 Action connectView(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ServeArguments>();
     arguments->isView = true;
     command.set("input", arguments->inputs);
     command.set("--no-browser", arguments->noBrowser);

@@ -15,7 +15,7 @@
 namespace svt::cli {
 namespace {
 
-struct Arguments {
+struct ShellArguments {
     std::filesystem::path input, output;
     std::string level, labels, faces, of;
     double thickness = 0;
@@ -46,7 +46,7 @@ std::uint64_t filledVoxels(const volume::SemanticVolume& volume) {
 }
 
 Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::SemanticVolume& volume,
-                        const Arguments& arguments, const Progress* progress) {
+                        const ShellArguments& arguments, const Progress* progress) {
     Json json;
     if (arguments.output.extension() == ".svt") {
         const auto bytes = volume::writeSvt(shell, arguments.output);
@@ -68,7 +68,8 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
 }
 
 // Writes the shell; returns the number of voxels before and after, and figures of the output.
-Result<Json> makeShell(const volume::SemanticVolume& volume, const Arguments& arguments, const Progress* progress) {
+Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArguments& arguments,
+                       const Progress* progress) {
     illustrate::ShellOptions options;
     options.thickness = arguments.thickness;
     options.labels =
@@ -92,7 +93,7 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const Arguments& ar
     return json;
 }
 
-Result<void> check(const Arguments& arguments) {
+Result<void> check(const ShellArguments& arguments) {
     if (arguments.levels != arguments.output.empty())
         return Error(Code::BadArgument, "expected either -o S.svt or -o S.glb, or --levels to list the levels");
     const std::string extension = arguments.output.extension().string();
@@ -104,7 +105,7 @@ Result<void> check(const Arguments& arguments) {
     return {};
 }
 
-int runShell(const Arguments& arguments) {
+int runShell(const ShellArguments& arguments) {
     if (auto checked = check(arguments); !checked) return fail(checked.error());
     Diagnostics diagnostics;
     auto progress = std::make_unique<TerminalProgress>();
@@ -134,7 +135,7 @@ int runShell(const Arguments& arguments) {
 }  // namespace
 
 Action connectShell(Command& command) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ShellArguments>();
     command.set("input", arguments->input);
     command.set("--output", arguments->output);
     command.set("--level", arguments->level);
