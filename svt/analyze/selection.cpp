@@ -13,13 +13,17 @@ std::vector<model::QueryRow> queryRows(const volume::LabelTable& table) {
     return rows;
 }
 
-Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& table, std::string_view text) {
+std::span<const model::QueryRow> LabelRows::get() const {
+    if (rows_.empty()) rows_ = queryRows(labels_);
+    return rows_;
+}
+
+Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text) {
     const auto query = model::Query::parse(text);
     if (!query) return query.error();
-    const std::vector<model::QueryRow> rows = queryRows(table);
-    std::vector<std::uint32_t> selected = query->select(rows);
+    std::vector<std::uint32_t> selected = query->select(rows.get());
     if (!selected.empty()) return selected;
-    const std::string reason = query->unknownValue(rows);
+    const std::string reason = query->unknownValue(rows.get());
     return Error(Code::NothingSelected,
                  fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
 }

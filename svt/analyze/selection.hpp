@@ -8,6 +8,7 @@
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +17,24 @@ namespace svt::analyze {
 /// The labels as rows for model::Query; row i is label i. The rows refer to `labels`, which must outlive them.
 [[nodiscard]] std::vector<model::QueryRow> queryRows(const volume::LabelTable& labels);
 
+/// queryRows() for several queries on one table: made once, when the first query needs them. Not thread-safe.
+class LabelRows {
+public:
+    /// Implicit, so that a single query can name the table itself.
+    /// \param labels  must outlive the rows, unchanged
+    LabelRows(const volume::LabelTable& labels) noexcept : labels_(labels) {}
+
+    [[nodiscard]] std::span<const model::QueryRow> get() const;
+
+private:
+    const volume::LabelTable& labels_;
+    mutable std::vector<model::QueryRow> rows_;  // empty: not made yet
+};
+
 /// Labels that the query `text` selects.
 /// \return the labels, or BadQuery, or NothingSelected; the latter names the nearest existing value
-[[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const volume::LabelTable& labels, std::string_view text);
+/// Cost: that of queryRows(), once for all queries on the same rows, and of Query::select().
+[[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text);
 
 /// The box around all voxels of `labels`.
 /// \param what  describes them in the message

@@ -4,6 +4,7 @@
 /// Plain data with a JSON form (`*.scene.json`, docs/formats/scene.schema.json); made by the command line, or by a link
 /// to the viewer.
 
+#include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/illustrate/shell_groups.hpp>
@@ -120,6 +121,9 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
 ///         BadArgument if lines or meshes are requested and the volume was built without them
 [[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume);
+/// The same with existing rows, which must be those of volume.labels.
+[[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume,
+                                                      const analyze::LabelRows& rows);
 
 /// Reads the JSON form.
 /// \param name  of the file, for messages

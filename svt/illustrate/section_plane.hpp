@@ -2,6 +2,7 @@
 /// \file
 /// Section planes, parsed from text; heights of storeys.
 
+#include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -31,12 +32,19 @@ struct SectionPlane {
 ///                            misses the volume (the message names the possible range)
 ///         - NothingSelected  no such storey, or none with voxels (names the nearest)
 [[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume);
+/// The same with existing rows, which must be those of volume.labels.
+[[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume,
+                                                     const analyze::LabelRows& rows);
 
 /// Floor and ceiling of a storey (by name or id), metres above the grid's lower corner: of its rooms, or, if it has
 /// none, of its voxels.
 /// \return the heights, or NothingSelected if there is no such storey, or it has no voxels
 [[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
                                                               const volume::SemanticVolume& volume);
+/// The same with existing rows, which must be those of volume.labels.
+[[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
+                                                              const volume::SemanticVolume& volume,
+                                                              const analyze::LabelRows& rows);
 
 /// A storey, and its heights as storeyHeights() gives them.
 struct StoreyHeights {

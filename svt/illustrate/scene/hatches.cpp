@@ -1,6 +1,5 @@
 #include <svt/illustrate/hatches.hpp>
 
-#include <svt/analyze/selection.hpp>
 #include <svt/core/check.hpp>
 
 namespace svt::illustrate {
@@ -41,9 +40,9 @@ constexpr Rule kRules[] = {
 
 }  // namespace
 
-std::vector<Hatch> labelHatches(const volume::LabelTable& labels) {
-    const std::vector<model::QueryRow> rows = analyze::queryRows(labels);
-    std::vector<Hatch> hatches(labels.labels.size(), Hatch::None);
+std::vector<Hatch> labelHatches(const analyze::LabelRows& labels) {
+    const std::span<const model::QueryRow> rows = labels.get();
+    std::vector<Hatch> hatches(rows.size(), Hatch::None);
     for (const Rule& rule : kRules) {
         const auto query = model::Query::parse(rule.select);
         SVT_CHECK(query.hasValue());

@@ -1,7 +1,6 @@
 #include <svt/illustrate/scene/name_tags.hpp>
 
 #include <svt/analyze/scalar_boxes.hpp>
-#include <svt/analyze/selection.hpp>
 #include <svt/image/text.hpp>
 
 #include <algorithm>
@@ -102,11 +101,12 @@ std::vector<double> heightsOf(const std::vector<NameTag>& tags, double line, dou
 }  // namespace
 
 Result<NameTags> findNameTags(const std::vector<std::string>& queries, const volume::SemanticVolume& volume,
-                              const render::FrameSpec& spec, const render::Frame& frame) {
+                              const analyze::LabelRows& rows, const render::FrameSpec& spec,
+                              const render::Frame& frame) {
     const auto& labels = volume.labels.labels;
     std::vector<bool> isSelected(labels.size(), false);
     for (const std::string& query : queries) {
-        const auto selected = analyze::selectLabels(volume.labels, query);
+        const auto selected = analyze::selectLabels(rows, query);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) isSelected[l] = true;
     }

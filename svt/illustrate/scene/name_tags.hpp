@@ -2,6 +2,7 @@
 /// \file
 /// Names of components at the sides of a picture, with leader lines to the components.
 
+#include <svt/analyze/selection.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -27,11 +28,12 @@ struct NameTags {
 /// Name tags of the labels that `queries` select. Leaders of visible labels end at the pixel farthest from the label's
 /// outline in the picture, those of hidden labels at the projected centre of the label's box. Labels without voxels or
 /// outside the picture get no tag. A label without a name is named by its id.
+/// \param rows   of volume.labels
 /// \param frame  the frame drawn from `spec`
 /// \return the tags, or BadQuery, NothingSelected
 [[nodiscard]] Result<NameTags> findNameTags(const std::vector<std::string>& queries,
-                                            const volume::SemanticVolume& volume, const render::FrameSpec& spec,
-                                            const render::Frame& frame);
+                                            const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
+                                            const render::FrameSpec& spec, const render::Frame& frame);
 
 /// Draws tags into a picture: texts one below the other, to the left and right of what is shown, in the order of the
 /// points that they name. Tags for which there is no room are left out.

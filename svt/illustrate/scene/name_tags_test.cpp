@@ -55,7 +55,7 @@ protected:
 };
 
 TEST_F(NameTagsTest, PointIntoWhatTheyName) {
-    const auto found = findNameTags({"all"}, volume_, spec_, frame_);
+    const auto found = findNameTags({"all"}, volume_, volume_.labels, spec_, frame_);
     ASSERT_TRUE(found);
     ASSERT_EQ(found->tags.size(), 3u);
     for (std::size_t n = 0; n < 2; ++n) {
@@ -74,7 +74,7 @@ TEST_F(NameTagsTest, PointIntoWhatTheyName) {
 }
 
 TEST_F(NameTagsTest, AreDrawnBesideThePicture) {
-    const auto found = findNameTags({"all"}, volume_, spec_, frame_);
+    const auto found = findNameTags({"all"}, volume_, volume_.labels, spec_, frame_);
     ASSERT_TRUE(found);
     auto image = frame_.color;
     EXPECT_EQ(drawNameTags(*found, 0, {0, 0, 0}, {1, 1, 1}, image), 3u);
@@ -90,7 +90,7 @@ TEST_F(NameTagsTest, AreDrawnBesideThePicture) {
 }
 
 TEST_F(NameTagsTest, QueriesMustSelectSomething) {
-    const auto found = findNameTags({"id=bgi"}, volume_, spec_, frame_);
+    const auto found = findNameTags({"id=bgi"}, volume_, volume_.labels, spec_, frame_);
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code(), Code::NothingSelected);
 }

@@ -216,7 +216,7 @@ private:
             }
         }
         if (begin == at_) return wrong("expected a region such as z>1.2 or box(0,0,0,1,1,1)");
-        const auto parsed = parseSectionPlane(plane, context_.volume);
+        const auto parsed = parseSectionPlane(plane, context_.volume, context_.rows);
         if (!parsed) return parsed.error();
         return Parts{{{{parsed->normal, -dot(parsed->normal, parsed->point)}}, {}}};
     }
@@ -343,7 +343,7 @@ private:
         std::string name = text;
         if (name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front())
             name = name.substr(1, name.size() - 2);
-        const auto heights = storeyHeights(name, context_.volume);
+        const auto heights = storeyHeights(name, context_.volume, context_.rows);
         if (!heights) return heights.error();
         const Vec3d spacing = grid().spacing();
         const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
@@ -362,7 +362,7 @@ private:
                                              text.substr(semicolon + 1)));
             margin = (*numbers)[0];
         }
-        auto selected = analyze::selectLabels(context_.volume.labels, text.substr(0, semicolon));
+        auto selected = analyze::selectLabels(context_.rows, text.substr(0, semicolon));
         if (!selected) return selected.error();
         return std::pair(std::move(*selected), margin);
     }

@@ -21,6 +21,7 @@
 ///                                                    the viewer, with its apex behind the target
 /// Lengths are in metres; coordinates in metres from the grid's lower corner along its axes.
 
+#include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -33,6 +34,7 @@ namespace svt::illustrate {
 /// What a region may depend on.
 struct RegionContext {
     const volume::SemanticVolume& volume;
+    const analyze::LabelRows& rows;  ///< of volume.labels
     render::Camera camera;
     double aspect = 1;  ///< width / height of the picture
 };

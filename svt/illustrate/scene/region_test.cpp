@@ -48,7 +48,8 @@ bool contains(const std::vector<render::ConvexPart>& parts, Vec3d p) {
 class RegionTest : public ::testing::Test {
 protected:
     const volume::SemanticVolume volume_ = block();
-    const RegionContext context_{volume_, frontCamera(), 1.5};
+    const analyze::LabelRows rows_{volume_.labels};
+    const RegionContext context_{volume_, rows_, frontCamera(), 1.5};
 
     // At metres from the grid's lower corner along its axes.
     bool isIn(const std::string& text, double x, double y, double z) {

@@ -1,7 +1,6 @@
 #include <svt/core/rounding.hpp>
 #include <svt/illustrate/scene.hpp>
 
-#include <svt/analyze/selection.hpp>
 #include <svt/illustrate/hatches.hpp>
 #include <svt/illustrate/scene/region.hpp>
 #include <svt/illustrate/scene/vector_shapes.hpp>
@@ -92,7 +91,8 @@ volume::Grid gridOf(const analyze::SampleBox& box, const volume::Grid& grid) {
     return part ? *part : grid;
 }
 
-Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume& volume) {
+Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume& volume,
+                                const analyze::LabelRows& rows) {
     const SceneCamera& wanted = scene.camera;
     if (!(wanted.zoom > 0 && std::isfinite(wanted.zoom)))
         return Error(Code::BadCamera,
@@ -109,7 +109,7 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume
     options.verticalFovDegrees = wanted.fieldOfView;
     volume::Grid seen = volume.grid;
     if (!wanted.around.empty()) {
-        const auto selected = analyze::selectLabels(volume.labels, wanted.around);
+        const auto selected = analyze::selectLabels(rows, wanted.around);
         if (!selected) return selected.error();
         const auto box =
             analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around));
@@ -133,9 +133,10 @@ double pixelOf(const render::FrameSpec& spec) {
            spec.height;
 }
 
-Result<void> select(const LabelTable& table, const std::vector<std::string>& queries, std::vector<bool>& isSelected) {
+Result<void> select(const analyze::LabelRows& rows, const std::vector<std::string>& queries,
+                    std::vector<bool>& isSelected) {
     for (const std::string& query : queries) {
-        const auto selected = analyze::selectLabels(table, query);
+        const auto selected = analyze::selectLabels(rows, query);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) isSelected[l] = true;
     }
@@ -149,22 +150,21 @@ float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
     return static_cast<float>(std::min(0.9999, 1 - std::pow(1 - kShellGhost, 1 / thickness)));
 }
 
-Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass,
-                                       const volume::SemanticVolume& volume) {
-    const LabelTable& table = volume.labels;
-    const float ghost = ghostOpacity(pass, volume.grid);
+Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass, const RegionContext& context) {
+    const LabelTable& table = context.volume.labels;
+    const float ghost = ghostOpacity(pass, context.volume.grid);
     std::vector<LabelLook> looks;
     const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
-    if (hasHatches) hatches = labelHatches(table);
+    if (hasHatches) hatches = labelHatches(context.rows);
     for (std::size_t l = 0; l < table.labels.size(); ++l)
         looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
                          table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});
     std::vector<bool> isShown(table.labels.size(), pass.show.empty()), isHidden(table.labels.size(), false);
-    if (auto done = select(table, pass.show, isShown); !done) return done.error();
-    if (auto done = select(table, pass.hide, isHidden); !done) return done.error();
+    if (auto done = select(context.rows, pass.show, isShown); !done) return done.error();
+    if (auto done = select(context.rows, pass.hide, isHidden); !done) return done.error();
     for (const SceneStyle& style : pass.styles) {
-        const auto selected = analyze::selectLabels(table, style.select);
+        const auto selected = analyze::selectLabels(context.rows, style.select);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) {
             LabelLook& look = looks[l];
@@ -201,7 +201,7 @@ std::vector<render::Style> stylesOf(const LabelTable& table, const std::vector<L
 
 Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const RegionContext& context) {
     render::Pass pass;
-    const auto looks = looksOf(scene, wanted, context.volume);
+    const auto looks = looksOf(scene, wanted, context);
     if (!looks) return looks.error();
     pass.styles = stylesOf(context.volume.labels, *looks, scene.look);
     pass.join = wanted.join;
@@ -214,7 +214,7 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const R
     };
     if (auto added = addClip(wanted.keep, render::ClipRegion::Mode::KeepOnly); !added) return added.error();
     if (auto added = addClip(wanted.cut, render::ClipRegion::Mode::CutAway); !added) return added.error();
-    if (auto added = addShapes(wanted, context.volume, pass); !added) return added.error();
+    if (auto added = addShapes(wanted, context.volume, context.rows, pass); !added) return added.error();
     return pass;
 }
 
@@ -289,6 +289,11 @@ std::vector<VolumeForm> volumeForms(const Scene& scene) {
 }
 
 Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume) {
+    return makeFrameSpec(scene, volume, volume.labels);
+}
+
+Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume,
+                                        const analyze::LabelRows& rows) {
     render::FrameSpec spec;
     spec.width = scene.width;
     spec.height = scene.height;
@@ -298,11 +303,11 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
         return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels cannot be drawn; 1 to {} are possible",
                                                  scene.width, scene.height, render::FrameSpec::kMaxSize));
     applyLook(scene, spec);
-    const auto camera = cameraOf(scene, volume);
+    const auto camera = cameraOf(scene, volume, rows);
     if (!camera) return camera.error();
     spec.camera = *camera;
     spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundDownTo125(11 * pixelOf(spec));
-    const RegionContext context{volume, *camera, double(scene.width) / scene.height};
+    const RegionContext context{volume, rows, *camera, double(scene.width) / scene.height};
     const std::vector<VolumeForm> forms = volumeForms(scene);
     for (const ScenePass& wanted : scene.passes) {
         auto pass = passOf(scene, wanted, context);

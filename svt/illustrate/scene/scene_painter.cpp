@@ -8,9 +8,10 @@
 namespace svt::illustrate {
 namespace {
 
-Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, Painting& painting) {
+Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
+                      Painting& painting) {
     if (scene.names.empty()) return {};
-    const auto tags = findNameTags(scene.names, volume, painting.spec, painting.frame);
+    const auto tags = findNameTags(scene.names, volume, rows, painting.spec, painting.frame);
     if (!tags) return tags.error();
     const render::Background& background = painting.spec.background;
     const Vec3f paper = (background.top + background.bottom) * 0.5f;
@@ -84,7 +85,8 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
-    auto spec = makeFrameSpec(scene, volume_);
+    const analyze::LabelRows rows(volume_.labels);
+    auto spec = makeFrameSpec(scene, volume_, rows);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
     for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
@@ -92,11 +94,12 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
         if (!made) return made.error();
         drawn.push_back(*made);
     }
-    return finish(scene, std::move(*spec), drawn, draw);
+    return finish(scene, rows, std::move(*spec), drawn, draw);
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
-    auto spec = makeFrameSpec(scene, volume_);
+    const analyze::LabelRows rows(volume_.labels);
+    auto spec = makeFrameSpec(scene, volume_, rows);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
     std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
@@ -110,15 +113,15 @@ Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::Cast
         drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));
         drawn.emplace_back(*drafts.back(), volume.grid);
     }
-    return finish(scene, std::move(*spec), drawn, byCasting(options));
+    return finish(scene, rows, std::move(*spec), drawn, byCasting(options));
 }
 
-Result<Painting> ScenePainter::finish(const Scene& scene, render::FrameSpec spec,
+Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRows& rows, render::FrameSpec spec,
                                       std::span<const render::DrawnVolume> drawn, const Draw& draw) const {
     auto frame = draw(drawn, spec);
     if (!frame) return frame.error();
     Painting painting{std::move(*frame), std::move(spec)};
-    if (auto named = addNames(scene, volume_, painting); !named) return named.error();
+    if (auto named = addNames(scene, volume_, rows, painting); !named) return named.error();
     return painting;
 }
 

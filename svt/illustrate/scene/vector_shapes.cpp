@@ -1,7 +1,5 @@
 #include <svt/illustrate/scene/vector_shapes.hpp>
 
-#include <svt/analyze/selection.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,9 +31,10 @@ std::vector<std::uint32_t> labelsSmallerThan(double metres, const volume::Semant
     return small;
 }
 
-Result<std::vector<std::uint32_t>> selectMeshes(const std::string& text, const volume::SemanticVolume& volume) {
+Result<std::vector<std::uint32_t>> selectMeshes(const std::string& text, const volume::SemanticVolume& volume,
+                                                const analyze::LabelRows& rows) {
     constexpr std::string_view kSize = "size<";
-    if (!text.starts_with(kSize)) return analyze::selectLabels(volume.labels, text);
+    if (!text.starts_with(kSize)) return analyze::selectLabels(rows, text);
     char* rest = nullptr;
     const double metres = std::strtod(text.c_str() + kSize.size(), &rest);
     if (*rest != '\0' || rest == text.c_str() + kSize.size() || !(metres > 0))
@@ -53,13 +52,14 @@ std::vector<std::uint8_t> flagsOf(std::span<const std::uint32_t> labels, std::si
     return flags;
 }
 
-Result<void> addLines(const SceneLines& wanted, const volume::SemanticVolume& volume, render::Pass& pass) {
+Result<void> addLines(const SceneLines& wanted, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
+                      render::Pass& pass) {
     const volume::VectorParts& parts = volume.vectors;
     const auto& labels = volume.labels.labels;
     if (parts.segments.empty()) return missing("edges");
     std::vector<std::uint8_t> isSelected(labels.size(), 1);
     if (!wanted.select.empty()) {
-        const auto selected = analyze::selectLabels(volume.labels, wanted.select);
+        const auto selected = analyze::selectLabels(rows, wanted.select);
         if (!selected) return selected.error();
         isSelected = flagsOf(*selected, labels.size());
     }
@@ -79,16 +79,17 @@ Result<void> addLines(const SceneLines& wanted, const volume::SemanticVolume& vo
 
 }  // namespace
 
-Result<void> addShapes(const ScenePass& wanted, const volume::SemanticVolume& volume, render::Pass& pass) {
+Result<void> addShapes(const ScenePass& wanted, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
+                       render::Pass& pass) {
     for (const SceneLines& lines : wanted.lines)
-        if (auto added = addLines(lines, volume, pass); !added) return added;
+        if (auto added = addLines(lines, volume, rows, pass); !added) return added;
     if (wanted.meshes.empty()) return {};
     const volume::VectorParts& parts = volume.vectors;
     const auto& labels = volume.labels.labels;
     if (parts.triangles.empty()) return missing("meshes");
     std::vector<std::uint8_t> isSelected(labels.size(), 0);
     for (const std::string& text : wanted.meshes) {
-        const auto selected = selectMeshes(text, volume);
+        const auto selected = selectMeshes(text, volume, rows);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) isSelected[l] = 1;
     }

@@ -2,13 +2,16 @@
 /// \file
 /// Lines and meshes of a scene's pass, from the edges and meshes that a volume keeps of its model.
 
+#include <svt/analyze/selection.hpp>
 #include <svt/illustrate/scene.hpp>
 
 namespace svt::illustrate {
 
 /// Adds the lines and meshes of `wanted` to `pass`.
+/// \param rows  of volume.labels
 /// \return nothing, or BadArgument if the volume was built without them or a size is not a length; BadQuery,
 ///         NothingSelected
-[[nodiscard]] Result<void> addShapes(const ScenePass& wanted, const volume::SemanticVolume& volume, render::Pass& pass);
+[[nodiscard]] Result<void> addShapes(const ScenePass& wanted, const volume::SemanticVolume& volume,
+                                     const analyze::LabelRows& rows, render::Pass& pass);
 
 }  // namespace svt::illustrate

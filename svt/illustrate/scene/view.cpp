@@ -11,21 +11,22 @@ namespace svt::illustrate {
 namespace {
 
 // The render camera of a scene's camera, for a picture of any size with this aspect.
-Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, const volume::SemanticVolume& volume) {
+Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, const volume::SemanticVolume& volume,
+                                   const analyze::LabelRows& rows) {
     Scene scene;
     scene.camera = camera;
     scene.height = 1000;
     scene.width = static_cast<std::int32_t>(std::lround(scene.height * aspect));
-    const auto frame = makeFrameSpec(scene, volume);
+    const auto frame = makeFrameSpec(scene, volume, rows);
     if (!frame) return frame.error();
     return frame->camera;
 }
 
-Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volume) {
+Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volume, const analyze::LabelRows& rows) {
     const Vec3i n = volume.grid.dimension();
     analyze::SampleBox box{{0, 0, 0}, {n.x - 1, n.y - 1, n.z - 1}};
     if (!query.empty()) {
-        const auto selected = analyze::selectLabels(volume.labels, query);
+        const auto selected = analyze::selectLabels(rows, query);
         if (!selected) return selected.error();
         const auto around = analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", query));
         if (!around) return around.error();
@@ -40,21 +41,22 @@ Result<SceneCamera> makeView(const std::string& query, const std::string& preset
                              const volume::SemanticVolume& volume) {
     if (!(aspect > 0.01 && aspect < 100))
         return Error(Code::BadCamera, fmt::format("an aspect of {} is out of range; 0.01 to 100 are possible", aspect));
+    const analyze::LabelRows rows(volume.labels);
     const Vec3d origin = volume.grid.origin();
     SceneCamera view = now;
     view.around = query;
     view.zoom = 1;
     view.eye = view.target = {};
     if (!preset.empty()) view.preset = preset;
-    const auto named = drawnCamera(view, aspect, volume);
+    const auto named = drawnCamera(view, aspect, volume, rows);
     if (!named) return named.error();
     view.eye = named->eye - origin;
     view.target = named->target - origin;
     if (!preset.empty()) return view;
 
-    const auto before = drawnCamera(now, aspect, volume);
+    const auto before = drawnCamera(now, aspect, volume, rows);
     if (!before) return before.error();
-    const auto box = boxOf(query, volume);
+    const auto box = boxOf(query, volume, rows);
     if (!box) return box.error();
     render::PresetOptions options;
     options.aspect = aspect;

@@ -18,10 +18,11 @@ using volume::kNoLabel;
 
 // Entry per scalar: its label, or kNoLabel for what is left out.
 Result<std::vector<std::uint32_t>> drawnLabels(const volume::LabelTable& table, const SectionOptions& options) {
+    const analyze::LabelRows rows(table);
     std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
     for (const bool isShown : {true, false})
         for (const std::string& query : isShown ? options.show : options.hide) {
-            const auto selected = analyze::selectLabels(table, query);
+            const auto selected = analyze::selectLabels(rows, query);
             if (!selected) return selected.error();
             for (const std::uint32_t label : *selected) isDrawn[label] = isShown ? 1 : 0;
         }

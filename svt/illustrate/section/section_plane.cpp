@@ -50,13 +50,14 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
 }
 
 Result<std::pair<double, double>> heightsOf(const std::string& storey, const volume::SemanticVolume& volume,
+                                            const analyze::LabelRows& rows,
                                             const std::vector<analyze::SampleBox>& boxes) {
     std::string quoted;
     for (const char c : storey) {
         if (c == '"' || c == '\\') quoted += '\\';
         quoted += c;
     }
-    const auto selected = analyze::selectLabels(volume.labels, fmt::format("storey=\"{}\"", quoted));
+    const auto selected = analyze::selectLabels(rows, fmt::format("storey=\"{}\"", quoted));
     if (!selected) return selected.error();
     analyze::SampleBox rooms, all;
     for (const std::uint32_t l : *selected) {
@@ -72,16 +73,22 @@ Result<std::pair<double, double>> heightsOf(const std::string& storey, const vol
 }  // namespace
 
 Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
-    return heightsOf(storey, volume, analyze::labelBoxes(volume.columns, volume.labels));
+    return storeyHeights(storey, volume, volume.labels);
+}
+
+Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume,
+                                                const analyze::LabelRows& rows) {
+    return heightsOf(storey, volume, rows, analyze::labelBoxes(volume.columns, volume.labels));
 }
 
 std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
     const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
-    const auto rows = analyze::queryRows(volume.labels);
+    const analyze::LabelRows labelRows(volume.labels);
+    const std::span<const model::QueryRow> rows = labelRows.get();
     std::vector<StoreyHeights> storeys;
     for (std::uint32_t l = 0; l < rows.size(); ++l) {
         if (!model::query::isStorey(rows[l])) continue;
-        if (const auto heights = heightsOf(volume.labels.labels[l].id, volume, boxes))
+        if (const auto heights = heightsOf(volume.labels.labels[l].id, volume, labelRows, boxes))
             storeys.push_back({l, heights->first, heights->second});
     }
     std::stable_sort(storeys.begin(), storeys.end(),
@@ -107,6 +114,11 @@ SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
 }
 
 Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume) {
+    return parseSectionPlane(text, volume, volume.labels);
+}
+
+Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume,
+                                       const analyze::LabelRows& rows) {
     const volume::Grid& grid = volume.grid;
     const auto badSection = [&](const std::string& reason) {
         return Error(Code::BadSection, fmt::format("the section '{}': {}", text, reason));
@@ -127,7 +139,8 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
         const std::size_t sign = copy.find_last_of("+-");
         std::optional<std::array<double, 4>> above;
         if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);
-        const auto heights = storeyHeights(unquoted(copy.substr(7, above ? sign - 7 : std::string::npos)), volume);
+        const auto heights =
+            storeyHeights(unquoted(copy.substr(7, above ? sign - 7 : std::string::npos)), volume, rows);
         if (!heights) return heights.error();
         plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + (above ? (*above)[0] : 1.0))};
     } else {
