@@ -53,6 +53,58 @@ void add(float alpha) {
 
 bool isDone() { return 1.0 - transmittance >= opaqueAt; }
 
+// Goes on to where something is to be drawn, a surface or a shape; false if the interval ends before. Adds what is
+// translucent on the way.
+bool findEvent(float to, bool isBeyond) {
+    bool isNew = false;
+    for (int steps = 0; steps < 65536; ++steps) {
+#if SHAPES
+        bool meetsShape = isBeyond ? shapeAt < kFar : shapeAt <= t;
+        if (isBeyond || meetsShape) {
+            isNew = meetsShape;
+            break;
+        }
+#endif
+        findStep();
+        if (isFirst || scalar != runScalar) {
+            runFrom = t;
+            runScalar = scalar;
+            runIsFirst = isFirst;
+            isFirst = false;
+        }
+        style = scalar < styleCount ? elementOf(styles, kStyleTexels * scalar + 1u) : uvec4(0u);
+        uint kind = style.x & kKindBits;
+        if (kind == kHidden) {
+            object = kNone;
+        } else if (style.y != object || kind == kOpaque) {
+            isSameObject = style.y == object;
+            object = style.y;
+            isNew = true;
+            break;
+        }
+        float end = min(stepEnd, to);
+#if SHAPES
+        meetsShape = shapeAt <= end;
+        if (meetsShape) end = shapeAt;
+#endif
+#if TRANSLUCENT
+        if (kind == kTranslucent)
+            add(1.0 - exp(-floatsOf(styles, kStyleTexels * scalar).a * metresPerT * max(end - t, 0.0)));
+        hasEnded = isDone();
+        if (hasEnded) break;
+#endif
+#if SHAPES
+        if (meetsShape) {
+            t = end;
+            isNew = true;
+            break;
+        }
+#endif
+        if (stepEnd >= to || !takeStep()) break;
+    }
+    return isNew;
+}
+
 // Casts one drawn interval. isBeyond: the ray has left the volume or ended; only shapes are left.
 void castInterval(float from, float to, uint cap, bool isBeyond) {
 #if TRIANGLES && CLIPS
@@ -60,53 +112,7 @@ void castInterval(float from, float to, uint cap, bool isBeyond) {
     if (hasEnded && !isBeyond) return;
 #endif
     for (int event = 0; event < 8192; ++event) {
-        bool isNew = false;
-        for (int steps = 0; steps < 65536; ++steps) {
-#if SHAPES
-            bool meetsShape = isBeyond ? shapeAt < kFar : shapeAt <= t;
-            if (isBeyond || meetsShape) {
-                isNew = meetsShape;
-                break;
-            }
-#endif
-            findStep();
-            if (isFirst || scalar != runScalar) {
-                runFrom = t;
-                runScalar = scalar;
-                runIsFirst = isFirst;
-                isFirst = false;
-            }
-            style = scalar < styleCount ? elementOf(styles, kStyleTexels * scalar + 1u) : uvec4(0u);
-            uint kind = style.x & kKindBits;
-            if (kind == kHidden) {
-                object = kNone;
-            } else if (style.y != object || kind == kOpaque) {
-                isSameObject = style.y == object;
-                object = style.y;
-                isNew = true;
-                break;
-            }
-            float end = min(stepEnd, to);
-#if SHAPES
-            meetsShape = shapeAt <= end;
-            if (meetsShape) end = shapeAt;
-#endif
-#if TRANSLUCENT
-            if (kind == kTranslucent)
-                add(1.0 - exp(-floatsOf(styles, kStyleTexels * scalar).a * metresPerT * max(end - t, 0.0)));
-            hasEnded = isDone();
-            if (hasEnded) break;
-#endif
-#if SHAPES
-            if (meetsShape) {
-                t = end;
-                isNew = true;
-                break;
-            }
-#endif
-            if (stepEnd >= to || !takeStep()) break;
-        }
-        if (!isNew) break;
+        if (!findEvent(to, isBeyond)) break;
 #if SHAPES
         if (isBeyond ? shapeAt < kFar : shapeAt <= t) {
             addShape();
