@@ -1,6 +1,10 @@
 #pragma once
 /// \file
 /// The planes of the faces of a model's meshes, in voxel space, with the offset of the samples that the voxelizer uses.
+///
+/// Triangles with a shared plane of their meshes (mesh/planes.hpp) keep it. Only the others are grouped here: vertical
+/// ones, and all where the grid's z axis is not upright. The planes of the meshes cannot serve for these: they are
+/// heights over (x, y), and as they hold for every grid, their tolerance is in metres, not in voxels.
 
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/face_planes.hpp>
