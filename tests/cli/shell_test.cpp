@@ -142,7 +142,7 @@ TEST_F(Shell, BadArgumentsAreRefused) {
     refused({"-o", "s.obj"}, 2, ".svt and .glb");
     refused({"-o", "s.svt", "--level", "flat"}, 2, "storey");
     refused({"-o", "s.svt", "--thickness", "-1"}, 2, "at least 0");
-    refused({"-o", "s.svt", "--thickness", "nan"}, 2, "no number");
+    refused({"-o", "s.svt", "--thickness", "nan"}, 2, "not a number");
     refused({"-o", "s.svt", "--of", "class="}, 2, "E901");
     refused({"-o", "s.svt", "--of", "class=Windw"}, 2, "Window");
     refused({"-o", "no/s.svt"}, 5, "E404");

@@ -324,7 +324,7 @@ TEST(SceneMembers, DefaultsAreThoseOfTheStructures) {
         Scene plain;
         if (member.name.find("/lines/*") != std::string_view::npos) plain.passes[0].lines.emplace_back();
         if (member.name.find("/styles/*") != std::string_view::npos)
-            plain.passes[0].styles.push_back({.select = "all"});
+            plain.passes[0].styles.emplace_back().select = "all";
         if (member.name == "/ambientOcclusion") plain.ambientOcclusion = 0.6f;
         EXPECT_EQ(*scene, plain) << json;
     }

@@ -86,7 +86,7 @@ TEST(SectionPlane, DefaultIsAPlanOfTheLowestStorey) {
     for (volume::Label& label : groups.labels.labels) {
         if (label.className != "Storey") continue;
         label.className = "CityObjectGroup";
-        label.attributes.push_back({"class", std::string("building storey")});
+        label.attributes.push_back({"class", std::string("building storey"), {}});
     }
     EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(groups)), 30 + 0.375 + 1.1);
     for (volume::Label& label : volume.labels.labels)
