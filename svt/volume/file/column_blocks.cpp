@@ -87,8 +87,7 @@ bool compress(ZSTD_CCtx* context, const BlockStreams& streams, ColumnBlock& bloc
     std::size_t total = lengths.size();
     for (const auto& stream : streams) total += stream.size();
     if (total > kMaxBlockBytes) return false;
-    ZSTD_CCtx_reset(context, ZSTD_reset_session_and_parameters);
-    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, kZstdLevel);
+    startFrame(context);
     ZSTD_CCtx_setPledgedSrcSize(context, total);
     frame.resize(ZSTD_compressBound(total) + 32 * (kBlockStreams + 1));
     ZSTD_outBuffer out{frame.data(), frame.size(), 0};

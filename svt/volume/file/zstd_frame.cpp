@@ -4,9 +4,20 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <memory>
+#include <new>
 
 namespace svt::volume {
 namespace {
+
+/// Compression level of all zstd frames of a file. Measured on the columns of FZK-Haus: 19 takes ten times as long and
+/// saves 5 to 8 %; 3 is three times as fast and 15 % larger.
+constexpr int kZstdLevel = 9;
+
+/// ZSTD_c_useRowMatchFinder and ZSTD_ps_enable, which zstd.h hides from those who link it dynamically. Left to itself, zstd
+/// takes that way of finding matches where it has SIMD, and gives other bytes where it has not.
+constexpr ZSTD_cParameter kRowMatchFinder = ZSTD_c_experimentalParam14;
+constexpr int kEnable = 1;
 
 /// Maximum unpacked size of a frame of `size` bytes. zstd could reach higher ratios, real numbers never do.
 std::uint64_t maxBytes(std::uint64_t size) noexcept {
@@ -15,9 +26,18 @@ std::uint64_t maxBytes(std::uint64_t size) noexcept {
 
 }  // namespace
 
+void startFrame(ZSTD_CCtx* context) {
+    ZSTD_CCtx_reset(context, ZSTD_reset_session_and_parameters);
+    ZSTD_CCtx_setParameter(context, ZSTD_c_compressionLevel, kZstdLevel);
+    ZSTD_CCtx_setParameter(context, kRowMatchFinder, kEnable);
+}
+
 Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> bytes, std::string_view what) {
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+    if (!context) throw std::bad_alloc();
+    startFrame(context.get());
     std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
-    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kZstdLevel);
+    const std::size_t size = ZSTD_compress2(context.get(), frame.data(), frame.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(size) != 0) return Error(Code::BadArgument, fmt::format("{} cannot be compressed", what));
     frame.resize(size);
     if (bytes.size() > maxBytes(size))

@@ -1,6 +1,7 @@
 #!/usr/bin/env node
 // The command svt: the program of apps/cli as WebAssembly, with the files of this system.
 import { spawn } from 'node:child_process';
+import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
@@ -27,6 +28,7 @@ const isWindows = process.platform === 'win32';
 let serving;
 const createSvtCommand = createRequire(import.meta.url)('../lib/svt_node.cjs');
 const command = await createSvtCommand({
+  wasmBinary: readFileSync(new URL('../lib/svt_node.wasm', import.meta.url)),
   host: {
     isWindows,
     isErrorTerminal: Boolean(process.stderr.isTTY),
