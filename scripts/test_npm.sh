@@ -15,7 +15,8 @@ cd "$work"
 npm init -y >/dev/null
 npm install --offline --no-audit --no-fund "$package" >log 2>&1 || { cat log >&2; exit 1; }
 mkdir 'my models' there
-npx --no-install svt --version | head -n 1
+npx --no-install svt --version >version 2>>log
+head -n 1 version
 commands() { # program, folder
   "$1" sample house -o "$2/h 1.gml"
   "$1" build "$2/h 1.gml" -o "$2/h.svt" --vectors edges
