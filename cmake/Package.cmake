@@ -6,7 +6,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/package)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PACKAGE_CONTACT "The SVT authors <svt@localhost.localdomain>")
+set(CPACK_PACKAGE_CONTACT "The SVT authors <svt@example.org>")
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -18,11 +18,10 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # OpenGL is optional, and so is a browser that `svt view` may open.
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, xdg-utils")
-set(CPACK_COMPONENT_COMMAND_DESCRIPTION "semantic volume textures of building models
- Turns a semantic building model (CityGML, CityJSON) into a volume in which
- every point knows which component it belongs to, and draws that volume cut
- open: moving cross-sections, a sectioning lens, one flat inside the ghost of
- its tower. Answers with areas, volumes and drawings.")
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a semantic building model (CityGML, CityJSON) into a volume in which
+every point knows which component it belongs to, and draws that volume cut
+open: moving cross-sections, a sectioning lens, one flat inside the ghost of
+its tower. Answers with areas, volumes and drawings.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -30,9 +29,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libtbb-dev, libpugixml-dev, libsimdjson-dev, nlohmann-json3-dev, \
 zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, libegl-dev, libgles-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "semantic volume textures of building models (development files)
- Static libraries and headers to read building models, make labelled volumes
- of them, ask and draw these; a CMake package and a pkg-config file.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, make labelled volumes
+of them, ask and draw these; a CMake package and a pkg-config file.")
 
 # What Debian wants beside: copyright and changelog, compressed manual pages.
 find_program(GZIP_PROGRAM gzip)
