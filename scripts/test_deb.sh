@@ -36,6 +36,7 @@ inside sh -ec '
   svt build h.gml -o h.svt
   svt render h.svt -o h.png
   svt view h.svt --no-browser >address 2>log &
+  server=$!
   for n in 1 2 3 4 5 6 7 8 9 10; do [ -s address ] && break; sleep 1; done
   cat address
   perl -MIO::Socket::INET -e '"'"'
@@ -44,7 +45,7 @@ inside sh -ec '
     print $socket "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
     my $reply = join("", <$socket>); $reply =~ /200 OK/ && $reply =~ /<html/i or die "no page: $reply";
   '"'"'
-  kill %1 || kill $!'
+  kill $server'
 cmp <(build/release/bin/svt render "$root/tmp/work/h.svt" -o /dev/stdout) "$root/tmp/work/h.png"
 echo "deb: libsvt-dev is installed, and used by another project"
 quietly inside sh -c 'apt-get install -y -q --no-install-recommends /tmp/libsvt-dev_*.deb cmake g++ ninja-build'

@@ -141,6 +141,15 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     if (target.empty() || !target.has_filename())
         return cannotWrite(target, Code::CannotWrite, "the name of the output file is empty");
 
+    // Asked before links are followed by name: that of /dev/stdout may lead to a pipe, which has none.
+    struct stat status {};
+    bool exists = ::stat(target.c_str(), &status) == 0;
+    if (exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        file.descriptor_ = openRetrying(target.c_str(), O_WRONLY);
+        if (file.descriptor_ < 0) return cannotWrite(target, errno);
+        return file;
+    }
+
     // Follow a symbolic link so that it remains a link; a dangling link names the file to create.
     std::error_code ignored;
     file.target_ = target;
@@ -151,15 +160,9 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
         file.target_ = next.is_absolute() ? next : file.target_.parent_path() / next;
     }
 
-    struct stat status {};
-    const bool exists = ::stat(file.target_.c_str(), &status) == 0;
+    exists = ::stat(file.target_.c_str(), &status) == 0;
     if (!exists && errno != ENOENT) return cannotWrite(target, errno);
     if (exists && S_ISDIR(status.st_mode)) return cannotWrite(target, EISDIR);
-    if (exists && !S_ISREG(status.st_mode)) {
-        file.descriptor_ = openRetrying(file.target_.c_str(), O_WRONLY);
-        if (file.descriptor_ < 0) return cannotWrite(target, errno);
-        return file;
-    }
     if (exists && ::access(file.target_.c_str(), W_OK) != 0)
         return cannotWrite(target, Code::CannotWrite,
                            "the file is write-protected; change that or choose another name");

@@ -84,6 +84,19 @@ TEST(MappedFile, SaysThatPermissionIsMissing) {
     EXPECT_TRUE(mentions(file.error(), "no permission")) << file.error().toString();
 }
 
+TEST(AtomicFile, WritesIntoAPipeThatHasNoNameOfItsOwn) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    // What /dev/stdout is where the output goes to another program.
+    const fs::path path = "/proc/self/fd/" + std::to_string(ends[1]);
+    const auto written = writeFileAtomically(path, std::string_view("through"));
+    ::close(ends[1]);
+    ASSERT_TRUE(written) << written.error().toString();
+    char buffer[16];
+    EXPECT_EQ(std::string(buffer, static_cast<std::size_t>(::read(ends[0], buffer, sizeof buffer))), "through");
+    ::close(ends[0]);
+}
+
 TEST(AtomicFile, OldFileStaysUntilCommit) {
     const TemporaryFolder folder;
     writeText(folder / "a", "old");
