@@ -52,6 +52,6 @@ quietly inside sh -c 'apt-get install -y -q --no-install-recommends /tmp/libsvt-
 quietly inside sh -ec 'cmake -S /tmp/example -B /tmp/build -G Ninja -DCMAKE_BUILD_TYPE=Release; cmake --build /tmp/build
   cd /tmp/work; /tmp/build/draw_picture h.svt example.png; test -s example.png'
 quietly inside apt-get purge -y -q svt libsvt-dev
-left=$(cd "$root" && find usr -path '*svt*' -not -path 'usr/share/doc/*' | head)
+left=$(cd "$root" && find usr -path '*/terminfo' -prune -o -name '*svt*' -not -path 'usr/share/doc/*' -print | head)
 [ -z "$left" ] || { echo "deb: left behind: $left" >&2; exit 1; }
 echo "deb: installs, works and is removed without a trace"
