@@ -42,7 +42,7 @@ demo: build
 test: setup
 	@scripts/check.sh
 	@scripts/build.sh release
-	@$(MAKE) -s viewer
+	@$(MAKE) -s npm
 	@scripts/test.sh
 
 web:
