@@ -194,6 +194,16 @@ TEST(CityJsonCrs, NorthFirstIsExchangedOnlyWhereTheCoordinatesProveIt) {
               (Vec3d{3450000, 5400000, 1}));
 }
 
+TEST(CityJson, TransformScalesAndMovesEachAxisByItsOwnNumber) {
+    const Reading reading =
+        read(R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.5,0.25,0.125],"translate":[100,200,300]},)"
+             R"("CityObjects":{"b":{"type":"Building","geometry":[{"type":"MultiSurface","lod":"2",)"
+             R"("boundaries":[[[0,1,2]]]}]}},"vertices":[[8,8,8],[16,8,8],[8,16,24]]})");
+    ASSERT_TRUE(reading.result) << reading.result.error().toString();
+    EXPECT_EQ(reading.model().polygons[0].points,
+              (std::vector<Vec3d>{{104, 202, 301}, {108, 202, 301}, {104, 204, 303}}));
+}
+
 TEST(CityJsonSeq, LinesHaveLocalVerticesAndTheTransformOfTheHead) {
     const Reading reading = read(sequence());
     ASSERT_TRUE(reading.result) << reading.result.error().toString();
