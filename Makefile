@@ -63,7 +63,7 @@ asan tsan: setup
 
 tidy:
 	@scripts/setup.sh checks
-	@scripts/tidy.sh
+	@scripts/tidy.py
 
 fuzz:
 	@scripts/setup.sh checks

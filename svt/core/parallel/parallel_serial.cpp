@@ -1,4 +1,4 @@
-// Replaces parallel.cpp in builds without threads, such as for browsers, where hosting may not allow them.
+// Replaces parallel_tbb.cpp in builds without threads, such as for browsers, where hosting may not allow them.
 #include <svt/core/parallel.hpp>
 
 namespace svt {

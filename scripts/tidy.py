@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""clang-tidy over all sources, with the checks of .clang-tidy; a finding is a failure.
+
+    scripts/tidy.py [--only PATTERN] [--analyzer]
+
+It reads what the preset `tidy` compiles: several sources of a folder at once, with precompiled headers of clang, so that
+what they share is read once. What was clean is remembered in build/tidy/clean until it, a header or the checks change.
+  --only PATTERN  only units with a source whose path matches the regular expression
+  --analyzer      clang's path-sensitive analyzer instead, source by source: an hour and more
+"""
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+INCLUDED = re.compile(r'#include "([^"]+\.cpp)"')
+FINDING = re.compile(r"^(\S+?):(\d+):\d+: (warning|error): ")
+
+
+def sources_of(unit: pathlib.Path) -> list[pathlib.Path]:
+    """The sources of the project that a unit compiles: itself, or those that a unity source includes."""
+    if "Unity" not in unit.parts:
+        return [unit]
+    return [pathlib.Path(path) for path in INCLUDED.findall(unit.read_text(encoding="utf-8"))]
+
+
+def units_of(build: pathlib.Path) -> list[tuple[pathlib.Path, str, list[pathlib.Path]]]:
+    """(unit, its command, its sources) of all that is compiled from sources of the project."""
+    units = []
+    for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+        unit = pathlib.Path(entry["file"])
+        sources = sources_of(unit)
+        if sources and all(path.is_relative_to(ROOT) and not path.is_relative_to(ROOT / "build") for path in sources):
+            units.append((unit, entry["command"], sources))
+    return units
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--analyzer", action="store_true")
+    arguments = parser.parse_args()
+    if shutil.which("clang-tidy") is None:
+        sys.exit("tidy: clang-tidy is missing; scripts/setup.sh checks installs it")
+    build = ROOT / "build" / "tidy"
+    configure = ["cmake", "--preset", "tidy"]
+    if arguments.analyzer:  # it looks only at functions of the file that it is given
+        build = ROOT / "build" / "tidy-analyzer"
+        configure += ["-B", str(build), "-DSVT_UNITY=OFF"]
+    subprocess.run(configure, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    precompiled = ["svt_precompiled", "svt_precompiled_cold", "svt_precompiled_test", "svt_version"]
+    subprocess.run(["cmake", "--build", str(build), "--target", *precompiled], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+
+    headers = sorted(path for part in ("svt", "apps", "tests", "cmake") for path in (ROOT / part).rglob("*.hpp"))
+    common = hashlib.sha256(b"".join(path.read_bytes() for path in [ROOT / ".clang-tidy", *headers]))
+    clean = build / "clean"
+    clean.mkdir(exist_ok=True)
+
+    def check(unit: pathlib.Path, command: str, sources: list[pathlib.Path]) -> list[str]:
+        digest = common.copy()
+        digest.update(command.encode() + b"".join(path.read_bytes() for path in sources))
+        mark = clean / digest.hexdigest()
+        if mark.exists():
+            return []
+        tidy = ["clang-tidy", "-p", str(build), "--quiet"]
+        if arguments.analyzer:
+            tidy.append("--checks=-*,clang-analyzer-*,-clang-analyzer-optin.performance.Padding")
+        done = subprocess.run([*tidy, str(unit)], cwd=ROOT, capture_output=True, text=True)
+        findings = sorted({line.replace(f"{ROOT}/", "") for line in done.stdout.splitlines() if FINDING.match(line)})
+        if done.returncode != 0 and not findings:
+            findings = [f"{unit}: clang-tidy failed: {done.stderr.strip()}"]
+        if not findings:
+            mark.touch()
+        return findings
+
+    units = [unit for unit in units_of(build) if any(re.search(arguments.only, str(path)) for path in unit[2])]
+    print(f"tidy: {len(units)} units, {sum(len(sources) for _, _, sources in units)} sources", flush=True)
+    found = set()
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for findings in pool.map(lambda unit: check(*unit), units):
+            for finding in findings:
+                if finding not in found:
+                    print(finding, flush=True)
+            found.update(findings)
+    print(f"tidy: {len(found)} findings")
+    return 1 if found or not units else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
