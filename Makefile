@@ -70,7 +70,6 @@ fuzz:
 	@scripts/fuzz.sh $(SECONDS)
 
 mutants: setup
-	@scripts/build.sh release
 	@scripts/mutants.py $(FOLDERS) --count $(COUNT)
 
 install: setup
