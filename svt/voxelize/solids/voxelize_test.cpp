@@ -263,6 +263,18 @@ TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
     }
 }
 
+TEST(Voxelize, AtEqualRankWhatIsTrulyInsideGoesBeforeThinParts) {
+    // A pane of 18 mm on a wall; the sample nearest to the pane's middle, at y = 0.45, lies in the wall.
+    const auto meshes = meshSetOf({box({0.2, 0.2, 0.2}, {0.8, 0.46, 0.8}), box({0.2, 0.46, 0.2}, {0.8, 0.478, 0.8})});
+    const Grid grid = gridWith({0, 0, 0}, {0.05, 0.05, 0.05}, {21, 21, 21});
+    const auto equal = voxelize(meshes, grid, std::vector<ObjectClaim>{{1, 3, "wall"}, {2, 3, "pane"}});
+    const auto finer = voxelize(meshes, grid, std::vector<ObjectClaim>{{1, 3, "wall"}, {2, 2, "pane"}});
+    ASSERT_TRUE(equal && finer);
+    EXPECT_EQ(countOf(*equal, 2), 1u) << "the one voxel that every object keeps";
+    EXPECT_EQ(countOf(*equal, 1), 12u * 6u * 12u - 1u);
+    EXPECT_EQ(countOf(*finer, 2), 144u);
+}
+
 TEST(Voxelize, NoObjectWithGeometryEndsWithZeroVoxels) {
     // A grain, and one of two equal boxes that the other one covers.
     const auto meshes = meshSetOf(
