@@ -39,7 +39,7 @@ struct Comparison {
 template <class A>
 struct Left {
     const A& a;
-    bool holds() const { return static_cast<bool>(a); }
+    [[nodiscard]] bool holds() const { return static_cast<bool>(a); }
     explicit operator bool() const { return holds(); }
     [[nodiscard]] std::string values() const { return textOf(a); }
 

@@ -121,7 +121,7 @@ fs::path findProgram(std::string_view name) {
     const char* path = std::getenv("PATH");
     std::istringstream folders(path == nullptr ? "" : path);
     for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path file = fs::path(folder.empty() ? "." : folder) / name;
+        fs::path file = fs::path(folder.empty() ? "." : folder) / name;
         std::error_code error;
         if (fs::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0) return file;
     }

@@ -238,7 +238,7 @@ private:
     }
 
     // Relief features state their level of detail in a separate property.
-    double statedLod(FeatureIndex feature) const {
+    [[nodiscard]] double statedLod(FeatureIndex feature) const {
         for (int up = 0; up < 2 && feature != model::kNoFeature; ++up) {
             for (const Attribute& attribute : part_.features[feature].attributes)
                 if (attribute.name == "lod")

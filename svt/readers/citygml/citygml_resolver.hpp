@@ -66,7 +66,7 @@ private:
     void walkReference(NodeIndex node, bool isReversed, Resolved& into);
     void walkImplicit(NodeIndex node, bool isReversed, Resolved& into);
     void collectSurfaces(NodeIndex node, bool isReversed, std::vector<model::SurfaceUse>& into);
-    const FeatureGeometry* findGeometry(model::FeatureIndex feature) const;
+    [[nodiscard]] const FeatureGeometry* findGeometry(model::FeatureIndex feature) const;
     NodeIndex follow(NodeIndex reference);
     model::PolygonIndex placed(model::PolygonIndex polygon, const Placement& placement,
                                std::unordered_map<model::PolygonIndex, model::PolygonIndex>& known);

@@ -403,7 +403,7 @@ bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at) {
     return true;
 }
 
-void GeometryReader::reportRing(Code code, std::string message, pugi::xml_node at) {
+void GeometryReader::reportRing(Code code, const std::string& message, pugi::xml_node at) {
     ringFailed_ = true;
     part_.findings.add(Severity::Warning, code, message + "; the ring is left out", offsetOf_(at),
                        std::string(polygonId_));

@@ -122,19 +122,19 @@ private:
         ++position_;
     }
 
-    std::optional<JsonFault> expected(std::string_view what) const {
+    [[nodiscard]] std::optional<JsonFault> expected(std::string_view what) const {
         const char c = text_[position_];
         const std::string found =
             static_cast<unsigned char>(c) < 0x20 ? fmt::format("control character {}", int(c)) : fmt::format("'{}'", c);
         return JsonFault{position_, Code::BadJson, fmt::format("expected {}, found {}", what, found)};
     }
-    std::optional<JsonFault> endOfText() const {
+    [[nodiscard]] std::optional<JsonFault> endOfText() const {
         if (open_.empty()) return JsonFault{position_, Code::BadJson, "the text is empty; expected a JSON value"};
         return JsonFault{position_, Code::BadJson,
                          fmt::format("the text ends inside the {} that begins at byte {}; the file is cut off",
                                      text_[open_.back()] == '{' ? "object" : "array", open_.back())};
     }
-    std::optional<JsonFault> tooDeep() const {
+    [[nodiscard]] std::optional<JsonFault> tooDeep() const {
         return JsonFault{
             position_, Code::InputTooBig,
             fmt::format(

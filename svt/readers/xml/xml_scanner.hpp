@@ -66,7 +66,7 @@ private:
     bool fillChunk(Chunk& chunk);
     bool finish();
     bool fail(Code code, std::string message, std::uint64_t offset);
-    bool isCutAllowed(std::uint64_t chunkBegin) const noexcept;
+    [[nodiscard]] bool isCutAllowed(std::uint64_t chunkBegin) const noexcept;
     void close(Chunk& chunk, std::uint64_t end) const;
 
     std::string_view text_;

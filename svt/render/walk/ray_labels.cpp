@@ -12,7 +12,7 @@ struct Collector {
     const std::vector<std::uint32_t>& labelOf;
     std::vector<LabelInterval> intervals;
 
-    bool enter(volume::Scalar, double, const RunStart&) const noexcept { return false; }
+    [[nodiscard]] bool enter(volume::Scalar, double, const RunStart&) const noexcept { return false; }
     // Consecutive runs of one label (the phases of its pattern) are one interval.
     bool leave(volume::Scalar scalar, double from, double to) {
         const std::uint32_t label = labelOf[scalar];

@@ -344,7 +344,7 @@ private:
     }
 
     // The side of each sample; nullopt if a sample is within kMargin of the plane.
-    std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
+    [[nodiscard]] std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
         const Vec3d n = plane.normal;
         const double base = valueAt(plane, corner(at) + Vec3d{0.5, 0.5, 0.5});
         // Along a row in x the side changes at most once; only the samples next to that place can be near the plane.

@@ -75,7 +75,7 @@ public:
 
 private:
     // Column numbers of the 8 x 8 footprint. Beyond the border of the volume, the columns at the border are repeated.
-    std::array<std::uint16_t, 64> footprintAt(std::int32_t bx, std::int32_t by) const {
+    [[nodiscard]] std::array<std::uint16_t, 64> footprintAt(std::int32_t bx, std::int32_t by) const {
         std::array<std::uint16_t, 64> footprint;
         for (std::int32_t j = 0; j < 8; ++j) {
             const auto row = static_cast<std::size_t>(std::min(by * 8 + j, height_ - 1));
@@ -121,7 +121,7 @@ private:
     }
 
     // The last run is extended to fill the last brick.
-    std::uint32_t endOf(const Run& run) const { return run.end == nz_ ? top_ : run.end; }
+    [[nodiscard]] std::uint32_t endOf(const Run& run) const { return run.end == nz_ ? top_ : run.end; }
 
     std::uint32_t scalarNumber(Scalar scalar) {
         const auto known = std::find(result_.scalars.rbegin(), result_.scalars.rend(), scalar);
