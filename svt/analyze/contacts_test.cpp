@@ -100,7 +100,8 @@ TEST(Contacts, DiscsOfAnyTurnAreWithinTheirBound) {
 
 TEST(Contacts, SpheresAreWithinTheirBound) {
     const std::pair<double, double> bounds[] = {{10, 0.045}, {15, 0.025}, {20, 0.01}, {30, 0.005}};
-    for (const auto& [radius, bound] : bounds) {
+    for (const auto& [ballRadius, bound] : bounds) {
+        const double radius = ballRadius;  // clang 14 captures no structured binding
         const Vec3d center{36.3, 36.6, 36.1};
         const double area = surfaceOf({72, 72, 72}, [&](Vec3d p) { return squared(p - center) < radius * radius; });
         const double exact = 4 * std::numbers::pi * radius * radius;

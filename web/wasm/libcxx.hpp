@@ -105,26 +105,6 @@ auto minmax(Range&& range, Less less = {}, Projection projection = {}) {
     return min_max_result<iter_value_t<decltype(low)>>{*low, *high};
 }
 
-/// The first and the last-but-one of the elements equal to a value, in order.
-template <class Iterator>
-struct subrange {
-    Iterator first, last;
-    Iterator begin() const { return first; }
-    Iterator end() const { return last; }
-    bool empty() const { return first == last; }
-    auto size() const { return last - first; }
-    decltype(auto) front() const { return *first; }
-};
-template <class Range, class Value, class Less = std::less<>, class Projection = identity>
-auto equal_range(Range&& range, const Value& value, Less less = {}, Projection projection = {}) {
-    const auto first = std::partition_point(std::begin(range), std::end(range), [&](const auto& item) {
-        return invoke(less, invoke(projection, item), value);
-    });
-    const auto last = std::partition_point(
-        first, std::end(range), [&](const auto& item) { return !invoke(less, value, invoke(projection, item)); });
-    return subrange<std::remove_const_t<decltype(first)>>{first, last};
-}
-
 }  // namespace ranges
 }  // namespace std
 

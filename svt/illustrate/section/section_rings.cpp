@@ -317,11 +317,14 @@ private:
         const std::size_t size = sizeOf(halves_[h]);
         const DrawingPoint node = pointOf(halves_[h], size - 1);
         const Step back = pointOf(halves_[h], size - 2) - node;
-        const auto candidates = std::ranges::equal_range(
-            byStart, node, {}, [&](std::uint32_t other) { return pointOf(halves_[other], 0); });
+        const auto startOf = [&](std::uint32_t other) { return pointOf(halves_[other], 0); };
         std::uint32_t best = kNone;
         Step bestStep;
-        for (const std::uint32_t other : candidates) {
+        for (auto candidate =
+                 std::lower_bound(byStart.begin(), byStart.end(), node,
+                                  [&](std::uint32_t other, DrawingPoint at) { return startOf(other) < at; });
+             candidate != byStart.end() && startOf(*candidate) == node; ++candidate) {
+            const std::uint32_t other = *candidate;
             if (isUsed[other] != 0) continue;
             const Step step = pointOf(halves_[other], 1) - node;
             if (best == kNone || isClockwiseBefore(back, step, bestStep)) {
