@@ -54,8 +54,8 @@ private:
     // The volume or a shell of it, with its bricks and levels of detail.
     struct Forms;
     Result<Forms*> findForms(std::optional<ShellLevel> shell);
-    Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, render::FrameSpec spec,
-                            std::span<const render::DrawnVolume> drawn, const Draw& draw) const;
+    [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, render::FrameSpec spec,
+                                          std::span<const render::DrawnVolume> drawn, const Draw& draw) const;
 
     const volume::SemanticVolume& volume_;
     int threads_;

@@ -117,7 +117,7 @@ private:
         }
     }
 
-    Reply answer(const Job& job) const {
+    [[nodiscard]] Reply answer(const Job& job) const {
         try {
             return route.handle(job.request, job.stop);
         } catch (const std::bad_alloc&) {

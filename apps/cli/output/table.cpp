@@ -24,7 +24,7 @@ std::string textOf(const Json& cell, int decimals) {
 std::string csvOf(const Json& cell) {
     if (cell.is_null()) return "";
     if (!cell.is_string() && !cell.is_array()) return cell.dump();
-    const std::string text = cell.is_array() ? joined(cell) : cell.get<std::string>();
+    std::string text = cell.is_array() ? joined(cell) : cell.get<std::string>();
     if (text.find_first_of(",;\"\r\n") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

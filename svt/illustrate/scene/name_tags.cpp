@@ -119,8 +119,9 @@ Result<NameTags> findNameTags(const std::vector<std::string>& queries, const vol
         if (!isSelected[l]) continue;
         NameTag tag{labels[l].name.empty() ? labels[l].id : labels[l].name, 0, 0, best[l].second < 0};
         if (!tag.isHidden) {
-            tag.x = best[l].second % frame.label.width() + 0.5;
-            tag.y = best[l].second / frame.label.width() + 0.5;
+            const auto column = best[l].second % frame.label.width(), row = best[l].second / frame.label.width();
+            tag.x = column + 0.5;
+            tag.y = row + 0.5;
         } else {
             const analyze::SampleBox& box = boxes[l];
             if (box.isEmpty()) continue;

@@ -76,12 +76,12 @@ public:
     }
 
 private:
-    Error wrong(const std::string& reason) const {
+    [[nodiscard]] Error wrong(const std::string& reason) const {
         return Error(Code::BadSection,
                      fmt::format("the region '{}', column {}: {}, found {}", text_, at_ + 1, reason,
                                  at_ < text_.size() ? fmt::format("'{}'", text_.substr(at_, 20)) : "the end"));
     }
-    Error bad(std::string_view primitive, const std::string& reason) const {
+    [[nodiscard]] Error bad(std::string_view primitive, const std::string& reason) const {
         return Error(Code::BadSection, fmt::format("the region '{}': {}: {}", text_, primitive, reason));
     }
 
@@ -112,7 +112,7 @@ private:
     Result<Parts> parseAnd(int depth) {
         auto region = parseNot(depth);
         while (region && takeKeyword("and")) {
-            const auto other = parseNot(depth);
+            auto other = parseNot(depth);
             if (!other) return other;
             region = both(*region, *other);
         }

@@ -105,7 +105,7 @@ private:
         const Length top = kTowerStoreyHeight, parapet = top + 500;
         addElement(plan_, feature_, "roof_slab", "Roof slab", "roof", Material::Concrete,
                    box(0, width_, 0, kDepth, kClear, top), HullPart::Roof, true);
-        const auto add = [&](std::string side, Piece piece) {
+        const auto add = [&](const std::string& side, Piece piece) {
             wall("parapet_" + side, "Parapet " + side, Material::PlasterWhite, std::move(piece), false);
         };
         add("south", box(0, width_, 0, kExterior, top, parapet));
@@ -284,8 +284,9 @@ private:
         const int unit = addComponent(plan_, Kind::Unit, id, name);
         at(unit).storey = feature_;
         at(unit).function = "residential";
-        at(unit).attributes = {{"floorArea", double(width * kFlatDepth / 10000) / 100, "m2"}};
-        const auto inner = [&](std::string part, std::string title, Piece piece) {
+        const auto squareDecimetres = width * kFlatDepth / 10000;
+        at(unit).attributes = {{"floorArea", squareDecimetres / 100.0, "m2"}};
+        const auto inner = [&](const std::string& part, const std::string& title, Piece piece) {
             const int index = wall(id + "_" + part, name + " " + title, Material::Gypsum, std::move(piece), false);
             at(index).unit = unit;
             return index;

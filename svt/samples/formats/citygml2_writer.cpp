@@ -288,7 +288,7 @@ private:
     }
 
     // A face already written by an element or an earlier room is referenced and reversed.
-    bool isWrittenElsewhere(const PlacedPlan& placed, int room, const Face& face) const {
+    [[nodiscard]] bool isWrittenElsewhere(const PlacedPlan& placed, int room, const Face& face) const {
         if (face.neighbor < 0 || face.neighborFace < 0) return false;
         const Component& neighbor = placed.plan->components[std::size_t(face.neighbor)];
         if (neighbor.isStandIn) return false;
