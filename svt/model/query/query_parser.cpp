@@ -23,9 +23,9 @@ struct Token {
 
 // The query as messages show it; a long one is cut off between two characters.
 std::string shown(std::string_view query) {
-    constexpr std::size_t kMostBytes = 200;
-    if (query.size() <= kMostBytes) return std::string(query);
-    std::size_t end = kMostBytes;
+    constexpr std::size_t kMaxShownBytes = 200;
+    if (query.size() <= kMaxShownBytes) return std::string(query);
+    std::size_t end = kMaxShownBytes;
     while (end > 0 && (static_cast<unsigned char>(query[end]) & 0xC0u) == 0x80u) --end;
     return fmt::format("{}...", query.substr(0, end));
 }

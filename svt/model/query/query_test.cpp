@@ -266,6 +266,14 @@ TEST(QueryParser, ErrorsShowTheBeginOfALongQuery) {
         << query.error().message();
 }
 
+TEST(QueryParser, ErrorsShowAQueryOf200BytesWhole) {
+    const std::string text = "name=" + std::string(191, 'x') + " and";
+    ASSERT_EQ(text.size(), 200u);
+    const auto query = Query::parse(text);
+    ASSERT_FALSE(query);
+    EXPECT_EQ(query.error().message().find("the query '" + text + "', column"), 0u) << query.error().message();
+}
+
 TEST(QueryParser, SpellingsOfTheSameQueryAreEqual) {
     const Attribute attribute{"a\"b", std::string("it's"), ""};
     QueryRow row;
