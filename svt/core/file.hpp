@@ -44,15 +44,21 @@ private:
     std::span<const std::byte> bytes_;
 };
 
+/// Where the symbolic links at `path` lead, one after the other, also where nothing is there; `path` itself if it is no
+/// link. Links in its folders are kept. Empty if the links form a circle.
+[[nodiscard]] std::filesystem::path withoutLinks(const std::filesystem::path& path);
+
 /// Writes to a temporary file next to `target` and renames it to `target` in commit(), so readers see either the old
 /// file or the complete new one. Without commit() the temporary file is removed and the old file stays.
+/// The temporary file is locked (flock) while the writer lives. What a process left that was killed has no lock; the
+/// first writer of a process in a folder removes it there.
 /// Symbolic links are followed and kept; so are the permissions of an existing file. A target that is not a regular
 /// file (/dev/stdout, a pipe) is written directly.
 /// Threads: one object must be used by one thread at a time.
 class AtomicFile {
 public:
     /// \return the writer, or CannotWrite where the folder is missing or not writable, or the target is a folder or
-    ///         write-protected; DiskFull
+    ///         write-protected; DiskFull. Cost: the first time in a folder, a look at all names in it
     [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& target);
 
     AtomicFile(AtomicFile&& other) noexcept;
@@ -99,6 +105,15 @@ private:
 [[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target,
                                                         std::span<const std::byte> bytes);
 [[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target, std::string_view text);
+
+/// Equal for two paths to one file, through links: its device and inode, or where nothing is there, the path that it
+/// would have. Empty for devices such as /dev/null, which may be opened by many.
+[[nodiscard]] std::string fileIdentity(const std::filesystem::path& path);
+
+/// Whether AtomicFile could write `target` now: the folder is there, permissions and file system allow a new file in it,
+/// and some space is left. A temporary file is made and removed; a pipe or device is not opened.
+/// \return nothing, or CannotWrite or DiskFull as AtomicFile tells it
+[[nodiscard]] Result<void> checkWritable(const std::filesystem::path& target);
 
 /// Whether messages to stderr are read by a person at a terminal.
 [[nodiscard]] bool isErrorTerminal() noexcept;

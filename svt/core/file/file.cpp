@@ -1,4 +1,5 @@
 #include <svt/core/file.hpp>
+#include <svt/core/file/temporary_file.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -7,9 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <system_error>
 #include <utility>
@@ -70,17 +69,26 @@ Error cannotWrite(const fs::path& path, int systemError) {
     }
 }
 
-/// A name that no other writer uses; O_EXCL catches a remaining collision. Short, so that a long target name
-/// does not exceed the length limit of file names.
-std::string temporaryName() {
-    static std::atomic<std::uint32_t> counter{0};
-    const auto ticks = static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-    return fmt::format(".svt-{:x}-{:x}-{:x}.tmp", static_cast<unsigned>(::getpid()), counter++, ticks);
+/// Where no file can be made beside `target`, to which `given` leads.
+Error cannotMake(const fs::path& given, const fs::path& target, int systemError) {
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code ignored;
+    if (systemError != ENOENT) return cannotWrite(given, systemError);
+    if (fs::is_directory(folder, ignored))
+        return cannotWrite(
+            given, Code::CannotWrite,
+            fmt::format("the system makes no files in the folder {}; choose another folder", folder.string()));
+    if (target != given)
+        return cannotWrite(given, Code::CannotWrite,
+                           fmt::format("this is a link to {}, and the folder {} does not exist; create it, or remove "
+                                       "the link",
+                                       target.string(), folder.string()));
+    return cannotWrite(given, systemError);
 }
 
-int openRetrying(const char* path, int flags, mode_t mode = 0) noexcept {
+int openDescriptor(const char* path, int flags) noexcept {
     for (;;) {
-        const int descriptor = ::open(path, flags | O_CLOEXEC, mode);
+        const int descriptor = ::open(path, flags | O_CLOEXEC);
         if (descriptor >= 0 || errno != EINTR) return descriptor;
     }
 }
@@ -89,7 +97,7 @@ int openRetrying(const char* path, int flags, mode_t mode = 0) noexcept {
 
 Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes) {
     // Without O_NONBLOCK, opening a pipe without a writer would block forever.
-    const int descriptor = openRetrying(path.c_str(), O_RDONLY | O_NONBLOCK);
+    const int descriptor = openDescriptor(path.c_str(), O_RDONLY | O_NONBLOCK);
     if (descriptor < 0) return cannotOpen(path, errno);
     struct stat status {};
     if (::fstat(descriptor, &status) != 0) {
@@ -135,6 +143,19 @@ MappedFile::~MappedFile() {
     if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
+fs::path withoutLinks(const fs::path& path) {
+    constexpr int kMostLinks = 40;
+    std::error_code ignored;
+    fs::path target = path;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
+        if (links == kMostLinks) return {};
+        const fs::path next = fs::read_symlink(target, ignored);
+        if (next.empty()) break;
+        target = next.is_absolute() ? next : target.parent_path() / next;
+    }
+    return target;
+}
+
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     AtomicFile file;
     file.path_ = target;
@@ -145,20 +166,14 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     struct stat status {};
     bool exists = ::stat(target.c_str(), &status) == 0;
     if (exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
-        file.descriptor_ = openRetrying(target.c_str(), O_WRONLY);
+        file.descriptor_ = openDescriptor(target.c_str(), O_WRONLY);
         if (file.descriptor_ < 0) return cannotWrite(target, errno);
         return file;
     }
 
     // Follow a symbolic link so that it remains a link; a dangling link names the file to create.
-    std::error_code ignored;
-    file.target_ = target;
-    for (int links = 0; fs::is_symlink(fs::symlink_status(file.target_, ignored)); ++links) {
-        if (links == 40) return cannotWrite(target, ELOOP);
-        const fs::path next = fs::read_symlink(file.target_, ignored);
-        if (next.empty()) break;
-        file.target_ = next.is_absolute() ? next : file.target_.parent_path() / next;
-    }
+    file.target_ = withoutLinks(target);
+    if (file.target_.empty()) return cannotWrite(target, ELOOP);
 
     exists = ::stat(file.target_.c_str(), &status) == 0;
     if (!exists && errno != ENOENT) return cannotWrite(target, errno);
@@ -167,15 +182,11 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
         return cannotWrite(target, Code::CannotWrite,
                            "the file is write-protected; change that or choose another name");
 
-    do {
-        file.temporary_ = file.target_.parent_path() / temporaryName();
-        file.descriptor_ = openRetrying(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
-    } while (file.descriptor_ < 0 && errno == EEXIST);
-    if (file.descriptor_ < 0) {
-        const int reason = errno;
-        file.temporary_.clear();
-        return cannotWrite(target, reason);
-    }
+    TemporaryFile temporary;
+    if (const int reason = openTemporaryFile(file.target_.parent_path(), temporary); reason != 0)
+        return cannotMake(target, file.target_, reason);
+    file.descriptor_ = temporary.descriptor;
+    file.temporary_ = std::move(temporary.path);
     if (exists && ::fchmod(file.descriptor_, status.st_mode & 07777) != 0) return file.fail(errno);
     return file;
 }
@@ -196,10 +207,15 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::discard() noexcept {
-    if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = -1;
+    // Removed while it is locked; Windows, where no file is locked, removes no open file.
+    const auto close = [this] {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        descriptor_ = -1;
+    };
+    if (!hasFileLocks()) close();
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
     temporary_.clear();
+    close();
     buffer_.clear();
 }
 
@@ -257,10 +273,15 @@ Result<std::uint64_t> AtomicFile::commit() {
     const bool isDirect = temporary_.empty();
     // Without fsync, a crash after the rename could leave an empty file in place of the old one.
     if (!isDirect && ::fsync(descriptor_) != 0) return fail(errno);
-    const int closed = ::close(std::exchange(descriptor_, -1));
-    if (closed != 0 && errno != EINTR) return fail(errno);
+    const auto close = [this] {
+        return descriptor_ < 0 || ::close(std::exchange(descriptor_, -1)) == 0 || errno == EINTR;
+    };
+    // Renamed while it is locked: without the lock another writer would take it for a leftover and remove it.
+    if ((isDirect || !hasFileLocks()) && !close()) return fail(errno);
     if (!isDirect && ::rename(temporary_.c_str(), target_.c_str()) != 0) return fail(errno);
     temporary_.clear();
+    // After fsync, closing has nothing more to write, and the file has its name.
+    close();
     return size_;
 }
 

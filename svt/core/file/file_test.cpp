@@ -3,12 +3,16 @@
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <string>
 #include <svt/core/file.hpp>
+#include <svt/core/file/temporary_file.hpp>
 #include <svt/core/temporary_folder_test.hpp>
+#include <thread>
 #include <vector>
 
 namespace svt {
@@ -190,6 +194,133 @@ TEST(AtomicFile, SaysWhyItCannotWrite) {
         EXPECT_TRUE(mentions(file.error(), c.reason)) << file.error().toString();
     }
     EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(AtomicFile, ALinkIntoAMissingFolderIsToldAsSuch) {
+    const TemporaryFolder folder;
+    fs::create_symlink("absent/file", folder / "link");
+    auto file = AtomicFile::create(folder / "link");
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code(), Code::CannotWrite);
+    EXPECT_TRUE(mentions(file.error(), "this is a link to " + (folder / "absent/file").string()))
+        << file.error().toString();
+    EXPECT_TRUE(mentions(file.error(), "does not exist; create it")) << file.error().toString();
+}
+
+TEST(AtomicFile, AFolderThatTakesNoFilesIsNotCalledMissing) {
+    if (!fs::exists("/proc/self")) GTEST_SKIP() << "there is no /proc";
+    auto file = AtomicFile::create("/proc/file");
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code(), Code::CannotWrite);
+    EXPECT_FALSE(mentions(file.error(), "does not exist")) << file.error().toString();
+}
+
+TEST(FileIdentity, IsThatOfTheFileByEveryPath) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "x");
+    writeText(folder / "b", "x");
+    fs::create_hard_link(folder / "a", folder / "hard");
+    fs::create_symlink("a", folder / "soft");
+    fs::create_symlink("absent", folder / "dangling");
+    EXPECT_EQ(fileIdentity(folder / "hard"), fileIdentity(folder / "a"));
+    EXPECT_EQ(fileIdentity(folder / "soft"), fileIdentity(folder / "a"));
+    EXPECT_EQ(fileIdentity(folder / "dangling"), fileIdentity(folder / "." / "absent"));
+    EXPECT_NE(fileIdentity(folder / "b"), fileIdentity(folder / "a"));
+    EXPECT_NE(fileIdentity(folder / "absent"), fileIdentity(folder / "missing"));
+    EXPECT_EQ(fileIdentity("/dev/null"), "");
+}
+
+TEST(CheckWritable, ChangesNothing) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "old");
+    EXPECT_TRUE(checkWritable(folder / "a"));
+    EXPECT_TRUE(checkWritable(folder / "new"));
+    EXPECT_TRUE(checkWritable("/dev/null"));
+    EXPECT_EQ(readText(folder / "a"), "old");
+    EXPECT_EQ(folder.count(), 1);
+    const auto missing = checkWritable(folder / "absent" / "a");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code(), Code::CannotWrite);
+}
+
+TEST(CheckWritable, DoesNotOpenAPipe) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    // Without a reader, opening it would wait for ever.
+    EXPECT_TRUE(checkWritable(folder / "pipe"));
+}
+
+TEST(WithoutLinks, LeadsToTheEnd) {
+    const TemporaryFolder folder;
+    fs::create_symlink("b", folder / "a");
+    fs::create_symlink("c/d", folder / "b");
+    fs::create_symlink("circle", folder / "circle");
+    EXPECT_EQ(withoutLinks(folder / "a"), folder / "c/d");
+    EXPECT_EQ(withoutLinks(folder / "plain"), folder / "plain");
+    EXPECT_EQ(withoutLinks(folder / "circle"), fs::path());
+}
+
+TEST(Leftovers, OfAKilledProcessGoWithTheNextWrite) {
+    const TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        auto file = AtomicFile::create(folder / "a");
+        if (!file || !file->write(std::string(1 << 20, 'x'))) ::_exit(1);
+        ::raise(SIGKILL);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    ASSERT_EQ(folder.count(), 1) << "the killed writer has left nothing";
+    ASSERT_TRUE(writeFileAtomically(folder / "b", "new"));
+    EXPECT_EQ(folder.count(), 1);
+    EXPECT_EQ(readText(folder / "b"), "new");
+}
+
+TEST(Leftovers, OfALivingWriterAndFilesOfOthersStay) {
+    const TemporaryFolder folder;
+    auto file = AtomicFile::create(folder / "a");
+    ASSERT_TRUE(file);
+    const char* const others[] = {".svt-1-2.tmp", ".svt-1-2-3.tmp.txt", ".svt-x-2-3.tmp", ".svt-1-2-3-4.tmp",
+                                  ".svt-.tmp"};
+    for (const char* name : others) writeText(folder / name, "mine");
+    fs::create_symlink("a", folder / ".svt-1-2-3.tmp");
+    fs::create_directory(folder / ".svt-4-5-6.tmp");
+    EXPECT_EQ(removeLeftovers(folder.path()), 0u);
+    ASSERT_TRUE(file->write("kept"));
+    ASSERT_TRUE(file->commit());
+    EXPECT_EQ(readText(folder / "a"), "kept");
+    for (const char* name : others) EXPECT_TRUE(fs::exists(folder / name)) << name;
+}
+
+TEST(Leftovers, AreRemovedBesideManyWritersOfWhichNoneIsLost) {
+    const TemporaryFolder folder;
+    constexpr int kWriters = 4, kFiles = 100;
+    std::atomic<bool> isDone{false};
+    std::atomic<int> failures{0};
+    std::vector<std::thread> threads;
+    for (int w = 0; w < kWriters; ++w)
+        threads.emplace_back([&, w] {
+            for (int f = 0; f < kFiles; ++f) {
+                const std::string name = std::to_string(w) + "_" + std::to_string(f);
+                if (!writeFileAtomically(folder / name, name)) ++failures;
+            }
+        });
+    std::vector<std::thread> cleaners;
+    for (int c = 0; c < 2; ++c)
+        cleaners.emplace_back([&] {
+            while (!isDone) removeLeftovers(folder.path());
+        });
+    for (std::thread& thread : threads) thread.join();
+    isDone = true;
+    for (std::thread& thread : cleaners) thread.join();
+    EXPECT_EQ(failures, 0);
+    EXPECT_EQ(folder.count(), kWriters * kFiles);
+    for (int w = 0; w < kWriters; ++w)
+        for (int f = 0; f < kFiles; ++f) {
+            const std::string name = std::to_string(w) + "_" + std::to_string(f);
+            ASSERT_EQ(readText(folder / name), name);
+        }
 }
 
 TEST(AtomicFile, WriteProtectedFileAndFolderAreRespected) {

@@ -1,0 +1,63 @@
+#include <svt/core/file.hpp>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <system_error>
+
+namespace svt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Less than any output needs.
+constexpr std::uintmax_t kLeastSpace = std::uintmax_t{16} << 10;
+
+Error cannotWriteTo(const fs::path& path, Code code, std::string message) {
+    return Error(code, std::move(message), Place{path.string(), 0, 0, {}});
+}
+
+/// What is left for this user where `path` is; kLeastSpace where it is not known.
+std::uintmax_t spaceLeft(const fs::path& path) {
+    std::error_code error;
+    const fs::path folder = withoutLinks(path).parent_path();
+    const fs::space_info space = fs::space(folder.empty() ? fs::path(".") : folder, error);
+    // File systems that hold no files of their own, and some of networks, say that they have no space at all.
+    if (error || space.capacity == 0) return kLeastSpace;
+    return ::geteuid() == 0 ? space.free : space.available;
+}
+
+}  // namespace
+
+std::string fileIdentity(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) {
+        if (S_ISCHR(status.st_mode)) return {};
+        // Not every file system under Node.js has inodes.
+        if (status.st_ino != 0)
+            return fmt::format("{}:{}", static_cast<std::uint64_t>(status.st_dev),
+                               static_cast<std::uint64_t>(status.st_ino));
+    }
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(withoutLinks(path), ignored), ignored).string();
+}
+
+Result<void> checkWritable(const fs::path& target) {
+    struct stat status {};
+    if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
+        // Opening a pipe, its reader would take the end of the check for the end of the file.
+        if (::access(target.c_str(), W_OK) == 0) return {};
+        return cannotWriteTo(target, Code::CannotWrite,
+                             "no permission to write here; change the permissions or choose another name");
+    }
+    // Only the attempt tells what permissions, read-only file systems and the like allow.
+    if (const auto file = AtomicFile::create(target); !file) return file.error();
+    if (const std::uintmax_t space = spaceLeft(target); space < kLeastSpace)
+        return cannotWriteTo(
+            target, Code::DiskFull,
+            fmt::format("no space is left on the disk but for {} bytes; free some or choose another folder", space));
+    return {};
+}
+
+}  // namespace svt
