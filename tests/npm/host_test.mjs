@@ -1,12 +1,13 @@
 // Paths of Windows and of other systems, and what the server of the package answers. node --test tests/npm/host_test.mjs
 import assert from 'node:assert/strict';
-import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
 
-import { commandEnvironment, commandPath, hostPath } from '../../web/npm/lib/host.mjs';
+import { commandEnvironment, commandPath, hostPath, writeAll } from '../../web/npm/lib/host.mjs';
 import { byteRange, handler, isKnownHost, readSite } from '../../web/npm/lib/server.mjs';
 
 test('on Windows drives, folders and spaces are kept', () => {
@@ -94,4 +95,62 @@ test('the server gives its files and nothing else', async () => {
   server.close();
   server.closeAllConnections?.();
   rmSync(folder, { recursive: true });
+});
+
+test('all is written, however little is taken at once', () => {
+  const text = 'abcdefghij';
+  let taken = '';
+  let calls = 0;
+  const writeSome = (done) => {
+    calls += 1;
+    if (calls % 2 === 0) throw Object.assign(new Error('busy'), { code: 'EAGAIN' });
+    taken += text.slice(done, done + 3);
+    return Math.min(3, text.length - done);
+  };
+  const isBusy = (error) => error.code === 'EAGAIN';
+  assert.equal(writeAll(writeSome, text.length, isBusy), text.length);
+  assert.equal(taken, text);
+  const broken = () => {
+    throw Object.assign(new Error('closed'), { code: 'EPIPE' });
+  };
+  assert.throws(() => writeAll(broken, 1, isBusy), { code: 'EPIPE' });
+});
+
+test('a slow reader of a pipe gets everything', async () => {
+  const host = new URL('../../web/npm/lib/host.mjs', import.meta.url).href;
+  // process.stdout makes the pipe non-blocking, so that writeSync() takes 64 KiB and then throws EAGAIN.
+  const script = `import { writeSync } from 'node:fs'; import { writeAll } from '${host}';
+    process.stdout; const bytes = Buffer.alloc(1000000, 'x');
+    writeAll((done) => writeSync(1, bytes, done), bytes.length, (error) => error.code === 'EAGAIN');`;
+  const shell = spawn('sh', ['-c', '"$0" --input-type=module -e "$1" | (sleep 0.5; wc -c)', process.execPath, script]);
+  let counted = '';
+  for await (const piece of shell.stdout) counted += piece;
+  assert.equal(Number(counted), 1000000);
+});
+
+test('the file system of the module writes all, and ends quietly without a reader', () => {
+  const post = readFileSync(new URL('../../web/npm/lib/post.js', import.meta.url), 'utf8');
+  let isOpen = true;
+  let ended = 0;
+  let taken = '';
+  let isBusy = false;
+  // As Emscripten's NODERAWFS: takes what the system takes, numbers for errors.
+  const FS = {
+    ErrnoError: class extends Error {},
+    write: (_stream, buffer, offset, length, position) => {
+      if (!isOpen) throw Object.assign(new Error('no reader'), { errno: 64 });
+      isBusy = !isBusy;
+      if (isBusy) throw Object.assign(new Error('busy'), { errno: 6 });
+      assert.equal(position, taken.length);
+      taken += buffer.slice(offset, offset + Math.min(4, length));
+      return Math.min(4, length);
+    },
+  };
+  const host = { path: (given) => given, environment: {}, writeAll, endWithoutReader: () => (ended += 1) };
+  new Function('FS', 'SYSCALLS', 'Module', 'ENV', post)(FS, {}, { host }, {});
+  assert.equal(FS.write({ fd: 1 }, '..abcdefghij', 2, 10, 0), 10);
+  assert.equal(taken, 'abcdefghij');
+  isOpen = false;
+  assert.throws(() => FS.write({ fd: 1 }, 'x', 0, 1), { errno: 64 });
+  assert.equal(ended, 1);
 });

@@ -6,9 +6,10 @@ import { createRequire } from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
 import process from 'node:process';
+import tty from 'node:tty';
 import { fileURLToPath } from 'node:url';
 
-import { commandEnvironment, commandPath, hostPath } from '../lib/host.mjs';
+import { commandEnvironment, commandPath, hostPath, writeAll } from '../lib/host.mjs';
 import { serve } from '../lib/server.mjs';
 
 if (Number(process.versions.node.split('.')[0]) < 18) {
@@ -31,11 +32,15 @@ const command = await createSvtCommand({
   wasmBinary: readFileSync(new URL('../lib/svt_node.wasm', import.meta.url)),
   host: {
     isWindows,
-    isErrorTerminal: Boolean(process.stderr.isTTY),
+    // Not process.stderr.isTTY: to look at it makes a pipe non-blocking, and with 2>&1 stdout too.
+    isErrorTerminal: tty.isatty(2),
     // The page is looked for beside the program: ../share/svt/viewer.
     program: commandPath(path.resolve(fileURLToPath(import.meta.url)), isWindows),
     environment: commandEnvironment(process.env, os.tmpdir(), isWindows),
     path: (given) => hostPath(given, process.cwd(), isWindows),
+    writeAll,
+    // As the signal SIGPIPE ends a program: without a message, for nobody is there to read on.
+    endWithoutReader: () => process.exit(141),
     serve: (orders) => {
       serving = serve(orders, openBrowser);
     },

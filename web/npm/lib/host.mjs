@@ -1,4 +1,4 @@
-// What the WebAssembly command asks of Node.js: paths of this system, the terminal, the server.
+// What the WebAssembly command asks of Node.js: paths of this system, the terminal, pipes, the server.
 import path from 'node:path';
 
 /**
@@ -37,4 +37,26 @@ export function commandPath(given, isWindows) {
  */
 export function commandEnvironment(environment, temporaryFolder, isWindows) {
   return { ...environment, TMPDIR: commandPath(temporaryFolder, isWindows) };
+}
+
+/**
+ * Writes all, however little is taken at once: a pipe takes at most what its buffer has room for, and where it is
+ * non-blocking, none of it for a while (EAGAIN).
+ * @param {(done: number) => number} writeSome  writes what comes after the first `done` bytes, returns how many it wrote
+ * @param {number} length  of all, in bytes
+ * @param {(error: unknown) => boolean} isBusy  whether an error means to try again
+ * @returns {number} length
+ */
+export function writeAll(writeSome, length, isBusy) {
+  let done = 0;
+  while (done < length) {
+    try {
+      done += writeSome(done);
+    } catch (error) {
+      if (!isBusy(error)) throw error;
+      // The command runs in one go, so nothing else could be done in the meantime.
+      Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, 5 /* ms */);
+    }
+  }
+  return done;
 }

@@ -3,3 +3,15 @@ SYSCALLS.calculateAt = (_folder, path, allowEmpty) => {
   if (path === '' && !allowEmpty) throw new FS.ErrnoError(44 /* ENOENT */);
   return path === '' ? path : Module['host']['path'](path);
 };
+// The libc of the module takes a piece that was written in part for written in full.
+const writeSome = FS.write;
+FS.write = (stream, buffer, offset, length, position, canOwn) => {
+  const at = (done) => (position === undefined ? undefined : position + done);
+  const write = (done) => writeSome(stream, buffer, offset + done, length - done, at(done), canOwn);
+  try {
+    return Module['host']['writeAll'](write, length, (error) => error.errno === 6 /* EAGAIN */);
+  } catch (error) {
+    if (error.errno === 64 /* EPIPE */) Module['host']['endWithoutReader']();
+    throw error;
+  }
+};
