@@ -28,7 +28,8 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "svt: error: out of memory; choose a coarser --spacing or a smaller model\n");
         return kLimit;
     } catch (const std::system_error& error) {
-        // What fmt throws where stdout cannot be written.
+        // What fmt throws where stdout cannot be written. That its reader has gone (svt query ... | head) is no error.
+        if (error.code() == std::errc::broken_pipe) return kNoReader;
         fmt::print(stderr, "svt: error: stdout cannot be written: {}\n", error.code().message());
         return kOutput;
     } catch (const std::exception& error) {

@@ -63,6 +63,7 @@ enum class Code : std::uint16_t {
     DiskFull = 405,       ///< no space left for the output
     BadImage = 406,       ///< an image or raw file that cannot be read
     BadNrrd = 407,        ///< not a readable NRRD file
+    WouldDestroy = 408,   ///< an output would take the place of an input, of another output or of another kind of file
     // 5xx: pictures
     BadCamera = 501,   ///< up parallel to view, or field of view out of range
     BadFrame = 502,    ///< picture size or plane out of range

@@ -21,6 +21,18 @@ enum class OptionKind : std::uint8_t {
     List     ///< of a file: an array of such objects
 };
 
+/// What the value of an option of the command line means as the name of a file.
+enum class FileUse : std::uint8_t {
+    None,           ///< it names no file
+    Model,          ///< a model is read
+    ModelOrVolume,  ///< a model or a `.svt` is read
+    Style,          ///< a style is read, with the files that it names
+    OtherInput,     ///< anything else that is read
+    InputFolder,    ///< a folder whose files are read
+    Output,         ///< a file is written
+    OutputFolder    ///< files are written into a folder
+};
+
 /// The declaration of an option of the command line or of a member of a JSON file.
 struct Option {
     std::string_view
@@ -41,6 +53,10 @@ struct Option {
     int leastCount = 1;           ///< fewer are allowed down to this; 0: the option may stand without a value
     bool isRequired = false;
     bool mayRepeat = false;  ///< may be given several times; an array in a file
+    FileUse file = FileUse::None;
+    std::string_view formats{};     ///< of an output: what may be written, "svg|dxf|geojson", told by the file's ending
+    std::string_view numberedBy{};  ///< of an output: the option that says how many files there are, P_0000.png, ...
+    bool isForModels = false;       ///< says how a model becomes a volume; without meaning where only volumes are read
 };
 
 /// The parts of "a|b|c".

@@ -2,8 +2,11 @@
 /// \file
 /// Progress reports and cancellation of long calls.
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string_view>
 
 namespace svt {
@@ -22,6 +25,39 @@ struct Progress {
     [[nodiscard]] static bool isCancelled(const Progress* progress) noexcept {
         return progress != nullptr && progress->cancel.load(std::memory_order_relaxed);
     }
+};
+
+/// Reports what share of a stage is done, at most a hundred times, for loops whose threads count what they have done.
+class ProgressCounter {
+public:
+    /// \param progress  may be null
+    /// \param stage     must outlive the counter
+    /// \param total     of what add() counts
+    ProgressCounter(const Progress* progress, std::string_view stage, std::uint64_t total)
+        : progress_(progress), stage_(stage), total_(std::max<std::uint64_t>(total, 1)) {
+        Progress::tell(progress_, stage_, 0);
+    }
+
+    /// From any thread. A thread that finds another one reporting goes on without.
+    void add(std::uint64_t count = 1) {
+        if (progress_ == nullptr) return;
+        const std::uint64_t done = done_.fetch_add(count, std::memory_order_relaxed) + count;
+        const double share = std::min(1.0, double(done) / double(total_));
+        const int percent = static_cast<int>(share * 100);
+        if (percent <= told_.load(std::memory_order_relaxed)) return;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock || percent <= told_.load(std::memory_order_relaxed)) return;
+        told_.store(percent, std::memory_order_relaxed);
+        Progress::tell(progress_, stage_, share);
+    }
+
+private:
+    const Progress* progress_;
+    std::string_view stage_;
+    std::uint64_t total_;
+    std::atomic<std::uint64_t> done_{0};
+    std::atomic<int> told_{0};
+    std::mutex mutex_;
 };
 
 }  // namespace svt

@@ -184,8 +184,10 @@ Result<voxelize::VoxelizeResult> makeVoxels(const Prepared& prepared, const std:
     const auto& [meshes, grid, labelled] = prepared;
     auto voxels = voxelize::voxelize(meshes, grid, labelled.claims, voxelizeOptions);
     if (!voxels) return voxels;
+    Progress::tell(options.progress, "bodies", 0);
     if (!groups.empty())
         voxels->columns = voxelize::assignThematicBodies(voxels->columns, grid, meshes, groups, options.threads);
+    Progress::tell(options.progress, "patterns", 0);
     if (!labelled.patterns.empty())
         voxels->columns =
             voxelize::layPatterns(voxels->columns, grid, meshes.origin, labelled.patterns, options.threads);
@@ -294,6 +296,7 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     report.seconds.voxelize = secondsSince(start);
 
     start = Clock::now();
+    Progress::tell(options.progress, "pack", 0);
     fillLabels(*voxels, groups, *prepared);
     countObjects(meshes, report);
     auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors, options.threads);

@@ -181,6 +181,43 @@ Vec3f shade(Vec3f color, std::size_t phase) {
     return color * factor;
 }
 
+Result<std::string> readText(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
+    std::string text;
+    constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+    text.resize(kMaxBytes + 1);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kMaxBytes)
+        return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
+    return text;
+}
+
+// The text as JSON with an array of rules; these are not checked.
+Result<json> parseRules(std::string_view text) {
+    // Checks the depth first, since the parser is recursive.
+    int depth = 0, deepest = 0;
+    bool isText = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"') isText = !isText;
+        if (isText) {
+            i += c == '\\' ? 1 : 0;
+            continue;
+        }
+        depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+        deepest = std::max(deepest, depth);
+    }
+    if (deepest > 64) return badStyle("file", fmt::format("nested {} deep; 64 levels are possible", deepest));
+    json root = json::parse(text.begin(), text.end(), nullptr, false);
+    if (root.is_discarded()) return badStyle("file", "not well-formed JSON");
+    if (auto checked = checkMembers(root, "file", {"rules", "$schema", "comment"}); !checked) return checked.error();
+    if (!root.contains("rules") || !root["rules"].is_array()) return badStyle("file", "expected \"rules\": [...]");
+    return root;
+}
+
 void apply(const StyleRule& rule, ResolvedStyle& style) {
     if (rule.color) style.color = *rule.color;
     if (rule.opacity) style.opacity = *rule.opacity;
@@ -201,27 +238,12 @@ const StyleSheet& defaultStyle(bool withPatterns) {
 }
 
 Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem::path& folder) {
-    // Checks the depth first, since the parser is recursive.
-    int depth = 0, deepest = 0;
-    bool isText = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '"') isText = !isText;
-        if (isText) {
-            i += c == '\\' ? 1 : 0;
-            continue;
-        }
-        depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
-        deepest = std::max(deepest, depth);
-    }
-    if (deepest > 64) return badStyle("file", fmt::format("nested {} deep; 64 levels are possible", deepest));
-    const json root = json::parse(text.begin(), text.end(), nullptr, false);
-    if (root.is_discarded()) return badStyle("file", "not well-formed JSON");
-    if (auto checked = checkMembers(root, "file", {"rules", "$schema", "comment"}); !checked) return checked.error();
-    if (!root.contains("rules") || !root["rules"].is_array()) return badStyle("file", "expected \"rules\": [...]");
+    const auto root = parseRules(text);
+    if (!root) return root.error();
+    const json& rules = root->at("rules");
     StyleSheet sheet;
-    for (std::size_t r = 0; r < root["rules"].size(); ++r) {
-        auto rule = readRule(root["rules"][r], fmt::format("rules[{}]", r), folder);
+    for (std::size_t r = 0; r < rules.size(); ++r) {
+        auto rule = readRule(rules[r], fmt::format("rules[{}]", r), folder);
         if (!rule) return rule.error();
         sheet.rules.push_back(std::move(*rule));
     }
@@ -229,21 +251,27 @@ Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem:
 }
 
 Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
-    std::string text;
-    constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-    text.resize(kMaxBytes + 1);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMaxBytes)
-        return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
-    auto sheet = parseStyleSheet(text, file.parent_path());
+    const auto text = readText(file);
+    if (!text) return text.error();
+    auto sheet = parseStyleSheet(*text, file.parent_path());
     // An error in the file of a pattern keeps that file as its place.
     if (!sheet && sheet.error().where().file.empty())
         return Error(sheet.error().code(), sheet.error().message(), {file.string(), 0, 0, {}});
     return sheet;
+}
+
+std::vector<std::filesystem::path> filesOfStyle(const std::filesystem::path& file) {
+    const auto text = readText(file);
+    const auto root = text ? parseRules(*text) : Result<json>(text.error());
+    if (!root) return {};
+    std::vector<std::filesystem::path> files;
+    for (const json& rule : root->at("rules")) {
+        if (!rule.is_object() || !rule.contains("pattern")) continue;
+        const json& pattern = rule["pattern"];
+        if (pattern.is_object() && pattern.contains("file") && pattern["file"].is_string())
+            files.push_back(file.parent_path() / pattern["file"].get<std::string>());
+    }
+    return files;
 }
 
 std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows,

@@ -39,6 +39,10 @@ struct StyleSheet {
 [[nodiscard]] Result<StyleSheet> readStyleSheet(const std::filesystem::path& file);
 [[nodiscard]] Result<StyleSheet> parseStyleSheet(std::string_view json, const std::filesystem::path& folder);
 
+/// The files that the patterns of a style file name, found relative to it; none where the style cannot be read, which
+/// readStyleSheet() tells.
+[[nodiscard]] std::vector<std::filesystem::path> filesOfStyle(const std::filesystem::path& file);
+
 /// The resulting style of one row.
 struct ResolvedStyle {
     Vec3f color{0.8f, 0.8f, 0.8f};

@@ -69,7 +69,8 @@ Reply convert(const ConvertOptions& options, const Request& request, const Progr
     if (folder.path().empty() || error)
         return Reply::error(503, codeTag(Code::DiskFull), "no space is left for the model");
     std::vector<std::string> arguments = options.command;
-    const std::string volume = "volume.svt.out";
+    // No model has such a name, for fileName() leaves no dot in front.
+    const std::string volume = ".volume.svt";
     arguments.insert(arguments.end(), {name, "-o", volume});
     arguments.insert(arguments.end(), options.options.begin(), options.options.end());
     return replyTo(runChild(arguments, folder.path(), options.limits, stop), options.limits, folder.path() / volume);

@@ -299,13 +299,19 @@ std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
     return names;
 }
 
-Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool mayReplace) {
+Result<void> checkSiteFolder(const fs::path& folder, bool mayReplace) {
     std::error_code error;
-    if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-        return cannotWrite(folder, "this is a file; give the name of a folder");
-    const bool isThere = fs::exists(folder, error);
-    if (isThere && !mayReplace && !fs::is_empty(folder, error))
+    if (!fs::exists(folder, error)) return {};
+    if (!fs::is_directory(folder, error)) return cannotWrite(folder, "this is a file; give the name of a folder");
+    if (!mayReplace && !fs::is_empty(folder, error))
         return cannotWrite(folder, "the folder is not empty; choose another one, or --force to write into it");
+    return {};
+}
+
+Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool mayReplace) {
+    if (auto checked = checkSiteFolder(folder, mayReplace); !checked) return checked.error();
+    std::error_code error;
+    const bool isThere = fs::exists(folder, error);
     fs::create_directories(folder, error);
     if (error) return cannotWrite(folder, "the folder cannot be made: " + error.message());
 

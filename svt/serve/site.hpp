@@ -65,6 +65,10 @@ struct SiteModel {
 /// unique by numbers.
 [[nodiscard]] std::vector<std::string> uniqueNames(std::span<const std::filesystem::path> files);
 
+/// Whether writeSite() may write into a folder: it is not there, is empty, or mayReplace.
+/// \return nothing, or CannotWrite
+[[nodiscard]] Result<void> checkSiteFolder(const std::filesystem::path& folder, bool mayReplace);
+
 /// Writes a site as a folder that any web server can serve. The files are staged next to `folder` and then moved into
 /// it, index.html last, so that a failure leaves the existing content and no partial files. Files in `folder` that are
 /// not part of the site are kept.

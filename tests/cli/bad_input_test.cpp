@@ -13,7 +13,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-constexpr int kUsage = 2, kInput = 3, kInvalid = 4, kLimit = 8;
+constexpr int kDone = 0, kUsage = 2, kInput = 3, kInvalid = 4, kLimit = 8;
 
 struct BadInput {
     const char* name;                    ///< of the test
@@ -771,15 +771,15 @@ const std::vector<BadInput> kQueries{
      "good.gml",
      [] { return oneBox("<gml:name>aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa</gml:name>"); },
      {"query", "good.gml", "name~'^(a+)+(a+)+(a+)+b$'", "--spacing", "0.5"},
-     kUsage,
-     "E902 NothingSelected"},
+     kDone,
+     "svt: the query .* selects nothing"},
     {"NearestClass",
      "a class with a typing error",
      "good.gml",
      kGood,
      {"query", "good.gml", "class=Bilding", "--spacing", "0.5"},
-     kUsage,
-     "E902 NothingSelected.*Bilding.*did you mean 'Building'"},
+     kDone,
+     "svt: the query .* selects nothing.*Bilding.*did you mean 'Building'"},
     {"NearestClassInRender",
      "a class with a typing error in --hide",
      "good.gml",
@@ -792,8 +792,8 @@ const std::vector<BadInput> kQueries{
      "good.gml",
      kGood,
      {"query", "good.gml", "volume>1e9", "--spacing", "0.5"},
-     kUsage,
-     "E902 NothingSelected"},
+     kDone,
+     "svt: the query 'volume>1e9' selects nothing"},
 };
 INSTANTIATE_TEST_SUITE_P(Queries, BadInputTest, ::testing::ValuesIn(kQueries), nameOf);
 

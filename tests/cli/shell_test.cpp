@@ -139,7 +139,7 @@ TEST_F(Shell, BadArgumentsAreRefused) {
     };
     refused({}, 2, "--levels");
     refused({"-o", "s.svt", "--levels"}, 2, "--levels");
-    refused({"-o", "s.obj"}, 2, ".svt and .glb");
+    refused({"-o", "s.obj"}, 2, ".svt, .glb");
     refused({"-o", "s.svt", "--level", "flat"}, 2, "storey");
     refused({"-o", "s.svt", "--thickness", "-1"}, 2, "at least 0");
     refused({"-o", "s.svt", "--thickness", "nan"}, 2, "not a number");

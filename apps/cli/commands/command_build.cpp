@@ -2,6 +2,7 @@
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/volume/svt_file.hpp>
 
@@ -49,15 +50,16 @@ int runBuild(const BuildCommandArguments& arguments) {
     }
     Diagnostics diagnostics;
     const auto start = std::chrono::steady_clock::now();
-    Result<pipeline::BuildOutput> built = [&] {
-        const TerminalProgress progress;
-        options->progress = progress.get();
-        return pipeline::buildVolume(arguments.inputs, *options, &diagnostics);
-    }();
+    std::optional<TerminalProgress> progress(std::in_place);
+    options->progress = progress->get();
+    Result<pipeline::BuildOutput> built = pipeline::buildVolume(arguments.inputs, *options, &diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!built) return fail(built.error());
     const auto writeStart = std::chrono::steady_clock::now();
+    if (Progress::isCancelled(progress->get())) return fail(Error(Code::Cancelled, "stopped before writing"));
+    Progress::tell(progress->get(), "write", 0);
     const auto bytes = volume::writeSvt(built->volume, arguments.output);
+    progress.reset();
     if (!bytes) return fail(bytes.error());
     const auto end = std::chrono::steady_clock::now();
     pipeline::BuildReport& report = built->report;
@@ -78,12 +80,12 @@ int runBuild(const BuildCommandArguments& arguments) {
         json["overlaps"] = overlapsJson(built->volume.labels);
         json["warnings"] = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
         print(json);
-    } else {
+    } else if (!isQuiet()) {
         printSummary(*built, *bytes, arguments);
     }
     const bool isFlawed = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0;
     if (arguments.strict && isFlawed) {
-        fmt::print(stderr, "svt: the model has defects (--strict)\n");
+        note("the model has defects (--strict)");
         return kInvalid;
     }
     return kDone;

@@ -2,6 +2,7 @@
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/mesh/mesh_set.hpp>
 
@@ -70,17 +71,17 @@ void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, 
 
 int runCheck(const CheckArguments& arguments) {
     Diagnostics diagnostics;
-    Result<model::BuildingModel> model = [&] {
-        const TerminalProgress progress;
-        return pipeline::readModels(arguments.inputs, 0, progress.get(), &diagnostics);
-    }();
+    std::optional<TerminalProgress> progress(std::in_place);
+    const auto model = pipeline::readModels(arguments.inputs, 0, progress->get(), &diagnostics);
     if (!model) {
         printDiagnostics(diagnostics, arguments.verbose);
         return fail(model.error());
     }
     mesh::MeshOptions options;
     options.lod.lod = arguments.lod;
+    options.progress = progress->get();
     const auto scene = mesh::buildMeshes(*model, options, &diagnostics);
+    progress.reset();
     if (!scene) {
         printDiagnostics(diagnostics, arguments.verbose);
         return fail(scene.error());

@@ -1,6 +1,8 @@
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/volume/svt_file.hpp>
 #include <svt/writers/glb_writer.hpp>
@@ -18,16 +20,13 @@ struct ConvertArguments {
 };
 
 int runConvert(const ConvertArguments& arguments) {
-    const std::string extension = arguments.output.extension().string();
-    if (extension != ".nrrd" && extension != ".glb")
-        return fail(Error(Code::BadArgument, fmt::format("'{}': cannot write '{}'; possible are .nrrd and .glb",
-                                                         arguments.output.string(), extension)));
     Diagnostics diagnostics;
     const TerminalProgress progress;
     const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
-    if (extension == ".glb") {
+    Progress::tell(progress.get(), "write", 0);
+    if (endingOf(arguments.output) == ".glb") {
         writers::GlbOptions options;
         options.faces = arguments.faces == "voxels" ? writers::GlbFaces::Voxels : writers::GlbFaces::Planes;
         options.threads = arguments.build.threads;

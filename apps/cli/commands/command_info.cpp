@@ -2,6 +2,7 @@
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <fmt/format.h>
 

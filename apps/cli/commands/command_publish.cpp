@@ -17,14 +17,17 @@ struct PublishArguments {
 int runPublish(const PublishArguments& arguments) {
     const auto viewer = arguments.site.viewerFolder();
     if (!viewer) return fail(viewer.error());
+    if (auto checked = serve::checkSiteFolder(arguments.output, arguments.mayReplace); !checked)
+        return fail(checked.error());
     const auto models = arguments.site.load(arguments.inputs);
     if (!models) return fail(models.error());
     const auto site = serve::viewerSite(*viewer, *models);
     if (!site) return fail(site.error());
     const auto bytes = serve::writeSite(*site, arguments.output, arguments.mayReplace);
     if (!bytes) return fail(bytes.error());
-    fmt::print("{}: {} files, {:.1f} kB; any web server shows it\n", arguments.output.string(),
-               site->resources().size(), double(*bytes) / 1000);
+    if (!isQuiet())
+        fmt::print("{}: {} files, {:.1f} kB; any web server shows it\n", arguments.output.string(),
+                   site->resources().size(), double(*bytes) / 1000);
     return kDone;
 }
 

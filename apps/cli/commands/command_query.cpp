@@ -3,6 +3,7 @@
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/query_reports.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
@@ -54,8 +55,8 @@ int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, 
     return kDone;
 }
 
-Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& selected,
-                         const QueryArguments& arguments) {
+Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments,
+                         const Progress* progress) {
     const int threads = arguments.build.threads;
     if (arguments.neighbors) return neighborTable(volume, selected, threads);
     if (arguments.overlaps) return overlapTable(volume, selected);
@@ -66,18 +67,22 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
         return rayTable(volume, selected, *ray, threads);
     }
     Diagnostics diagnostics;
-    const auto parcels = [&] {
-        const TerminalProgress progress;
-        return loadVolume(arguments.parcels, arguments.build, progress.get(), diagnostics, &volume.grid);
-    }();
+    const auto parcels = loadVolume(arguments.parcels, arguments.build, progress, diagnostics, &volume.grid);
     printDiagnostics(diagnostics, false);
     if (!parcels) return parcels.error();
     return parcelTable(volume, selected, *parcels, threads);
 }
 
 int printReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
-    const auto table = makeReport(volume, selected, arguments);
+    const auto table = [&]() -> Result<Table> {
+        const TerminalProgress progress;
+        Progress::tell(progress.get(), "report", 0);
+        auto made = makeReport(volume, selected, arguments, progress.get());
+        if (Progress::isCancelled(progress.get())) return Error(Code::Cancelled, "the report was stopped");
+        return made;
+    }();
     if (!table) return fail(table.error());
+    if (table->rows.empty() && !selected.empty()) note("the report is empty: it has nothing of what the query selects");
     if (arguments.json)
         print(table->toJson());
     else if (arguments.csv)
@@ -121,7 +126,12 @@ int runQuery(const QueryArguments& arguments) {
     }();
     printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
-    const auto selected = analyze::selectLabels(volume->labels, arguments.query);
+    auto selected = analyze::selectLabels(volume->labels, arguments.query);
+    if (!selected && selected.error().code() == Code::NothingSelected) {
+        // An answer, not an error: the query is well formed, and there is no such feature.
+        note(selected.error().message());
+        selected = Labels();
+    }
     if (!selected) return fail(selected.error());
     if (!arguments.owners.empty()) return printOwners(*volume, *selected, arguments);
     if (arguments.reportCount() == 0 || !arguments.with.empty()) return printFeatures(*volume, *selected, arguments);

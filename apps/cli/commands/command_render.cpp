@@ -2,6 +2,8 @@
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/scene_options.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/scene_painter.hpp>
@@ -64,16 +66,8 @@ void takeFinest(illustrate::Scene& scene) {
         if (!pass.form.level) pass.form.level = 0;
 }
 
-// P.png -> P_0007.png
-std::filesystem::path numbered(const std::filesystem::path& file, int frame, int frames) {
-    if (frames == 1 || file.empty()) return file;
-    std::filesystem::path result = file;
-    result.replace_filename(fmt::format("{}_{:04}{}", file.stem().string(), frame, file.extension().string()));
-    return result;
-}
-
 Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arguments, int number) {
-    const auto at = [&](const std::filesystem::path& file) { return numbered(file, number, arguments.frames); };
+    const auto at = [&](const std::filesystem::path& file) { return numberedFile(file, number, arguments.frames); };
     if (auto written = image::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()); !written)
         return written;
     if (!arguments.labelOutput.empty()) {
@@ -84,6 +78,14 @@ Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arg
     if (!arguments.depthOutput.empty())
         return image::writePng(at(arguments.depthOutput), render::grayFromDepth(frame.depth, 0.001));
     return {};
+}
+
+// Whether nothing of the model is in a picture: no label, and no line or veil either, which would vary along a row.
+bool isEmpty(const render::Frame& frame) {
+    for (std::int32_t y = 0; y < frame.color.height(); ++y)
+        for (std::int32_t x = 0; x < frame.color.width(); ++x)
+            if (frame.label.at(x, y) != 0 || frame.color.at(x, y) != frame.color.at(0, y)) return false;
+    return true;
 }
 
 // Options to keep the vector data of the model that a scene needs.
@@ -99,12 +101,8 @@ int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     const auto first = arguments.scene.toScene(0, arguments.frames);
     if (!first) return fail(first.error());
-    if (!arguments.sceneOutput.empty()) {
-        const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
-        if (!written) return fail(written.error());
-    }
     Diagnostics diagnostics;
-    const TerminalProgress progress;
+    TerminalProgress progress;
     const auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
@@ -113,20 +111,30 @@ int runRender(const RenderArguments& arguments) {
     options.threads = arguments.build.threads;
     options.progress = progress.get();
     options.isAdaptive = true;
+    Progress::tell(progress.get(), "prepare", 0);
     illustrate::ScenePainter painter(*volume, arguments.build.threads);
     GlDrawer gl(arguments.build.threads);
     const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
         return gl.draw(volumes, spec);
     };
+    int empty = 0;
     for (int frame = 0; frame < arguments.frames; ++frame) {
+        progress.beginPart(frame, arguments.frames);
         auto scene = arguments.scene.toScene(frame, arguments.frames);
         if (!scene) return fail(scene.error());
         if (arguments.gl) takeFinest(*scene);
         const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
         if (!painting) return fail(painting.error());
+        empty += isEmpty(painting->frame);
         if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
-        Progress::tell(progress.get(), "render", double(frame + 1) / arguments.frames);
     }
+    if (!arguments.sceneOutput.empty()) {
+        const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
+        if (!written) return fail(written.error());
+    }
+    if (empty != 0)
+        note(fmt::format("nothing is visible{}: all is hidden, cut away, fully transparent or outside of the view",
+                         arguments.frames == 1 ? "" : fmt::format(" in {} of {} pictures", empty, arguments.frames)));
     return kDone;
 }
 

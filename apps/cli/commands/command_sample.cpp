@@ -1,6 +1,8 @@
 #include <apps/cli/commands/commands.hpp>
-#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/samples/sample.hpp>
@@ -18,31 +20,29 @@ struct SampleArguments {
     samples::SampleOptions options;
 };
 
-Result<samples::SampleFormat> formatOf(const SampleArguments& arguments) {
+// The ending is one of these, which is checked before.
+samples::SampleFormat formatOf(const SampleArguments& arguments) {
+    const std::string ending = endingOf(arguments.output);
     if (arguments.format == "citygml3") return samples::SampleFormat::CityGml3;
     if (arguments.format == "citygml2") return samples::SampleFormat::CityGml2;
     if (arguments.format == "cityjson") return samples::SampleFormat::CityJson2;
-    if (arguments.format == "cityjsonseq") return samples::SampleFormat::CityJsonSeq2;
-    const std::string extension = arguments.output.extension().string();
-    if (extension == ".gml" || extension == ".xml") return samples::SampleFormat::CityGml3;
-    if (extension == ".json") return samples::SampleFormat::CityJson2;
-    if (extension == ".jsonl") return samples::SampleFormat::CityJsonSeq2;
-    return Error(Code::BadArgument,
-                 fmt::format("'{}': the extension tells no format; use .gml, .json, .jsonl or --format",
-                             arguments.output.string()));
+    if (arguments.format == "cityjsonseq" || ending == ".jsonl") return samples::SampleFormat::CityJsonSeq2;
+    return ending == ".json" ? samples::SampleFormat::CityJson2 : samples::SampleFormat::CityGml3;
 }
 
 int runSample(const SampleArguments& arguments) {
-    const auto format = formatOf(arguments);
-    if (!format) return fail(format.error());
     const auto kind = arguments.kind == "house"   ? samples::SampleKind::House
                       : arguments.kind == "tower" ? samples::SampleKind::Tower
                                                   : samples::SampleKind::District;
     auto file = AtomicFile::create(arguments.output);
     if (!file) return fail(file.error());
     std::optional<Error> writeError;
-    const auto written = samples::writeSample(kind, *format, arguments.options, [&](std::string_view text) {
-        auto done = file->write(text);
+    const TerminalProgress progress;
+    Progress::tell(progress.get(), "write", 0);
+    const auto written = samples::writeSample(kind, formatOf(arguments), arguments.options, [&](std::string_view text) {
+        auto done = Progress::isCancelled(progress.get())
+                        ? Result<void>(Error(Code::Cancelled, "stopped while writing"))
+                        : file->write(text);
         if (!done) writeError = done.error();
         return done.hasValue();
     });

@@ -1,6 +1,8 @@
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/section_drawing.hpp>
@@ -38,32 +40,19 @@ Result<double> parseScale(const std::string& text) {
     return scale;
 }
 
-Result<void> checkOutputs(const SectionArguments& arguments) {
-    for (const std::filesystem::path& path : arguments.outputs)
-        if (const std::string e = path.extension().string(); e != ".svg" && e != ".dxf" && e != ".geojson")
-            return Error(Code::BadArgument, fmt::format("-o '{}': cannot write '{}'; possible are .svg, .dxf, .geojson",
-                                                        path.string(), e));
-    for (const std::filesystem::path& path : arguments.tables)
-        if (const std::string e = path.extension().string(); e != ".json" && e != ".csv")
-            return Error(Code::BadArgument,
-                         fmt::format("--table '{}': cannot write '{}'; possible are .json, .csv", path.string(), e));
-    if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
-        return Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json");
-    return {};
-}
-
 Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path, double scale) {
-    const std::string extension = path.extension().string();
-    if (extension == ".dxf") return writers::writeDxf(drawing, volume, path);
-    if (extension == ".geojson") return writers::writeGeojson(drawing, volume, path);
+    const std::string ending = endingOf(path);
+    if (ending == ".dxf") return writers::writeDxf(drawing, volume, path);
+    if (ending == ".geojson") return writers::writeGeojson(drawing, volume, path);
     writers::SvgOptions options;
     options.scale = scale;
     return writers::writeSvg(drawing, volume, path, options);
 }
 
 int runSection(const SectionArguments& arguments) {
-    if (auto checked = checkOutputs(arguments); !checked) return fail(checked.error());
+    if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
+        return fail(Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json"));
     const auto scale = parseScale(arguments.scale);
     if (!scale) return fail(scale.error());
     Diagnostics diagnostics;
@@ -80,6 +69,7 @@ int runSection(const SectionArguments& arguments) {
     options.spaces = !arguments.noRooms;
     options.smallestArea = arguments.minArea;
     options.threads = arguments.build.threads;
+    Progress::tell(progress.get(), "section", 0);
     const auto drawing = illustrate::drawSection(*volume, *plane, options);
     if (!drawing) return fail(drawing.error());
     if (drawing->components.empty())
@@ -90,10 +80,11 @@ int runSection(const SectionArguments& arguments) {
     for (const std::filesystem::path& path : arguments.outputs)
         if (auto written = writeDrawing(*drawing, *volume, path, *scale); !written) return fail(written.error());
     for (const std::filesystem::path& path : arguments.tables) {
-        const std::string text = path.extension() == ".csv" ? writers::makeSectionCsv(*drawing, *volume)
-                                                            : writers::makeSectionJson(*drawing, *volume);
+        const std::string text = endingOf(path) == ".csv" ? writers::makeSectionCsv(*drawing, *volume)
+                                                          : writers::makeSectionJson(*drawing, *volume);
         if (auto written = writeFileAtomically(path, text); !written) return fail(written.error());
     }
+    TerminalProgress::hide();
     if (arguments.json) fmt::print("{}", writers::makeSectionJson(*drawing, *volume));
     return kDone;
 }

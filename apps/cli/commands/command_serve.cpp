@@ -76,19 +76,18 @@ std::string abilities(const ServeArguments& arguments) {
 
 void announce(const ServeArguments& arguments, const serve::ServerOptions& options, int port) {
     if (options.port != 0 && port != options.port)
-        fmt::print(stderr, "svt: port {} is taken; this is port {}\n", options.port, port);
+        note(fmt::format("port {} is taken; this is port {}", options.port, port));
     if (!serve::isLoopback(arguments.host))
-        fmt::print(
-            stderr,
-            "svt: warning: everybody who reaches this machine at {} sees these models{}; there is no password and "
-            "no encryption\n",
-            arguments.host, arguments.allowUploads ? " and may send files to be converted" : "");
+        note(fmt::format(
+            "warning: everybody who reaches this machine at {} sees these models{}; there is no password and no "
+            "encryption",
+            arguments.host, arguments.allowUploads ? " and may send files to be converted" : ""));
     const std::string address = addressOf(arguments.host, port);
     fmt::print("{}\n", address);
     std::fflush(stdout);
     if (arguments.isView && !arguments.noBrowser && !serve::openBrowser(address))
-        fmt::print(stderr, "svt: no browser could be started; open the address yourself\n");
-    fmt::print(stderr, "svt: Ctrl-C stops\n");
+        note("no browser could be started; open the address yourself");
+    note("Ctrl-C stops");
 }
 
 int runServe(const ServeArguments& arguments) {

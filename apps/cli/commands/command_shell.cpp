@@ -2,6 +2,8 @@
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
 #include <svt/illustrate/shell.hpp>
@@ -48,7 +50,7 @@ std::uint64_t filledVoxels(const volume::SemanticVolume& volume) {
 Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::SemanticVolume& volume,
                         const ShellArguments& arguments, const Progress* progress) {
     Json json;
-    if (arguments.output.extension() == ".svt") {
+    if (endingOf(arguments.output) == ".svt") {
         const auto bytes = volume::writeSvt(shell, arguments.output);
         if (!bytes) return bytes.error();
         json["bytes"] = *bytes;
@@ -81,8 +83,10 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
         if (!selected) return selected.error();
         options.of = std::move(*selected);
     }
+    Progress::tell(progress, "shell", 0);
     const auto shell = illustrate::extractShell(volume, *illustrate::shellLevelFromName(arguments.level), options);
     if (!shell) return shell.error();
+    Progress::tell(progress, "write", 0);
     auto written = writeShell(*shell, volume, arguments, progress);
     if (!written) return written.error();
     Json json;
@@ -96,10 +100,6 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
 Result<void> check(const ShellArguments& arguments) {
     if (arguments.levels != arguments.output.empty())
         return Error(Code::BadArgument, "expected either -o S.svt or -o S.glb, or --levels to list the levels");
-    const std::string extension = arguments.output.extension().string();
-    if (!arguments.levels && extension != ".svt" && extension != ".glb")
-        return Error(Code::BadArgument, fmt::format("'{}': cannot write '{}'; possible are .svt and .glb",
-                                                    arguments.output.string(), extension));
     if (!arguments.of.empty())
         if (auto query = model::Query::parse(arguments.of); !query) return query.error();
     return {};
@@ -123,6 +123,7 @@ int runShell(const ShellArguments& arguments) {
         print(*json);
         return kDone;
     }
+    if (isQuiet()) return kDone;
     fmt::print("{}: {} of {} voxels, {:.1f} kB", arguments.output.string(), (*json)["voxels"].get<std::uint64_t>(),
                (*json)["voxelsBefore"].get<std::uint64_t>(), (*json)["bytes"].get<double>() / 1000);
     if (json->contains("triangles"))

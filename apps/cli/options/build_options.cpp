@@ -69,6 +69,13 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     if (!spacing.empty()) {
         const auto triple = parseTriple(spacing, "--spacing", "metres, greater than 0");
         if (!triple) return triple.error();
+        for (int axis = 0; axis < 3; ++axis)
+            if (const double metres = (*triple)[axis]; !(metres > 0) || !std::isfinite(metres))
+                return Error(
+                    Code::BadDimension,
+                    fmt::format("--spacing {}: {} is out of range; metres greater than 0 are possible, such as "
+                                "0.1",
+                                spacing, metres));
         options.spacing = *triple;
     }
     options.axes = axes == "building" ? pipeline::AxesKind::Building : pipeline::AxesKind::World;

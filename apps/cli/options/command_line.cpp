@@ -1,6 +1,7 @@
 // The only file that knows the parser of command lines (CLI11).
 #include <apps/cli/options/command_line.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/version.hpp>
 
 #include <svt/core/check.hpp>
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <map>
@@ -102,6 +104,7 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
 // Results that stdout cannot take (a full disk behind '>') must not pass for success.
 int flushed(int exitCode) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
+    if (errno == EPIPE) return kNoReader;
     fmt::print(stderr, "svt: error: stdout cannot be written\n");
     return exitCode == kDone ? kOutput : exitCode;
 }
@@ -133,6 +136,7 @@ int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
 int runCommand(const CLI::App& app, const Given& given, const CommandText& text, Connect connect) {
     Command command(text);
     const Action action = connect(command);
+    std::vector<GivenOption> all;
     for (std::size_t n = 0; n < command.connections().size(); ++n) {
         const auto& [option, take] = command.connections()[n];
         SVT_CHECK(take != nullptr);
@@ -141,7 +145,9 @@ int runCommand(const CLI::App& app, const Given& given, const CommandText& text,
         for (const std::string& given_ : given[n])
             for (std::string& value : splitValues(option, given_)) values.push_back(std::move(value));
         take(values);
+        all.push_back({&option, std::move(values)});
     }
+    if (const auto checked = checkFiles(all); !checked) return fail(checked.error());
     return flushed(action());
 }
 
@@ -149,6 +155,9 @@ int runCommand(const CLI::App& app, const Given& given, const CommandText& text,
 
 Command::Command(const CommandText& text) : text_(&text) {
     for (const Option& option : optionsOf(text)) connections_.push_back({option, nullptr});
+    // One for all commands that have it.
+    for (const auto& [option, take_] : connections_)
+        if (longName(option) == "--quiet") take("--quiet", [](const std::vector<std::string>&) { beQuiet(); });
 }
 
 Command::Connection& Command::connection(std::string_view option) {

@@ -2,6 +2,7 @@
 
 #include <apps/cli/options/viewer_folder.hpp>
 #include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/scene_painter.hpp>

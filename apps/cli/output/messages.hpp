@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Exit codes, messages and progress of all commands.
+/// Exit codes and messages of all commands.
 
 #include <svt/core/diagnostics.hpp>
-#include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
+
+#include <string_view>
 
 namespace svt::cli {
 
@@ -18,30 +19,25 @@ enum Exit {
     kOutput = 5,
     kNoGraphics = 6,
     kLimit = 8,
-    kCancelled = 9
+    kCancelled = 9,
+    kNoReader = 141  ///< that of SIGPIPE, also where the signal is ignored or does not exist
 };
 
 /// Exit code for an error code.
 [[nodiscard]] int exitCodeOf(Code code) noexcept;
 
+/// From now on only errors are printed to stderr, and no summary to stdout (--quiet).
+void beQuiet() noexcept;
+[[nodiscard]] bool isQuiet() noexcept;
+
 /// Prints "svt: error ..." to stderr and returns the exit code.
 int fail(const Error& error);
 
-/// Prints findings to stderr: all with --verbose, else up to a dozen errors and warnings and the number of the rest.
+/// Prints "svt: ..." to stderr, unless quiet.
+void note(std::string_view text);
+
+/// Prints findings to stderr: all with --verbose, else up to a dozen errors and warnings and the number of the rest;
+/// where quiet, errors alone.
 void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose);
-
-/// A progress bar on stderr if that is a terminal, shown after the first second; Ctrl-C cancels.
-class TerminalProgress {
-public:
-    TerminalProgress();
-    ~TerminalProgress();
-    TerminalProgress(const TerminalProgress&) = delete;
-    TerminalProgress& operator=(const TerminalProgress&) = delete;
-    [[nodiscard]] const Progress* get() const noexcept { return &progress_; }
-
-private:
-    Progress progress_;
-    bool hasDrawn_ = false;
-};
 
 }  // namespace svt::cli

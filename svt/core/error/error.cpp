@@ -58,6 +58,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(DiskFull);
         SVT_CASE(BadImage);
         SVT_CASE(BadNrrd);
+        SVT_CASE(WouldDestroy);
         SVT_CASE(BadCamera);
         SVT_CASE(BadFrame);
         SVT_CASE(BadSection);

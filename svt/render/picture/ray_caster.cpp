@@ -143,6 +143,7 @@ Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& s
     const auto tilesX = static_cast<std::size_t>((spec.width + kTilePixels - 1) / kTilePixels);
     const auto tilesY = static_cast<std::size_t>((spec.height + kTilePixels - 1) / kTilePixels);
     std::atomic<bool> isCancelled{false};
+    ProgressCounter progress(options.progress, "render", tilesX * tilesY);
     parallelFor(tilesX * tilesY, 4, options.threads, [&](std::size_t begin, std::size_t end) {
         TileRenderer renderer(frame, packets ? &*packets : nullptr, picture);
         for (std::size_t tile = begin; tile < end; ++tile) {
@@ -152,6 +153,7 @@ Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& s
             }
             renderer.render(static_cast<std::int32_t>(tile % tilesX) * kTilePixels,
                             static_cast<std::int32_t>(tile / tilesX) * kTilePixels);
+            progress.add();
         }
     });
     if (isCancelled) return Error(Code::Cancelled, "the picture was cancelled");

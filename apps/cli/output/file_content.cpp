@@ -1,0 +1,123 @@
+#include <apps/cli/output/file_content.hpp>
+
+#include <svt/volume/svt_file.hpp>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace svt::cli {
+namespace {
+
+constexpr std::size_t kHeadBytes = 4096;
+
+constexpr FileFormat kFormats[] = {
+    {"png", ".png", FileContent::Png},
+    {"svt", ".svt", FileContent::Volume},
+    {"glb", ".glb", FileContent::Gltf},
+    {"nrrd", ".nrrd", FileContent::Nrrd},
+    {"svg", ".svg", FileContent::Svg},
+    {"dxf", ".dxf", FileContent::Dxf},
+    {"geojson", ".geojson", FileContent::GeoJson},
+    {"scene", ".json", FileContent::PlainJson},
+    {"json", ".json", FileContent::PlainJson},
+    {"csv", ".csv", FileContent::Text},
+    {"citygml", ".gml|.xml", FileContent::CityGml},
+    {"cityjson", ".json", FileContent::CityJson},
+    {"cityjsonseq", ".jsonl", FileContent::CityJson},
+};
+
+bool has(std::string_view text, std::string_view word) { return text.find(word) != std::string_view::npos; }
+
+FileContent contentOfXml(std::string_view text) {
+    if (has(text, "<svg") || has(text, ":svg")) return FileContent::Svg;
+    return has(text, "CityModel") ? FileContent::CityGml : FileContent::Xml;
+}
+
+FileContent contentOfJson(std::string_view text) {
+    if (has(text, "\"CityJSON")) return FileContent::CityJson;
+    if (has(text, "\"FeatureCollection\"")) return FileContent::GeoJson;
+    return has(text, "\"rules\"") ? FileContent::Style : FileContent::PlainJson;
+}
+
+// The first pair of a DXF is "0, SECTION", or a comment with the group code 999.
+bool isDxf(std::string_view text) {
+    const std::size_t line = text.find('\n');
+    if (line == std::string_view::npos) return false;
+    std::string_view code = text.substr(0, line), value = text.substr(line + 1);
+    if (code.ends_with('\r')) code.remove_suffix(1);
+    return code == "999" || (code == "0" && value.starts_with("SECTION"));
+}
+
+bool isText(std::string_view text) {
+    return std::none_of(text.begin(), text.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r' && byte != '\f';
+    });
+}
+
+}  // namespace
+
+FileContent contentOf(std::string_view head) {
+    using namespace std::string_view_literals;
+    if (head.empty()) return FileContent::Nothing;
+    if (head.starts_with("\x89PNG\r\n\x1a\n"sv)) return FileContent::Png;
+    if (volume::looksLikeSvt(std::as_bytes(std::span(head)))) return FileContent::Volume;
+    if (head.starts_with("PK\3\4"sv) || head.starts_with("PK\5\6"sv)) return FileContent::Zip;
+    if (head.starts_with("\x1f\x8b"sv)) return FileContent::Gzip;
+    if (head.starts_with("glTF"sv)) return FileContent::Gltf;
+    if (head.starts_with("NRRD000"sv)) return FileContent::Nrrd;
+    std::string plain;
+    if (head.starts_with("\xff\xfe"sv) || head.starts_with("\xfe\xff"sv)) {
+        // UTF-16: what is looked for is ASCII.
+        std::copy_if(head.begin() + 2, head.end(), std::back_inserter(plain), [](char c) { return c != '\0'; });
+        head = plain;
+    } else if (head.starts_with("\xef\xbb\xbf"sv)) {
+        head.remove_prefix(3);
+    }
+    head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+    if (head.starts_with('<')) return contentOfXml(head);
+    if (head.starts_with('{') || head.starts_with('[')) return contentOfJson(head);
+    if (isDxf(head)) return FileContent::Dxf;
+    return isText(head) ? FileContent::Text : FileContent::Unknown;
+}
+
+FileContent contentOf(const std::filesystem::path& file) {
+    std::array<char, kHeadBytes> head{};
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) return FileContent::Unknown;
+    stream.read(head.data(), head.size());
+    return contentOf(std::string_view(head.data(), static_cast<std::size_t>(stream.gcount())));
+}
+
+std::string_view contentName(FileContent content) noexcept {
+    switch (content) {
+        case FileContent::Nothing: return "an empty file";
+        case FileContent::Png: return "a PNG picture";
+        case FileContent::Volume: return "a volume (.svt)";
+        case FileContent::Zip: return "a ZIP archive";
+        case FileContent::Gzip: return "a gzip file";
+        case FileContent::Gltf: return "a glTF (.glb)";
+        case FileContent::Nrrd: return "an NRRD";
+        case FileContent::Svg: return "an SVG drawing";
+        case FileContent::CityGml: return "a CityGML model";
+        case FileContent::Xml: return "an XML file";
+        case FileContent::CityJson: return "a CityJSON model";
+        case FileContent::GeoJson: return "a GeoJSON drawing";
+        case FileContent::Style: return "a style file";
+        case FileContent::PlainJson: return "a JSON file";
+        case FileContent::Dxf: return "a DXF drawing";
+        case FileContent::Text: return "a text file";
+        case FileContent::Unknown: break;
+    }
+    return "of another kind";
+}
+
+const FileFormat* formatOfName(std::string_view name) noexcept {
+    const auto* found = std::ranges::find(kFormats, name, &FileFormat::name);
+    return found == std::end(kFormats) ? nullptr : found;
+}
+
+}  // namespace svt::cli

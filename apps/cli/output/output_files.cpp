@@ -1,0 +1,229 @@
+#include <apps/cli/output/output_files.hpp>
+
+#include <apps/cli/output/file_content.hpp>
+
+#include <svt/core/check.hpp>
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/pipeline/style_sheet.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <system_error>
+
+namespace svt::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Input {
+    fs::path path;
+    std::string use;  // in a message: "'input'", "'--style', a file that it names"
+    FileUse kind;
+};
+
+struct OutputFile {
+    fs::path path;
+    std::string_view option;
+    std::vector<const FileFormat*> formats;  // empty: a folder
+    bool isFirst = true;                     // of files with numbers
+};
+
+Error errorAt(const fs::path& path, Code code, std::string message) {
+    return Error(code, std::move(message), Place{path.string(), 0, 0, {}});
+}
+
+std::string_view valueOf(std::span<const GivenOption> given, std::string_view name) {
+    const auto found = std::ranges::find_if(given, [&](const GivenOption& g) { return longName(*g.option) == name; });
+    return found == given.end() || found->values.empty() ? std::string_view() : found->values.front();
+}
+
+std::vector<Input> inputsOf(std::span<const GivenOption> given) {
+    std::vector<Input> inputs;
+    for (const auto& [option, values] : given) {
+        const FileUse kind = option->file;
+        if (kind == FileUse::None || kind == FileUse::Output || kind == FileUse::OutputFolder) continue;
+        for (const std::string& value : values) {
+            inputs.push_back({userPath(value), fmt::format("'{}'", longName(*option)), kind});
+            if (kind != FileUse::Style) continue;
+            for (fs::path& file : pipeline::filesOfStyle(userPath(value)))
+                inputs.push_back({std::move(file), fmt::format("a file that '{}' names", longName(*option)), kind});
+        }
+    }
+    return inputs;
+}
+
+// The formats that an option may write; --format leaves one of them.
+std::vector<const FileFormat*> formatsOf(const Option& option, std::string_view chosen) {
+    std::vector<const FileFormat*> formats;
+    while (!chosen.empty() && chosen.back() >= '0' && chosen.back() <= '9') chosen.remove_suffix(1);
+    for (const std::string_view name : splitChoices(option.formats)) {
+        const FileFormat* format = formatOfName(name);
+        SVT_CHECK(format != nullptr);
+        if (chosen.empty() || chosen == name) formats.push_back(format);
+    }
+    return formats;
+}
+
+std::vector<OutputFile> outputsOf(std::span<const GivenOption> given) {
+    std::vector<OutputFile> outputs;
+    for (const auto& [option, values] : given) {
+        if (option->file != FileUse::Output && option->file != FileUse::OutputFolder) continue;
+        const auto formats = formatsOf(*option, valueOf(given, "--format"));
+        const std::string_view number = option->numberedBy.empty() ? "" : valueOf(given, option->numberedBy);
+        const int count = number.empty() ? 1 : std::max(1, std::atoi(std::string(number).c_str()));
+        for (const std::string& value : values)
+            for (int n = 0; n < count; ++n)
+                outputs.push_back({numberedFile(userPath(value), n, count), longName(*option), formats, n == 0});
+    }
+    return outputs;
+}
+
+bool isRegular(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+// A device, a pipe or a socket, which is written as it is.
+bool isStream(const fs::path& path) {
+    std::error_code ignored;
+    const fs::file_type type = fs::status(path, ignored).type();
+    return type == fs::file_type::character || type == fs::file_type::fifo || type == fs::file_type::socket ||
+           type == fs::file_type::block;
+}
+
+bool isInside(const fs::path& path, const fs::path& folder) {
+    std::error_code ignored;
+    const fs::path root = fs::canonical(folder, ignored), real = fs::canonical(path, ignored);
+    return !root.empty() && !real.empty() &&
+           std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
+}
+
+Result<void> checkEnding(const OutputFile& output, bool mayChooseFormat) {
+    if (output.formats.empty()) return {};
+    std::vector<std::string_view> endings;
+    for (const FileFormat* format : output.formats)
+        for (const std::string_view ending : splitChoices(format->endings)) endings.push_back(ending);
+    const std::string ending = endingOf(output.path);
+    // A single format needs no ending to tell it.
+    if (std::ranges::find(endings, ending) != endings.end() || (ending.empty() && output.formats.size() == 1))
+        return {};
+    if (output.formats.size() == 1 && isStream(output.path)) return {};
+    return Error(Code::BadArgument, fmt::format("{} '{}': cannot write '{}'; possible {} {}{}", output.option,
+                                                output.path.string(), ending, endings.size() == 1 ? "is" : "are",
+                                                fmt::join(endings, ", "), mayChooseFormat ? ", or --format" : ""));
+}
+
+// No output is an input, and no two outputs are one file.
+Result<void> checkMeetings(const std::vector<Input>& inputs, const std::vector<OutputFile>& outputs) {
+    std::map<std::string, const Input*> read;
+    std::error_code ignored;
+    for (const Input& input : inputs)
+        if (std::string identity = fileIdentity(input.path); !identity.empty() && fs::exists(input.path, ignored))
+            read.emplace(std::move(identity), &input);
+    std::map<std::string, const OutputFile*> written;
+    for (const OutputFile& output : outputs) {
+        std::string identity = fileIdentity(output.path);
+        if (identity.empty()) continue;
+        if (const auto found = read.find(identity); found != read.end())
+            return errorAt(output.path, Code::WouldDestroy,
+                           fmt::format("'{}' would write over a file that is read ({}); give another name",
+                                       output.option, found->second->use));
+        if (const auto [other, isNew] = written.emplace(std::move(identity), &output); !isNew)
+            return errorAt(output.path, Code::WouldDestroy,
+                           fmt::format("'{}' and '{}' ({}) are one file; give two names", output.option,
+                                       other->second->option, other->second->path.string()));
+        if (!output.formats.empty()) continue;
+        for (const Input& input : inputs)
+            if (input.kind != FileUse::InputFolder && isInside(input.path, output.path))
+                return errorAt(
+                    input.path, Code::WouldDestroy,
+                    fmt::format("the file is read ({}) and lies in the folder that '{}' writes; give another "
+                                "folder",
+                                input.use, output.option));
+    }
+    return {};
+}
+
+Result<void> checkContent(const OutputFile& output) {
+    if (!isRegular(output.path)) return {};
+    const FileContent content = contentOf(output.path);
+    const std::string ending = endingOf(output.path);
+    if (content == FileContent::Nothing || output.formats.empty()) return {};
+    std::string_view wanted;
+    for (const FileFormat* format : output.formats) {
+        const auto endings = splitChoices(format->endings);
+        if (output.formats.size() > 1 && std::ranges::find(endings, ending) == endings.end()) continue;
+        if (format->content == content) return {};
+        wanted = contentName(format->content);
+    }
+    return errorAt(output.path, Code::WouldDestroy,
+                   fmt::format("'{}' writes {}, and what is there is {}; give another name, or remove the file",
+                               output.option, wanted, contentName(content)));
+}
+
+// A folder is tried by a file in it, or in the nearest folder above that exists.
+Result<void> checkFolder(const fs::path& folder) {
+    std::error_code ignored;
+    fs::path at = fs::absolute(folder, ignored);
+    if (!at.has_filename()) at = at.parent_path();
+    while (!fs::exists(at, ignored) && at.has_relative_path()) at = at.parent_path();
+    if (!fs::is_directory(at, ignored))
+        return errorAt(folder, Code::CannotWrite, fmt::format("{} is a file; give the name of a folder", at.string()));
+    return checkWritable(at / "index.html");
+}
+
+// Options that say how a model becomes a volume have no meaning where there are volumes alone.
+Result<void> checkMeaning(std::span<const GivenOption> given, const std::vector<Input>& inputs) {
+    const Input* volume = nullptr;
+    for (const Input& input : inputs) {
+        if (input.kind != FileUse::ModelOrVolume) continue;
+        if (!isRegular(input.path) || contentOf(input.path) != FileContent::Volume) return {};
+        volume = &input;
+    }
+    if (volume == nullptr) return {};
+    for (const GivenOption& option : given)
+        if (option.option->isForModels)
+            return errorAt(volume->path, Code::BadArgument,
+                           fmt::format("{} says how a model becomes a volume, and this is a volume already; leave it "
+                                       "out, or give the model",
+                                       longName(*option.option)));
+    return {};
+}
+
+}  // namespace
+
+std::string endingOf(const fs::path& file) { return lowerAscii(file.extension().string()); }
+
+fs::path numberedFile(const fs::path& file, int number, int count) {
+    if (count == 1 || file.empty()) return file;
+    fs::path result = file;
+    result.replace_filename(fmt::format("{}_{:04}{}", file.stem().string(), number, file.extension().string()));
+    return result;
+}
+
+Result<void> checkFiles(std::span<const GivenOption> given) {
+    const std::vector<Input> inputs = inputsOf(given);
+    const std::vector<OutputFile> outputs = outputsOf(given);
+    const bool mayChooseFormat = std::ranges::any_of(
+        given, [](const GivenOption& g) { return g.option->formats.find("citygml") != std::string_view::npos; });
+    for (const OutputFile& output : outputs)
+        if (output.isFirst)
+            if (auto checked = checkEnding(output, mayChooseFormat); !checked) return checked;
+    if (auto checked = checkMeaning(given, inputs); !checked) return checked;
+    if (auto checked = checkMeetings(inputs, outputs); !checked) return checked;
+    std::error_code ignored;
+    for (const OutputFile& output : outputs) {
+        if (auto checked = checkContent(output); !checked) return checked;
+        // Of numbered files in one folder one is tried, and what is there already.
+        if (!output.isFirst && !fs::exists(output.path, ignored)) continue;
+        auto checked = output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path);
+        if (!checked) return checked;
+    }
+    return {};
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// What a command reads and writes, checked for all commands at once before any of them begins: nothing that exists is
+/// destroyed, and what cannot be written is told before the work, not after it. The catalog says which options name
+/// files.
+
+#include <svt/core/option.hpp>
+#include <svt/core/result.hpp>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace svt::cli {
+
+/// An option of the command line with its values.
+struct GivenOption {
+    const Option* option = nullptr;
+    std::vector<std::string> values;
+};
+
+/// Checks the files that the options name:
+/// - an output ends as its formats do; with several formats it must have an ending, unless --format tells the format
+/// - no output is a file that is read (by device and inode, through links; with the files that a style names), no two
+///   outputs are one file, and no output takes the place of a file of another kind, told by its first 4 KiB
+/// - outputs can be written: the folder is there, permissions allow it, space is left
+/// - options that say how a model becomes a volume are not given where only volumes are read
+/// Devices and pipes may be written as they are. Nothing is changed, but for leftovers of killed writers (AtomicFile).
+/// \param given  all options that were given
+/// \return nothing, or BadArgument (an ending, an option without meaning), WouldDestroy, CannotWrite, DiskFull
+[[nodiscard]] Result<void> checkFiles(std::span<const GivenOption> given);
+
+/// The ending of a file's name in lower case, with its dot: ".png"; empty if it has none.
+[[nodiscard]] std::string endingOf(const std::filesystem::path& file);
+
+/// Number `number` of `count` files: P.png -> P_0007.png; the file itself if there is one, or `file` is empty.
+[[nodiscard]] std::filesystem::path numberedFile(const std::filesystem::path& file, int number, int count);
+
+}  // namespace svt::cli
