@@ -139,7 +139,7 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
                    std::span<const std::uint32_t> heightPlaneOfPlane, const Claims& claims,
                    const VoxelizeOptions& options, std::uint32_t object, HeightPlanes& ownHeightPlanes, Geometry& all) {
     const mesh::ObjectMesh& mesh = meshes.objects[object];
-    if (mesh.closure == mesh::Closure::Open) return;  // filled by winding number later, one at a time on all cores
+    if (mesh.closure == mesh::Closure::Open) return;  // see fillOpenShells()
     const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
     if (mesh.closure == mesh::Closure::Surface) {
@@ -207,6 +207,43 @@ ColumnVolume restoreVanishedObjects(ColumnVolume columns, const mesh::MeshSet& m
     return edits.empty() ? columns : editVoxels(columns, std::move(edits), threads);
 }
 
+// Fills the open objects by winding number: all their parts on all cores.
+Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
+                            std::span<const std::uint32_t> heightPlaneOfPlane, const Claims& claims,
+                            const VoxelizeOptions& options, std::vector<HeightPlanes>& ownHeightPlanes,
+                            Geometry& all) {
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
+        if (meshes.objects[o].closure == mesh::Closure::Open) open.push_back(o);
+    std::vector<std::unique_ptr<WindingFill>> fills(open.size());
+    parallelFor(open.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::uint32_t o = open[n], claim = claims.solidOrder[o];
+            fills[n] = std::make_unique<WindingFill>(meshes.objects[o], meshes, grid, indexFromLocal, claim);
+            all.objects[o].faces = groupCoplanarFaces(fills[n]->capped(), heightPlaneOfPlane, grid.dimension(), claim,
+                                                      ownHeightPlanes[o]);
+        }
+    });
+    struct FillPart {
+        std::size_t fill, part;
+    };
+    std::vector<FillPart> parts;
+    for (std::size_t n = 0; n < fills.size(); ++n)
+        for (std::size_t part = 0; part < fills[n]->partCount(); ++part) parts.push_back({n, part});
+    parallelFor(parts.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            if (Progress::isCancelled(options.progress)) return;
+            fills[parts[n].fill]->runPart(parts[n].part);
+        }
+    });
+    if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
+    parallelFor(open.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n)
+            all.uncertainVoxels[open[n]] = fills[n]->finish(all.objects[open[n]].boxes);
+    });
+    return {};
+}
+
 Result<Geometry> prepareObjects(const mesh::MeshSet& meshes, const volume::Grid& grid,
                                 const IndexFromLocal& indexFromLocal, const Claims& claims,
                                 const VoxelizeOptions& options) {
@@ -238,12 +275,8 @@ Result<Geometry> prepareObjects(const mesh::MeshSet& meshes, const volume::Grid&
                           static_cast<std::uint32_t>(o), ownHeightPlanes[o], all);
         }
     });
-    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
-        if (meshes.objects[o].closure != mesh::Closure::Open) continue;
-        if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
-        all.uncertainVoxels[o] = addWindingFill(makeIndexMesh(meshes.objects[o], indexFromLocal), meshes, grid,
-                                                claims.solidOrder[o], options.threads, all.objects[o].boxes);
-    }
+    if (auto filled = fillOpenShells(meshes, grid, indexFromLocal, heightPlaneOfPlane, claims, options, ownHeightPlanes, all); !filled)
+        return filled.error();
     // Append the height planes of single objects to the common table, in object order, and renumber them.
     for (std::size_t o = 0; o < meshes.objects.size(); ++o) {
         const HeightPlanes& own = ownHeightPlanes[o];

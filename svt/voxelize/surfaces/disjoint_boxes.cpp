@@ -75,7 +75,7 @@ private:
             if (!row_.empty() && row_.back().low == low && row_.back().high == high && row_.back().end == i)
                 ++row_.back().end;
             else
-                row_.push_back({like.firstRow, like.endRow, i, i + 1, low, high, like.claim});
+                row_.push_back({like.firstRow, like.endRow, i, i + 1, low, high, like.claim, like.countsAgainst});
         }
     }
 

@@ -12,7 +12,7 @@ namespace svt::voxelize {
 
 /// Appends the union of `boxes` to `disjoint`, as boxes without overlap: first runs along z, then equal adjacent runs
 /// along x and equal boxes of successive rows are merged.
-/// \param boxes  all of one claim, each one row high, inside the grid
+/// \param boxes  all of one claim that count alike, each one row high, inside the grid
 /// \return count of voxels
 /// Cost: O(r log r) for the r runs of each row, plus O(boxes + rows). Memory: a copy of the boxes and the runs of one
 /// row.

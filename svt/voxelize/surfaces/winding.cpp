@@ -1,219 +1,474 @@
 #include <svt/voxelize/surfaces/winding.hpp>
 
-#include <svt/core/parallel.hpp>
+#include <svt/voxelize/surfaces/disjoint_boxes.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
-#include <tuple>
 
 namespace svt::voxelize {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr std::int32_t kPartSize = 64;        // samples along each axis of a part
+constexpr std::int32_t kLargestLeaf = 16;     // blocks up to this size are decided sample by sample
+constexpr std::int32_t kSmallestSplit = 2;    // blocks of this size are not halved
+constexpr double kShift = 1.0 / double(kQuanta);  // samples lie this far beyond their index
+constexpr double kTie = 1e-9;                 // a winding number this far below 1/2 is inside
+constexpr double kFoldError = 2e-5;           // of a cap that joins the far caps
+constexpr double kCountError = 0.01;          // for the count of uncertain samples
+constexpr double kBand = 1.0 / 32;            // voxels: closer to a cap its side is decided on the lattice
+constexpr double kReach = 1.0 / 16;           // voxels: a cap so close to a block touches it
 
-// Signed solid angle of the spherical triangle of three unit vectors (Van Oosterom & Strackee 1983).
-double solidAngle(Vec3d a, Vec3d b, Vec3d c) noexcept {
-    return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+double largest(Vec3d v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+double distanceToBox(Vec3d p, const Box3d& box) noexcept {
+    const Vec3d outside{std::max({box.min.x - p.x, p.x - box.max.x, 0.0}),
+                        std::max({box.min.y - p.y, p.y - box.max.y, 0.0}),
+                        std::max({box.min.z - p.z, p.z - box.max.z, 0.0})};
+    return length(outside);
 }
 
-double distanceToSegment(Vec3d p, Vec3d a, Vec3d b) noexcept {
-    const Vec3d ab = b - a;
-    const double squared = dot(ab, ab);
-    const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0.0;
-    return length(p - (a + ab * t));
-}
+// What the sweep has to count more, so that it may compare with 1.
+std::int32_t deltaOf(double c) noexcept { return -static_cast<std::int32_t>(std::ceil(c - 0.5 - kTie)); }
 
-// The open edges of the shell.
-struct OpenEdges {
-    std::vector<std::pair<Vec3d, Vec3d>> edges;  // directed as in the mesh, local space
-    double totalLength = 0;
+double distanceToHalf(double c) noexcept { return std::abs(c - std::floor(c) - 0.5); }
 
-    // Winding number of the curtains (see winding.hpp) at p, and the distance of the nearest edge.
-    [[nodiscard]] double windingBelow(Vec3d p, double& nearest) const noexcept {
-        const Vec3d down{0, 0, -1};
-        double sum = 0;
-        nearest = 1e300;
-        for (const auto& [from, to] : edges) {
-            sum += solidAngle(normalized(to - p), normalized(from - p), down);
-            nearest = std::min(nearest, distanceToSegment(p, from, to));
-        }
-        return sum / (4 * kPi);
+bool isUncertain(double c) noexcept { return distanceToHalf(c) < 0.25; }
+
+}  // namespace
+
+// Halves the blocks of one part until every sample is decided. Belongs to one thread.
+class WindingBlocks {
+public:
+    WindingBlocks(const WindingFill& fill, WindingFill::Part& part) : fill_(fill), field_(*fill.field_), part_(part) {}
+
+    void run() {
+        near_.clear();
+        caps_.clear();
+        for (std::uint32_t n = 0; n < field_.loops().size(); ++n) near_.push_back(n);
+        for (std::uint32_t n = 0; n < fill_.caps_.size(); ++n) caps_.push_back(n);
+        Block all;
+        all.low = part_.low;
+        all.size = kPartSize;
+        all.near = {0, near_.size()};
+        all.caps = {0, caps_.size()};
+        divide(all);
     }
+
+private:
+    struct Range {
+        std::size_t begin, end;
+    };
+    struct Block {
+        Vec3i low;
+        std::int32_t size;
+        Range near, caps;  // of near_ and caps_
+        Vec3d center;      // of `far`
+        Jet far;           // sum of all caps that are not near
+    };
+    // The samples of a block within the bounding box.
+    struct Samples {
+        Vec3i low, count;
+        Vec3d center, half;  // index space; `half`: from the centre to the last samples
+        Vec3d local;         // the centre, local space
+        double radius;       // from there to the corners, metres
+    };
+
+    bool clip(const Block& block, Samples& samples) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::int32_t low = std::max(block.low[axis], fill_.begin_[axis]);
+            const std::int32_t high = std::min(block.low[axis] + block.size, fill_.end_[axis]);
+            if (low >= high) return false;
+            samples.low[axis] = low;
+            samples.count[axis] = high - low;
+            samples.half[axis] = (high - low - 1) / 2.0;
+            samples.center[axis] = low + samples.half[axis] + kShift;
+        }
+        samples.local = field_.localFromIndex(samples.center);
+        samples.radius = 0;
+        for (const double sx : {-1.0, 1.0})
+            for (const double sy : {-1.0, 1.0})
+                samples.radius =
+                    std::max(samples.radius, length(field_.step(0) * (sx * samples.half.x) +
+                                                    field_.step(1) * (sy * samples.half.y) +
+                                                    field_.step(2) * samples.half.z));
+        return true;
+    }
+
+    // Lists the caps of `parent` that touch the samples.
+    Range capsTouching(const Samples& samples, Range parent) {
+        const std::size_t begin = caps_.size();
+        for (std::size_t n = parent.begin; n < parent.end; ++n) {
+            const WindingFill::CapTriangle& cap = fill_.caps_[caps_[n]];
+            bool touches = true;
+            double reach = kReach;
+            for (int axis = 0; axis < 3; ++axis) {
+                touches = touches && cap.low[axis] - kReach <= samples.center[axis] + samples.half[axis] &&
+                          cap.high[axis] + kReach >= samples.center[axis] - samples.half[axis];
+                reach += std::abs(cap.normal[axis]) * samples.half[axis];
+            }
+            if (touches && std::abs(dot(cap.normal, samples.center) - cap.offset) <= reach) caps_.push_back(caps_[n]);
+        }
+        return {begin, caps_.size()};
+    }
+
+    // Moves caps that are far for all samples from `parent` to the polynomial of the block; lists the others.
+    // \return a bound of the winding number of those listed
+    double foldFar(const Samples& samples, Range parent, Block& block) {
+        block.near.begin = near_.size();
+        double bound = 0;
+        for (std::size_t n = parent.begin; n < parent.end; ++n) {
+            const CapLoop& loop = field_.loops()[near_[n]];
+            const double away = distanceToBox(samples.local, loop.bounds) - samples.radius;
+            const double s = samples.radius;
+            if (away > 0) {
+                constexpr double kScale = 1 / (4 * std::numbers::pi);
+                const double inverse = 1 / away, squared = inverse * inverse;
+                const double error = kScale * s * s * s * squared * squared *
+                                     std::min(loop.length, 4 * loop.area * inverse);
+                if (error <= kFoldError) {
+                    const Jet jet = field_.jet(loop, samples.local, s);
+                    if (jet.error <= kFoldError) {
+                        block.far += jet;
+                        continue;
+                    }
+                }
+                bound += std::min(kScale * loop.area * squared, 1.0);
+            } else {
+                bound += 1;
+            }
+            near_.push_back(near_[n]);
+        }
+        block.near.end = near_.size();
+        return bound;
+    }
+
+    // How far a jet departs from its value within the block.
+    double spread(const Jet& jet, const Samples& samples) const {
+        const auto along = [&](Vec3d v, int axis) { return dot(v, field_.step(axis)) * samples.half[axis]; };
+        double sum = jet.error;
+        for (int a = 0; a < 3; ++a) {
+            sum += std::abs(along(jet.gradient, a));
+            const Vec3d column = jet.hessianTimes(field_.step(a) * samples.half[a]);
+            for (int b = 0; b < 3; ++b) sum += std::abs(along(column, b)) / 2;
+        }
+        return sum;
+    }
+
+    void divide(Block block) {
+        Samples samples;
+        if (!clip(block, samples)) return;
+        const std::size_t nearEnd = near_.size(), capsEnd = caps_.size();
+        block.far = block.far.movedBy(samples.local - block.center);
+        block.center = samples.local;
+        block.caps = capsTouching(samples, block.caps);
+        const double bound = foldFar(samples, block.near, block);
+        decide(block, samples, bound);
+        near_.resize(nearEnd);
+        caps_.resize(capsEnd);
+    }
+
+    void decide(const Block& block, const Samples& samples, double nearBound) {
+        const bool hasCaps = block.caps.begin < block.caps.end;
+        if (!hasCaps && std::abs(block.far.value) + spread(block.far, samples) + nearBound < 0.25) return;
+        const bool isSmallest = block.size <= kSmallestSplit;
+        Jet jet = block.far;
+        for (std::size_t n = block.near.begin; n < block.near.end; ++n) {
+            const Jet ofLoop = field_.jet(field_.loops()[near_[n]], samples.local, samples.radius);
+            jet += ofLoop;
+            if (!(ofLoop.error < kInfinity)) break;
+        }
+        if (!(jet.error < 0.25)) return isSmallest ? evaluateAll(block, samples) : halve(block);
+        const double range = spread(jet, samples);
+        const double toHalf = distanceToHalf(jet.value);
+        const bool hasOneDelta = !hasCaps && toHalf > range + kTie;
+        if (hasOneDelta && std::abs(toHalf - 0.25) > range) {
+            if (const std::int32_t delta = deltaOf(jet.value); delta != 0) addBlock(samples, delta);
+            if (toHalf < 0.25) part_.uncertain += volumeOf(samples);
+            return;
+        }
+        if (block.size > kLargestLeaf) return halve(block);
+        if (hasOneDelta) {
+            if (jet.error > kCountError && !isSmallest) return halve(block);
+            if (const std::int32_t delta = deltaOf(jet.value); delta != 0) addBlock(samples, delta);
+            countUncertain(jet, samples);
+            return;
+        }
+        // Samples that the error leaves open lie in a layer of this thickness in voxels.
+        const Vec3d g{dot(jet.gradient, field_.step(0)), dot(jet.gradient, field_.step(1)),
+                      dot(jet.gradient, field_.step(2))};
+        const double open = 2 * jet.error / std::max(largest(g), 1e-300);
+        if ((open <= 0.2 || isSmallest) && jet.error <= kCountError && classify(block, samples, jet)) return;
+        if (isSmallest) return evaluateAll(block, samples);
+        halve(block);
+    }
+
+    void halve(const Block& block) {
+        Block part = block;
+        part.size = block.size / 2;
+        for (int n = 0; n < 8; ++n) {
+            part.low = block.low + Vec3i{n & 1, n >> 1 & 1, n >> 2} * part.size;
+            divide(part);
+        }
+    }
+
+    static std::uint64_t volumeOf(const Samples& samples) {
+        return std::uint64_t(samples.count.x) * std::uint64_t(samples.count.y) * std::uint64_t(samples.count.z);
+    }
+
+    void addRun(std::int32_t i, std::int32_t j, std::int32_t low, std::int32_t high, std::int32_t delta) {
+        part_.corrections.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j),
+                                     static_cast<std::uint16_t>(low), static_cast<std::uint16_t>(high), delta});
+    }
+
+    void addBlock(const Samples& samples, std::int32_t delta) {
+        for (std::int32_t j = samples.low.y; j < samples.low.y + samples.count.y; ++j)
+            for (std::int32_t i = samples.low.x; i < samples.low.x + samples.count.x; ++i)
+                addRun(i, j, samples.low.z, samples.low.z + samples.count.z, delta);
+    }
+
+    // Adds the runs of equal deltas_ of each column.
+    void addDeltas(const Samples& samples) {
+        const std::int32_t *delta = deltas_;
+        for (std::int32_t j = 0; j < samples.count.y; ++j)
+            for (std::int32_t i = 0; i < samples.count.x; ++i) {
+                for (std::int32_t k = 0; k < samples.count.z;) {
+                    const std::int32_t first = k, value = delta[k];
+                    while (k < samples.count.z && delta[k] == value) ++k;
+                    if (value != 0)
+                        addRun(samples.low.x + i, samples.low.y + j, samples.low.z + first, samples.low.z + k, value);
+                }
+                delta += samples.count.z;
+            }
+    }
+
+    // A jet along the columns of a block: value at sample (i, j, k) of it.
+    struct Polynomial {
+        double value, gx, gy, gz, xx, yy, zz, yz, xz, xy;
+        Vec3d half;
+        Polynomial(const Jet& jet, const Samples& samples, const CapField& field) : value(jet.value), half(samples.half) {
+            const Vec3d x = field.step(0), y = field.step(1), z = field.step(2);
+            const Vec3d hx = jet.hessianTimes(x), hy = jet.hessianTimes(y), hz = jet.hessianTimes(z);
+            gx = dot(jet.gradient, x);
+            gy = dot(jet.gradient, y);
+            gz = dot(jet.gradient, z);
+            xx = dot(hx, x) / 2;
+            yy = dot(hy, y) / 2;
+            zz = dot(hz, z) / 2;
+            xy = dot(hx, y);
+            xz = dot(hx, z);
+            yz = dot(hy, z);
+        }
+        // Calls `body(n, value)` for the samples of column (i, j), n = 0 at the bottom.
+        template <class Body>
+        void column(std::int32_t i, std::int32_t j, std::int32_t count, Body&& body) const {
+            const double x = i - half.x, y = j - half.y;
+            const double constant = value + x * (gx + xx * x + xy * y) + y * (gy + yy * y);
+            const double slope = gz + xz * x + yz * y;
+            for (std::int32_t k = 0; k < count; ++k) {
+                const double z = k - half.z;
+                body(k, constant + z * (slope + zz * z));
+            }
+        }
+        [[nodiscard]] double at(Vec3i n) const {
+            const double x = n.x - half.x, y = n.y - half.y, z = n.z - half.z;
+            return value + x * (gx + xx * x + xy * y) + y * (gy + yy * y) + z * (gz + xz * x + yz * y + zz * z);
+        }
+    };
+
+    void countUncertain(const Jet& jet, const Samples& samples) {
+        const Polynomial polynomial(jet, samples, field_);
+        std::uint64_t uncertain = 0;
+        for (std::int32_t j = 0; j < samples.count.y; ++j)
+            for (std::int32_t i = 0; i < samples.count.x; ++i)
+                polynomial.column(i, j, samples.count.z, [&](std::int32_t, double c) { uncertain += isUncertain(c); });
+        part_.uncertain += uncertain;
+    }
+
+    // c at a sample of the block.
+    double evaluate(const Block& block, Vec3i sample) const {
+        const Vec3d p = field_.localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
+        double c = block.far.at(p - block.center);
+        for (std::size_t n = block.near.begin; n < block.near.end; ++n) c += windingAt(block, near_[n], sample, p);
+        if (distanceToHalf(c) > block.far.error + kTie) return c;
+        if (block.near.end - block.near.begin == field_.loops().size()) return c;
+        c = 0;
+        for (std::uint32_t loop = 0; loop < field_.loops().size(); ++loop) c += windingAt(block, loop, sample, p);
+        return c;
+    }
+
+    double windingAt(const Block& block, std::uint32_t number, Vec3i sample, Vec3d p) const {
+        const CapLoop& loop = field_.loops()[number];
+        for (std::size_t n = block.caps.begin; n < block.caps.end; ++n)
+            if (fill_.caps_[caps_[n]].loop == number) return field_.windingNear(loop, sample);
+        return field_.winding(loop, p);
+    }
+
+    void evaluateAll(const Block& block, const Samples& samples) {
+        std::int32_t* delta = deltas_;
+        for (std::int32_t j = 0; j < samples.count.y; ++j)
+            for (std::int32_t i = 0; i < samples.count.x; ++i)
+                for (std::int32_t k = 0; k < samples.count.z; ++k) {
+                    const double c = evaluate(block, samples.low + Vec3i{i, j, k});
+                    *delta++ = deltaOf(c);
+                    part_.uncertain += isUncertain(c);
+                }
+        addDeltas(samples);
+    }
+
+    // True if all caps of the block lie in one plane as far as it reaches.
+    bool isOnePlane(const Block& block, const Samples& samples) const {
+        const WindingFill::CapTriangle& first = fill_.caps_[caps_[block.caps.begin]];
+        const double at = dot(first.normal, samples.center) - first.offset;
+        for (std::size_t n = block.caps.begin + 1; n < block.caps.end; ++n) {
+            const WindingFill::CapTriangle& cap = fill_.caps_[caps_[n]];
+            const double sign = dot(cap.normal, first.normal) < 0 ? -1 : 1;
+            const Vec3d turn = cap.normal * sign - first.normal;
+            const double shift = sign * (dot(cap.normal, samples.center) - cap.offset) - at;
+            if (std::abs(shift) + length(scaled(turn, samples.half)) + length(turn) > kBand / 2) return false;
+        }
+        return true;
+    }
+
+    // Decides sample by sample. Returns false if the caps of the block are not in one plane.
+    bool classify(const Block& block, const Samples& samples, const Jet& jet) {
+        const bool hasCaps = block.caps.begin < block.caps.end;
+        Vec3d normal{};
+        double offset = -1;  // without caps all samples are on the side > 0
+        int jump[2] = {0, 0};
+        const Polynomial polynomial(jet, samples, field_);
+        if (hasCaps) {
+            if (!isOnePlane(block, samples)) return false;
+            normal = fill_.caps_[caps_[block.caps.begin]].normal;
+            offset = fill_.caps_[caps_[block.caps.begin]].offset;
+            // On either side c and its smooth continuation differ by a whole number: see at the farthest samples.
+            for (const int side : {0, 1}) {
+                Vec3i n;
+                for (int axis = 0; axis < 3; ++axis)
+                    n[axis] = (normal[axis] > 0) == (side == 1) ? samples.count[axis] - 1 : 0;
+                const double smooth = polynomial.at(n);
+                const double difference = evaluate(block, samples.low + n) - smooth;
+                jump[side] = static_cast<int>(std::nearbyint(difference));
+                if (std::abs(difference - jump[side]) > 0.05) return false;
+            }
+        }
+        std::int32_t* delta = deltas_;
+        std::uint64_t uncertain = 0;
+        const double margin = jet.error + kTie;
+        for (std::int32_t j = 0; j < samples.count.y; ++j)
+            for (std::int32_t i = 0; i < samples.count.x; ++i) {
+                const Vec3i bottom = samples.low + Vec3i{i, j, 0};
+                const double height = normal.x * (bottom.x + kShift) + normal.y * (bottom.y + kShift) +
+                                      normal.z * (bottom.z + kShift) - offset;
+                polynomial.column(i, j, samples.count.z, [&](std::int32_t k, double smooth) {
+                    const double away = height + normal.z * k;
+                    double c = smooth + jump[away > 0];
+                    if (distanceToHalf(c) <= margin || (std::abs(away) <= kBand && jump[0] != jump[1]))
+                        c = evaluate(block, bottom + Vec3i{0, 0, k});
+                    *delta++ = deltaOf(c);
+                    uncertain += isUncertain(c);
+                });
+            }
+        part_.uncertain += uncertain;
+        addDeltas(samples);
+        return true;
+    }
+
+    const WindingFill& fill_;
+    const CapField& field_;
+    WindingFill::Part& part_;
+    std::vector<std::uint32_t> near_, caps_;  // stacks of lists
+    std::int32_t deltas_[kLargestLeaf * kLargestLeaf * kLargestLeaf];
 };
 
-struct Crossing {
-    std::int32_t i, k, winding;
-};
-
-// Samples [begin, end) along each axis.
-struct SampleRange {
-    Vec3i begin, end;
-    [[nodiscard]] bool isEmpty() const noexcept { return begin.x >= end.x || begin.y >= end.y || begin.z >= end.z; }
-};
-
-// The samples inside the bounding box of a mesh. From outside it the shell is seen within a half-space, so the winding
-// number stays below 1/2 there.
-SampleRange samplesAround(const IndexMesh& mesh, Vec3i dimension) {
+WindingFill::WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
+                         const IndexFromLocal& indexFromLocal, std::uint32_t claim)
+    : shell_(capShell(shell)), lattice_(makeIndexMesh(shell_.mesh, indexFromLocal)), claim_(claim) {
+    field_ = std::make_unique<CapField>(shell_, lattice_, grid, meshes.origin);
+    std::uint32_t loopNumber = 0;
+    for (const RimLoop& loop : shell_.loops) {
+        const auto ring = shell_.ringOf(loop);
+        for (std::uint32_t n = loop.firstFan(); n < loop.fanEnd(); ++n) {
+            const Vec3d a = indexFromLocal.point(shell_.mesh.vertices[loop.apex]);
+            const Vec3d b = indexFromLocal.point(shell_.mesh.vertices[ring[n]]);
+            const Vec3d c = indexFromLocal.point(shell_.mesh.vertices[ring[n + 1 < ring.size() ? n + 1 : 0]]);
+            CapTriangle cap;
+            cap.normal = normalized(cross(b - a, c - a));
+            cap.offset = dot(cap.normal, a);
+            cap.loop = loopNumber;
+            Box3d bounds;
+            for (const Vec3d& corner : {a, b, c}) bounds.add(corner);
+            cap.low = bounds.min;
+            cap.high = bounds.max;
+            caps_.push_back(cap);
+        }
+        ++loopNumber;
+    }
+    // From outside its bounding box the shell is seen within a half-space.
     QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
-    for (const QuantaPoint& point : mesh.points)
+    for (const QuantaPoint& point : lattice_.points)
         for (std::size_t axis = 0; axis < 3; ++axis) {
             low[axis] = std::min(low[axis], point[axis]);
             high[axis] = std::max(high[axis], point[axis]);
         }
-    SampleRange range;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
         const auto sample = [&](std::int32_t quanta) {
             return std::clamp<std::int32_t>(static_cast<std::int32_t>(firstSampleAbove(quanta)), 0,
-                                            dimension[int(axis)]);
+                                            grid.dimension()[axis]);
         };
-        range.begin[int(axis)] = sample(low[axis]);
-        range.end[int(axis)] = sample(high[axis]);
+        begin_[axis] = sample(low[std::size_t(axis)]);
+        end_[axis] = sample(high[std::size_t(axis)]);
     }
-    return range;
+    if (shell_.loops.empty() || begin_.x >= end_.x || begin_.y >= end_.y || begin_.z >= end_.z) return;
+    const auto first = [](std::int32_t sample) { return sample / kPartSize * kPartSize; };
+    for (std::int32_t z = first(begin_.z); z < end_.z; z += kPartSize)
+        for (std::int32_t y = first(begin_.y); y < end_.y; y += kPartSize)
+            for (std::int32_t x = first(begin_.x); x < end_.x; x += kPartSize) parts_.push_back({{x, y, z}, {}, 0});
 }
 
-// What all rows of samples share.
-struct FillInput {
-    const volume::Grid& grid;
-    Vec3d origin;  // of local space
-    SampleRange range;
-    std::uint32_t claim;
-    OpenEdges openEdges;
-    std::vector<ScanTriangle> triangles;
-    double step;  // metres between samples of a column
+void WindingFill::runPart(std::size_t n) { WindingBlocks(*this, parts_[n]).run(); }
 
-    FillInput(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& sampleGrid, SampleRange samples,
-              std::uint32_t claimNumber)
-        : grid(sampleGrid),
-          origin(meshes.origin),
-          range(samples),
-          claim(claimNumber),
-          step(std::max(1e-12, length(sampleGrid.worldFromIndexDirection({0, 0, 1})))) {
-        for (const mesh::OpenEdge& edge : mesh.mesh->openEdges) {
-            openEdges.edges.emplace_back(mesh.mesh->vertices[edge.from], mesh.mesh->vertices[edge.to]);
-            openEdges.totalLength += length(openEdges.edges.back().second - openEdges.edges.back().first);
-        }
-        for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
-            ScanTriangle scan;
-            if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                          mesh.points[triangle.corners[2]], kScanAxes[2], scan))
-                triangles.push_back(scan);
+std::size_t WindingFill::correctionCount() const noexcept {
+    std::size_t count = 0;
+    for (const Part& part : parts_) count += part.corrections.size();
+    return count;
+}
+
+std::uint64_t WindingFill::finish(std::vector<ClaimedBox>& boxes) {
+    std::uint64_t uncertain = 0;
+    std::int32_t least = 0, most = 0;
+    for (const Part& part : parts_) {
+        uncertain += part.uncertain;
+        for (const Correction& c : part.corrections) {
+            least = std::min(least, c.delta);
+            most = std::max(most, c.delta);
         }
     }
-};
-
-// Fills the columns of one row of samples, j. Belongs to one thread.
-class RowFill {
-public:
-    explicit RowFill(const FillInput& input) : in_(input) {}
-
-    // Adds the runs inside the shell to `boxes`.
-    // \return samples whose winding number is between 1/4 and 3/4
-    std::uint64_t fill(std::int32_t j, std::vector<ClaimedBox>& boxes) {
-        findCrossings(j);
-        std::uint64_t uncertain = 0;
-        std::size_t begin = 0;
-        for (std::int32_t i = in_.range.begin.x; i < in_.range.end.x; ++i) {
-            while (begin < crossings_.size() && crossings_[begin].i < i) ++begin;
-            std::size_t end = begin;
-            while (end < crossings_.size() && crossings_[end].i == i) ++end;
-            uncertain += fillColumn({i, j, 0}, std::span(crossings_).subspan(begin, end - begin), boxes);
-            begin = end;
-        }
-        return uncertain;
+    // Boxes that count one, in as many layers as needed.
+    std::vector<ClaimedBox> layer;
+    for (std::int32_t level = least; level <= most; ++level) {
+        if (level == 0) continue;
+        layer.clear();
+        for (const Part& part : parts_)
+            for (const Correction& c : part.corrections)
+                if (level > 0 ? c.delta >= level : c.delta <= level)
+                    layer.push_back({c.j, c.j + 1, c.i, c.i + 1, c.low, c.high, claim_, level < 0});
+        addDisjoint(layer, boxes);
     }
-
-private:
-    void findCrossings(std::int32_t j) {
-        crossings_.clear();
-        for (const ScanTriangle& t : in_.triangles)
-            scanRows(
-                t, j, j + 1, in_.range.begin.x, in_.range.end.x, [&](std::int32_t, std::int32_t from, std::int32_t to) {
-                    for (std::int32_t i = from; i < to; ++i)
-                        crossings_.push_back(
-                            {i, sampleAbove(t, t.height.base + t.height.slopeX * i + t.height.slopeY * j), -t.sign});
-                });
-        std::sort(crossings_.begin(), crossings_.end(),
-                  [](const Crossing& p, const Crossing& q) { return std::tie(p.i, p.k) < std::tie(q.i, q.k); });
-    }
-
-    // One column, whose crossings are `crossings`, from below.
-    std::uint64_t fillColumn(Vec3i at, std::span<const Crossing> crossings, std::vector<ClaimedBox>& boxes) const {
-        std::uint64_t uncertain = 0;
-        std::size_t c = 0;
-        int above = 0;  // signed crossings of the upward ray from the current sample
-        for (const Crossing& crossing : crossings) above += crossing.winding;
-        std::int32_t begin = -1;
-        const auto close = [&](std::int32_t end) {
-            if (begin >= 0) boxes.push_back({at.y, at.y + 1, at.x, at.x + 1, begin, end, in_.claim});
-            begin = -1;
-        };
-        for (std::int32_t k = in_.range.begin.z; k < in_.range.end.z;) {
-            for (; c < crossings.size() && crossings[c].k <= k; ++c) above -= crossings[c].winding;
-            const std::int32_t limit = c < crossings.size() ? std::max(crossings[c].k, k + 1) : in_.range.end.z;
-            const auto [winding, next] = windingAt({at.x, at.y, k}, above, std::min(limit, in_.range.end.z));
-            if (winding > 0.25 && winding < 0.75) uncertain += std::uint64_t(next - k);
-            if (winding >= 0.5 && begin < 0) begin = k;
-            if (!(winding >= 0.5)) close(k);
-            k = next;
-        }
-        close(in_.range.end.z);
-        return uncertain;
-    }
-
-    // The winding number at a sample, and the next sample of the column, at most `limit`, where it may be on the other
-    // side of 1/2: it cannot change faster than the open edges are long and near.
-    struct WindingStep {
-        double winding;
-        std::int32_t next;
-    };
-    [[nodiscard]] WindingStep windingAt(Vec3i sample, int above, std::int32_t limit) const {
-        constexpr double kShift = 1.0 / double(kQuanta);
-        const Vec3d index{sample.x + kShift, sample.y + kShift, sample.z + kShift};
-        double nearest = 0;
-        const double winding = above - in_.openEdges.windingBelow(in_.grid.worldFromIndex(index) - in_.origin, nearest);
-        const double reach = std::min(nearest / 2, std::abs(winding - 0.5) * kPi * nearest * nearest /
-                                                       std::max(in_.openEdges.totalLength, 1e-300));
-        const std::int32_t next = sample.z + 1 + static_cast<std::int32_t>(std::min(reach / in_.step, 1e6));
-        return {winding, std::min(next, limit)};
-    }
-
-    const FillInput& in_;
-    std::vector<Crossing> crossings_;  // of the row, by column and height
-};
-
-}  // namespace
+    parts_.clear();
+    return uncertain;
+}
 
 double windingNumber(const mesh::ObjectMesh& mesh, Vec3d point) noexcept {
+    const auto solidAngle = [](Vec3d a, Vec3d b, Vec3d c) {
+        return 2 * std::atan2(dot(a, cross(b, c)), 1 + dot(a, b) + dot(b, c) + dot(c, a));
+    };
     double sum = 0;
     for (const mesh::Triangle& triangle : mesh.triangles)
         sum += solidAngle(normalized(mesh.vertices[triangle.corners[0]] - point),
                           normalized(mesh.vertices[triangle.corners[1]] - point),
                           normalized(mesh.vertices[triangle.corners[2]] - point));
-    return sum / (4 * kPi);
-}
-
-std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& grid,
-                             std::uint32_t claim, int threads, std::vector<ClaimedBox>& boxes) {
-    const SampleRange range = samplesAround(mesh, grid.dimension());
-    if (range.isEmpty()) return 0;
-    const FillInput input(mesh, meshes, grid, range, claim);
-    const std::size_t rows = std::size_t(range.end.y - range.begin.y);
-    std::vector<std::vector<ClaimedBox>> rowBoxes(rows);
-    std::vector<std::uint64_t> rowUncertain(rows, 0);
-    parallelFor(rows, 1, threads, [&](std::size_t beginRow, std::size_t endRow) {
-        RowFill fill(input);
-        for (std::size_t row = beginRow; row < endRow; ++row)
-            rowUncertain[row] = fill.fill(range.begin.y + static_cast<std::int32_t>(row), rowBoxes[row]);
-    });
-    std::uint64_t uncertain = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-        uncertain += rowUncertain[row];
-        boxes.insert(boxes.end(), rowBoxes[row].begin(), rowBoxes[row].end());
-    }
-    return uncertain;
+    return sum / (4 * std::numbers::pi);
 }
 
 }  // namespace svt::voxelize

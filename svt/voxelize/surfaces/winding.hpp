@@ -2,35 +2,87 @@
 /// \file
 /// Fills open shells with solid meaning by the generalized winding number.
 ///
-///        open edges           w(p) = signed crossings of the upward ray from p with the shell
-///      .--o     o--.                 - winding number of the curtains at p
-///      |  :     :  |
-///      |  :     :  |  shell   A curtain is the vertical strip that hangs from an open edge down to infinity. Seen
-///      |  :  p  :  |          from p it is a spherical triangle: the directions to both ends of the edge, and
-///      `--:-----:--'          straight down. Shell and curtains together are closed, so their common winding number
-///         :     :             is an integer: the signed crossings of any ray. An upward ray meets no curtain.
-///         v     v  curtains
+///      .--o - - o--.          w(p) = n(p) - c(p)
+///      |    cap    |          n: winding number of shell and caps together, which the sweep counts as for any solid
+///      |           |  shell   c: winding number of the caps, their solid angle / 4 pi; only the rim (o) matters
+///      |     p     |
+///      `-----------'          p is inside  <=>  w >= 1/2  <=>  n >= ceil(c + 1/2)
+///
+/// Where |c| < 1/2 the threshold is 1, as for a closed solid; elsewhere boxes are added that count for the claim, or
+/// against it, so that the sweep may always compare with 1:
+///
+///      o---------o     the cap, and below it the surface c = 1/2: other holes push it away from the cap. Between them
+///       `._____,'      n = 1 but w < 1/2: boxes that count -1. If the holes were alone, a planar cap and the surface
+///                      c = 1/2 would be the same, since a plane is seen under 2 pi from close by.
 
+#include <svt/voxelize/surfaces/cap_field.hpp>
 #include <svt/voxelize/tiles/tile_plan.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace svt::voxelize {
 
-/// Claims the samples whose generalized winding number (Jacobson, Kavan & Sorkine 2013) is at least 1/2.
+/// Fills the samples whose generalized winding number (Jacobson, Kavan & Sorkine 2013) is at least 1/2.
 ///
-/// Evaluated as signed crossings of the upward ray minus the solid angles of the curtains, divided by 4 pi (after the
-/// one-shot method of Martens & Bessmeltsev 2025), so that only the open edges cost. Along a column samples are skipped
-/// as far as the gradient bound |grad w| <= L / (pi d^2) allows, which holds within d / 2 of a sample (L: total length
-/// of the open edges, d: distance from the sample to the nearest of them). Samples outside the bounding box of the
-/// shell are left out.
-/// \param mesh     the open object, with its open edges
-/// \param boxes    receives the claimed samples, as boxes one column wide
-/// \param threads  0: all cores; the result does not depend on it
-/// \return count of samples with a winding number between 1/4 and 3/4; skipped samples count like the one before them
-/// Cost: O(samples evaluated * open edges + rows * triangles).
-std::uint64_t addWindingFill(const IndexMesh& mesh, const mesh::MeshSet& meshes, const volume::Grid& grid,
-                             std::uint32_t claim, int threads, std::vector<ClaimedBox>& boxes);
+/// Evaluated as crossings minus a boundary integral (after the one-shot method of Martens & Bessmeltsev 2025). Blocks of
+/// samples are halved until c is known well enough: in a block each cap is a quadratic polynomial with a bound of its
+/// error, far caps one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
+/// which the bound leaves the threshold open evaluate the solid angles. Close to a cap its side is decided as in the
+/// sweep, so that n and c always jump together.
+///
+/// The result is that of the sum over all triangles, except where that is within 1e-9 of 1/2, and for samples within
+/// 1/256 voxel of the shell. Samples outside its bounding box are left out.
+/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to caps).
+class WindingFill {
+public:
+    /// \param shell  an open object of `meshes`
+    /// \param claim  for the boxes
+    WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
+                const IndexFromLocal& indexFromLocal, std::uint32_t claim);
+
+    /// Shell and caps, closed: to be swept.
+    [[nodiscard]] const IndexMesh& capped() const noexcept { return lattice_; }
+
+    /// The work comes in this many parts; part n may be done by any thread.
+    [[nodiscard]] std::size_t partCount() const noexcept { return parts_.size(); }
+    void runPart(std::size_t n);
+
+    /// Appends the boxes of all parts, disjoint as far as they count the same. Call it after all parts.
+    /// \return count of samples whose winding number is more than 1/4 away from every whole number, within the bounding
+    ///         box of the shell. It is exact but for samples whose distance from it is within 1/4 +- 0.01.
+    std::uint64_t finish(std::vector<ClaimedBox>& boxes);
+
+    /// Count of raw corrections so far, from all parts; each takes 16 bytes until finish().
+    [[nodiscard]] std::size_t correctionCount() const noexcept;
+
+private:
+    friend class WindingBlocks;
+    // Samples [low, high) of column (i, j) for which the sweep has to count `delta` more.
+    struct Correction {
+        std::uint16_t i, j, low, high;
+        std::int32_t delta;
+    };
+    struct CapTriangle {
+        Vec3d low, high;  // bounds, index space
+        Vec3d normal;     // unit, index space
+        double offset;
+        std::uint32_t loop;
+    };
+    struct Part {
+        Vec3i low;
+        std::vector<Correction> corrections;
+        std::uint64_t uncertain = 0;
+    };
+
+    CappedShell shell_;
+    IndexMesh lattice_;
+    std::unique_ptr<CapField> field_;
+    std::vector<CapTriangle> caps_;
+    Vec3i begin_{}, end_{};  // samples inside the bounding box
+    std::uint32_t claim_;
+    std::vector<Part> parts_;
+};
 
 /// Generalized winding number of `mesh` at `point` (local space): the solid angles of all triangles (Van Oosterom &
 /// Strackee 1983), divided by 4 pi. Reference implementation for tests. Cost: O(triangles).

@@ -190,7 +190,8 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
     const std::uint64_t rows = bits(firstRow, endRow);
     for (const bool isEntry : {true, false}) {
         const std::int32_t k = std::clamp(isEntry ? box.low : box.high, 0, input.depth);
-        covers_.push_back({rows, Boundary{static_cast<std::uint32_t>(k), box.claim, isEntry}.packed(), {}, {}});
+        const Boundary boundary{static_cast<std::uint32_t>(k), box.claim, isEntry != box.countsAgainst};
+        covers_.push_back({rows, boundary.packed(), {}, {}});
         std::memset(covers_.back().begin, begin, kTile);
         std::memset(covers_.back().end, end, kTile);
     }

@@ -33,10 +33,11 @@
 namespace svt::voxelize {
 
 /// A box of samples that one claim takes as a whole (from sheets, thin parts, winding fills): [firstRow, endRow) along
-/// y, [begin, end) along x, [low, high) along z.
+/// y, [begin, end) along x, [low, high) along z. It adds one to the winding number of the claim.
 struct ClaimedBox {
     std::int32_t firstRow = 0, endRow = 0, begin = 0, end = 0, low = 0, high = 0;
     std::uint32_t claim = 0;
+    bool countsAgainst = false;  ///< takes one from the winding number instead
 };
 
 /// The faces and boxes of one object.

@@ -1,0 +1,217 @@
+#include <svt/voxelize/surfaces/cap_field.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace svt::voxelize {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+// Product of complex numbers, each of argument in (-pi, pi], that keeps count of full turns. Cheaper than the sum of
+// the arguments: one arc tangent in all.
+class TurnCounter {
+public:
+    void multiply(double real, double imaginary) noexcept {
+        const double x = real_ * real - imaginary_ * imaginary;
+        const double y = real_ * imaginary + imaginary_ * real;
+        if (imaginary_ >= 0 && imaginary >= 0) {
+            if (y < 0) ++turns_;
+        } else if (imaginary_ < 0 && imaginary < 0 && y >= 0) {
+            --turns_;
+        }
+        const double size = std::abs(x) + std::abs(y);
+        if (!(size > 0)) return;  // the point is on the rim
+        real_ = x / size;
+        imaginary_ = y / size;
+    }
+    // Sum of the arguments over 2 pi.
+    [[nodiscard]] double turns() const noexcept { return turns_ + std::atan2(imaginary_, real_) / kTurn; }
+
+private:
+    double real_ = 1, imaginary_ = 0;
+    int turns_ = 0;
+};
+
+struct Ray {
+    Vec3d to;
+    double length;
+    Ray(Vec3d point, Vec3d from) noexcept : to(point - from), length(svt::length(to)) {}
+};
+
+// Half the solid angle of a triangle is the argument of (real, imaginary) (Van Oosterom & Strackee 1983).
+struct HalfAngle {
+    double real, imaginary;
+    HalfAngle(const Ray& a, const Ray& b, const Ray& c) noexcept
+        : real(a.length * b.length * c.length + dot(a.to, b.to) * c.length + dot(b.to, c.to) * a.length +
+               dot(c.to, a.to) * b.length),
+          imaginary(dot(a.to, cross(b.to, c.to))) {}
+};
+
+double squaredDistance(Vec3d a, Vec3d b) noexcept {
+    // Of the origin to the segment from a to b.
+    const Vec3d ab = b - a;
+    const double squared = dot(ab, ab);
+    const double t = squared > 0 ? std::clamp(-dot(a, ab) / squared, 0.0, 1.0) : 0.0;
+    const Vec3d nearest = a + ab * t;
+    return dot(nearest, nearest);
+}
+
+// Adds gradient and hessian of 4 pi c of the edge from a to b.
+void addEdge(const Ray& a, const Ray& b, Jet& jet) noexcept {
+    const double product = a.length * b.length, cosine = dot(a.to, b.to);
+    const double weight = product * (product + cosine);
+    if (!(weight > 0)) return;
+    const Vec3d normal = cross(a.to, b.to);
+    const double inverse = 1 / weight, field = (a.length + b.length) * inverse;
+    const double ratio = 2 * product + cosine, inverseProduct = 1 / product;
+    const double inverseA = b.length * inverseProduct, inverseB = a.length * inverseProduct;
+    // The derivative of `field`, which depends on p through the lengths and the cosine.
+    const Vec3d slope =
+        (a.to * (inverseA - field * (ratio * b.length * inverseA + product)) +
+         b.to * (inverseB - field * (ratio * a.length * inverseB + product))) *
+        -inverse;
+    jet.gradient = jet.gradient + normal * field;
+    // The antisymmetric part cancels around a loop.
+    jet.diagonal = jet.diagonal + scaled(normal, slope);
+    jet.mixed = jet.mixed + Vec3d{normal.y * slope.z + normal.z * slope.y, normal.x * slope.z + normal.z * slope.x,
+                                  normal.x * slope.y + normal.y * slope.x} *
+                                0.5;
+}
+
+}  // namespace
+
+CapSide::CapSide(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, std::int32_t depth) noexcept
+    : corners{a, b, c} {
+    const auto along = [&](const QuantaPoint& to, std::size_t axis) { return std::int64_t(to[axis]) - a[axis]; };
+    const std::int64_t area = along(b, 0) * along(c, 1) - along(b, 1) * along(c, 0);
+    isVertical = area == 0;
+    looksUp = area > 0;
+    normalX = double(along(b, 1)) * double(along(c, 2)) - double(along(b, 2)) * double(along(c, 1));
+    normalY = double(along(b, 2)) * double(along(c, 0)) - double(along(b, 0)) * double(along(c, 2));
+    if (!isVertical) height = HeightPlane(triangleHeight(a, b, c, kScanAxes[2]), depth);
+}
+
+bool CapSide::isBehind(Vec3i sample) const noexcept {
+    if (!isVertical) return (sample.z >= height.sampleAbove(sample.x, sample.y)) != looksUp;
+    // The longest of its edges in plan; a sample exactly on it counts as east of it, as for EdgeWalk.
+    std::int64_t dx = 0, dy = 0, longest = -1;
+    const QuantaPoint* from = &corners[0];
+    for (std::size_t e = 0; e < 3; ++e) {
+        const QuantaPoint &p = corners[e], &q = corners[e == 2 ? 0 : e + 1];
+        const std::int64_t x = std::int64_t(q[0]) - p[0], y = std::int64_t(q[1]) - p[1];
+        if (std::abs(x) + std::abs(y) <= longest) continue;
+        longest = std::abs(x) + std::abs(y);
+        dx = x;
+        dy = y;
+        from = &p;
+    }
+    const std::int64_t px = std::int64_t(sample.x) * kQuanta + 1 - (*from)[0];
+    const std::int64_t py = std::int64_t(sample.y) * kQuanta + 1 - (*from)[1];
+    std::int64_t left = dx * py - dy * px;  // > 0: left of the edge
+    if (left == 0) left = -dy;
+    const double facing = normalX * double(-dy) + normalY * double(dx);  // > 0: the triangle faces left
+    return (left > 0) != (facing > 0);
+}
+
+CapField::CapField(const CappedShell& shell, const IndexMesh& lattice, const volume::Grid& grid, Vec3d localOrigin)
+    : origin_(grid.worldFromIndex({0, 0, 0}) - localOrigin),
+      steps_{grid.worldFromIndexDirection({1, 0, 0}), grid.worldFromIndexDirection({0, 1, 0}),
+             grid.worldFromIndexDirection({0, 0, 1})} {
+    const auto& vertices = shell.mesh.vertices;
+    const auto snapped = [&](std::uint32_t vertex) {
+        const QuantaPoint& q = lattice.points[vertex];
+        return localFromIndex({q[0] / double(kQuanta), q[1] / double(kQuanta), q[2] / double(kQuanta)});
+    };
+    for (const RimLoop& rim : shell.loops) {
+        const auto ring = shell.ringOf(rim);
+        CapLoop loop;
+        loop.first = static_cast<std::uint32_t>(points_.size());
+        loop.count = rim.pointCount;
+        loop.hasOwnApex = rim.hasOwnApex;
+        loop.apex = vertices[rim.apex];
+        loop.bounds.add(loop.apex);
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const std::uint32_t from = ring[n], to = ring[n + 1 < ring.size() ? n + 1 : 0];
+            points_.push_back(vertices[from]);
+            latticePoints_.push_back(snapped(from));
+            lengths_.push_back(length(vertices[to] - vertices[from]));
+            loop.bounds.add(vertices[from]);
+            loop.length += lengths_.back();
+            loop.area += length(cross(vertices[from] - loop.apex, vertices[to] - loop.apex)) / 2;
+            sides_.emplace_back(lattice.points[rim.apex], lattice.points[from], lattice.points[to],
+                                grid.dimension().z);
+        }
+        loops_.push_back(loop);
+        latticeApexes_.push_back(snapped(rim.apex));
+    }
+}
+
+double CapField::windingOf(std::span<const Vec3d> ring, Vec3d apex, bool hasOwnApex, Vec3d p) noexcept {
+    TurnCounter product;
+    const Ray top(hasOwnApex ? apex : ring[0], p);
+    Ray from(hasOwnApex ? ring.back() : ring[1], p);
+    for (std::size_t n = hasOwnApex ? 0 : 2; n < ring.size(); ++n) {
+        const Ray to(ring[n], p);
+        const HalfAngle angle(top, from, to);
+        product.multiply(angle.real, angle.imaginary);
+        from = to;
+    }
+    return product.turns();
+}
+
+double CapField::windingNear(const CapLoop& loop, Vec3i sample) const noexcept {
+    constexpr double kShift = 1.0 / double(kQuanta);
+    constexpr double kFlat = 1e-4;  // of the product of the lengths: so close to the triangle that its side is uncertain
+    const Vec3d p = localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
+    const auto ring = std::span(latticePoints_).subspan(loop.first, loop.count);
+    const Ray top(latticeApexes_[static_cast<std::size_t>(&loop - loops_.data())], p);
+    double onLattice = 0;
+    for (std::size_t n = loop.hasOwnApex ? 0 : 1; n < ring.size() - (loop.hasOwnApex ? 0 : 1); ++n) {
+        const Ray from(ring[n], p), to(ring[n + 1 < ring.size() ? n + 1 : 0], p);
+        HalfAngle angle(top, from, to);
+        if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * top.length * from.length * to.length)
+            angle.imaginary = std::copysign(angle.imaginary, sides_[loop.first + n].isBehind(sample) ? 1.0 : -1.0);
+        onLattice += std::atan2(angle.imaginary, angle.real) / kTurn;
+    }
+    // The snapped cap and the cap differ by a strip along the rim, thinner than 1/512 voxel.
+    const double exact = winding(loop, p);
+    return exact + std::nearbyint(onLattice - exact);
+}
+
+Jet CapField::jet(const CapLoop& loop, Vec3d p, double radius) const noexcept {
+    Jet jet;
+    const auto ring = std::span(points_).subspan(loop.first, loop.count);
+    const double cubed = radius * radius * radius;
+    Ray from(ring.back(), p);
+    double error = 0;
+    for (std::size_t n = 0; n < ring.size(); ++n) {
+        const Ray to(ring[n], p);
+        const double distance = std::sqrt(squaredDistance(from.to, to.to)) - radius;
+        if (!(distance > 0)) {
+            jet.error = kInfinity;
+            return jet;
+        }
+        // The third derivatives of an edge's part are at most 6 times the integral of 1 / r^4 along it.
+        const double inverse = 1 / distance;
+        error += inverse * inverse * inverse *
+                 std::min(lengths_[loop.first + (n == 0 ? ring.size() : n) - 1] * inverse, std::numbers::pi / 2);
+        addEdge(from, to, jet);
+        from = to;
+    }
+    constexpr double kScale = 1 / (2 * kTurn);
+    const Vec3d outside{std::max({loop.bounds.min.x - p.x, p.x - loop.bounds.max.x, 0.0}),
+                        std::max({loop.bounds.min.y - p.y, p.y - loop.bounds.max.y, 0.0}),
+                        std::max({loop.bounds.min.z - p.z, p.z - loop.bounds.max.z, 0.0})};
+    if (const double away = length(outside) - radius; away > 0)
+        error = std::min(error, 4 * loop.area / (away * away * away * away * away));
+    jet.error = error * cubed * kScale;
+    jet.gradient = jet.gradient * kScale;
+    jet.diagonal = jet.diagonal * kScale;
+    jet.mixed = jet.mixed * kScale;
+    jet.value = winding(loop, p);
+    return jet;
+}
+
+}  // namespace svt::voxelize

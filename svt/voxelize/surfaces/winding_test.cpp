@@ -1,0 +1,166 @@
+#include <svt/voxelize/open_shells_test.hpp>
+#include <svt/voxelize/surfaces/winding.hpp>
+#include <svt/voxelize/voxelize.hpp>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <random>
+
+namespace svt::voxelize {
+namespace {
+
+using test::asOpen;
+using test::ball;
+using test::box;
+using test::houseWithHoles;
+using test::meshSetOf;
+using test::withoutTriangles;
+using volume::Grid;
+
+Grid gridAround(const mesh::MeshSet& meshes, Vec3i dimension) {
+    Box3d world{meshes.bounds.min + meshes.origin, meshes.bounds.max + meshes.origin};
+    return *Grid::fromDimension(world, dimension);
+}
+
+std::vector<ObjectClaim> oneClaim() { return {{1, 3, "object"}}; }
+
+double secondsOf(const mesh::MeshSet& meshes, const Grid& grid, int repeats) {
+    double best = 1e9;
+    for (int n = 0; n < repeats; ++n) {
+        const auto start = std::chrono::steady_clock::now();
+        const auto result = voxelize(meshes, grid, oneClaim());
+        EXPECT_TRUE(result);
+        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return best;
+}
+
+// Distance of `p` to the nearest triangle, or `enough` if none is nearer; index space.
+double distanceToShell(const mesh::ObjectMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3d local) {
+    const Vec3d p = indexFromLocal.point(local);
+    double nearest = 1e300;
+    for (const mesh::Triangle& t : mesh.triangles) {
+        const Vec3d a = indexFromLocal.point(mesh.vertices[t.corners[0]]) - p;
+        const Vec3d b = indexFromLocal.point(mesh.vertices[t.corners[1]]) - p;
+        const Vec3d c = indexFromLocal.point(mesh.vertices[t.corners[2]]) - p;
+        const auto segment = [](Vec3d s, Vec3d e) {
+            const Vec3d d = e - s;
+            const double l = dot(d, d);
+            return length(s + d * (l > 0 ? std::clamp(-dot(s, d) / l, 0.0, 1.0) : 0.0));
+        };
+        nearest = std::min({nearest, segment(a, b), segment(b, c), segment(c, a)});
+        const Vec3d n = cross(b - a, c - a);
+        if (length(n) > 0 && dot(cross(a, b), n) >= 0 && dot(cross(b, c), n) >= 0 && dot(cross(c, a), n) >= 0)
+            nearest = std::min(nearest, std::abs(dot(a, normalized(n))));
+    }
+    return nearest;
+}
+
+struct Comparison {
+    int compared = 0, inside = 0, wrong = 0;
+    std::uint64_t uncertain = 0, onLimit = 0;  // by the plain sum, over the bounding box
+};
+
+// Compares the voxels of object 0 with the plain sum over all triangles, at every `stride`-th sample.
+Comparison compareWithSum(const mesh::MeshSet& meshes, const Grid& grid, const VoxelizeResult& result, int stride = 1) {
+    const mesh::ObjectMesh& mesh = meshes.objects[0];
+    const IndexFromLocal indexFromLocal(meshes, grid);
+    Comparison comparison;
+    const Vec3i dimension = grid.dimension();
+    int n = 0;
+    for (int k = 0; k < dimension.z; ++k)
+        for (int j = 0; j < dimension.y; ++j)
+            for (int i = 0; i < dimension.x; ++i) {
+                if (++n % stride != 0) continue;
+                constexpr double kShift = 1.0 / 512;
+                const Vec3d p = grid.worldFromIndex({i + kShift, j + kShift, k + kShift}) - meshes.origin;
+                const double w = windingNumber(mesh, p);
+                const double toHalf = std::abs(w - std::floor(w) - 0.5);
+                if (mesh.bounds.contains(p)) {
+                    comparison.uncertain += toHalf < 0.25;
+                    comparison.onLimit += std::abs(toHalf - 0.25) < 0.011;
+                }
+                if (std::abs(w - 0.5) < 1e-6) continue;
+                ++comparison.compared;
+                comparison.inside += w > 0.5;
+                if ((result.columns.scalarAt(i, j, k) != 0) == (w > 0.5)) continue;
+                if (distanceToShell(mesh, indexFromLocal, p) < 1.0 / 128) continue;
+                if (++comparison.wrong <= 5)
+                    ADD_FAILURE() << i << ' ' << j << ' ' << k << " winding number " << w << " is "
+                                  << result.columns.scalarAt(i, j, k);
+            }
+    return comparison;
+}
+
+void expectLikeSum(const mesh::ObjectMesh& open, Vec3i dimension, int stride = 1) {
+    ASSERT_EQ(open.closure, mesh::Closure::Open);
+    const auto meshes = meshSetOf({open});
+    const Grid grid = gridAround(meshes, dimension);
+    const auto result = voxelize(meshes, grid, oneClaim());
+    ASSERT_TRUE(result);
+    const Comparison comparison = compareWithSum(meshes, grid, *result, stride);
+    EXPECT_EQ(comparison.wrong, 0);
+    EXPECT_GT(comparison.inside, comparison.compared / 10);
+    if (stride == 1) {
+        EXPECT_NEAR(double(result->uncertainVoxels[0]), double(comparison.uncertain), double(comparison.onLimit));
+    }
+    VoxelizeOptions oneThread;
+    oneThread.threads = 1;
+    const auto again = voxelize(meshes, grid, oneClaim(), oneThread);
+    ASSERT_TRUE(again);
+    EXPECT_TRUE(again->columns == result->columns);
+    EXPECT_EQ(again->uncertainVoxels, result->uncertainVoxels);
+}
+
+TEST(WindingFill, HousesWithHoles) {
+    expectLikeSum(houseWithHoles(6, 3, 1), {61, 53, 47});
+    expectLikeSum(houseWithHoles(6, 3, 1, 17), {61, 53, 47});
+    expectLikeSum(houseWithHoles(6, 6, 4), {61, 53, 47});
+    expectLikeSum(houseWithHoles(6, 6, 4, 31), {61, 53, 47});
+    expectLikeSum(houseWithHoles(12, 2, 1, 5), {83, 71, 41}, 3);
+}
+
+TEST(WindingFill, BallWithHoles) {
+    for (const std::size_t every : {3u, 7u, 31u})
+        expectLikeSum(withoutTriangles(ball({1, 1, 1}, 0.9, 16), [&](std::size_t t) { return t % every == 1; }),
+                      {41, 43, 39});
+}
+
+TEST(WindingFill, HugeCaps) {
+    // Half a ball, a box without its lower or its eastern side, a box with only three sides.
+    expectLikeSum(withoutTriangles(ball({1, 1, 1}, 0.9, 20), [](std::size_t t) { return t % 7 < 3; }), {41, 43, 39});
+    for (const auto& sides : {std::array<std::size_t, 3>{0, 0, 0}, {3, 3, 3}, {5, 5, 5}, {0, 3, 5}, {1, 2, 3}})
+        expectLikeSum(withoutTriangles(box({0, 0, 0}, {2, 1.7, 1.3}),
+                                       [&](std::size_t t) { return std::ranges::find(sides, t / 2) != sides.end(); }),
+                      {43, 41, 39});
+}
+
+TEST(WindingFill, DISABLED_Timing) {
+    for (const double degrees : {0.0, 17.0})
+        for (const auto& [pitch, size] : {std::pair{12, 4}, std::pair{8, 2}, std::pair{4, 1}, std::pair{24, 20}}) {
+            const auto closed = meshSetOf({houseWithHoles(24, pitch, 0, degrees)});
+            const auto open = meshSetOf({houseWithHoles(24, pitch, size, degrees)});
+            for (const Vec3i dimension : {Vec3i{300, 300, 200}, Vec3i{800, 700, 400}}) {
+                const Grid grid = gridAround(closed, dimension);
+                const double a = secondsOf(closed, grid, 7), b = secondsOf(open, grid, 3);
+                std::printf("degrees %2.0f pitch %2d size %2d edges %5zu  %d x %d x %d  closed %8.2f ms open %9.2f ms  x %.2f\n",
+                            degrees, pitch, size, open.objects[0].openEdges.size(), dimension.x, dimension.y,
+                            dimension.z, a * 1e3, b * 1e3, b / a);
+                std::fflush(stdout);
+            }
+        }
+    const auto closed = meshSetOf({ball({0, 0, 0}, 5, 80)});
+    const auto open = meshSetOf({withoutTriangles(ball({0, 0, 0}, 5, 80), [](std::size_t t) { return t % 53 == 7; })});
+    for (const Vec3i dimension : {Vec3i{300, 300, 200}, Vec3i{800, 700, 400}}) {
+        const Grid grid = gridAround(closed, dimension);
+        const double a = secondsOf(closed, grid, 7), b = secondsOf(open, grid, 3);
+        std::printf("ball %zu triangles, edges %5zu  %d x %d x %d  closed %8.2f ms open %9.2f ms  x %.2f\n",
+                    closed.objects[0].triangles.size(), open.objects[0].openEdges.size(), dimension.x, dimension.y,
+                    dimension.z, a * 1e3, b * 1e3, b / a);
+    }
+}
+
+}  // namespace
+}  // namespace svt::voxelize
