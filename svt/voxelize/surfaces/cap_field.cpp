@@ -27,7 +27,9 @@ public:
         imaginary_ = y / size;
     }
     // Sum of the arguments over 2 pi.
-    [[nodiscard]] double turns() const noexcept { return turns_ + std::atan2(imaginary_, real_) / kTurn; }
+    [[nodiscard]] double turns() const noexcept {
+        return turns_ + std::atan2(imaginary_ + 0.0, real_) / kTurn;  // + 0.0: no negative zero
+    }
 
 private:
     double real_ = 1, imaginary_ = 0;
@@ -124,93 +126,97 @@ CapField::CapField(const CappedShell& shell, const IndexMesh& lattice, const vol
         const QuantaPoint& q = lattice.points[vertex];
         return localFromIndex({q[0] / double(kQuanta), q[1] / double(kQuanta), q[2] / double(kQuanta)});
     };
-    for (const RimLoop& rim : shell.loops) {
-        const auto ring = shell.ringOf(rim);
-        CapLoop loop;
-        loop.first = static_cast<std::uint32_t>(points_.size());
-        loop.count = rim.pointCount;
-        loop.hasOwnApex = rim.hasOwnApex;
-        loop.apex = vertices[rim.apex];
-        loop.bounds.add(loop.apex);
-        for (std::size_t n = 0; n < ring.size(); ++n) {
+    for (const RimLoop& loop : shell.loops) {
+        const auto ring = shell.ringOf(loop);
+        const auto first = static_cast<std::uint32_t>(pieces_.size());
+        const std::uint32_t end = first + loop.fanEnd() - loop.firstFan();
+        for (std::uint32_t n = loop.firstFan(); n < loop.fanEnd(); ++n) {
             const std::uint32_t from = ring[n], to = ring[n + 1 < ring.size() ? n + 1 : 0];
-            points_.push_back(vertices[from]);
-            latticePoints_.push_back(snapped(from));
-            lengths_.push_back(length(vertices[to] - vertices[from]));
-            loop.bounds.add(vertices[from]);
-            loop.length += lengths_.back();
-            loop.area += length(cross(vertices[from] - loop.apex, vertices[to] - loop.apex)) / 2;
-            sides_.emplace_back(lattice.points[rim.apex], lattice.points[from], lattice.points[to],
+            const auto number = static_cast<std::uint32_t>(pieces_.size());
+            CapPiece piece{vertices[loop.apex], vertices[from], vertices[to], number - 1, number + 1, 0, 0, {}};
+            if (number == first) piece.previous = loop.hasOwnApex ? end - 1 : CapPiece::kNone;
+            if (number + 1 == end) piece.next = loop.hasOwnApex ? first : CapPiece::kNone;
+            piece.area = length(cross(piece.from - piece.apex, piece.to - piece.apex)) / 2;
+            piece.length = length(piece.from - piece.apex) + length(piece.to - piece.from) + length(piece.apex - piece.to);
+            for (const Vec3d& corner : {piece.apex, piece.from, piece.to}) piece.bounds.add(corner);
+            pieces_.push_back(piece);
+            piece.apex = snapped(loop.apex);
+            piece.from = snapped(from);
+            piece.to = snapped(to);
+            snapped_.push_back(piece);
+            sides_.emplace_back(lattice.points[loop.apex], lattice.points[from], lattice.points[to],
                                 grid.dimension().z);
         }
-        loops_.push_back(loop);
-        latticeApexes_.push_back(snapped(rim.apex));
     }
 }
 
-double CapField::windingOf(std::span<const Vec3d> ring, Vec3d apex, bool hasOwnApex, Vec3d p) noexcept {
+double CapField::winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept {
     TurnCounter product;
-    const Ray top(hasOwnApex ? apex : ring[0], p);
-    Ray from(hasOwnApex ? ring.back() : ring[1], p);
-    for (std::size_t n = hasOwnApex ? 0 : 2; n < ring.size(); ++n) {
-        const Ray to(ring[n], p);
-        const HalfAngle angle(top, from, to);
+    for (const std::uint32_t number : set) {
+        const CapPiece& piece = pieces_[number];
+        const HalfAngle angle(Ray(piece.apex, p), Ray(piece.from, p), Ray(piece.to, p));
         product.multiply(angle.real, angle.imaginary);
-        from = to;
     }
     return product.turns();
 }
 
-double CapField::windingNear(const CapLoop& loop, Vec3i sample) const noexcept {
+double CapField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept {
     constexpr double kShift = 1.0 / double(kQuanta);
     constexpr double kFlat = 1e-4;  // of the product of the lengths: so close to the triangle that its side is uncertain
     const Vec3d p = localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
-    const auto ring = std::span(latticePoints_).subspan(loop.first, loop.count);
-    const Ray top(latticeApexes_[static_cast<std::size_t>(&loop - loops_.data())], p);
     double onLattice = 0;
-    for (std::size_t n = loop.hasOwnApex ? 0 : 1; n < ring.size() - (loop.hasOwnApex ? 0 : 1); ++n) {
-        const Ray from(ring[n], p), to(ring[n + 1 < ring.size() ? n + 1 : 0], p);
-        HalfAngle angle(top, from, to);
-        if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * top.length * from.length * to.length)
-            angle.imaginary = std::copysign(angle.imaginary, sides_[loop.first + n].isBehind(sample) ? 1.0 : -1.0);
+    for (const std::uint32_t number : set) {
+        const CapPiece& piece = snapped_[number];
+        const Ray apex(piece.apex, p), from(piece.from, p), to(piece.to, p);
+        HalfAngle angle(apex, from, to);
+        if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * apex.length * from.length * to.length)
+            angle.imaginary = std::copysign(angle.imaginary, sides_[number].isBehind(sample) ? 1.0 : -1.0);
         onLattice += std::atan2(angle.imaginary, angle.real) / kTurn;
     }
-    // The snapped cap and the cap differ by a strip along the rim, thinner than 1/512 voxel.
-    const double exact = winding(loop, p);
+    // Snapped pieces and pieces differ by strips along their border, thinner than 1/256 voxel.
+    const double exact = winding(set, p);
     return exact + std::nearbyint(onLattice - exact);
 }
 
-Jet CapField::jet(const CapLoop& loop, Vec3d p, double radius) const noexcept {
+Jet CapField::jet(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept {
     Jet jet;
-    const auto ring = std::span(points_).subspan(loop.first, loop.count);
-    const double cubed = radius * radius * radius;
-    Ray from(ring.back(), p);
-    double error = 0;
-    for (std::size_t n = 0; n < ring.size(); ++n) {
-        const Ray to(ring[n], p);
+    double byLength = 0, byArea = 0;
+    const auto has = [&](std::uint32_t number) { return std::binary_search(set.begin(), set.end(), number); };
+    // The third derivatives of an edge's part are at most 6 times the integral of 1 / r^4 along it.
+    const auto add = [&](const Ray& from, const Ray& to) {
         const double distance = std::sqrt(squaredDistance(from.to, to.to)) - radius;
-        if (!(distance > 0)) {
+        if (!(distance > 0)) return false;
+        const double inverse = 1 / distance;
+        byLength += inverse * inverse * inverse * std::min(length(to.to - from.to) * inverse, std::numbers::pi / 2);
+        addEdge(from, to, jet);
+        return true;
+    };
+    for (std::size_t n = 0; n < set.size(); ++n) {
+        const CapPiece& piece = pieces_[set[n]];
+        const Ray apex(piece.apex, p), from(piece.from, p), to(piece.to, p);
+        const bool hasPrevious = n > 0 && set[n - 1] == piece.previous;
+        const bool hasNext = n + 1 < set.size() && set[n + 1] == piece.next;
+        // At the ends of the list of a ring its first and last piece may be neighbours.
+        bool isFar = add(from, to);
+        if (!hasPrevious && !(piece.previous > set[n] && piece.previous != CapPiece::kNone && has(piece.previous)))
+            isFar = isFar && add(apex, from);
+        if (!hasNext && !(piece.next < set[n] && has(piece.next))) isFar = isFar && add(to, apex);
+        if (!isFar) {
             jet.error = kInfinity;
             return jet;
         }
-        // The third derivatives of an edge's part are at most 6 times the integral of 1 / r^4 along it.
-        const double inverse = 1 / distance;
-        error += inverse * inverse * inverse *
-                 std::min(lengths_[loop.first + (n == 0 ? ring.size() : n) - 1] * inverse, std::numbers::pi / 2);
-        addEdge(from, to, jet);
-        from = to;
+        const Vec3d outside{std::max({piece.bounds.min.x - p.x, p.x - piece.bounds.max.x, 0.0}),
+                            std::max({piece.bounds.min.y - p.y, p.y - piece.bounds.max.y, 0.0}),
+                            std::max({piece.bounds.min.z - p.z, p.z - piece.bounds.max.z, 0.0})};
+        const double away = std::max(length(outside) - radius, 0.0);
+        byArea += away > 0 ? 4 * piece.area / (away * away * away * away * away) : kInfinity;
     }
     constexpr double kScale = 1 / (2 * kTurn);
-    const Vec3d outside{std::max({loop.bounds.min.x - p.x, p.x - loop.bounds.max.x, 0.0}),
-                        std::max({loop.bounds.min.y - p.y, p.y - loop.bounds.max.y, 0.0}),
-                        std::max({loop.bounds.min.z - p.z, p.z - loop.bounds.max.z, 0.0})};
-    if (const double away = length(outside) - radius; away > 0)
-        error = std::min(error, 4 * loop.area / (away * away * away * away * away));
-    jet.error = error * cubed * kScale;
+    jet.error = std::min(byLength, byArea) * radius * radius * radius * kScale;
     jet.gradient = jet.gradient * kScale;
     jet.diagonal = jet.diagonal * kScale;
     jet.mixed = jet.mixed * kScale;
-    jet.value = winding(loop, p);
+    jet.value = winding(set, p);
     return jet;
 }
 

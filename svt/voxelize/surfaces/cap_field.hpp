@@ -2,8 +2,9 @@
 /// \file
 /// The winding number of caps, c(p): the solid angle under which p sees them, divided by 4 pi.
 ///
-/// Where p crosses a cap, c jumps by one. Elsewhere it is harmonic, and its derivatives need the rim alone (the law of
-/// Biot and Savart): the caps may be placed anywhere.
+/// Where p crosses a cap, c jumps by one. Elsewhere it is harmonic, and its derivatives need the border alone (the law
+/// of Biot and Savart). It is evaluated for sets of pieces, the triangles of the caps; edges that two neighbouring
+/// pieces of a set share cancel.
 
 #include <svt/voxelize/lattice/height_planes.hpp>
 #include <svt/voxelize/surfaces/rim.hpp>
@@ -45,22 +46,21 @@ struct Jet {
     }
 };
 
-/// A loop and its cap, in local space.
-struct CapLoop {
-    std::uint32_t first = 0, count = 0;  ///< range of the points
-    bool hasOwnApex = false;             ///< else the first point is the apex
-    Vec3d apex{};
+/// A triangle of a cap, local space: the apex and an edge of the rim, from `from` to `to`.
+struct CapPiece {
+    Vec3d apex, from, to;
+    std::uint32_t previous = 0, next = 0;  ///< pieces that share the sides apex-from and apex-to; kNone: an edge of the rim
+    double area = 0, length = 0;           ///< length: of its three sides
     Box3d bounds;
-    double area = 0;    ///< of the cap's triangles
-    double length = 0;  ///< of the rim
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 };
 
-/// A triangle of a cap on the lattice. Decides on which side of it a sample lies, exactly as the sweep does.
+/// The same triangle on the lattice. Decides on which side of it a sample lies, exactly as the sweep does.
 struct CapSide {
     QuantaPoint corners[3] = {};
-    HeightPlane height;        // of a triangle that is not vertical
-    bool isVertical = false;   // in the lattice: it has no area in plan
-    bool looksUp = false;      // of a triangle that is not vertical
+    HeightPlane height;       // of a triangle that is not vertical
+    bool isVertical = false;  // in the lattice: it has no area in plan
+    bool looksUp = false;     // of a triangle that is not vertical
     double normalX = 0, normalY = 0;
 
     CapSide() = default;
@@ -69,39 +69,32 @@ struct CapSide {
     [[nodiscard]] bool isBehind(Vec3i sample) const noexcept;
 };
 
-/// The caps of one shell.
+/// The caps of one shell. Sets of pieces are given by ascending numbers.
 class CapField {
 public:
     CapField(const CappedShell& shell, const IndexMesh& lattice, const volume::Grid& grid, Vec3d localOrigin);
 
-    [[nodiscard]] std::span<const CapLoop> loops() const noexcept { return loops_; }
+    [[nodiscard]] std::span<const CapPiece> pieces() const noexcept { return pieces_; }
     /// Position of index-space coordinates, local space.
     [[nodiscard]] Vec3d localFromIndex(Vec3d index) const noexcept {
         return origin_ + steps_[0] * index.x + steps_[1] * index.y + steps_[2] * index.z;
     }
     [[nodiscard]] const Vec3d& step(int axis) const noexcept { return steps_[axis]; }
 
-    /// Winding number of a cap at `p`.
-    [[nodiscard]] double winding(const CapLoop& loop, Vec3d p) const noexcept {
-        return windingOf(std::span(points_).subspan(loop.first, loop.count), loop.apex, loop.hasOwnApex, p);
-    }
-    /// The same at a sample that may be close to the cap: on which side it is, is decided as in the sweep. `loop` is
-    /// one of loops().
-    [[nodiscard]] double windingNear(const CapLoop& loop, Vec3i sample) const noexcept;
-    /// The jet of a cap at `p`, with the error for distances up to `radius`. Infinite error: the rim is too near.
-    [[nodiscard]] Jet jet(const CapLoop& loop, Vec3d p, double radius) const noexcept;
+    /// Winding number of a set of pieces at `p`.
+    [[nodiscard]] double winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept;
+    /// The same at a sample that may be close to some of them: on which side it is, is decided as in the sweep.
+    [[nodiscard]] double windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept;
+    /// The jet of a set of pieces at `p`, with the error for distances up to `radius`. Infinite error, and no value: the
+    /// border is too near.
+    [[nodiscard]] Jet jet(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept;
 
 private:
-    static double windingOf(std::span<const Vec3d> ring, Vec3d apex, bool hasOwnApex, Vec3d p) noexcept;
-
     Vec3d origin_;
     Vec3d steps_[3];
-    std::vector<CapLoop> loops_;
-    std::vector<Vec3d> points_;          // rings of all loops, local space
-    std::vector<double> lengths_;        // of the edge from each point to the next one of its ring
-    std::vector<Vec3d> latticePoints_;   // the same points as snapped, local space
-    std::vector<Vec3d> latticeApexes_;   // per loop
-    std::vector<CapSide> sides_;         // per point: the triangle of the edge that begins there
+    std::vector<CapPiece> pieces_;
+    std::vector<CapPiece> snapped_;  // the same pieces with their corners on the lattice
+    std::vector<CapSide> sides_;
 };
 
 }  // namespace svt::voxelize

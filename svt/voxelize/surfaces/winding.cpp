@@ -1,5 +1,6 @@
 #include <svt/voxelize/surfaces/winding.hpp>
 
+#include <svt/voxelize/surfaces/cap_samples.hpp>
 #include <svt/voxelize/surfaces/disjoint_boxes.hpp>
 
 #include <algorithm>
@@ -9,15 +10,20 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr std::int32_t kPartSize = 64;        // samples along each axis of a part
-constexpr std::int32_t kLargestLeaf = 16;     // blocks up to this size are decided sample by sample
-constexpr std::int32_t kSmallestSplit = 2;    // blocks of this size are not halved
+constexpr std::int32_t kPartSize = 64;            // samples along each axis of a part
+constexpr std::int32_t kLargestLeaf = 16;         // blocks up to this size are decided sample by sample
+constexpr std::int32_t kSmallest = 4;             // blocks of this size are not halved
 constexpr double kShift = 1.0 / double(kQuanta);  // samples lie this far beyond their index
-constexpr double kTie = 1e-9;                 // a winding number this far below 1/2 is inside
-constexpr double kFoldError = 2e-5;           // of a cap that joins the far caps
-constexpr double kCountError = 0.01;          // for the count of uncertain samples
-constexpr double kBand = 1.0 / 32;            // voxels: closer to a cap its side is decided on the lattice
-constexpr double kReach = 1.0 / 16;           // voxels: a cap so close to a block touches it
+constexpr double kTie = 1e-9;                     // a winding number this far below 1/2 is inside
+constexpr double kCountError = 0.01;              // for the count of uncertain samples
+constexpr double kOpenLayer = 0.2;                // voxels: so thick may be the layer of samples left open by an error
+constexpr double kBand = 1.0 / 64;                // voxels: closer to a cap its side is decided on the lattice
+constexpr double kReach = 1.0 / 32;               // voxels: a cap so close to a block touches it
+
+// Largest error of a piece that joins the far ones. Samples left open go back to the lists of larger blocks.
+constexpr double foldError(std::int32_t size) noexcept {
+    return size >= 32 ? 2e-6 : size == 16 ? 5e-6 : size == 8 ? 2e-5 : 1e-4;
+}
 
 double largest(Vec3d v) noexcept { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -45,14 +51,16 @@ public:
     void run() {
         near_.clear();
         caps_.clear();
-        for (std::uint32_t n = 0; n < field_.loops().size(); ++n) near_.push_back(n);
+        for (std::uint32_t n = 0; n < field_.pieces().size(); ++n) near_.push_back(n);
         for (std::uint32_t n = 0; n < fill_.caps_.size(); ++n) caps_.push_back(n);
         Block all;
-        all.low = part_.low;
-        all.size = kPartSize;
         all.near = {0, near_.size()};
         all.caps = {0, caps_.size()};
-        divide(all);
+        Block part = all;
+        part.parent = &all;
+        part.low = part_.low;
+        part.size = kPartSize;
+        divide(part);
     }
 
 private:
@@ -60,11 +68,12 @@ private:
         std::size_t begin, end;
     };
     struct Block {
-        Vec3i low;
-        std::int32_t size;
-        Range near, caps;  // of near_ and caps_
-        Vec3d center;      // of `far`
-        Jet far;           // sum of all caps that are not near
+        const Block* parent = nullptr;
+        Vec3i low{};
+        std::int32_t size = 0;
+        Range near{}, caps{};  // of near_ and caps_
+        Vec3d center{};        // of `far`
+        Jet far;               // sum of all pieces that are not near
     };
     // The samples of a block within the bounding box.
     struct Samples {
@@ -112,35 +121,38 @@ private:
         return {begin, caps_.size()};
     }
 
-    // Moves caps that are far for all samples from `parent` to the polynomial of the block; lists the others.
+    // Moves pieces that are far for all samples from `parent` to the polynomial of the block; lists the others.
     // \return a bound of the winding number of those listed
     double foldFar(const Samples& samples, Range parent, Block& block) {
         block.near.begin = near_.size();
+        folded_.clear();
         double bound = 0;
+        const double cubed = samples.radius * samples.radius * samples.radius;
         for (std::size_t n = parent.begin; n < parent.end; ++n) {
-            const CapLoop& loop = field_.loops()[near_[n]];
-            const double away = distanceToBox(samples.local, loop.bounds) - samples.radius;
-            const double s = samples.radius;
+            constexpr double kScale = 1 / (4 * std::numbers::pi);
+            const std::uint32_t number = near_[n];
+            const CapPiece& piece = field_.pieces()[number];
+            const double away = distanceToBox(samples.local, piece.bounds) - samples.radius;
             if (away > 0) {
-                constexpr double kScale = 1 / (4 * std::numbers::pi);
                 const double inverse = 1 / away, squared = inverse * inverse;
-                const double error = kScale * s * s * s * squared * squared *
-                                     std::min(loop.length, 4 * loop.area * inverse);
-                if (error <= kFoldError) {
-                    const Jet jet = field_.jet(loop, samples.local, s);
-                    if (jet.error <= kFoldError) {
-                        block.far += jet;
-                        continue;
-                    }
+                const double error = kScale * cubed * squared * squared * std::min(piece.length, 4 * piece.area * inverse);
+                if (error <= foldError(block.size)) {
+                    folded_.push_back(number);
+                    continue;
                 }
-                bound += std::min(kScale * loop.area * squared, 1.0);
+                bound += std::min(kScale * piece.area * squared, 0.5);
             } else {
-                bound += 1;
+                bound += 0.5;
             }
-            near_.push_back(near_[n]);
+            near_.push_back(number);
         }
         block.near.end = near_.size();
+        if (!folded_.empty()) block.far += field_.jet(folded_, samples.local, samples.radius);
         return bound;
+    }
+
+    std::span<const std::uint32_t> nearOf(const Block& block) const {
+        return std::span(near_).subspan(block.near.begin, block.near.end - block.near.begin);
     }
 
     // How far a jet departs from its value within the block.
@@ -171,13 +183,9 @@ private:
     void decide(const Block& block, const Samples& samples, double nearBound) {
         const bool hasCaps = block.caps.begin < block.caps.end;
         if (!hasCaps && std::abs(block.far.value) + spread(block.far, samples) + nearBound < 0.25) return;
-        const bool isSmallest = block.size <= kSmallestSplit;
-        Jet jet = block.far;
-        for (std::size_t n = block.near.begin; n < block.near.end; ++n) {
-            const Jet ofLoop = field_.jet(field_.loops()[near_[n]], samples.local, samples.radius);
-            jet += ofLoop;
-            if (!(ofLoop.error < kInfinity)) break;
-        }
+        const bool isSmallest = block.size <= kSmallest;
+        Jet jet = field_.jet(nearOf(block), samples.local, samples.radius);
+        jet += block.far;
         if (!(jet.error < 0.25)) return isSmallest ? evaluateAll(block, samples) : halve(block);
         const double range = spread(jet, samples);
         const double toHalf = distanceToHalf(jet.value);
@@ -188,23 +196,21 @@ private:
             return;
         }
         if (block.size > kLargestLeaf) return halve(block);
-        if (hasOneDelta) {
-            if (jet.error > kCountError && !isSmallest) return halve(block);
+        if (hasOneDelta && jet.error <= kCountError) {
             if (const std::int32_t delta = deltaOf(jet.value); delta != 0) addBlock(samples, delta);
-            countUncertain(jet, samples);
-            return;
+            return countUncertain(jet, samples);
         }
         // Samples that the error leaves open lie in a layer of this thickness in voxels.
         const Vec3d g{dot(jet.gradient, field_.step(0)), dot(jet.gradient, field_.step(1)),
                       dot(jet.gradient, field_.step(2))};
         const double open = 2 * jet.error / std::max(largest(g), 1e-300);
-        if ((open <= 0.2 || isSmallest) && jet.error <= kCountError && classify(block, samples, jet)) return;
-        if (isSmallest) return evaluateAll(block, samples);
-        halve(block);
+        if (!hasOneDelta && open <= kOpenLayer && jet.error <= kCountError && classify(block, samples, jet)) return;
+        return isSmallest ? evaluateAll(block, samples) : halve(block);
     }
 
     void halve(const Block& block) {
         Block part = block;
+        part.parent = &block;
         part.size = block.size / 2;
         for (int n = 0; n < 8; ++n) {
             part.low = block.low + Vec3i{n & 1, n >> 1 & 1, n >> 2} * part.size;
@@ -285,34 +291,54 @@ private:
         part_.uncertain += uncertain;
     }
 
+    // Is the sample so close to a cap of the block that its side has to be decided on the lattice?
+    bool isClose(const Block& block, Vec3i sample) const {
+        const Vec3d at{sample.x + kShift, sample.y + kShift, sample.z + kShift};
+        for (std::size_t n = block.caps.begin; n < block.caps.end; ++n) {
+            const WindingFill::CapTriangle& cap = fill_.caps_[caps_[n]];
+            if (std::abs(dot(cap.normal, at) - cap.offset) <= kBand) return true;
+        }
+        return false;
+    }
+
     // c at a sample of the block.
     double evaluate(const Block& block, Vec3i sample) const {
         const Vec3d p = field_.localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
-        double c = block.far.at(p - block.center);
-        for (std::size_t n = block.near.begin; n < block.near.end; ++n) c += windingAt(block, near_[n], sample, p);
-        if (distanceToHalf(c) > block.far.error + kTie) return c;
-        if (block.near.end - block.near.begin == field_.loops().size()) return c;
-        c = 0;
-        for (std::uint32_t loop = 0; loop < field_.loops().size(); ++loop) c += windingAt(block, loop, sample, p);
-        return c;
-    }
-
-    double windingAt(const Block& block, std::uint32_t number, Vec3i sample, Vec3d p) const {
-        const CapLoop& loop = field_.loops()[number];
-        for (std::size_t n = block.caps.begin; n < block.caps.end; ++n)
-            if (fill_.caps_[caps_[n]].loop == number) return field_.windingNear(loop, sample);
-        return field_.winding(loop, p);
+        const bool close = isClose(block, sample);
+        for (const Block* b = &block;; b = b->parent) {
+            const double c = b->far.at(p - b->center) +
+                             (close ? field_.windingNear(nearOf(*b), sample) : field_.winding(nearOf(*b), p));
+            if (b->parent == nullptr || distanceToHalf(c) > b->far.error + kTie) return c;
+        }
     }
 
     void evaluateAll(const Block& block, const Samples& samples) {
-        std::int32_t* delta = deltas_;
-        for (std::int32_t j = 0; j < samples.count.y; ++j)
-            for (std::int32_t i = 0; i < samples.count.x; ++i)
-                for (std::int32_t k = 0; k < samples.count.z; ++k) {
-                    const double c = evaluate(block, samples.low + Vec3i{i, j, k});
-                    *delta++ = deltaOf(c);
-                    part_.uncertain += isUncertain(c);
-                }
+        const auto forEach = [&](auto&& body) {
+            std::size_t n = 0;
+            for (std::int32_t j = 0; j < samples.count.y; ++j)
+                for (std::int32_t i = 0; i < samples.count.x; ++i)
+                    for (std::int32_t k = 0; k < samples.count.z; ++k) body(n++, Vec3i{i, j, k});
+            return n;
+        };
+        positions_ = {};
+        positions_.count = forEach([&](std::size_t n, Vec3i at) {
+            const Vec3d p = field_.step(0) * (at.x - samples.half.x) + field_.step(1) * (at.y - samples.half.y) +
+                            field_.step(2) * (at.z - samples.half.z);
+            positions_.x[n] = p.x;
+            positions_.y[n] = p.y;
+            positions_.z[n] = p.z;
+        });
+        double windings[kCapSamples];
+        windingsAt(field_, nearOf(block), block.far, samples.local, positions_, windings);
+        const bool hasCaps = block.caps.begin < block.caps.end;
+        const double margin = block.far.error + kArcError + kTie;
+        forEach([&](std::size_t n, Vec3i at) {
+            double c = windings[n];
+            if (distanceToHalf(c) <= margin || (hasCaps && isClose(block, samples.low + at)))
+                c = evaluate(block, samples.low + at);
+            deltas_[n] = deltaOf(c);
+            part_.uncertain += isUncertain(c);
+        });
         addDeltas(samples);
     }
 
@@ -378,6 +404,8 @@ private:
     const CapField& field_;
     WindingFill::Part& part_;
     std::vector<std::uint32_t> near_, caps_;  // stacks of lists
+    std::vector<std::uint32_t> folded_;
+    CapSamples positions_;
     std::int32_t deltas_[kLargestLeaf * kLargestLeaf * kLargestLeaf];
 };
 
@@ -385,24 +413,13 @@ WindingFill::WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& mes
                          const IndexFromLocal& indexFromLocal, std::uint32_t claim)
     : shell_(capShell(shell)), lattice_(makeIndexMesh(shell_.mesh, indexFromLocal)), claim_(claim) {
     field_ = std::make_unique<CapField>(shell_, lattice_, grid, meshes.origin);
-    std::uint32_t loopNumber = 0;
-    for (const RimLoop& loop : shell_.loops) {
-        const auto ring = shell_.ringOf(loop);
-        for (std::uint32_t n = loop.firstFan(); n < loop.fanEnd(); ++n) {
-            const Vec3d a = indexFromLocal.point(shell_.mesh.vertices[loop.apex]);
-            const Vec3d b = indexFromLocal.point(shell_.mesh.vertices[ring[n]]);
-            const Vec3d c = indexFromLocal.point(shell_.mesh.vertices[ring[n + 1 < ring.size() ? n + 1 : 0]]);
-            CapTriangle cap;
-            cap.normal = normalized(cross(b - a, c - a));
-            cap.offset = dot(cap.normal, a);
-            cap.loop = loopNumber;
-            Box3d bounds;
-            for (const Vec3d& corner : {a, b, c}) bounds.add(corner);
-            cap.low = bounds.min;
-            cap.high = bounds.max;
-            caps_.push_back(cap);
-        }
-        ++loopNumber;
+    for (const CapPiece& piece : field_->pieces()) {
+        const Vec3d a = indexFromLocal.point(piece.apex), b = indexFromLocal.point(piece.from),
+                    c = indexFromLocal.point(piece.to);
+        Box3d bounds;
+        for (const Vec3d& corner : {a, b, c}) bounds.add(corner);
+        const Vec3d normal = normalized(cross(b - a, c - a));
+        caps_.push_back({bounds.min, bounds.max, normal, dot(normal, a)});
     }
     // From outside its bounding box the shell is seen within a half-space.
     QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};

@@ -67,7 +67,6 @@ private:
         Vec3d low, high;  // bounds, index space
         Vec3d normal;     // unit, index space
         double offset;
-        std::uint32_t loop;
     };
     struct Part {
         Vec3i low;
@@ -78,7 +77,7 @@ private:
     CappedShell shell_;
     IndexMesh lattice_;
     std::unique_ptr<CapField> field_;
-    std::vector<CapTriangle> caps_;
+    std::vector<CapTriangle> caps_;  // as the pieces of field_
     Vec3i begin_{}, end_{};  // samples inside the bounding box
     std::uint32_t claim_;
     std::vector<Part> parts_;

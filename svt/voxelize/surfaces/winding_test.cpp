@@ -137,6 +137,12 @@ TEST(WindingFill, HugeCaps) {
                       {43, 41, 39});
 }
 
+TEST(WindingFill, DISABLED_Profile) {
+    const auto open = meshSetOf({houseWithHoles(24, 12, 4, 17)});
+    const Grid grid = gridAround(open, {300, 300, 200});
+    std::printf("%.2f ms\n", secondsOf(open, grid, 10) * 1e3);
+}
+
 TEST(WindingFill, DISABLED_Timing) {
     for (const double degrees : {0.0, 17.0})
         for (const auto& [pitch, size] : {std::pair{12, 4}, std::pair{8, 2}, std::pair{4, 1}, std::pair{24, 20}}) {
