@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <set>
 
 namespace svt::voxelize {
 namespace {
@@ -179,6 +180,7 @@ ColumnVolume restoreVanishedObjects(ColumnVolume columns, const mesh::MeshSet& m
         return columns;
     std::vector<std::uint64_t> counts = columns.countVoxels(static_cast<volume::Scalar>(usedScalars.size()));
     std::vector<VoxelEdit> edits;
+    std::set<Vec3i> taken;
     const Vec3i dimension = grid.dimension();
     for (std::uint32_t o = 0; o < claims.size(); ++o) {
         if (counts[claims[o].scalar] != 0) continue;
@@ -194,11 +196,10 @@ ColumnVolume restoreVanishedObjects(ColumnVolume columns, const mesh::MeshSet& m
             if (voxel.x < 0 || voxel.y < 0 || voxel.z < 0 || voxel.x >= dimension.x || voxel.y >= dimension.y ||
                 voxel.z >= dimension.z)
                 continue;
-            const bool isTaken =
-                std::any_of(edits.begin(), edits.end(), [&](const VoxelEdit& edit) { return edit.voxel == voxel; });
             const volume::Scalar owner = columns.scalarAt(voxel.x, voxel.y, voxel.z);
-            if (isTaken || (owner != 0 && counts[owner] <= 1)) continue;
+            if (taken.contains(voxel) || (owner != 0 && counts[owner] <= 1)) continue;
             if (owner != 0) --counts[owner];
+            taken.insert(voxel);
             edits.push_back({voxel, claims[o].scalar});
             ++thinVoxels[o];
             break;
@@ -220,7 +221,7 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
         for (std::size_t n = begin; n < end; ++n) {
             const std::uint32_t o = open[n], claim = claims.solidOrder[o];
             fills[n] = std::make_unique<WindingFill>(meshes.objects[o], meshes, grid, indexFromLocal, claim);
-            all.objects[o].faces = groupCoplanarFaces(fills[n]->capped(), heightPlaneOfPlane, grid.dimension(), claim,
+            all.objects[o].faces = groupCoplanarFaces(fills[n]->covered(), heightPlaneOfPlane, grid.dimension(), claim,
                                                       ownHeightPlanes[o]);
         }
     });
@@ -230,13 +231,20 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
     std::vector<FillPart> parts;
     for (std::size_t n = 0; n < fills.size(); ++n)
         for (std::size_t part = 0; part < fills[n]->partCount(); ++part) parts.push_back({n, part});
+    constexpr std::uint64_t kMaxRuns = 30'000'000;  // about 1.5 GB as boxes
+    std::atomic<std::uint64_t> runs{0};
     parallelFor(parts.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) {
+        for (std::size_t n = begin; n < end && runs <= kMaxRuns; ++n) {
             if (Progress::isCancelled(options.progress)) return;
-            fills[parts[n].fill]->runPart(parts[n].part);
+            runs += fills[parts[n].fill]->runPart(parts[n].part);
         }
     });
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
+    if (runs > kMaxRuns)
+        return Error(Code::GridTooLarge,
+                     fmt::format("filling the open shells of the model needs over {} runs of voxels next to their holes; "
+                                 "choose a coarser spacing, or close the shells",
+                                 kMaxRuns));
     parallelFor(open.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n)
             all.uncertainVoxels[open[n]] = fills[n]->finish(all.objects[open[n]].boxes);

@@ -82,31 +82,31 @@ Vec3d middleOf(std::span<const std::uint32_t> ring, const std::vector<Vec3d>& ve
 
 }  // namespace
 
-CappedShell capShell(const mesh::ObjectMesh& shell) {
-    CappedShell capped;
-    capped.mesh.vertices = shell.vertices;
-    capped.mesh.triangles = shell.triangles;
-    capped.mesh.closure = shell.closure;
-    capped.shellTriangles = shell.triangles.size();
+CoveredShell coverShell(const mesh::ObjectMesh& shell) {
+    CoveredShell covered;
+    covered.mesh.vertices = shell.vertices;
+    covered.mesh.triangles = shell.triangles;
+    covered.mesh.closure = shell.closure;
+    covered.shellTriangles = shell.triangles.size();
     forEachLoop(rimEdges(shell), shell.vertices.size(), [&](std::span<const std::uint32_t> points) {
         RimLoop loop;
-        loop.firstPoint = static_cast<std::uint32_t>(capped.ring.size());
+        loop.firstPoint = static_cast<std::uint32_t>(covered.ring.size());
         loop.pointCount = static_cast<std::uint32_t>(points.size());
         loop.hasOwnApex = points.size() > 4;
         loop.apex = points[0];
-        capped.ring.insert(capped.ring.end(), points.begin(), points.end());
+        covered.ring.insert(covered.ring.end(), points.begin(), points.end());
         if (loop.hasOwnApex) {
-            loop.apex = static_cast<std::uint32_t>(capped.mesh.vertices.size());
-            capped.mesh.vertices.push_back(middleOf(points, shell.vertices));
+            loop.apex = static_cast<std::uint32_t>(covered.mesh.vertices.size());
+            covered.mesh.vertices.push_back(middleOf(points, shell.vertices));
         }
         for (std::uint32_t n = loop.firstFan(); n < loop.fanEnd(); ++n) {
             mesh::Triangle triangle;
             triangle.corners = {loop.apex, points[n], points[n + 1 < points.size() ? n + 1 : 0]};
-            capped.mesh.triangles.push_back(triangle);
+            covered.mesh.triangles.push_back(triangle);
         }
-        capped.loops.push_back(loop);
+        covered.loops.push_back(loop);
     });
-    return capped;
+    return covered;
 }
 
 }  // namespace svt::voxelize

@@ -1,6 +1,6 @@
 #include <svt/voxelize/surfaces/winding.hpp>
 
-#include <svt/voxelize/surfaces/cap_samples.hpp>
+#include <svt/voxelize/surfaces/lid_samples.hpp>
 #include <svt/voxelize/surfaces/disjoint_boxes.hpp>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ constexpr double kShift = 1.0 / double(kQuanta);  // samples lie this far beyond
 constexpr double kTie = 1e-9;                     // a winding number this far below 1/2 is inside
 constexpr double kCountError = 0.01;              // for the count of uncertain samples
 constexpr double kOpenLayer = 0.2;                // voxels: so thick may be the layer of samples left open by an error
-constexpr double kBand = 1.0 / 64;                // voxels: closer to a cap its side is decided on the lattice
-constexpr double kReach = 1.0 / 32;               // voxels: a cap so close to a block touches it
+constexpr double kBand = 1.0 / 64;                // voxels: closer to a lid its side is decided on the lattice
+constexpr double kReach = 1.0 / 32;               // voxels: a lid so close to a block touches it
 
 // Largest error of a piece that joins the far ones. Samples left open go back to the lists of larger blocks.
 constexpr double foldError(std::int32_t size) noexcept {
@@ -50,12 +50,12 @@ public:
 
     void run() {
         near_.clear();
-        caps_.clear();
+        lids_.clear();
         for (std::uint32_t n = 0; n < field_.pieces().size(); ++n) near_.push_back(n);
-        for (std::uint32_t n = 0; n < fill_.caps_.size(); ++n) caps_.push_back(n);
+        for (std::uint32_t n = 0; n < fill_.lids_.size(); ++n) lids_.push_back(n);
         Block all;
         all.near = {0, near_.size()};
-        all.caps = {0, caps_.size()};
+        all.lids = {0, lids_.size()};
         Block part = all;
         part.parent = &all;
         part.low = part_.low;
@@ -71,7 +71,7 @@ private:
         const Block* parent = nullptr;
         Vec3i low{};
         std::int32_t size = 0;
-        Range near{}, caps{};  // of near_ and caps_
+        Range near{}, lids{};  // of near_ and lids_
         Vec3d center{};        // of `far`
         Jet far;               // sum of all pieces that are not near
     };
@@ -104,26 +104,28 @@ private:
         return true;
     }
 
-    // Lists the caps of `parent` that touch the samples.
-    Range capsTouching(const Samples& samples, Range parent) {
-        const std::size_t begin = caps_.size();
+    // Lists the lids of `parent` that touch the samples.
+    Range lidsTouching(const Samples& samples, Range parent) {
+        const std::size_t begin = lids_.size();
         for (std::size_t n = parent.begin; n < parent.end; ++n) {
-            const WindingFill::CapTriangle& cap = fill_.caps_[caps_[n]];
+            const WindingFill::LidTriangle& lid = fill_.lids_[lids_[n]];
             bool touches = true;
             double reach = kReach;
             for (int axis = 0; axis < 3; ++axis) {
-                touches = touches && cap.low[axis] - kReach <= samples.center[axis] + samples.half[axis] &&
-                          cap.high[axis] + kReach >= samples.center[axis] - samples.half[axis];
-                reach += std::abs(cap.normal[axis]) * samples.half[axis];
+                touches = touches && lid.low[axis] - kReach <= samples.center[axis] + samples.half[axis] &&
+                          lid.high[axis] + kReach >= samples.center[axis] - samples.half[axis];
+                reach += std::abs(lid.normal[axis]) * samples.half[axis];
             }
-            if (touches && std::abs(dot(cap.normal, samples.center) - cap.offset) <= reach) caps_.push_back(caps_[n]);
+            if (touches && std::abs(dot(lid.normal, samples.center) - lid.offset) <= reach) lids_.push_back(lids_[n]);
         }
-        return {begin, caps_.size()};
+        return {begin, lids_.size()};
     }
 
     // Moves pieces that are far for all samples from `parent` to the polynomial of the block; lists the others.
     // \return a bound of the winding number of those listed
     double foldFar(const Samples& samples, Range parent, Block& block) {
+        constexpr std::size_t kFew = 12;  // cheaper to evaluate than to fold
+        if (block.size <= kSmallest && parent.end - parent.begin <= kFew) return kInfinity;
         block.near.begin = near_.size();
         folded_.clear();
         double bound = 0;
@@ -131,7 +133,7 @@ private:
         for (std::size_t n = parent.begin; n < parent.end; ++n) {
             constexpr double kScale = 1 / (4 * std::numbers::pi);
             const std::uint32_t number = near_[n];
-            const CapPiece& piece = field_.pieces()[number];
+            const LidPiece& piece = field_.pieces()[number];
             const double away = distanceToBox(samples.local, piece.bounds) - samples.radius;
             if (away > 0) {
                 const double inverse = 1 / away, squared = inverse * inverse;
@@ -170,32 +172,33 @@ private:
     void divide(Block block) {
         Samples samples;
         if (!clip(block, samples)) return;
-        const std::size_t nearEnd = near_.size(), capsEnd = caps_.size();
+        const std::size_t nearEnd = near_.size(), lidsEnd = lids_.size();
         block.far = block.far.movedBy(samples.local - block.center);
         block.center = samples.local;
-        block.caps = capsTouching(samples, block.caps);
+        block.lids = lidsTouching(samples, block.lids);
         const double bound = foldFar(samples, block.near, block);
         decide(block, samples, bound);
         near_.resize(nearEnd);
-        caps_.resize(capsEnd);
+        lids_.resize(lidsEnd);
     }
 
     void decide(const Block& block, const Samples& samples, double nearBound) {
-        const bool hasCaps = block.caps.begin < block.caps.end;
-        if (!hasCaps && std::abs(block.far.value) + spread(block.far, samples) + nearBound < 0.25) return;
-        const bool isSmallest = block.size <= kSmallest;
-        Jet jet = field_.jet(nearOf(block), samples.local, samples.radius);
+        const bool hasLids = block.lids.begin < block.lids.end;
+        if (!hasLids && std::abs(block.far.value) + spread(block.far, samples) + nearBound < 0.25) return;
+        if (block.size > kLargestLeaf) return halve(block);
+        if (block.size <= kSmallest) return evaluateAll(block, samples);
+        constexpr double kUseless = 0.1;  // an error that decides nothing
+        Jet jet = field_.jet(nearOf(block), samples.local, samples.radius, kUseless);
         jet += block.far;
-        if (!(jet.error < 0.25)) return isSmallest ? evaluateAll(block, samples) : halve(block);
+        if (!(jet.error <= kUseless)) return halve(block);
         const double range = spread(jet, samples);
         const double toHalf = distanceToHalf(jet.value);
-        const bool hasOneDelta = !hasCaps && toHalf > range + kTie;
+        const bool hasOneDelta = !hasLids && toHalf > range + kTie;
         if (hasOneDelta && std::abs(toHalf - 0.25) > range) {
             if (const std::int32_t delta = deltaOf(jet.value); delta != 0) addBlock(samples, delta);
             if (toHalf < 0.25) part_.uncertain += volumeOf(samples);
             return;
         }
-        if (block.size > kLargestLeaf) return halve(block);
         if (hasOneDelta && jet.error <= kCountError) {
             if (const std::int32_t delta = deltaOf(jet.value); delta != 0) addBlock(samples, delta);
             return countUncertain(jet, samples);
@@ -205,7 +208,7 @@ private:
                       dot(jet.gradient, field_.step(2))};
         const double open = 2 * jet.error / std::max(largest(g), 1e-300);
         if (!hasOneDelta && open <= kOpenLayer && jet.error <= kCountError && classify(block, samples, jet)) return;
-        return isSmallest ? evaluateAll(block, samples) : halve(block);
+        halve(block);
     }
 
     void halve(const Block& block) {
@@ -252,7 +255,7 @@ private:
     struct Polynomial {
         double value, gx, gy, gz, xx, yy, zz, yz, xz, xy;
         Vec3d half;
-        Polynomial(const Jet& jet, const Samples& samples, const CapField& field) : value(jet.value), half(samples.half) {
+        Polynomial(const Jet& jet, const Samples& samples, const LidField& field) : value(jet.value), half(samples.half) {
             const Vec3d x = field.step(0), y = field.step(1), z = field.step(2);
             const Vec3d hx = jet.hessianTimes(x), hy = jet.hessianTimes(y), hz = jet.hessianTimes(z);
             gx = dot(jet.gradient, x);
@@ -291,12 +294,12 @@ private:
         part_.uncertain += uncertain;
     }
 
-    // Is the sample so close to a cap of the block that its side has to be decided on the lattice?
+    // Is the sample so close to a lid of the block that its side has to be decided on the lattice?
     bool isClose(const Block& block, Vec3i sample) const {
         const Vec3d at{sample.x + kShift, sample.y + kShift, sample.z + kShift};
-        for (std::size_t n = block.caps.begin; n < block.caps.end; ++n) {
-            const WindingFill::CapTriangle& cap = fill_.caps_[caps_[n]];
-            if (std::abs(dot(cap.normal, at) - cap.offset) <= kBand) return true;
+        for (std::size_t n = block.lids.begin; n < block.lids.end; ++n) {
+            const WindingFill::LidTriangle& lid = fill_.lids_[lids_[n]];
+            if (std::abs(dot(lid.normal, at) - lid.offset) <= kBand) return true;
         }
         return false;
     }
@@ -328,13 +331,13 @@ private:
             positions_.y[n] = p.y;
             positions_.z[n] = p.z;
         });
-        double windings[kCapSamples];
+        double windings[kLidSamples];
         windingsAt(field_, nearOf(block), block.far, samples.local, positions_, windings);
-        const bool hasCaps = block.caps.begin < block.caps.end;
+        const bool hasLids = block.lids.begin < block.lids.end;
         const double margin = block.far.error + kArcError + kTie;
         forEach([&](std::size_t n, Vec3i at) {
             double c = windings[n];
-            if (distanceToHalf(c) <= margin || (hasCaps && isClose(block, samples.low + at)))
+            if (distanceToHalf(c) <= margin || (hasLids && isClose(block, samples.low + at)))
                 c = evaluate(block, samples.low + at);
             deltas_[n] = deltaOf(c);
             part_.uncertain += isUncertain(c);
@@ -342,31 +345,31 @@ private:
         addDeltas(samples);
     }
 
-    // True if all caps of the block lie in one plane as far as it reaches.
+    // True if all lids of the block lie in one plane as far as it reaches.
     bool isOnePlane(const Block& block, const Samples& samples) const {
-        const WindingFill::CapTriangle& first = fill_.caps_[caps_[block.caps.begin]];
+        const WindingFill::LidTriangle& first = fill_.lids_[lids_[block.lids.begin]];
         const double at = dot(first.normal, samples.center) - first.offset;
-        for (std::size_t n = block.caps.begin + 1; n < block.caps.end; ++n) {
-            const WindingFill::CapTriangle& cap = fill_.caps_[caps_[n]];
-            const double sign = dot(cap.normal, first.normal) < 0 ? -1 : 1;
-            const Vec3d turn = cap.normal * sign - first.normal;
-            const double shift = sign * (dot(cap.normal, samples.center) - cap.offset) - at;
+        for (std::size_t n = block.lids.begin + 1; n < block.lids.end; ++n) {
+            const WindingFill::LidTriangle& lid = fill_.lids_[lids_[n]];
+            const double sign = dot(lid.normal, first.normal) < 0 ? -1 : 1;
+            const Vec3d turn = lid.normal * sign - first.normal;
+            const double shift = sign * (dot(lid.normal, samples.center) - lid.offset) - at;
             if (std::abs(shift) + length(scaled(turn, samples.half)) + length(turn) > kBand / 2) return false;
         }
         return true;
     }
 
-    // Decides sample by sample. Returns false if the caps of the block are not in one plane.
+    // Decides sample by sample. Returns false if the lids of the block are not in one plane.
     bool classify(const Block& block, const Samples& samples, const Jet& jet) {
-        const bool hasCaps = block.caps.begin < block.caps.end;
+        const bool hasLids = block.lids.begin < block.lids.end;
         Vec3d normal{};
-        double offset = -1;  // without caps all samples are on the side > 0
+        double offset = -1;  // without lids all samples are on the side > 0
         int jump[2] = {0, 0};
         const Polynomial polynomial(jet, samples, field_);
-        if (hasCaps) {
+        if (hasLids) {
             if (!isOnePlane(block, samples)) return false;
-            normal = fill_.caps_[caps_[block.caps.begin]].normal;
-            offset = fill_.caps_[caps_[block.caps.begin]].offset;
+            normal = fill_.lids_[lids_[block.lids.begin]].normal;
+            offset = fill_.lids_[lids_[block.lids.begin]].offset;
             // On either side c and its smooth continuation differ by a whole number: see at the farthest samples.
             for (const int side : {0, 1}) {
                 Vec3i n;
@@ -401,25 +404,25 @@ private:
     }
 
     const WindingFill& fill_;
-    const CapField& field_;
+    const LidField& field_;
     WindingFill::Part& part_;
-    std::vector<std::uint32_t> near_, caps_;  // stacks of lists
+    std::vector<std::uint32_t> near_, lids_;  // stacks of lists
     std::vector<std::uint32_t> folded_;
-    CapSamples positions_;
+    LidSamples positions_;
     std::int32_t deltas_[kLargestLeaf * kLargestLeaf * kLargestLeaf];
 };
 
 WindingFill::WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
                          const IndexFromLocal& indexFromLocal, std::uint32_t claim)
-    : shell_(capShell(shell)), lattice_(makeIndexMesh(shell_.mesh, indexFromLocal)), claim_(claim) {
-    field_ = std::make_unique<CapField>(shell_, lattice_, grid, meshes.origin);
-    for (const CapPiece& piece : field_->pieces()) {
+    : shell_(coverShell(shell)), lattice_(makeIndexMesh(shell_.mesh, indexFromLocal)), claim_(claim) {
+    field_ = std::make_unique<LidField>(shell_, lattice_, grid, meshes.origin);
+    for (const LidPiece& piece : field_->pieces()) {
         const Vec3d a = indexFromLocal.point(piece.apex), b = indexFromLocal.point(piece.from),
                     c = indexFromLocal.point(piece.to);
         Box3d bounds;
         for (const Vec3d& corner : {a, b, c}) bounds.add(corner);
         const Vec3d normal = normalized(cross(b - a, c - a));
-        caps_.push_back({bounds.min, bounds.max, normal, dot(normal, a)});
+        lids_.push_back({bounds.min, bounds.max, normal, dot(normal, a)});
     }
     // From outside its bounding box the shell is seen within a half-space.
     QuantaPoint low{INT32_MAX, INT32_MAX, INT32_MAX}, high{INT32_MIN, INT32_MIN, INT32_MIN};
@@ -443,12 +446,9 @@ WindingFill::WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& mes
             for (std::int32_t x = first(begin_.x); x < end_.x; x += kPartSize) parts_.push_back({{x, y, z}, {}, 0});
 }
 
-void WindingFill::runPart(std::size_t n) { WindingBlocks(*this, parts_[n]).run(); }
-
-std::size_t WindingFill::correctionCount() const noexcept {
-    std::size_t count = 0;
-    for (const Part& part : parts_) count += part.corrections.size();
-    return count;
+std::size_t WindingFill::runPart(std::size_t n) {
+    WindingBlocks(*this, parts_[n]).run();
+    return parts_[n].corrections.size();
 }
 
 std::uint64_t WindingFill::finish(std::vector<ClaimedBox>& boxes) {

@@ -3,19 +3,19 @@
 /// Fills open shells with solid meaning by the generalized winding number.
 ///
 ///      .--o - - o--.          w(p) = n(p) - c(p)
-///      |    cap    |          n: winding number of shell and caps together, which the sweep counts as for any solid
-///      |           |  shell   c: winding number of the caps, their solid angle / 4 pi; only the rim (o) matters
+///      |    lid    |          n: winding number of shell and lids together, which the sweep counts as for any solid
+///      |           |  shell   c: winding number of the lids, their solid angle / 4 pi; only the rim (o) matters
 ///      |     p     |
 ///      `-----------'          p is inside  <=>  w >= 1/2  <=>  n >= ceil(c + 1/2)
 ///
 /// Where |c| < 1/2 the threshold is 1, as for a closed solid; elsewhere boxes are added that count for the claim, or
 /// against it, so that the sweep may always compare with 1:
 ///
-///      o---------o     the cap, and below it the surface c = 1/2: other holes push it away from the cap. Between them
-///       `._____,'      n = 1 but w < 1/2: boxes that count -1. If the holes were alone, a planar cap and the surface
+///      o---------o     the lid, and below it the surface c = 1/2: other holes push it away from the lid. Between them
+///       `._____,'      n = 1 but w < 1/2: boxes that count -1. If the holes were alone, a planar lid and the surface
 ///                      c = 1/2 would be the same, since a plane is seen under 2 pi from close by.
 
-#include <svt/voxelize/surfaces/cap_field.hpp>
+#include <svt/voxelize/surfaces/lid_field.hpp>
 #include <svt/voxelize/tiles/tile_plan.hpp>
 
 #include <memory>
@@ -26,14 +26,14 @@ namespace svt::voxelize {
 /// Fills the samples whose generalized winding number (Jacobson, Kavan & Sorkine 2013) is at least 1/2.
 ///
 /// Evaluated as crossings minus a boundary integral (after the one-shot method of Martens & Bessmeltsev 2025). Blocks of
-/// samples are halved until c is known well enough: in a block each cap is a quadratic polynomial with a bound of its
-/// error, far caps one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
-/// which the bound leaves the threshold open evaluate the solid angles. Close to a cap its side is decided as in the
+/// samples are halved until c is known well enough: in a block each lid is a quadratic polynomial with a bound of its
+/// error, far lids one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
+/// which the bound leaves the threshold open evaluate the solid angles. Close to a lid its side is decided as in the
 /// sweep, so that n and c always jump together.
 ///
 /// The result is that of the sum over all triangles, except where that is within 1e-9 of 1/2, and for samples within
 /// 1/256 voxel of the shell. Samples outside its bounding box are left out.
-/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to caps).
+/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to lids).
 class WindingFill {
 public:
     /// \param shell  an open object of `meshes`
@@ -41,20 +41,18 @@ public:
     WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
                 const IndexFromLocal& indexFromLocal, std::uint32_t claim);
 
-    /// Shell and caps, closed: to be swept.
-    [[nodiscard]] const IndexMesh& capped() const noexcept { return lattice_; }
+    /// Shell and lids, closed: to be swept.
+    [[nodiscard]] const IndexMesh& covered() const noexcept { return lattice_; }
 
     /// The work comes in this many parts; part n may be done by any thread.
     [[nodiscard]] std::size_t partCount() const noexcept { return parts_.size(); }
-    void runPart(std::size_t n);
+    /// \return count of runs of samples that the part corrects; each takes 12 bytes until finish()
+    std::size_t runPart(std::size_t n);
 
     /// Appends the boxes of all parts, disjoint as far as they count the same. Call it after all parts.
-    /// \return count of samples whose winding number is more than 1/4 away from every whole number, within the bounding
-    ///         box of the shell. It is exact but for samples whose distance from it is within 1/4 +- 0.01.
+    /// \return count of samples within the bounding box of the shell whose winding number is more than 1/4 away from every
+    ///         whole number, where that distance differs from 1/4 by more than 0.01; closer ones may be miscounted
     std::uint64_t finish(std::vector<ClaimedBox>& boxes);
-
-    /// Count of raw corrections so far, from all parts; each takes 16 bytes until finish().
-    [[nodiscard]] std::size_t correctionCount() const noexcept;
 
 private:
     friend class WindingBlocks;
@@ -63,7 +61,7 @@ private:
         std::uint16_t i, j, low, high;
         std::int32_t delta;
     };
-    struct CapTriangle {
+    struct LidTriangle {
         Vec3d low, high;  // bounds, index space
         Vec3d normal;     // unit, index space
         double offset;
@@ -74,10 +72,10 @@ private:
         std::uint64_t uncertain = 0;
     };
 
-    CappedShell shell_;
+    CoveredShell shell_;
     IndexMesh lattice_;
-    std::unique_ptr<CapField> field_;
-    std::vector<CapTriangle> caps_;  // as the pieces of field_
+    std::unique_ptr<LidField> field_;
+    std::vector<LidTriangle> lids_;  // as the pieces of field_
     Vec3i begin_{}, end_{};  // samples inside the bounding box
     std::uint32_t claim_;
     std::vector<Part> parts_;

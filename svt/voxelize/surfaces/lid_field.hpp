@@ -1,9 +1,9 @@
 #pragma once
 /// \file
-/// The winding number of caps, c(p): the solid angle under which p sees them, divided by 4 pi.
+/// The winding number of lids, c(p): the solid angle under which p sees them, divided by 4 pi.
 ///
-/// Where p crosses a cap, c jumps by one. Elsewhere it is harmonic, and its derivatives need the border alone (the law
-/// of Biot and Savart). It is evaluated for sets of pieces, the triangles of the caps; edges that two neighbouring
+/// Where p crosses a lid, c jumps by one. Elsewhere it is harmonic, and its derivatives need the border alone (the law
+/// of Biot and Savart). It is evaluated for sets of pieces, the triangles of the lids; edges that two neighbouring
 /// pieces of a set share cancel.
 
 #include <svt/voxelize/lattice/height_planes.hpp>
@@ -46,8 +46,8 @@ struct Jet {
     }
 };
 
-/// A triangle of a cap, local space: the apex and an edge of the rim, from `from` to `to`.
-struct CapPiece {
+/// A triangle of a lid, local space: the apex and an edge of the rim, from `from` to `to`.
+struct LidPiece {
     Vec3d apex, from, to;
     std::uint32_t previous = 0, next = 0;  ///< pieces that share the sides apex-from and apex-to; kNone: an edge of the rim
     double area = 0, length = 0;           ///< length: of its three sides
@@ -56,25 +56,25 @@ struct CapPiece {
 };
 
 /// The same triangle on the lattice. Decides on which side of it a sample lies, exactly as the sweep does.
-struct CapSide {
+struct LidSide {
     QuantaPoint corners[3] = {};
     HeightPlane height;       // of a triangle that is not vertical
     bool isVertical = false;  // in the lattice: it has no area in plan
     bool looksUp = false;     // of a triangle that is not vertical
     double normalX = 0, normalY = 0;
 
-    CapSide() = default;
-    CapSide(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, std::int32_t depth) noexcept;
+    LidSide() = default;
+    LidSide(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, std::int32_t depth) noexcept;
     /// True if the sample is on the side that the triangle does not face.
     [[nodiscard]] bool isBehind(Vec3i sample) const noexcept;
 };
 
-/// The caps of one shell. Sets of pieces are given by ascending numbers.
-class CapField {
+/// The lids of one shell. Sets of pieces are given by ascending numbers.
+class LidField {
 public:
-    CapField(const CappedShell& shell, const IndexMesh& lattice, const volume::Grid& grid, Vec3d localOrigin);
+    LidField(const CoveredShell& shell, const IndexMesh& lattice, const volume::Grid& grid, Vec3d localOrigin);
 
-    [[nodiscard]] std::span<const CapPiece> pieces() const noexcept { return pieces_; }
+    [[nodiscard]] std::span<const LidPiece> pieces() const noexcept { return pieces_; }
     /// Position of index-space coordinates, local space.
     [[nodiscard]] Vec3d localFromIndex(Vec3d index) const noexcept {
         return origin_ + steps_[0] * index.x + steps_[1] * index.y + steps_[2] * index.z;
@@ -85,16 +85,21 @@ public:
     [[nodiscard]] double winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept;
     /// The same at a sample that may be close to some of them: on which side it is, is decided as in the sweep.
     [[nodiscard]] double windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept;
-    /// The jet of a set of pieces at `p`, with the error for distances up to `radius`. Infinite error, and no value: the
-    /// border is too near.
-    [[nodiscard]] Jet jet(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept;
+    /// The jet of a set of pieces at `p`, with a bound of its error for distances up to `radius`. If that is more than
+    /// `limit`, the rest is not computed.
+    [[nodiscard]] Jet jet(std::span<const std::uint32_t> set, Vec3d p, double radius,
+                          double limit = kInfinity) const noexcept;
 
 private:
+    [[nodiscard]] double jetError(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept;
+    template <class Body>
+    void forEachEdge(std::span<const std::uint32_t> set, Body&& body) const;
+
     Vec3d origin_;
     Vec3d steps_[3];
-    std::vector<CapPiece> pieces_;
-    std::vector<CapPiece> snapped_;  // the same pieces with their corners on the lattice
-    std::vector<CapSide> sides_;
+    std::vector<LidPiece> pieces_;
+    std::vector<LidPiece> snapped_;  // the same pieces with their corners on the lattice
+    std::vector<LidSide> sides_;
 };
 
 }  // namespace svt::voxelize

@@ -1,4 +1,4 @@
-#include <svt/voxelize/surfaces/cap_field.hpp>
+#include <svt/voxelize/surfaces/lid_field.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +84,7 @@ void addEdge(const Ray& a, const Ray& b, Jet& jet) noexcept {
 
 }  // namespace
 
-CapSide::CapSide(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, std::int32_t depth) noexcept
+LidSide::LidSide(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, std::int32_t depth) noexcept
     : corners{a, b, c} {
     const auto along = [&](const QuantaPoint& to, std::size_t axis) { return std::int64_t(to[axis]) - a[axis]; };
     const std::int64_t area = along(b, 0) * along(c, 1) - along(b, 1) * along(c, 0);
@@ -95,7 +95,7 @@ CapSide::CapSide(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& 
     if (!isVertical) height = HeightPlane(triangleHeight(a, b, c, kScanAxes[2]), depth);
 }
 
-bool CapSide::isBehind(Vec3i sample) const noexcept {
+bool LidSide::isBehind(Vec3i sample) const noexcept {
     if (!isVertical) return (sample.z >= height.sampleAbove(sample.x, sample.y)) != looksUp;
     // The longest of its edges in plan; a sample exactly on it counts as east of it, as for EdgeWalk.
     std::int64_t dx = 0, dy = 0, longest = -1;
@@ -117,7 +117,7 @@ bool CapSide::isBehind(Vec3i sample) const noexcept {
     return (left > 0) != (facing > 0);
 }
 
-CapField::CapField(const CappedShell& shell, const IndexMesh& lattice, const volume::Grid& grid, Vec3d localOrigin)
+LidField::LidField(const CoveredShell& shell, const IndexMesh& lattice, const volume::Grid& grid, Vec3d localOrigin)
     : origin_(grid.worldFromIndex({0, 0, 0}) - localOrigin),
       steps_{grid.worldFromIndexDirection({1, 0, 0}), grid.worldFromIndexDirection({0, 1, 0}),
              grid.worldFromIndexDirection({0, 0, 1})} {
@@ -133,9 +133,9 @@ CapField::CapField(const CappedShell& shell, const IndexMesh& lattice, const vol
         for (std::uint32_t n = loop.firstFan(); n < loop.fanEnd(); ++n) {
             const std::uint32_t from = ring[n], to = ring[n + 1 < ring.size() ? n + 1 : 0];
             const auto number = static_cast<std::uint32_t>(pieces_.size());
-            CapPiece piece{vertices[loop.apex], vertices[from], vertices[to], number - 1, number + 1, 0, 0, {}};
-            if (number == first) piece.previous = loop.hasOwnApex ? end - 1 : CapPiece::kNone;
-            if (number + 1 == end) piece.next = loop.hasOwnApex ? first : CapPiece::kNone;
+            LidPiece piece{vertices[loop.apex], vertices[from], vertices[to], number - 1, number + 1, 0, 0, {}};
+            if (number == first) piece.previous = loop.hasOwnApex ? end - 1 : LidPiece::kNone;
+            if (number + 1 == end) piece.next = loop.hasOwnApex ? first : LidPiece::kNone;
             piece.area = length(cross(piece.from - piece.apex, piece.to - piece.apex)) / 2;
             piece.length = length(piece.from - piece.apex) + length(piece.to - piece.from) + length(piece.apex - piece.to);
             for (const Vec3d& corner : {piece.apex, piece.from, piece.to}) piece.bounds.add(corner);
@@ -150,23 +150,23 @@ CapField::CapField(const CappedShell& shell, const IndexMesh& lattice, const vol
     }
 }
 
-double CapField::winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept {
+double LidField::winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept {
     TurnCounter product;
     for (const std::uint32_t number : set) {
-        const CapPiece& piece = pieces_[number];
+        const LidPiece& piece = pieces_[number];
         const HalfAngle angle(Ray(piece.apex, p), Ray(piece.from, p), Ray(piece.to, p));
         product.multiply(angle.real, angle.imaginary);
     }
     return product.turns();
 }
 
-double CapField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept {
+double LidField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept {
     constexpr double kShift = 1.0 / double(kQuanta);
     constexpr double kFlat = 1e-4;  // of the product of the lengths: so close to the triangle that its side is uncertain
     const Vec3d p = localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
     double onLattice = 0;
     for (const std::uint32_t number : set) {
-        const CapPiece& piece = snapped_[number];
+        const LidPiece& piece = snapped_[number];
         const Ray apex(piece.apex, p), from(piece.from, p), to(piece.to, p);
         HalfAngle angle(apex, from, to);
         if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * apex.length * from.length * to.length)
@@ -178,41 +178,56 @@ double CapField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) c
     return exact + std::nearbyint(onLattice - exact);
 }
 
-Jet CapField::jet(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept {
-    Jet jet;
-    double byLength = 0, byArea = 0;
-    const auto has = [&](std::uint32_t number) { return std::binary_search(set.begin(), set.end(), number); };
-    // The third derivatives of an edge's part are at most 6 times the integral of 1 / r^4 along it.
-    const auto add = [&](const Ray& from, const Ray& to) {
-        const double distance = std::sqrt(squaredDistance(from.to, to.to)) - radius;
-        if (!(distance > 0)) return false;
-        const double inverse = 1 / distance;
-        byLength += inverse * inverse * inverse * std::min(length(to.to - from.to) * inverse, std::numbers::pi / 2);
-        addEdge(from, to, jet);
-        return true;
-    };
+// Calls `body(from, to)` for the edges of the border of a set of pieces, until it returns false. An edge that two
+// neighbouring pieces of the set share is left out.
+template <class Body>
+void LidField::forEachEdge(std::span<const std::uint32_t> set, Body&& body) const {
     for (std::size_t n = 0; n < set.size(); ++n) {
-        const CapPiece& piece = pieces_[set[n]];
-        const Ray apex(piece.apex, p), from(piece.from, p), to(piece.to, p);
-        const bool hasPrevious = n > 0 && set[n - 1] == piece.previous;
-        const bool hasNext = n + 1 < set.size() && set[n + 1] == piece.next;
-        // At the ends of the list of a ring its first and last piece may be neighbours.
-        bool isFar = add(from, to);
-        if (!hasPrevious && !(piece.previous > set[n] && piece.previous != CapPiece::kNone && has(piece.previous)))
-            isFar = isFar && add(apex, from);
-        if (!hasNext && !(piece.next < set[n] && has(piece.next))) isFar = isFar && add(to, apex);
-        if (!isFar) {
-            jet.error = kInfinity;
-            return jet;
-        }
+        const LidPiece& piece = pieces_[set[n]];
+        // At the ends of the list of a ring its first and its last piece may be neighbours.
+        const bool hasPrevious = piece.previous < set[n]
+                                     ? n > 0 && set[n - 1] == piece.previous
+                                     : piece.previous != LidPiece::kNone &&
+                                           std::binary_search(set.begin(), set.end(), piece.previous);
+        const bool hasNext = piece.next > set[n] ? n + 1 < set.size() && set[n + 1] == piece.next
+                                                 : std::binary_search(set.begin(), set.end(), piece.next);
+        if (!body(piece.from, piece.to)) return;
+        if (!hasPrevious && !body(piece.apex, piece.from)) return;
+        if (!hasNext && !body(piece.to, piece.apex)) return;
+    }
+}
+
+double LidField::jetError(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept {
+    double byLength = 0, byArea = 0;
+    // The third derivatives of an edge's part are at most 6 times the integral of 1 / r^4 along it.
+    forEachEdge(set, [&](Vec3d from, Vec3d to) {
+        const double distance = std::sqrt(squaredDistance(from - p, to - p)) - radius;
+        const double inverse = distance > 0 ? 1 / distance : kInfinity;
+        byLength += inverse * inverse * inverse * std::min(length(to - from) * inverse, std::numbers::pi / 2);
+        return distance > 0;
+    });
+    // Those of a triangle's part are at most 24 times the integral of 1 / r^5 over it.
+    for (const std::uint32_t number : set) {
+        const LidPiece& piece = pieces_[number];
         const Vec3d outside{std::max({piece.bounds.min.x - p.x, p.x - piece.bounds.max.x, 0.0}),
                             std::max({piece.bounds.min.y - p.y, p.y - piece.bounds.max.y, 0.0}),
                             std::max({piece.bounds.min.z - p.z, p.z - piece.bounds.max.z, 0.0})};
-        const double away = std::max(length(outside) - radius, 0.0);
+        const double away = length(outside) - radius;
         byArea += away > 0 ? 4 * piece.area / (away * away * away * away * away) : kInfinity;
+        if (byArea >= byLength) break;
     }
+    return std::min(byLength, byArea) * radius * radius * radius / (2 * kTurn);
+}
+
+Jet LidField::jet(std::span<const std::uint32_t> set, Vec3d p, double radius, double limit) const noexcept {
+    Jet jet;
+    jet.error = jetError(set, p, radius);
+    if (!(jet.error <= limit)) return jet;
+    forEachEdge(set, [&](Vec3d from, Vec3d to) {
+        addEdge(Ray(from, p), Ray(to, p), jet);
+        return true;
+    });
     constexpr double kScale = 1 / (2 * kTurn);
-    jet.error = std::min(byLength, byArea) * radius * radius * radius * kScale;
     jet.gradient = jet.gradient * kScale;
     jet.diagonal = jet.diagonal * kScale;
     jet.mixed = jet.mixed * kScale;

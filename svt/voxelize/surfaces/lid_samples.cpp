@@ -1,9 +1,9 @@
 #include <svt/core/simd_targets.hpp>
-#include <svt/voxelize/surfaces/cap_samples.hpp>
+#include <svt/voxelize/surfaces/lid_samples.hpp>
 
 // Highway compiles this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "svt/voxelize/surfaces/cap_samples.cpp"
+#define HWY_TARGET_INCLUDE "svt/voxelize/surfaces/lid_samples.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -66,8 +66,8 @@ struct Product {
     }
 };
 
-void windingsAt(const CapField& field, std::span<const std::uint32_t> set, const Jet& far, Vec3d center,
-                const CapSamples& samples, double* windings) {
+void windingsAt(const LidField& field, std::span<const std::uint32_t> set, const Jet& far, Vec3d center,
+                const LidSamples& samples, double* windings) {
     const Lanes d;
     const V half = hn::Set(d, 0.5);
     for (std::size_t n = 0; n < samples.count; n += hn::Lanes(d)) {
@@ -81,7 +81,7 @@ void windingsAt(const CapField& field, std::span<const std::uint32_t> set, const
         Product product{hn::Set(d, 1.0), hn::Zero(d), hn::Zero(d)};
         Rays apex{x, y, z, x}, to{x, y, z, x};
         for (std::size_t s = 0; s < set.size(); ++s) {
-            const CapPiece& piece = field.pieces()[set[s]];
+            const LidPiece& piece = field.pieces()[set[s]];
             // Successive pieces of a ring share the apex and a corner.
             const bool follows = s > 0 && set[s - 1] == piece.previous;
             if (!follows) apex = raysTo(piece.apex);
@@ -116,8 +116,8 @@ namespace svt::voxelize {
 
 HWY_EXPORT(windingsAt);
 
-void windingsAt(const CapField& field, std::span<const std::uint32_t> set, const Jet& far, Vec3d center,
-                const CapSamples& samples, double* windings) {
+void windingsAt(const LidField& field, std::span<const std::uint32_t> set, const Jet& far, Vec3d center,
+                const LidSamples& samples, double* windings) {
     HWY_DYNAMIC_DISPATCH(windingsAt)(field, set, far, center, samples, windings);
 }
 
