@@ -138,7 +138,7 @@ def watched(figures):
             if beside["is_peer"]:
                 values[f"{row['id']}: times faster than {beside['name']}"] = (beside["ratio"], True)
         for key, name in (("yardsticks", "yardsticks"), ("result_bytes", "bytes"), ("bricks_bytes", "bytes of bricks"),
-                          ("instructions", "instructions per unit")):
+                          ("instructions", "instructions per unit"), ("times_closed", "times as long as closed")):
             if key in row:
                 values[f"{row['id']}: {name}"] = (row[key], False)
     return values

@@ -211,8 +211,7 @@ ColumnVolume restoreVanishedObjects(ColumnVolume columns, const mesh::MeshSet& m
 // Fills the open objects by winding number: all their parts on all cores.
 Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
                             std::span<const std::uint32_t> heightPlaneOfPlane, const Claims& claims,
-                            const VoxelizeOptions& options, std::vector<HeightPlanes>& ownHeightPlanes,
-                            Geometry& all) {
+                            const VoxelizeOptions& options, std::vector<HeightPlanes>& ownHeightPlanes, Geometry& all) {
     std::vector<std::uint32_t> open;
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
         if (meshes.objects[o].closure == mesh::Closure::Open) open.push_back(o);
@@ -241,10 +240,11 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
     });
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
     if (runs > kMaxRuns)
-        return Error(Code::GridTooLarge,
-                     fmt::format("filling the open shells of the model needs over {} runs of voxels next to their holes; "
-                                 "choose a coarser spacing, or close the shells",
-                                 kMaxRuns));
+        return Error(
+            Code::GridTooLarge,
+            fmt::format("filling the open shells of the model needs over {} runs of voxels next to their holes; "
+                        "choose a coarser spacing, or close the shells",
+                        kMaxRuns));
     parallelFor(open.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n)
             all.uncertainVoxels[open[n]] = fills[n]->finish(all.objects[open[n]].boxes);
@@ -283,7 +283,9 @@ Result<Geometry> prepareObjects(const mesh::MeshSet& meshes, const volume::Grid&
                           static_cast<std::uint32_t>(o), ownHeightPlanes[o], all);
         }
     });
-    if (auto filled = fillOpenShells(meshes, grid, indexFromLocal, heightPlaneOfPlane, claims, options, ownHeightPlanes, all); !filled)
+    if (auto filled =
+            fillOpenShells(meshes, grid, indexFromLocal, heightPlaneOfPlane, claims, options, ownHeightPlanes, all);
+        !filled)
         return filled.error();
     // Append the height planes of single objects to the common table, in object order, and renumber them.
     for (std::size_t o = 0; o < meshes.objects.size(); ++o) {

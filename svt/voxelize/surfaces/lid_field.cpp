@@ -1,6 +1,7 @@
 #include <svt/voxelize/surfaces/lid_field.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -70,16 +71,32 @@ void addEdge(const Ray& a, const Ray& b, Jet& jet) noexcept {
     const double ratio = 2 * product + cosine, inverseProduct = 1 / product;
     const double inverseA = b.length * inverseProduct, inverseB = a.length * inverseProduct;
     // The derivative of `field`, which depends on p through the lengths and the cosine.
-    const Vec3d slope =
-        (a.to * (inverseA - field * (ratio * b.length * inverseA + product)) +
-         b.to * (inverseB - field * (ratio * a.length * inverseB + product))) *
-        -inverse;
+    const Vec3d slope = (a.to * (inverseA - field * (ratio * b.length * inverseA + product)) +
+                         b.to * (inverseB - field * (ratio * a.length * inverseB + product))) *
+                        -inverse;
     jet.gradient = jet.gradient + normal * field;
     // The antisymmetric part cancels around a loop.
     jet.diagonal = jet.diagonal + scaled(normal, slope);
     jet.mixed = jet.mixed + Vec3d{normal.y * slope.z + normal.z * slope.y, normal.x * slope.z + normal.z * slope.x,
                                   normal.x * slope.y + normal.y * slope.x} *
                                 0.5;
+}
+
+// Does the way from a over b to c bend at b?
+bool isCorner(Vec3d a, Vec3d b, Vec3d c) noexcept {
+    const Vec3d ab = b - a, bc = c - b;
+    return !(length(cross(ab, bc)) <= 1e-9 * length(ab) * length(bc) && dot(ab, bc) > 0);
+}
+
+// The points of a ring at which it bends; one at least.
+std::vector<std::uint32_t> cornersOf(std::span<const std::uint32_t> ring, const std::vector<Vec3d>& vertices) {
+    std::vector<std::uint32_t> corners;
+    for (std::size_t n = 0; n < ring.size(); ++n)
+        if (isCorner(vertices[ring[n > 0 ? n - 1 : ring.size() - 1]], vertices[ring[n]],
+                     vertices[ring[n + 1 < ring.size() ? n + 1 : 0]]))
+            corners.push_back(ring[n]);
+    if (corners.empty()) corners.push_back(ring[0]);
+    return corners;
 }
 
 }  // namespace
@@ -121,57 +138,86 @@ LidField::LidField(const CoveredShell& shell, const IndexMesh& lattice, const vo
     : origin_(grid.worldFromIndex({0, 0, 0}) - localOrigin),
       steps_{grid.worldFromIndexDirection({1, 0, 0}), grid.worldFromIndexDirection({0, 1, 0}),
              grid.worldFromIndexDirection({0, 0, 1})} {
+    for (const RimLoop& loop : shell.loops) addLoop(shell, loop, lattice, grid.dimension().z);
+}
+
+void LidField::addLoop(const CoveredShell& shell, const RimLoop& loop, const IndexMesh& lattice, std::int32_t depth) {
     const auto& vertices = shell.mesh.vertices;
     const auto snapped = [&](std::uint32_t vertex) {
         const QuantaPoint& q = lattice.points[vertex];
         return localFromIndex({q[0] / double(kQuanta), q[1] / double(kQuanta), q[2] / double(kQuanta)});
     };
-    for (const RimLoop& loop : shell.loops) {
-        const auto ring = shell.ringOf(loop);
-        const auto first = static_cast<std::uint32_t>(pieces_.size());
-        const std::uint32_t end = first + loop.fanEnd() - loop.firstFan();
-        for (std::uint32_t n = loop.firstFan(); n < loop.fanEnd(); ++n) {
-            const std::uint32_t from = ring[n], to = ring[n + 1 < ring.size() ? n + 1 : 0];
-            const auto number = static_cast<std::uint32_t>(pieces_.size());
-            LidPiece piece{vertices[loop.apex], vertices[from], vertices[to], number - 1, number + 1, 0, 0, {}};
-            if (number == first) piece.previous = loop.hasOwnApex ? end - 1 : LidPiece::kNone;
-            if (number + 1 == end) piece.next = loop.hasOwnApex ? first : LidPiece::kNone;
-            piece.area = length(cross(piece.from - piece.apex, piece.to - piece.apex)) / 2;
-            piece.length = length(piece.from - piece.apex) + length(piece.to - piece.from) + length(piece.apex - piece.to);
-            for (const Vec3d& corner : {piece.apex, piece.from, piece.to}) piece.bounds.add(corner);
-            pieces_.push_back(piece);
-            piece.apex = snapped(loop.apex);
-            piece.from = snapped(from);
-            piece.to = snapped(to);
-            snapped_.push_back(piece);
-            sides_.emplace_back(lattice.points[loop.apex], lattice.points[from], lattice.points[to],
-                                grid.dimension().z);
-        }
+    auto ring = shell.ringOf(loop);
+    std::vector<std::uint32_t> turned(ring.begin(), ring.end());
+    if (loop.hasOwnApex) {
+        // Begin at a corner, so that no straight stretch goes around the end of the list.
+        const std::vector<std::uint32_t> corners = cornersOf(ring, vertices);
+        std::rotate(turned.begin(), std::ranges::find(turned, corners[0]), turned.end());
     }
+    ring = turned;
+    const std::size_t count = ring.size(), end = loop.hasOwnApex ? count : count - 1;
+    const auto first = static_cast<std::uint32_t>(pieces_.size());
+    for (std::size_t n = loop.hasOwnApex ? 0 : 1; n < end;) {
+        LidPiece piece;
+        piece.apex = vertices[loop.apex];
+        piece.from = vertices[ring[n]];
+        piece.firstSide = static_cast<std::uint32_t>(sides_.size());
+        do {
+            const std::uint32_t from = ring[n], to = ring[(n + 1) % count];
+            sides_.emplace_back(lattice.points[loop.apex], lattice.points[from], lattice.points[to], depth);
+            std::ranges::copy(std::array{snapped(loop.apex), snapped(from), snapped(to)}, sides_.back().local);
+            ++n;
+        } while (loop.hasOwnApex && n < end &&
+                 !isCorner(vertices[ring[n - 1]], vertices[ring[n]], vertices[ring[(n + 1) % count]]));
+        piece.sideEnd = static_cast<std::uint32_t>(sides_.size());
+        piece.to = vertices[ring[n % count]];
+        piece.area = length(cross(piece.from - piece.apex, piece.to - piece.apex)) / 2;
+        piece.length = length(piece.from - piece.apex) + length(piece.to - piece.from) + length(piece.apex - piece.to);
+        for (const Vec3d& corner : {piece.apex, piece.from, piece.to}) piece.bounds.add(corner);
+        piece.previous = static_cast<std::uint32_t>(pieces_.size()) - 1;
+        piece.next = static_cast<std::uint32_t>(pieces_.size()) + 1;
+        pieces_.push_back(piece);
+    }
+    const auto last = static_cast<std::uint32_t>(pieces_.size() - 1);
+    pieces_[first].previous = loop.hasOwnApex && last != first ? last : LidPiece::kNone;
+    pieces_[last].next = loop.hasOwnApex && last != first ? first : LidPiece::kNone;
 }
 
 double LidField::winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept {
-    TurnCounter product;
-    for (const std::uint32_t number : set) {
-        const LidPiece& piece = pieces_[number];
-        const HalfAngle angle(Ray(piece.apex, p), Ray(piece.from, p), Ray(piece.to, p));
-        product.multiply(angle.real, angle.imaginary);
+    // On the border of a piece its angle is undefined, though that of all pieces is smooth where they meet: step aside.
+    constexpr double kAtBorder = 1e-9, kAside = 1e-6;
+    for (int aside = 0;; ++aside) {
+        TurnCounter product;
+        bool isAtBorder = false;
+        const Vec3d at = p + (steps_[0] + steps_[1] * 0.7 + steps_[2] * 0.4) * (kAside * aside);
+        for (const std::uint32_t number : set) {
+            const LidPiece& piece = pieces_[number];
+            const Ray apex(piece.apex, at), from(piece.from, at), to(piece.to, at);
+            const HalfAngle angle(apex, from, to);
+            isAtBorder = isAtBorder || std::abs(angle.real) + std::abs(angle.imaginary) <=
+                                           kAtBorder * apex.length * from.length * to.length;
+            product.multiply(angle.real, angle.imaginary);
+        }
+        if (!isAtBorder || aside == 3) return product.turns();
     }
-    return product.turns();
 }
 
 double LidField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept {
     constexpr double kShift = 1.0 / double(kQuanta);
-    constexpr double kFlat = 1e-4;  // of the product of the lengths: so close to the triangle that its side is uncertain
+    constexpr double kFlat =
+        1e-4;  // of the product of the lengths: so close to the triangle that its side is uncertain
     const Vec3d p = localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
     double onLattice = 0;
     for (const std::uint32_t number : set) {
-        const LidPiece& piece = snapped_[number];
-        const Ray apex(piece.apex, p), from(piece.from, p), to(piece.to, p);
-        HalfAngle angle(apex, from, to);
-        if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * apex.length * from.length * to.length)
-            angle.imaginary = std::copysign(angle.imaginary, sides_[number].isBehind(sample) ? 1.0 : -1.0);
-        onLattice += std::atan2(angle.imaginary, angle.real) / kTurn;
+        const LidPiece& piece = pieces_[number];
+        for (std::uint32_t n = piece.firstSide; n < piece.sideEnd; ++n) {
+            const LidSide& side = sides_[n];
+            const Ray apex(side.local[0], p), from(side.local[1], p), to(side.local[2], p);
+            HalfAngle angle(apex, from, to);
+            if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * apex.length * from.length * to.length)
+                angle.imaginary = std::copysign(angle.imaginary, side.isBehind(sample) ? 1.0 : -1.0);
+            onLattice += std::atan2(angle.imaginary, angle.real) / kTurn;
+        }
     }
     // Snapped pieces and pieces differ by strips along their border, thinner than 1/256 voxel.
     const double exact = winding(set, p);
@@ -185,10 +231,10 @@ void LidField::forEachEdge(std::span<const std::uint32_t> set, Body&& body) cons
     for (std::size_t n = 0; n < set.size(); ++n) {
         const LidPiece& piece = pieces_[set[n]];
         // At the ends of the list of a ring its first and its last piece may be neighbours.
-        const bool hasPrevious = piece.previous < set[n]
-                                     ? n > 0 && set[n - 1] == piece.previous
-                                     : piece.previous != LidPiece::kNone &&
-                                           std::binary_search(set.begin(), set.end(), piece.previous);
+        const bool hasPrevious =
+            piece.previous < set[n]
+                ? n > 0 && set[n - 1] == piece.previous
+                : piece.previous != LidPiece::kNone && std::binary_search(set.begin(), set.end(), piece.previous);
         const bool hasNext = piece.next > set[n] ? n + 1 < set.size() && set[n + 1] == piece.next
                                                  : std::binary_search(set.begin(), set.end(), piece.next);
         if (!body(piece.from, piece.to)) return;

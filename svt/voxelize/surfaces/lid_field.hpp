@@ -46,18 +46,22 @@ struct Jet {
     }
 };
 
-/// A triangle of a lid, local space: the apex and an edge of the rim, from `from` to `to`.
+/// A part of a lid, local space: the triangle of the apex and a straight stretch of the rim, from `from` to `to`. It
+/// stands for one or more triangles of the lid.
 struct LidPiece {
     Vec3d apex, from, to;
-    std::uint32_t previous = 0, next = 0;  ///< pieces that share the sides apex-from and apex-to; kNone: an edge of the rim
-    double area = 0, length = 0;           ///< length: of its three sides
+    std::uint32_t previous = 0,
+                  next = 0;       ///< pieces that share the sides apex-from and apex-to; kNone: an edge of the rim
+    double area = 0, length = 0;  ///< length: of its three sides
+    std::uint32_t firstSide = 0, sideEnd = 0;  ///< its triangles on the lattice
     Box3d bounds;
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 };
 
-/// The same triangle on the lattice. Decides on which side of it a sample lies, exactly as the sweep does.
+/// A triangle of a lid on the lattice. Decides on which side of it a sample lies, exactly as the sweep does.
 struct LidSide {
     QuantaPoint corners[3] = {};
+    Vec3d local[3] = {};      ///< the corners, local space
     HeightPlane height;       // of a triangle that is not vertical
     bool isVertical = false;  // in the lattice: it has no area in plan
     bool looksUp = false;     // of a triangle that is not vertical
@@ -91,6 +95,7 @@ public:
                           double limit = kInfinity) const noexcept;
 
 private:
+    void addLoop(const CoveredShell& shell, const RimLoop& loop, const IndexMesh& lattice, std::int32_t depth);
     [[nodiscard]] double jetError(std::span<const std::uint32_t> set, Vec3d p, double radius) const noexcept;
     template <class Body>
     void forEachEdge(std::span<const std::uint32_t> set, Body&& body) const;
@@ -98,7 +103,6 @@ private:
     Vec3d origin_;
     Vec3d steps_[3];
     std::vector<LidPiece> pieces_;
-    std::vector<LidPiece> snapped_;  // the same pieces with their corners on the lattice
     std::vector<LidSide> sides_;
 };
 

@@ -19,9 +19,8 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> rimEdges(const mesh::Object
             const std::uint32_t from = triangle.corners[c], to = triangle.corners[c == 2 ? 0 : c + 1];
             if (from != to) uses.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
         }
-    std::sort(uses.begin(), uses.end(), [](const Use& p, const Use& q) {
-        return p.low != q.low ? p.low < q.low : p.high < q.high;
-    });
+    std::sort(uses.begin(), uses.end(),
+              [](const Use& p, const Use& q) { return p.low != q.low ? p.low < q.low : p.high < q.high; });
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (std::size_t u = 0; u < uses.size();) {
         const Use& first = uses[u];
@@ -37,8 +36,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> rimEdges(const mesh::Object
 
 // Chains the sorted edges into loops; calls `body(points)` for each.
 template <class Body>
-void forEachLoop(std::span<const std::pair<std::uint32_t, std::uint32_t>> edges, std::size_t vertexCount,
-                 Body&& body) {
+void forEachLoop(std::span<const std::pair<std::uint32_t, std::uint32_t>> edges, std::size_t vertexCount, Body&& body) {
     constexpr std::uint32_t kOff = 0xFFFFFFFFu;
     std::vector<std::uint32_t> next(vertexCount + 1, 0);  // per vertex: its first edge not walked yet
     for (const auto& edge : edges) ++next[edge.first + 1];

@@ -1,7 +1,7 @@
 #include <svt/voxelize/surfaces/winding.hpp>
 
-#include <svt/voxelize/surfaces/lid_samples.hpp>
 #include <svt/voxelize/surfaces/disjoint_boxes.hpp>
+#include <svt/voxelize/surfaces/lid_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -97,10 +97,9 @@ private:
         samples.radius = 0;
         for (const double sx : {-1.0, 1.0})
             for (const double sy : {-1.0, 1.0})
-                samples.radius =
-                    std::max(samples.radius, length(field_.step(0) * (sx * samples.half.x) +
-                                                    field_.step(1) * (sy * samples.half.y) +
-                                                    field_.step(2) * samples.half.z));
+                samples.radius = std::max(
+                    samples.radius, length(field_.step(0) * (sx * samples.half.x) +
+                                           field_.step(1) * (sy * samples.half.y) + field_.step(2) * samples.half.z));
         return true;
     }
 
@@ -137,7 +136,8 @@ private:
             const double away = distanceToBox(samples.local, piece.bounds) - samples.radius;
             if (away > 0) {
                 const double inverse = 1 / away, squared = inverse * inverse;
-                const double error = kScale * cubed * squared * squared * std::min(piece.length, 4 * piece.area * inverse);
+                const double error =
+                    kScale * cubed * squared * squared * std::min(piece.length, 4 * piece.area * inverse);
                 if (error <= foldError(block.size)) {
                     folded_.push_back(number);
                     continue;
@@ -187,6 +187,8 @@ private:
         if (!hasLids && std::abs(block.far.value) + spread(block.far, samples) + nearBound < 0.25) return;
         if (block.size > kLargestLeaf) return halve(block);
         if (block.size <= kSmallest) return evaluateAll(block, samples);
+        constexpr std::size_t kMany = 40;  // pieces: smaller blocks will have fewer
+        if (block.size == kLargestLeaf && nearOf(block).size() > kMany) return halve(block);
         constexpr double kUseless = 0.1;  // an error that decides nothing
         Jet jet = field_.jet(nearOf(block), samples.local, samples.radius, kUseless);
         jet += block.far;
@@ -238,7 +240,7 @@ private:
 
     // Adds the runs of equal deltas_ of each column.
     void addDeltas(const Samples& samples) {
-        const std::int32_t *delta = deltas_;
+        const std::int32_t* delta = deltas_;
         for (std::int32_t j = 0; j < samples.count.y; ++j)
             for (std::int32_t i = 0; i < samples.count.x; ++i) {
                 for (std::int32_t k = 0; k < samples.count.z;) {
@@ -255,7 +257,8 @@ private:
     struct Polynomial {
         double value, gx, gy, gz, xx, yy, zz, yz, xz, xy;
         Vec3d half;
-        Polynomial(const Jet& jet, const Samples& samples, const LidField& field) : value(jet.value), half(samples.half) {
+        Polynomial(const Jet& jet, const Samples& samples, const LidField& field)
+            : value(jet.value), half(samples.half) {
             const Vec3d x = field.step(0), y = field.step(1), z = field.step(2);
             const Vec3d hx = jet.hessianTimes(x), hy = jet.hessianTimes(y), hz = jet.hessianTimes(z);
             gx = dot(jet.gradient, x);

@@ -76,7 +76,7 @@ private:
     IndexMesh lattice_;
     std::unique_ptr<LidField> field_;
     std::vector<LidTriangle> lids_;  // as the pieces of field_
-    Vec3i begin_{}, end_{};  // samples inside the bounding box
+    Vec3i begin_{}, end_{};          // samples inside the bounding box
     std::uint32_t claim_;
     std::vector<Part> parts_;
 };

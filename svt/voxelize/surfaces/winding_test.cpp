@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include <ctime>
 #include <cstdio>
+#include <ctime>
 #include <random>
 
 namespace svt::voxelize {
@@ -26,88 +26,6 @@ Grid gridAround(const mesh::MeshSet& meshes, Vec3i dimension) {
 }
 
 std::vector<ObjectClaim> oneClaim() { return {{1, 3, "object"}}; }
-
-TEST(WindingFill, LidsAtSamples) {
-    // The missing sides lie at samples, which are 1/512 voxel beyond the whole numbers, or up to 1/512 voxel beside them.
-    for (const double shift : {0.0, 1 / 512.0, 2 / 512.0})
-        for (const auto& sides : {std::array<std::size_t, 2>{0, 1}, {2, 4}, {3, 5}, {1, 2}})
-            for (const bool hasOther : {false, true}) {
-                auto open = withoutTriangles(
-                    box(Vec3d{2, 3, 2} + Vec3d{shift, shift, shift}, Vec3d{16, 15, 14} + Vec3d{shift, shift, shift}),
-                    [&](std::size_t t) { return t / 2 == sides[0] || (hasOther && t / 2 == sides[1]); });
-                expectLikeSum(std::move(open), {0, 0, 0});
-            }
-    // A wall that stands exactly on samples: x + y of its corners is 2/512 more than a whole number, as that of samples.
-    for (const std::size_t wall : {0u, 1u, 2u, 3u}) {
-        const double x = 9 + 2 / 512.0, y = 9;
-        auto open = withoutTriangles(test::prism({{x + 6, y}, {x, y + 6}, {x - 6, y}, {x, y - 6}}, 2, 13),
-                                     [&](std::size_t t) {
-                                         const std::size_t first[4] = {0, 2, 6, 10};
-                                         return t == first[wall] || t == first[wall] + 1;
-                                     });
-        expectLikeSum(std::move(open), {0, 0, 0});
-    }
-}
-
-TEST(WindingFill, RimsThatBranch) {
-    // A ball with every second triangle, so that its holes meet at their corners.
-    expectLikeSum(withoutTriangles(ball({1, 1, 1}, 0.9, 14), [](std::size_t t) { return t % 2 == 1 && t % 5 != 0; }),
-                  {37, 31, 33});
-    // A box without its upper side, some triangles of which are there twice, and with a wall within.
-    auto open = box({0, 0, 0}, {2, 1.7, 1.3});
-    test::addTriangle(open, 0, 1, 5);
-    test::addTriangle(open, 0, 1, 5);
-    test::addTriangle(open, 0, 2, 6);
-    expectLikeSum(withoutTriangles(std::move(open), [](std::size_t t) { return t == 6; }), {37, 31, 33});
-}
-
-TEST(WindingFill, ManySamplesOfLargeGrids) {
-    for (const double degrees : {0.0, 23.0}) {
-        const auto meshes = meshSetOf({houseWithHoles(8, 4, 2, degrees)});
-        const Grid grid = gridAround(meshes, {203, 187, 151});
-        const auto result = voxelize(meshes, grid, oneClaim());
-        ASSERT_TRUE(result);
-        const IndexFromLocal indexFromLocal(meshes, grid);
-        std::mt19937 random(7);
-        int inside = 0;
-        const auto check = [&](Vec3i at) {
-            constexpr double kShift = 1.0 / 512;
-            const Vec3d p = grid.worldFromIndex({at.x + kShift, at.y + kShift, at.z + kShift}) - meshes.origin;
-            const double w = windingNumber(meshes.objects[0], p);
-            const bool isInside = result->columns.scalarAt(at.x, at.y, at.z) != 0;
-            inside += isInside;
-            if (std::abs(w - 0.5) < 1e-6 || isInside == (w > 0.5)) return;
-            EXPECT_LT(distanceToShell(meshes.objects[0], indexFromLocal, p), 1.0 / 128)
-                << at.x << ' ' << at.y << ' ' << at.z << " winding number " << w;
-        };
-        for (int n = 0; n < 500; ++n) {
-            const Vec3i at{int(random() % 203), int(random() % 187), int(random() % 151)};
-            check(at);
-            // The samples on both sides of all changes of this column.
-            for (int k = 1; k < 151; ++k)
-                if ((result->columns.scalarAt(at.x, at.y, k) != 0) != (result->columns.scalarAt(at.x, at.y, k - 1) != 0)) {
-                    check({at.x, at.y, k - 1});
-                    check({at.x, at.y, k});
-                }
-        }
-        EXPECT_GT(inside, 300);
-    }
-}
-
-TEST(WindingFill, EveryInstructionSetGivesTheSameBits) {
-    const auto meshes = meshSetOf({houseWithHoles(6, 3, 1, 17)});
-    const Grid grid = gridAround(meshes, {61, 53, 47});
-    const auto best = voxelize(meshes, grid, oneClaim());
-    ASSERT_TRUE(best);
-    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        hwy::SetSupportedTargetsForTest(target);
-        const auto result = voxelize(meshes, grid, oneClaim());
-        hwy::SetSupportedTargetsForTest(0);
-        ASSERT_TRUE(result);
-        EXPECT_TRUE(result->columns == best->columns);
-        EXPECT_EQ(result->uncertainVoxels, best->uncertainVoxels);
-    }
-}
 
 // Processor time, one thread.
 double secondsOf(const mesh::MeshSet& meshes, const Grid& grid, int repeats) {
@@ -169,9 +87,10 @@ Comparison compareWithSum(const mesh::MeshSet& meshes, const Grid& grid, const V
                     comparison.onLimit += std::abs(toHalf - 0.25) < 0.011;
                 }
                 if (std::abs(w - 0.5) < 1e-6) continue;
+                const bool isInside = w > 0.5 && mesh.bounds.contains(p);
                 ++comparison.compared;
-                comparison.inside += w > 0.5;
-                if ((result.columns.scalarAt(i, j, k) != 0) == (w > 0.5)) continue;
+                comparison.inside += isInside;
+                if ((result.columns.scalarAt(i, j, k) != 0) == isInside) continue;
                 if (distanceToShell(mesh, indexFromLocal, p) < 1.0 / 128) continue;
                 if (++comparison.wrong <= 5)
                     ADD_FAILURE() << i << ' ' << j << ' ' << k << " winding number " << w << " is "
@@ -195,7 +114,7 @@ void expectLikeSum(const mesh::ObjectMesh& open, Vec3i dimension, int stride = 1
     const Comparison comparison = compareWithSum(meshes, grid, *result, stride);
     EXPECT_EQ(comparison.wrong, 0);
     EXPECT_GT(comparison.inside, comparison.compared / 10);
-    if (stride == 1) {
+    if (stride == 1 && dimension.x > 0) {
         EXPECT_NEAR(double(result->uncertainVoxels[0]), double(comparison.uncertain), double(comparison.onLimit));
     }
     VoxelizeOptions oneThread;
@@ -229,6 +148,89 @@ TEST(WindingFill, HugeCaps) {
                       {43, 41, 39});
 }
 
+TEST(WindingFill, LidsAtSamples) {
+    // The missing sides lie at samples, which are 1/512 voxel beyond the whole numbers, or up to 1/512 voxel beside them.
+    for (const double shift : {0.0, 1 / 512.0, 2 / 512.0})
+        for (const auto& sides : {std::array<std::size_t, 2>{0, 1}, {2, 4}, {3, 5}, {1, 2}})
+            for (const bool hasOther : {false, true}) {
+                auto open = withoutTriangles(
+                    box(Vec3d{2, 3, 2} + Vec3d{shift, shift, shift}, Vec3d{16, 15, 14} + Vec3d{shift, shift, shift}),
+                    [&](std::size_t t) { return t / 2 == sides[0] || (hasOther && t / 2 == sides[1]); });
+                expectLikeSum(std::move(open), {0, 0, 0});
+            }
+    // A wall that stands exactly on samples: x + y of its corners is 2/512 more than a whole number, as that of samples.
+    for (const std::size_t wall : {0u, 1u, 2u, 3u}) {
+        const double x = 9 + 2 / 512.0, y = 9;
+        auto open =
+            withoutTriangles(test::prism({{x + 6, y}, {x, y + 6}, {x - 6, y}, {x, y - 6}}, 2, 13), [&](std::size_t t) {
+                const std::size_t first[4] = {0, 2, 6, 10};
+                return t == first[wall] || t == first[wall] + 1;
+            });
+        expectLikeSum(std::move(open), {0, 0, 0});
+    }
+}
+
+TEST(WindingFill, RimsThatBranch) {
+    // A ball with every second triangle, so that its holes meet at their corners.
+    expectLikeSum(withoutTriangles(ball({1, 1, 1}, 0.9, 14), [](std::size_t t) { return t % 2 == 1 && t % 5 != 0; }),
+                  {37, 31, 33});
+    // A box without its upper side, some triangles of which are there twice, and with a wall within.
+    auto open = box({0, 0, 0}, {2, 1.7, 1.3});
+    test::addTriangle(open, 0, 1, 5);
+    test::addTriangle(open, 0, 1, 5);
+    test::addTriangle(open, 0, 2, 6);
+    expectLikeSum(withoutTriangles(std::move(open), [](std::size_t t) { return t == 6; }), {37, 31, 33});
+}
+
+TEST(WindingFill, ManySamplesOfLargeGrids) {
+    for (const double degrees : {0.0, 23.0}) {
+        const auto meshes = meshSetOf({houseWithHoles(8, 4, 2, degrees)});
+        const Grid grid = gridAround(meshes, {203, 187, 151});
+        const auto result = voxelize(meshes, grid, oneClaim());
+        ASSERT_TRUE(result);
+        const IndexFromLocal indexFromLocal(meshes, grid);
+        std::mt19937 random(7);
+        int inside = 0;
+        const auto check = [&](Vec3i at) {
+            constexpr double kShift = 1.0 / 512;
+            const Vec3d p = grid.worldFromIndex({at.x + kShift, at.y + kShift, at.z + kShift}) - meshes.origin;
+            const double w = windingNumber(meshes.objects[0], p);
+            const bool isInside = result->columns.scalarAt(at.x, at.y, at.z) != 0;
+            inside += isInside;
+            if (std::abs(w - 0.5) < 1e-6 || isInside == (w > 0.5)) return;
+            EXPECT_LT(distanceToShell(meshes.objects[0], indexFromLocal, p), 1.0 / 128)
+                << at.x << ' ' << at.y << ' ' << at.z << " winding number " << w;
+        };
+        for (int n = 0; n < 500; ++n) {
+            const Vec3i at{int(random() % 203), int(random() % 187), int(random() % 151)};
+            check(at);
+            // The samples on both sides of all changes of this column.
+            for (int k = 1; k < 151; ++k)
+                if ((result->columns.scalarAt(at.x, at.y, k) != 0) !=
+                    (result->columns.scalarAt(at.x, at.y, k - 1) != 0)) {
+                    check({at.x, at.y, k - 1});
+                    check({at.x, at.y, k});
+                }
+        }
+        EXPECT_GT(inside, 300);
+    }
+}
+
+TEST(WindingFill, EveryInstructionSetGivesTheSameBits) {
+    const auto meshes = meshSetOf({houseWithHoles(6, 3, 1, 17)});
+    const Grid grid = gridAround(meshes, {61, 53, 47});
+    const auto best = voxelize(meshes, grid, oneClaim());
+    ASSERT_TRUE(best);
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        hwy::SetSupportedTargetsForTest(target);
+        const auto result = voxelize(meshes, grid, oneClaim());
+        hwy::SetSupportedTargetsForTest(0);
+        ASSERT_TRUE(result);
+        EXPECT_TRUE(result->columns == best->columns);
+        EXPECT_EQ(result->uncertainVoxels, best->uncertainVoxels);
+    }
+}
+
 TEST(WindingFill, DISABLED_Profile) {
     const auto open = meshSetOf({houseWithHoles(24, 12, 4, 17)});
     const Grid grid = gridAround(open, {300, 300, 200});
@@ -243,9 +245,11 @@ TEST(WindingFill, DISABLED_Timing) {
             for (const Vec3i dimension : {Vec3i{300, 300, 200}, Vec3i{800, 700, 400}}) {
                 const Grid grid = gridAround(closed, dimension);
                 const double a = secondsOf(closed, grid, 5), b = secondsOf(open, grid, 2);
-                std::printf("degrees %2.0f pitch %2d size %2d edges %5zu  %d x %d x %d  closed %8.2f ms open %9.2f ms  x %.2f\n",
-                            degrees, pitch, size, open.objects[0].openEdges.size(), dimension.x, dimension.y,
-                            dimension.z, a * 1e3, b * 1e3, b / a);
+                std::printf(
+                    "degrees %2.0f pitch %2d size %2d edges %5zu  %d x %d x %d  closed %8.2f ms open %9.2f ms  x "
+                    "%.2f\n",
+                    degrees, pitch, size, open.objects[0].openEdges.size(), dimension.x, dimension.y, dimension.z,
+                    a * 1e3, b * 1e3, b / a);
                 std::fflush(stdout);
             }
         }
