@@ -53,7 +53,14 @@ std::string describe(Vec3d world) { return fmt::format("({:.3f}, {:.3f}, {:.3f})
 
 void judge(const Triangulation& result, const model::Polygon& polygon, std::vector<Finding>& findings) {
     const std::string at = polygon.points.empty() ? "" : " near " + describe(polygon.points[0]);
-    if (result.hasFailed)
+    if (result.crossesTooOften)
+        findings.push_back(
+            {Severity::Warning, Code::TriangulationFailed,
+             fmt::format(
+                 "the rings of a polygon of {} points cross themselves or each other in more than {} places; it is "
+                 "left out{}. Its points are probably out of order: export them along the outline",
+                 polygon.points.size(), maxCrossings(polygon.points.size()), at)});
+    else if (result.hasFailed)
         findings.push_back(
             {Severity::Warning, Code::TriangulationFailed, "a polygon cannot be triangulated and is left out" + at});
     else if (result.isZeroArea && result.triangles.empty())
@@ -61,7 +68,7 @@ void judge(const Triangulation& result, const model::Polygon& polygon, std::vect
     else if (result.isZeroArea)
         findings.push_back(
             {Severity::Note, Code::ZeroArea, "a triangle has no area; it counts for the closing test only" + at});
-    if (result.isSelfTouching)
+    if (result.isSelfTouching && !result.hasFailed)
         findings.push_back(
             {Severity::Warning, Code::SelfTouchingRing, "the rings of a polygon touch or cross themselves" + at});
     if (result.planeDeviation > kReportedDeviation)
@@ -151,7 +158,7 @@ LocalPolygons prepareLocalPolygons(const model::BuildingModel& model, const std:
     std::vector<Triangulation> results(count);
     parallelFor(count, 256, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
-            if (out.pointCount[p] != 0)
+            if (out.pointCount[p] != 0 && !Progress::isCancelled(options.progress))
                 results[p] =
                     triangulatePolygon(std::span<const Vec3d>(out.points).subspan(out.firstPoint[p], out.pointCount[p]),
                                        model.polygons[p].ringEnds);

@@ -1,3 +1,5 @@
+#include <svt/mesh/polygons/flat_edges.hpp>
+#include <svt/mesh/polygons/sweep.hpp>
 #include <svt/mesh/polygons/triangulate.hpp>
 
 #include <GL/glu.h>
@@ -102,6 +104,84 @@ void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ri
     }
 }
 
+// The points of a polygon in the coordinate plane that its normal is nearest to, on a grid of 2^50 steps across at least:
+// a nanometre for a polygon of a thousand kilometres. The same projection as GLU's.
+std::vector<FlatGraph::Vertex> flatten(std::span<const Vec3d> points, Vec3d normal) {
+    const Vec3d size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    int axis = size.y > size.x ? 1 : 0;
+    if (size.z > size[axis]) axis = 2;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    double extent = 0;
+    for (const Vec3d& point : points)
+        extent = std::max({extent, std::abs(point[u] - points[0][u]), std::abs(point[v] - points[0][v])});
+    if (!(extent > 0) || !std::isfinite(extent)) return {};
+    const int shift = 48 - std::ilogb(extent);
+    const auto steps = [&](double length) { return static_cast<std::int64_t>(std::llrint(std::ldexp(length, shift))); };
+    std::vector<FlatGraph::Vertex> vertices(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        const std::int64_t y = steps(points[i][v] - points[0][v]);
+        vertices[i] = {{steps(points[i][u] - points[0][u]), normal[axis] < 0 ? -y : y}, i};
+    }
+    return vertices;
+}
+
+// The edges of the rings, tidy; without vertices if the polygon has no extent.
+FlatGraph flatGraph(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal) {
+    FlatGraph graph;
+    graph.vertices = flatten(points, normal);
+    if (graph.vertices.empty()) return graph;
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : ringEnds) {
+        if (end - begin >= 3)
+            for (std::uint32_t i = begin; i < end; ++i) graph.edges.push_back({i, i + 1 == end ? begin : i + 1});
+        begin = end;
+    }
+    graph.tidy();
+    return graph;
+}
+
+void triangulateBySweep(FlatGraph graph, std::span<const Vec3d> points, Triangulation& result) {
+    using Ends = std::pair<std::uint32_t, std::uint32_t>;
+    const auto makePoint = [&](Ends first, double t, Ends second, double u) {
+        const auto at = [&](std::uint32_t point) {
+            return point < points.size() ? points[point] : result.extraPoints[point - points.size()];
+        };
+        const auto onEdge = [&](Ends ends, double fraction) {
+            return at(ends.first) + (at(ends.second) - at(ends.first)) * fraction;
+        };
+        result.extraPoints.push_back((onEdge(first, t) + onEdge(second, u)) * 0.5);
+        return static_cast<std::uint32_t>(points.size() + result.extraPoints.size() - 1);
+    };
+    result.crossesTooOften = !cutCrossings(graph, maxCrossings(points.size()), makePoint);
+    result.hasFailed = result.crossesTooOften || graph.vertices.empty();
+    result.isSelfTouching = graph.isTouching;
+    if (!result.hasFailed) result.triangles = triangulateInside(graph);
+}
+
+// GLU adds crossings one by one, each with a search through all edges.
+bool crossesTooOften(FlatGraph graph, std::size_t pointCount) {
+    const auto noPoint = [](auto, double, auto, double) { return std::uint32_t{0}; };
+    return !cutCrossings(graph, maxCrossings(pointCount), noPoint);
+}
+
+void triangulateRings(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal,
+                      TriangulateBy by, Triangulation& result) {
+    if (by == TriangulateBy::PointCount && points.size() > kMaxGluPoints) by = TriangulateBy::Sweep;
+    if (by == TriangulateBy::Sweep) {
+        triangulateBySweep(flatGraph(points, ringEnds, normal), points, result);
+    } else {
+        if (by == TriangulateBy::PointCount && points.size() > kMaxUncountedPoints)
+            result.crossesTooOften = crossesTooOften(flatGraph(points, ringEnds, normal), points.size());
+        if (result.crossesTooOften)
+            result.hasFailed = result.isSelfTouching = true;
+        else
+            tessellate(points, ringEnds, normal, result);
+    }
+    if (!result.hasFailed) return;
+    result.triangles.clear();
+    result.extraPoints.clear();
+}
+
 }  // namespace
 
 Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
@@ -114,7 +194,8 @@ Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
     return normal;
 }
 
-Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds) {
+Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds,
+                                 TriangulateBy by) {
     Triangulation result;
     if (ringEnds.empty() || ringEnds[0] < 3) {
         result.isZeroArea = true;
@@ -138,8 +219,7 @@ Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const 
         result.triangles = {{0, 1, 2}, {0, 2, 3}};
         return result;
     }
-    tessellate(points, ringEnds, unit, result);
-    if (result.hasFailed) result.triangles.clear();
+    triangulateRings(points, ringEnds, unit, by, result);
     if (result.triangles.empty() && !result.hasFailed) result.isZeroArea = true;
     return result;
 }

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Triangulates polygons with holes. Uses the GLU tessellator with the odd winding rule, so that a hole with the wrong
-/// orientation is still a hole, and a ring that crosses itself still gets an area.
+/// Triangulates polygons with holes by the odd winding rule, so that a hole with the wrong orientation is still a hole,
+/// and a ring that crosses itself still gets an area. The GLU tessellator does it for polygons as buildings have them; it
+/// is quadratic in their points, so those of many points have a sweep of our own.
 
 #include <svt/core/vec.hpp>
 
@@ -17,10 +18,24 @@ namespace svt::mesh {
 struct Triangulation {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< same orientation as the exterior ring
     std::vector<Vec3d> extraPoints;
-    double planeDeviation = 0;    ///< largest distance of a point from the polygon's mean plane, metres
-    bool isZeroArea = false;      ///< all points are collinear; a triangle is kept for its edges, others are dropped
-    bool isSelfTouching = false;  ///< rings touch or cross themselves or each other
-    bool hasFailed = false;       ///< the tessellator gave up
+    double planeDeviation = 0;     ///< largest distance of a point from the polygon's mean plane, metres
+    bool isZeroArea = false;       ///< all points are collinear; a triangle is kept for its edges, others are dropped
+    bool isSelfTouching = false;   ///< rings touch or cross themselves or each other
+    bool hasFailed = false;        ///< the tessellator gave up
+    bool crossesTooOften = false;  ///< it gave up since the rings cross in more than maxCrossings() places
+};
+
+/// Polygons of more points, of all rings, are triangulated by the sweep.
+inline constexpr std::size_t kMaxGluPoints = 400;
+
+/// In how many places the rings of a polygon may cross; of one of up to kMaxUncountedPoints points anywhere.
+inline constexpr std::size_t kMaxUncountedPoints = 64;
+[[nodiscard]] constexpr std::size_t maxCrossings(std::size_t pointCount) noexcept { return 2 * pointCount; }
+
+enum class TriangulateBy : std::uint8_t {
+    PointCount,  ///< GLU up to kMaxGluPoints points, else the sweep
+    Glu,         ///< for tests that compare the two
+    Sweep
 };
 
 /// Newell's normal of a ring: twice its area vector; robust for non-planar rings.
@@ -29,8 +44,9 @@ struct Triangulation {
 /// Triangulates one polygon. `ringEnds` as in model::Polygon: the first ring is the exterior one.
 /// Rings of fewer than three points are ignored. All points are used as corners, also those on a straight edge, so that
 /// neighbours that share an edge share its points.
-/// Cost: O(n log n); three points and convex quads take a shortcut.
+/// Cost: O(n log n), 1 s for a million points; three points and convex quads take a shortcut.
 /// Threads: no shared state.
-[[nodiscard]] Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds);
+[[nodiscard]] Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds,
+                                               TriangulateBy by = TriangulateBy::PointCount);
 
 }  // namespace svt::mesh
