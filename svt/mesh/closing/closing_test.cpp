@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <map>
+#include <random>
+#include <set>
+
 namespace svt::mesh {
 namespace {
 
@@ -122,6 +127,121 @@ TEST_F(Neighbours, HoleOfSeveralFacesIsClosedFaceByFace) {
     EXPECT_EQ(complement(), 2u);
     EXPECT_TRUE(mesh_.openEdges.empty());
     EXPECT_NEAR(signedVolume(mesh_.vertices, mesh_.triangles), 24, 1e-12);
+}
+
+// What complement() is meant to choose, written down plainly: the first polygon that closes more edges than it opens, again
+// and again. Returns the welded points of the corners of the faces that it adds.
+std::vector<std::array<std::uint32_t, 3>> expectedFaces(const model::BuildingModel& model,
+                                                        const LocalPolygons& polygons, const ObjectMesh& mesh,
+                                                        const std::vector<std::uint32_t>& pointIds,
+                                                        std::vector<model::PolygonIndex> taken) {
+    using Edge = std::pair<std::uint32_t, std::uint32_t>;
+    std::map<Edge, int> need;
+    std::set<Edge> open;
+    for (const OpenEdge& edge : mesh.openEdges) {
+        const std::uint32_t from = pointIds[edge.from], to = pointIds[edge.to];
+        ++need[{to, from}];
+        open.insert({{from, to}, {to, from}});
+    }
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (;;) {
+        model::PolygonIndex p = 0;
+        for (; p < model.polygons.size(); ++p) {
+            if (std::find(taken.begin(), taken.end(), p) != taken.end()) continue;
+            std::array<std::uint32_t, 3> corners{};
+            for (std::size_t c = 0; c < 3; ++c) corners[c] = polygons.pointIds[polygons.firstPoint[p] + c];
+            int gain = 0, reversedGain = 0;
+            bool isNear = false;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Edge edge{corners[c], corners[(c + 1) % 3]};
+                isNear = isNear || open.contains(edge);
+                gain += need[edge] > 0 ? 1 : -1;
+                reversedGain += need[{edge.second, edge.first}] > 0 ? 1 : -1;
+            }
+            if (!isNear || std::max(gain, reversedGain) <= 0) continue;
+            if (reversedGain > gain) std::swap(corners[1], corners[2]);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Edge edge{corners[c], corners[(c + 1) % 3]};
+                if (need[edge] > 0)
+                    --need[edge];
+                else
+                    ++need[{edge.second, edge.first}];
+            }
+            faces.push_back(corners);
+            taken.push_back(p);
+            break;
+        }
+        if (p == model.polygons.size()) return faces;
+    }
+}
+
+TEST_F(Neighbours, RandomFacesAreChosenInTheOrderOfTheFile) {
+    std::mt19937_64 random(11);
+    std::size_t added = 0;
+    for (int n = 0; n < 300; ++n) {
+        model_ = {};
+        mesh_ = {};
+        pointIds_.clear();
+        const std::uint64_t corners = 5 + random() % 6, count = 10 + random() % 80;
+        const auto pointAt = [](std::uint64_t i) {
+            return Vec3d{double(i), double(i * i % 7), double(i * i * i % 11)};
+        };
+        while (model_.polygons.size() < count) {
+            const std::uint64_t a = random() % corners, b = random() % corners, c = random() % corners;
+            if (a == b || b == c || a == c) continue;
+            for (std::uint64_t i = random() % 3; i < 3; ++i)
+                test::addRings(model_, {{pointAt(a), pointAt(b), pointAt(c)}});
+        }
+        prepare({0, 1, 2, 3, 4});
+        const auto expected = expectedFaces(model_, polygons_, mesh_, pointIds_, own_);
+        const std::size_t before = mesh_.triangles.size();
+        ASSERT_EQ(complement(), expected.size()) << n;
+        added += expected.size();
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            for (std::size_t c = 0; c < 3; ++c)
+                ASSERT_EQ(pointIds_[mesh_.triangles[before + i].corners[c]], expected[i][c]) << n;
+    }
+    EXPECT_GT(added, 500u);
+}
+
+TEST_F(Neighbours, CoincidentFacesOfVeryManyFeaturesTakeNoTime) {
+    // A box without its eastern face, and that face in 20,000 other features: each of them may be asked for it, too.
+    test::addBox(model_, {0, 0, 0}, {4, 3, 2}, {test::kEast});
+    constexpr std::uint32_t kCount = 20'000;
+    for (std::uint32_t i = 0; i < kCount; ++i)
+        test::addRings(model_, {test::boxRing({0, 0, 0}, {4, 3, 2}, test::kEast)});
+    prepare({0, 1, 2, 3, 4});
+    const auto start = std::chrono::steady_clock::now();
+    const FaceFinder finder(polygons_, model_);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        ObjectMesh mesh = mesh_;
+        std::vector<std::uint32_t> pointIds = pointIds_;
+        ASSERT_EQ(finder.complement(mesh, pointIds, own_), 1u);
+        ASSERT_TRUE(mesh.openEdges.empty());
+    }
+    // 0.3 s on a slow machine; an hour where each asks all.
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
+}
+
+TEST_F(Neighbours, ManyFacesAtOneEdgeTakeNoTime) {
+    // The pages of a book share one edge with each of its boxes.
+    test::addBox(model_, {0, 0, 0}, {4, 3, 2}, {test::kEast});
+    test::addRings(model_, {test::boxRing({0, 0, 0}, {4, 3, 2}, test::kEast)});
+    constexpr std::uint32_t kPages = 20'000;
+    for (std::uint32_t i = 0; i < kPages; ++i) {
+        const Vec3d out{5 + i * 1e-3, -1, 0};
+        test::addRings(model_, {{{4, 0, 0}, {4, 0, 2}, out + Vec3d{0, 0, 2}, out}});
+    }
+    prepare({0, 1, 2, 3, 4});
+    const auto start = std::chrono::steady_clock::now();
+    const FaceFinder finder(polygons_, model_);
+    for (std::uint32_t i = 0; i < kPages; ++i) {
+        ObjectMesh mesh = mesh_;
+        std::vector<std::uint32_t> pointIds = pointIds_;
+        ASSERT_EQ(finder.complement(mesh, pointIds, own_), 1u);
+        ASSERT_TRUE(mesh.openEdges.empty());
+    }
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10);
 }
 
 }  // namespace
