@@ -9,6 +9,10 @@ namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
 
+// Boxes that the rays of one mesh may be tested against: those of a building take 10 to 200 each. Where thin triangles
+// lie across each other's boxes, as in a star of many thousand spikes, each ray meets all of them.
+constexpr std::uint64_t kFreeTests = std::uint64_t{1} << 27, kMaxTestsPerFace = 1024;
+
 struct Node {
     Box3d box;
     std::uint32_t begin = 0, end = 0;  // faces below the node; tested in leaves
@@ -91,6 +95,7 @@ void measureThickness(ObjectMesh& mesh) {
     nodes.reserve(faces.size());
     build(nodes, faces, 0, static_cast<std::uint32_t>(faces.size()));
 
+    std::uint64_t testsLeft = kFreeTests + kMaxTestsPerFace * faces.size();
     std::vector<std::uint32_t> stack;
     for (const Face& face : faces) {
         const Vec3d direction = -face.unitNormal;
@@ -101,6 +106,8 @@ void measureThickness(ObjectMesh& mesh) {
             const std::uint32_t index = stack.back();
             stack.pop_back();
             const Node& node = nodes[index];
+            if (testsLeft == 0) return;  // the faces that are left stay unknown, this one too
+            --testsLeft;
             if (!hitsBox(node.box, face.center, inverse, nearest)) continue;
             if (node.right != 0) {
                 stack.push_back(node.right);

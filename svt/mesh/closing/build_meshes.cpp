@@ -217,6 +217,7 @@ std::uint32_t removeDoubledTriangles(std::vector<Triangle>& triangles) {
 
 struct Work {
     Gathered gathered;
+    bool hasUncutJunctions = false;  // points are left on edges of others
     bool isClosedAsRead = false;
 };
 
@@ -226,7 +227,8 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
     mesh.unmatchedEdges = static_cast<std::uint32_t>(mesh.openEdges.size());
     if (!mesh.openEdges.empty()) {
         work.gathered.duplicateFaces += removeDoubledTriangles(mesh.triangles);
-        mesh.tJunctionCount = cutAtTJunctions(mesh.vertices, mesh.triangles, options.tJunctionDistance);
+        mesh.tJunctionCount =
+            cutAtTJunctions(mesh.vertices, mesh.triangles, options.tJunctionDistance, &work.hasUncutJunctions);
         mesh.openEdges = findOpenEdges(mesh.triangles);
     }
     if (!mesh.openEdges.empty()) {
@@ -344,7 +346,8 @@ std::string leakText(const ObjectMesh& mesh, Vec3d origin) {
     return text + (mesh.leakCount > 3 ? ", ..." : "");
 }
 
-void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work, Vec3d origin, Diagnostics& log) {
+void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work, const MeshOptions& options,
+            Vec3d origin, Diagnostics& log) {
     const Feature& feature = model.features[mesh.feature];
     const Place place{model.source, feature.line, 0, feature.id};
     const std::string leaks = leakText(mesh, origin);
@@ -352,6 +355,12 @@ void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work
         log.add(Severity::Warning, Code::DuplicateFace,
                 fmt::format("{} faces or triangles occur twice in the shell; each is used once",
                             work.gathered.duplicateFaces),
+                place);
+    if (work.hasUncutJunctions)
+        log.add(Severity::Warning, Code::TJunction,
+                fmt::format("edges were cut at points of others until it was no use: {} times, and points still lie on "
+                            "edges; faces probably overlap, or edges lie within {:g} m of each other",
+                            mesh.tJunctionCount, options.tJunctionDistance),
                 place);
     switch (mesh.closure) {
         case Closure::Closed:
@@ -430,7 +439,7 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     });
     for (std::size_t i = 0; i < meshes.objects.size(); ++i) {
         meshes.bounds.add(meshes.objects[i].bounds);
-        if (log != nullptr) report(model, meshes.objects[i], work[i], meshes.origin, *log);
+        if (log != nullptr) report(model, meshes.objects[i], work[i], options, meshes.origin, *log);
     }
     std::erase_if(meshes.objects, [](const ObjectMesh& mesh) { return mesh.triangles.empty(); });
     if (meshes.objects.empty())

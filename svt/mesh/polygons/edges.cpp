@@ -1,11 +1,18 @@
 #include <svt/mesh/polygons/edges.hpp>
 
+#include <svt/mesh/polygons/box_tree.hpp>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <tuple>
+#include <unordered_map>
 
 namespace svt::mesh {
 namespace {
+
+constexpr std::size_t kMaxDoubledVisits = std::size_t{1} << 28;  // of removeDoubledFaces()
 
 // A use of an edge by a triangle: the undirected edge, the triangle, and whether it runs from `low` to `high`.
 struct EdgeUse {
@@ -59,139 +66,83 @@ struct UnionFind {
     }
 };
 
-// Fraction of `point` along a-b if it lies within `distance` of the interior of the edge; else < 0.
-double fractionOnEdge(Vec3d point, Vec3d a, Vec3d b, double distance) {
-    const Vec3d along = b - a;
-    const double squared = dot(along, along);
-    if (!(squared > 0)) return -1;
-    const double t = dot(point - a, along) / squared;
-    const double margin = distance / std::sqrt(squared);
-    if (t <= margin || t >= 1 - margin) return -1;
-    return length(point - (a + along * t)) <= distance ? t : -1;
-}
-
-struct EdgeCut {
-    std::uint32_t from, to, point;
-    double fraction;
-};
-
-// Finds ends of open edges that lie on other open edges. Points are sorted along x, so that each edge tests only those
-// in its x range.
-std::vector<EdgeCut> findCuts(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& open, double distance) {
-    std::vector<std::uint32_t> points;
-    for (const OpenEdge& edge : open) {
-        points.push_back(edge.from);
-        points.push_back(edge.to);
-    }
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-        return vertices[a].x != vertices[b].x ? vertices[a].x < vertices[b].x : a < b;
-    };
-    std::sort(points.begin(), points.end(), before);
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-
-    std::vector<EdgeCut> cuts;
-    std::pair<std::uint32_t, std::uint32_t> previous{0, 0};
-    for (const OpenEdge& edge : open) {
-        const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(edge.from, edge.to);
-        if (key == previous && !cuts.empty()) continue;
-        previous = key;
-        const Vec3d a = vertices[key.first], b = vertices[key.second];
-        const double low = std::min(a.x, b.x) - distance, high = std::max(a.x, b.x) + distance;
-        auto it = std::lower_bound(points.begin(), points.end(), low,
-                                   [&](std::uint32_t point, double x) { return vertices[point].x < x; });
-        for (; it != points.end() && vertices[*it].x <= high; ++it) {
-            if (*it == key.first || *it == key.second) continue;
-            const double fraction = fractionOnEdge(vertices[*it], a, b, distance);
-            if (fraction > 0) cuts.push_back({key.first, key.second, *it, fraction});
-        }
-    }
-    std::sort(cuts.begin(), cuts.end(), [](const EdgeCut& p, const EdgeCut& q) {
-        return std::tie(p.from, p.to, p.fraction, p.point) < std::tie(q.from, q.to, q.fraction, q.point);
-    });
-    cuts.erase(std::unique(cuts.begin(), cuts.end(),
-                           [](const EdgeCut& p, const EdgeCut& q) {
-                               return p.from == q.from && p.to == q.to && p.point == q.point;
-                           }),
-               cuts.end());
-    return cuts;
-}
-
-// A point on the border of a triangle, and a mask of the edges that it lies on (bit 0: from corner 0 to 1, ...).
-struct BorderPoint {
-    std::uint32_t vertex;
-    unsigned edges;
-};
-
-// The corners of a triangle and the cut points of its edges, as a ring.
-std::vector<BorderPoint> ringWithCuts(const Triangle& triangle, const std::vector<EdgeCut>& cuts) {
-    std::vector<BorderPoint> ring;
-    for (unsigned c = 0; c < 3; ++c) {
-        const std::uint32_t a = triangle.corners[c];
-        const std::uint32_t b = triangle.corners[(c + 1) % 3];
-        ring.push_back({a, 1u << c | 1u << (c + 2) % 3});
-        const auto key = std::minmax(a, b);
-        auto range = std::equal_range(
-            cuts.begin(), cuts.end(), EdgeCut{key.first, key.second, 0, 0},
-            [](const EdgeCut& p, const EdgeCut& q) { return std::tie(p.from, p.to) < std::tie(q.from, q.to); });
-        const std::size_t begin = ring.size();
-        for (auto it = range.first; it != range.second; ++it) ring.push_back({it->point, 1u << c});
-        if (a > b) std::reverse(ring.begin() + static_cast<std::ptrdiff_t>(begin), ring.end());
-    }
-    return ring;
-}
-
-// Triangulates a triangle with additional points on its border by ear clipping, largest ear first. An ear must not lie
-// on one edge, and the remaining points must not either, so that no triangle is degenerate.
-void emitCutTriangle(const std::vector<Vec3d>& vertices, std::vector<BorderPoint> ring, const Triangle& source,
-                     std::vector<Triangle>& out) {
-    const auto twiceArea = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        return length(cross(vertices[b] - vertices[a], vertices[c] - vertices[a]));
-    };
-    std::size_t notOn[3] = {0, 0, 0};  // per edge: count of points of the ring that are not on it
-    const auto count = [&](const BorderPoint& point, bool isAdded) {
-        for (unsigned e = 0; e < 3; ++e)
-            if ((point.edges >> e & 1u) == 0) isAdded ? ++notOn[e] : --notOn[e];
-    };
-    for (const BorderPoint& point : ring) count(point, true);
-    const auto isRestFlat = [&](const BorderPoint& without) {
-        for (unsigned e = 0; e < 3; ++e)
-            if (notOn[e] == ((without.edges >> e & 1u) == 0 ? 1u : 0u)) return true;
-        return false;
-    };
-    while (ring.size() > 3) {
-        const std::size_t n = ring.size();
-        std::size_t best = 0;
-        double bestArea = -1;
-        for (std::size_t i = 0; i < n; ++i) {
-            const BorderPoint &a = ring[(i + n - 1) % n], &b = ring[i], &c = ring[(i + 1) % n];
-            if ((a.edges & b.edges & c.edges) != 0 || isRestFlat(b)) continue;
-            const double area = twiceArea(a.vertex, b.vertex, c.vertex);
-            if (area > bestArea) {
-                bestArea = area;
-                best = i;
+// How often each edge of triangles is used, per direction.
+class EdgeCounts {
+public:
+    explicit EdgeCounts(const std::vector<Triangle>& triangles) : edgeOf_(triangles.size() * 3) {
+        const std::vector<EdgeUse> uses = collectEdgeUses(triangles);
+        forEachEdge(uses, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto& corners = triangles[uses[i].triangle].corners;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const std::uint32_t a = corners[c], b = corners[(c + 1) % 3];
+                    if (std::min(a, b) == uses[i].low && std::max(a, b) == uses[i].high)
+                        edgeOf_[uses[i].triangle * std::size_t{3} + c] = {
+                            static_cast<std::uint32_t>(counts_.size() / 2), a < b};
+                }
             }
-        }
-        Triangle ear = source;
-        ear.corners = {ring[(best + n - 1) % n].vertex, ring[best].vertex, ring[(best + 1) % n].vertex};
-        out.push_back(ear);
-        count(ring[best], false);
-        ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(best));
+            counts_.insert(counts_.end(), 2, 0);
+            for (std::size_t i = begin; i < end; ++i) ++counts_[counts_.size() - (uses[i].isForward ? 1 : 2)];
+        });
     }
-    Triangle last = source;
-    last.corners = {ring[0].vertex, ring[1].vertex, ring[2].vertex};
-    out.push_back(last);
-}
 
-// True if the centroid of `triangle` lies in one of `others` that is coplanar and faces the same way.
-bool isCovered(const std::vector<Vec3d>& vertices, const Triangle& triangle, const std::vector<Triangle>& others) {
-    constexpr double kSamePlane = 1e-4;
-    const auto corner = [&](const Triangle& t, std::size_t c) { return vertices[t.corners[c]]; };
-    const auto normalOf = [&](const Triangle& t) {
-        return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    // Uses of edge c of triangle t in its direction, and against it.
+    [[nodiscard]] int forward(std::uint32_t t, std::uint32_t c) const { return counts_[place(t, c, true)]; }
+    [[nodiscard]] int backward(std::uint32_t t, std::uint32_t c) const { return counts_[place(t, c, false)]; }
+
+    void remove(std::uint32_t t) {
+        for (std::uint32_t c = 0; c < 3; ++c) --counts_[place(t, c, true)];
+    }
+
+private:
+    struct Side {
+        std::uint32_t edge;
+        bool isForward;
     };
-    const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
-    const Vec3d unit = normalized(normalOf(triangle));
-    return std::any_of(others.begin(), others.end(), [&](const Triangle& other) {
+    [[nodiscard]] std::size_t place(std::uint32_t t, std::uint32_t c, bool isAlong) const {
+        const Side& side = edgeOf_[t * std::size_t{3} + c];
+        return side.edge * std::size_t{2} + (side.isForward == isAlong ? 1 : 0);
+    }
+
+    std::vector<Side> edgeOf_;  // per triangle, three
+    std::vector<int> counts_;   // per edge: uses from high to low, and from low to high
+};
+
+// Whether triangles are covered by others.
+class Cover {
+public:
+    Cover(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& others)
+        : vertices_(vertices), others_(others), tree_(boxesOf(vertices, others)) {}
+
+    // True if the centroid of `triangle` lies in one of the others that is coplanar and faces the same way.
+    [[nodiscard]] bool contains(const Triangle& triangle) const {
+        const Vec3d middle = (corner(triangle, 0) + corner(triangle, 1) + corner(triangle, 2)) / 3.0;
+        const Vec3d unit = normalized(normalOf(triangle));
+        return tree_.visit([&](const Box3d& box) { return box.contains(middle); },
+                           [&](std::uint32_t i) { return isIn(middle, unit, others_[i]); });
+    }
+
+private:
+    static constexpr double kSamePlane = 1e-4;
+
+    // As large as isIn() can hold in: normals may differ by 8 degrees, of which the tangent is 0.14.
+    static std::vector<Box3d> boxesOf(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles) {
+        std::vector<Box3d> boxes(triangles.size());
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            for (const std::uint32_t c : triangles[t].corners) boxes[t].add(vertices[c]);
+            const double margin = 2 * kSamePlane + 0.2 * length(boxes[t].size());
+            boxes[t].min = boxes[t].min - Vec3d{margin, margin, margin};
+            boxes[t].max = boxes[t].max + Vec3d{margin, margin, margin};
+        }
+        return boxes;
+    }
+
+    [[nodiscard]] Vec3d corner(const Triangle& t, std::size_t c) const { return vertices_[t.corners[c]]; }
+    [[nodiscard]] Vec3d normalOf(const Triangle& t) const {
+        return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    }
+
+    [[nodiscard]] bool isIn(Vec3d middle, Vec3d unit, const Triangle& other) const {
         if (std::abs(dot(middle - corner(other, 0), unit)) > kSamePlane) return false;
         if (!(dot(normalized(normalOf(other)), unit) > 0.99)) return false;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -199,33 +150,103 @@ bool isCovered(const std::vector<Vec3d>& vertices, const Triangle& triangle, con
             if (dot(cross(edge, middle - corner(other, c)), unit) < -1e-9 * length(edge)) return false;
         }
         return true;
-    });
-}
+    }
+
+    const std::vector<Vec3d>& vertices_;
+    const std::vector<Triangle>& others_;
+    BoxTree tree_;
+};
 
 void flip(Triangle& triangle) { std::swap(triangle.corners[1], triangle.corners[2]); }
 
-// Signed crossings of the ray from `point` towards +z with a component. A ray through an edge is not resolved; that is
-// good enough for a containment test.
-int windingAlongZ(Vec3d point, const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles,
-                  const std::vector<std::uint32_t>& members) {
-    int winding = 0;
-    for (const std::uint32_t t : members) {
-        const auto& c = triangles[t].corners;
-        const Vec3d p[3] = {vertices[c[0]] - point, vertices[c[1]] - point, vertices[c[2]] - point};
-        bool isInside[2] = {true, true};
-        for (int e = 0; e < 3; ++e) {
-            const Vec3d &a = p[e], &b = p[(e + 1) % 3];
-            const double side = a.x * b.y - b.x * a.y;
-            if (side < 0) isInside[0] = false;
-            if (side >= 0) isInside[1] = false;
-        }
-        if (!isInside[0] && !isInside[1]) continue;
-        const Vec3d normal = cross(p[1] - p[0], p[2] - p[0]);
-        if (normal.z == 0) continue;
-        if (dot(normal, p[0]) / normal.z > 0) winding += normal.z > 0 ? 1 : -1;
+// Signed crossings of the ray from `point` towards +z with a triangle: -1, 0 or 1. A ray through an edge is not resolved;
+// that is good enough for a containment test.
+int crossingAlongZ(Vec3d point, const std::vector<Vec3d>& vertices, const Triangle& triangle) {
+    const auto& c = triangle.corners;
+    const Vec3d p[3] = {vertices[c[0]] - point, vertices[c[1]] - point, vertices[c[2]] - point};
+    bool isInside[2] = {true, true};
+    for (int e = 0; e < 3; ++e) {
+        const Vec3d &a = p[e], &b = p[(e + 1) % 3];
+        const double side = a.x * b.y - b.x * a.y;
+        if (side < 0) isInside[0] = false;
+        if (side >= 0) isInside[1] = false;
     }
-    return winding;
+    if (!isInside[0] && !isInside[1]) return 0;
+    const Vec3d normal = cross(p[1] - p[0], p[2] - p[0]);
+    if (normal.z == 0 || !(dot(normal, p[0]) / normal.z > 0)) return 0;
+    return normal.z > 0 ? 1 : -1;
 }
+
+// The components of a mesh, and which of them enclose a point.
+class Components {
+public:
+    Components(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles)
+        : vertices_(vertices), triangles_(triangles) {
+        const std::vector<std::uint32_t> component = findComponents(triangles);
+        const std::size_t count =
+            component.empty() ? 0 : std::size_t{1} + *std::max_element(component.begin(), component.end());
+        members_.resize(count);
+        volume_.resize(count);
+        bounds_.resize(count);
+        trees_.resize(count);
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) members_[component[t]].push_back(t);
+        std::vector<Triangle> part;
+        for (std::size_t c = 0; c < count; ++c) {
+            part.clear();
+            for (const std::uint32_t t : members_[c]) {
+                part.push_back(triangles[t]);
+                for (const std::uint32_t corner : triangles[t].corners) bounds_[c].add(vertices[corner]);
+            }
+            volume_[c] = signedVolume(vertices, part);
+        }
+    }
+
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(members_.size()); }
+    [[nodiscard]] const std::vector<std::uint32_t>& members(std::uint32_t c) const { return members_[c]; }
+    [[nodiscard]] double volume(std::uint32_t c) const { return volume_[c]; }
+
+    // True if a component larger than `c` encloses it.
+    [[nodiscard]] bool isEnclosed(std::uint32_t c) {
+        const auto& corners = triangles_[members_[c][0]].corners;
+        const Vec3d probe = (vertices_[corners[0]] + vertices_[corners[1]] + vertices_[corners[2]]) / 3.0;
+        if (!boundsTree_) boundsTree_.emplace(bounds_);
+        return boundsTree_->visit([&](const Box3d& box) { return box.contains(probe); },
+                                  [&](std::uint32_t other) {
+                                      return other != c && std::abs(volume_[other]) > std::abs(volume_[c]) &&
+                                             windingAlongZ(probe, other) != 0;
+                                  });
+    }
+
+private:
+    [[nodiscard]] int windingAlongZ(Vec3d point, std::uint32_t c) {
+        const std::vector<std::uint32_t>& members = members_[c];
+        if (!trees_[c]) {
+            std::vector<Box3d> boxes(members.size());
+            for (std::size_t i = 0; i < members.size(); ++i)
+                for (const std::uint32_t corner : triangles_[members[i]].corners) boxes[i].add(vertices_[corner]);
+            trees_[c].emplace(std::move(boxes));
+        }
+        int winding = 0;
+        trees_[c]->visit(
+            [&](const Box3d& box) {
+                return point.x >= box.min.x && point.x <= box.max.x && point.y >= box.min.y && point.y <= box.max.y &&
+                       point.z <= box.max.z;
+            },
+            [&](std::uint32_t i) {
+                winding += crossingAlongZ(point, vertices_, triangles_[members[i]]);
+                return false;
+            });
+        return winding;
+    }
+
+    const std::vector<Vec3d>& vertices_;
+    const std::vector<Triangle>& triangles_;
+    std::vector<std::vector<std::uint32_t>> members_;
+    std::vector<double> volume_;
+    std::vector<Box3d> bounds_;
+    std::optional<BoxTree> boundsTree_;          // made when it is asked for
+    std::vector<std::optional<BoxTree>> trees_;  // of the triangles of each component, the same
+};
 
 }  // namespace
 
@@ -254,50 +275,26 @@ std::vector<OpenEdge> findOpenEdges(const std::vector<Triangle>& triangles) {
     return open;
 }
 
-std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance) {
-    std::uint32_t count = 0;
-    // A split can expose another point on an edge; a few rounds settle all.
-    for (int round = 0; round < 8; ++round) {
-        const std::vector<OpenEdge> open = findOpenEdges(triangles);
-        if (open.empty()) break;
-        const std::vector<EdgeCut> cuts = findCuts(vertices, open, distance);
-        if (cuts.empty()) break;
-        count += static_cast<std::uint32_t>(cuts.size());
-        std::vector<Triangle> result;
-        result.reserve(triangles.size() + cuts.size() * 2);
-        for (const Triangle& triangle : triangles) {
-            std::vector<BorderPoint> ring = ringWithCuts(triangle, cuts);
-            if (ring.size() == 3)
-                result.push_back(triangle);
-            else
-                emitCutTriangle(vertices, std::move(ring), triangle, result);
-        }
-        triangles = std::move(result);
-    }
-    return count;
-}
-
 std::uint32_t removeDoubledFaces(const std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;  // uses per directed edge
-    for (const Triangle& triangle : triangles)
-        for (std::size_t c = 0; c < 3; ++c) ++uses[{triangle.corners[c], triangle.corners[(c + 1) % 3]}];
+    EdgeCounts uses(triangles);
     std::vector<std::uint8_t> isGone(triangles.size(), 0);
     std::uint32_t removed = 0;
-    for (bool hasChanged = true; hasChanged;) {
+    // Each pass may make the next triangle of a chain superfluous; long chains against the order are cut short.
+    const std::size_t maxPasses = 8 + kMaxDoubledVisits / (triangles.size() + 1);
+    bool hasChanged = true;
+    for (std::size_t pass = 0; hasChanged && pass < maxPasses; ++pass) {
         hasChanged = false;
-        for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
             if (isGone[t]) continue;
             int excess = 0;
             bool isDoubled = false;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::uint32_t a = triangles[t].corners[c], b = triangles[t].corners[(c + 1) % 3];
-                const auto back = uses.find({b, a});
-                const int forward = uses[{a, b}], backward = back == uses.end() ? 0 : back->second;
+            for (std::uint32_t c = 0; c < 3; ++c) {
+                const int forward = uses.forward(t, c), backward = uses.backward(t, c);
                 excess += forward > backward;
                 isDoubled = isDoubled || (forward > backward && (backward > 0 || removed != 0));
             }
             if (excess < 2 || !isDoubled) continue;
-            for (std::size_t c = 0; c < 3; ++c) --uses[{triangles[t].corners[c], triangles[t].corners[(c + 1) % 3]}];
+            uses.remove(t);
             isGone[t] = 1;
             ++removed;
             hasChanged = true;
@@ -307,9 +304,10 @@ std::uint32_t removeDoubledFaces(const std::vector<Vec3d>& vertices, std::vector
     std::vector<Triangle> kept;
     for (std::size_t t = 0; t < triangles.size(); ++t)
         if (!isGone[t]) kept.push_back(triangles[t]);
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        if (isGone[t] && !isCovered(vertices, triangles[t], kept)) return 0;
     if (kept.empty() || findOpenEdges(kept).size() >= findOpenEdges(triangles).size()) return 0;
+    const Cover cover(vertices, kept);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (isGone[t] && !cover.contains(triangles[t])) return 0;
     triangles = std::move(kept);
     return removed;
 }
@@ -390,34 +388,15 @@ std::uint32_t orientConsistently(std::vector<Triangle>& triangles) {
 }
 
 std::uint32_t orientOutwards(const std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles) {
-    const std::vector<std::uint32_t> component = findComponents(triangles);
-    const std::uint32_t count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
-    std::vector<std::vector<std::uint32_t>> members(count);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) members[component[t]].push_back(t);
-    std::vector<double> volume(count, 0);
-    std::vector<Box3d> bounds(count);
-    std::vector<Triangle> part;
-    for (std::uint32_t c = 0; c < count; ++c) {
-        part.clear();
-        for (const std::uint32_t t : members[c]) {
-            part.push_back(triangles[t]);
-            for (const std::uint32_t corner : triangles[t].corners) bounds[c].add(vertices[corner]);
-        }
-        volume[c] = signedVolume(vertices, part);
-    }
-    std::uint32_t flipped = 0;
-    for (std::uint32_t c = 0; c < count; ++c) {
-        if (!(volume[c] < 0)) continue;
+    Components components(vertices, triangles);
+    std::vector<std::uint32_t> inward;
+    for (std::uint32_t c = 0; c < components.count(); ++c)
         // A void, inside a larger component, must face inwards.
-        const auto& corners = triangles[members[c][0]].corners;
-        const Vec3d probe = (vertices[corners[0]] + vertices[corners[1]] + vertices[corners[2]]) / 3.0;
-        bool isVoid = false;
-        for (std::uint32_t other = 0; other < count && !isVoid; ++other)
-            if (other != c && std::abs(volume[other]) > std::abs(volume[c]) && bounds[other].contains(probe))
-                isVoid = windingAlongZ(probe, vertices, triangles, members[other]) != 0;
-        if (isVoid) continue;
-        for (const std::uint32_t t : members[c]) flip(triangles[t]);
-        flipped += static_cast<std::uint32_t>(members[c].size());
+        if (components.volume(c) < 0 && !components.isEnclosed(c)) inward.push_back(c);
+    std::uint32_t flipped = 0;
+    for (const std::uint32_t c : inward) {
+        for (const std::uint32_t t : components.members(c)) flip(triangles[t]);
+        flipped += static_cast<std::uint32_t>(components.members(c).size());
     }
     return flipped;
 }
@@ -427,21 +406,26 @@ std::vector<std::vector<std::uint32_t>> findBoundaryLoops(const std::vector<Open
     std::multimap<std::uint32_t, std::uint32_t> next;
     for (const OpenEdge& edge : edges) next.emplace(edge.to, edge.from);
     std::vector<std::vector<std::uint32_t>> loops;
+    std::unordered_map<std::uint32_t, std::size_t> placeInPath;
     while (!next.empty()) {
         std::vector<std::uint32_t> path{next.begin()->first};
+        placeInPath.clear();
+        placeInPath[path[0]] = 0;
         for (;;) {
             const auto step = next.find(path.back());
             if (step == next.end()) break;
             const std::uint32_t corner = step->second;
             next.erase(step);
-            const auto seen = std::find(path.begin(), path.end(), corner);
-            if (seen == path.end()) {
+            const auto [seen, isNew] = placeInPath.emplace(corner, path.size());
+            if (isNew) {
                 path.push_back(corner);
                 continue;
             }
             // The path has closed a loop: emit it, and continue from the corner where it began.
-            loops.emplace_back(seen, path.end());
-            path.erase(seen + 1, path.end());
+            const auto begin = path.begin() + static_cast<std::ptrdiff_t>(seen->second);
+            loops.emplace_back(begin, path.end());
+            for (auto it = begin + 1; it != path.end(); ++it) placeInPath.erase(*it);
+            path.erase(begin + 1, path.end());
         }
     }
     return loops;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <numbers>
 #include <random>
 
@@ -159,6 +160,87 @@ TEST(CutAtTJunctions, ClosedMeshIsNotTouched) {
     for (std::size_t t = 0; t < before.size(); ++t) EXPECT_EQ(mesh.triangles[t].corners, before[t].corners);
 }
 
+// Seconds that work on the largest meshes of these tests may take: some tenths here on a slow machine, a minute and more
+// where each is held against each.
+constexpr double kSeconds = 10;
+
+class Stopwatch {
+public:
+    [[nodiscard]] double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+TEST(CutAtTJunctions, VeryManyPointsOnOneEdge) {
+    std::vector<double> fractions;
+    for (int i = 1; i < 100'000; ++i) fractions.push_back(i / 100'000.0);
+    auto mesh = wedgeWithCuts({0, 0, 0}, {5000, 300, 70}, fractions, {}, 0);
+    const double volume = signedVolume(mesh.vertices, mesh.triangles);
+    const Stopwatch watch;
+    bool isUnfinished = true;
+    EXPECT_GE(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4, &isUnfinished), fractions.size());
+    EXPECT_LT(watch.seconds(), kSeconds);
+    EXPECT_FALSE(isUnfinished);
+    EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
+    EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), volume, 1e-6 * volume);
+}
+
+TEST(CutAtTJunctions, VeryManyOpenEdgesInOnePlane) {
+    // Squares that do not touch, in the plane x = 0.
+    ObjectMesh mesh;
+    std::vector<std::vector<std::uint32_t>> rings;
+    for (int i = 0; i < 150; ++i)
+        for (int j = 0; j < 150; ++j) {
+            const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+            for (const auto& [y, z] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+                mesh.vertices.push_back({0, 2.0 * i + y, 2.0 * j + z});
+            rings.push_back({first, first + 1, first + 2, first + 3});
+        }
+    mesh = meshOfRings(mesh.vertices, rings);
+    const Stopwatch watch;
+    EXPECT_EQ(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 0u);
+    EXPECT_LT(watch.seconds(), kSeconds);
+}
+
+TEST(CutAtTJunctions, EdgesThatOverlapEachOtherAreGivenUp) {
+    // Triangles whose bases lie on one line, each over all of the ones before it: over two million ends on edges.
+    ObjectMesh mesh;
+    constexpr std::uint32_t kCount = 1'500;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        mesh.vertices.push_back({-1.0 - i, 0, 0});
+        mesh.vertices.push_back({1.0 + i, 0, 0});
+        mesh.vertices.push_back({0, 5, 1.0 + i});
+        Triangle triangle;
+        triangle.corners = {3 * i, 3 * i + 1, 3 * i + 2};
+        mesh.triangles.push_back(triangle);
+    }
+    bool isUnfinished = false;
+    const Stopwatch watch;
+    EXPECT_EQ(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4, &isUnfinished), 0u);
+    EXPECT_LT(watch.seconds(), kSeconds);
+    EXPECT_TRUE(isUnfinished);
+    EXPECT_EQ(mesh.triangles.size(), kCount);
+}
+
+TEST(RemoveDoubledFaces, VeryManyDoubledFacesTakeNoTime) {
+    // Boxes, each with its top once more by the other diagonal.
+    constexpr std::uint32_t kCount = 20'000;
+    ObjectMesh mesh;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const Vec3d low{5.0 * (i % 100), 4.0 * (i / 100), 0};
+        ObjectMesh box = boxMesh(low, low + kHigh);
+        for (const auto& t : trianglesOf({{5, 7, 6}, {5, 6, 4}})) box.triangles.push_back(t);
+        append(mesh, box);
+    }
+    const Stopwatch watch;
+    EXPECT_EQ(removeDoubledFaces(mesh.vertices, mesh.triangles), 2 * kCount);
+    EXPECT_LT(watch.seconds(), kSeconds);
+    EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
+}
+
 TEST(RemoveDoubledFaces, FaceWithTheOtherDiagonalGoes) {
     auto mesh = boxMesh(kLow, kHigh);
     for (const auto& t : trianglesOf({{5, 7, 6}, {5, 6, 4}})) mesh.triangles.push_back(t);  // the top once more
@@ -232,6 +314,41 @@ TEST(OrientOutwards, VoidsKeepFacingInwards) {
     }
 }
 
+TEST(OrientOutwards, VeryManyVoidsInAFineShellTakeNoTime) {
+    // Inward boxes in a box of very many triangles: every second of them outside of it.
+    constexpr std::uint32_t kSide = 300;
+    ObjectMesh mesh;
+    std::vector<std::vector<std::uint32_t>> rings;
+    for (const double z : {0.0, 4.0})
+        for (std::uint32_t i = 0; i <= kSide; ++i)
+            for (std::uint32_t j = 0; j <= kSide; ++j) mesh.vertices.push_back({double(i), double(j), z});
+    const auto at = [](std::uint32_t level, std::uint32_t i, std::uint32_t j) {
+        return (level * (kSide + 1) + i) * (kSide + 1) + j;
+    };
+    for (std::uint32_t i = 0; i < kSide; ++i) {
+        for (std::uint32_t j = 0; j < kSide; ++j) {
+            rings.push_back({at(1, i, j), at(1, i + 1, j), at(1, i + 1, j + 1), at(1, i, j + 1)});
+            rings.push_back({at(0, i, j), at(0, i, j + 1), at(0, i + 1, j + 1), at(0, i + 1, j)});
+        }
+        rings.push_back({at(0, i, 0), at(0, i + 1, 0), at(1, i + 1, 0), at(1, i, 0)});
+        rings.push_back({at(0, i + 1, kSide), at(0, i, kSide), at(1, i, kSide), at(1, i + 1, kSide)});
+        rings.push_back({at(0, 0, i + 1), at(0, 0, i), at(1, 0, i), at(1, 0, i + 1)});
+        rings.push_back({at(0, kSide, i), at(0, kSide, i + 1), at(1, kSide, i + 1), at(1, kSide, i)});
+    }
+    mesh = meshOfRings(mesh.vertices, rings);
+    ASSERT_TRUE(findOpenEdges(mesh.triangles).empty());
+    for (std::uint32_t i = 0; i < kSide; ++i)
+        for (std::uint32_t j = 0; j < kSide; ++j) {
+            const Vec3d low{i + 0.3, j + 0.2, (i + j) % 2 == 0 ? 1.0 : 6.0};
+            ObjectMesh box = boxMesh(low, low + Vec3d{0.5, 0.5, 0.5});
+            test::turnOver(box.triangles);
+            append(mesh, box);
+        }
+    const Stopwatch watch;
+    EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 12u * kSide * kSide / 2);
+    EXPECT_LT(watch.seconds(), kSeconds);
+}
+
 TEST(OrientOutwards, InwardBoxBesideAnotherIsNoVoid) {
     // Its box lies in the bounding box of an L, but not in the L.
     ObjectMesh mesh;
@@ -278,6 +395,17 @@ TEST(FindBoundaryLoops, LoopsThatTouchInACornerAreTold) {
     const auto loops = findBoundaryLoops({{0, 2}, {0, 4}, {1, 0}, {2, 1}, {3, 0}, {4, 3}});
     ASSERT_EQ(loops.size(), 2u);
     for (const auto& loop : loops) EXPECT_EQ(loop.size(), 3u);
+}
+
+TEST(FindBoundaryLoops, VeryLongLoopTakesNoTime) {
+    std::vector<OpenEdge> edges;
+    constexpr std::uint32_t kCount = 300'000;
+    for (std::uint32_t i = 0; i < kCount; ++i) edges.push_back({i, (i + 1) % kCount});
+    const Stopwatch watch;
+    const auto loops = findBoundaryLoops(edges);
+    EXPECT_LT(watch.seconds(), kSeconds);
+    ASSERT_EQ(loops.size(), 1u);
+    EXPECT_EQ(loops[0].size(), kCount);
 }
 
 TEST(FindBoundaryLoops, ChainsThatDoNotCloseAreLeftOut) {
