@@ -25,11 +25,13 @@ int main(int argc, char** argv) {
     try {
         return runCommandLine(argc, argv, kCommands);
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "svt: error: out of memory; choose a coarser --spacing or a smaller model\n");
-        return kLimit;
+        return failOfMemory();
     } catch (const std::system_error& error) {
         // What fmt throws where stdout cannot be written. That its reader has gone (svt query ... | head) is no error.
         if (error.code() == std::errc::broken_pipe) return kNoReader;
+        // No memory for the stack of a thread.
+        if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)
+            return failOfMemory();
         fmt::print(stderr, "svt: error: stdout cannot be written: {}\n", error.code().message());
         return kOutput;
     } catch (const std::exception& error) {

@@ -15,10 +15,36 @@ namespace svt {
 struct MemoryFigures {
     std::optional<std::uint64_t> totalBytes;      ///< of the machine
     std::optional<std::uint64_t> availableBytes;  ///< of the machine, without swapping
+    std::optional<std::uint64_t> swapBytes;       ///< of the machine, in addition
     std::optional<std::uint64_t> limitBytes;      ///< of this process; only where it is below the total
-    std::string limitedBy;                        ///< "control group" or "ulimit -v"; empty without a limit
+    std::string limitedBy;  ///< "control group", "ulimit -v", "ulimit -d" or what limitMemory() was told; empty: none
 };
 [[nodiscard]] MemoryFigures memoryFigures();
+
+/// Memory that this process may take: its limit, or else all of the machine.
+struct MemoryGrant {
+    std::uint64_t bytes = 0;
+    std::string text;  ///< "the 24.0 GB that the machine has", "the 300 MB that --memory grants"
+};
+/// \return what is granted; empty where a system does not tell
+[[nodiscard]] std::optional<MemoryGrant> memoryGrant();
+
+/// From now on allocations fail (std::bad_alloc) that would take the data of this process beyond `bytes`. Mapped files
+/// do not count. Where a sanitizer watches, which takes address space of its own, memoryFigures() tells it alone.
+/// \param by  what set the limit, for MemoryFigures::limitedBy
+void limitMemory(std::uint64_t bytes, std::string_view by);
+
+/// The same at what the machine or a control group has, with swap space and what the stacks of threads may take: past it
+/// the system would end this process without a word, or another one. Does nothing under a limit that is there, and where
+/// a sanitizer watches, which takes address space of its own.
+void limitMemoryToMachine();
+
+/// Takes a limit of limitMemoryToMachine() back, for code of others that reserves much more than it uses (OpenGL
+/// drivers).
+void unlimitMemory();
+
+/// "512 MB", "24.0 GB".
+[[nodiscard]] std::string bytesText(std::uint64_t bytes);
 
 /// How many cores the machine has. See hardwareThreads() for how many of them this process may use.
 [[nodiscard]] std::optional<int> machineCores() noexcept;

@@ -3,10 +3,13 @@
 #include "run_command.hpp"
 #include "small_model.hpp"
 
+#include <svt/core/deflate.hpp>
+
 #include <fmt/format.h>
 
 #include <functional>
 #include <regex>
+#include <span>
 
 namespace svt::test {
 namespace {
@@ -175,6 +178,66 @@ const std::vector<BadInput> kXml{
      [] { return cityModel("<cityObjectMember><bldg:Building gml:id=\"b\"/></cityObjectMember>"); }, kBuild, kInput,
      "E109 EmptyModel"},
 };
+std::string gzipped(const std::string& text) {
+    const std::vector<std::byte> packed = gzipBytes(std::as_bytes(std::span(text)));
+    return {reinterpret_cast<const char*>(packed.data()), packed.size()};
+}
+
+// What would take for ever, or all memory.
+const std::vector<BadInput> kEndless{
+    {"GzipBomb", "gzip data that unpack to a thousand times their size", "bad.gml",
+     [] { return gzipped(std::string(std::size_t{80} << 20, ' ')); }, kBuild, kLimit,
+     "E104 InputTooBig: bad\\.gml: .*unpack to more than 67 MB, [0-9]+ times as much.*gunzip"},
+    {"GzipOverTheMemory",
+     "gzip data that unpack to more than a third of the memory",
+     "bad.gml",
+     [] { return gzipped(std::string(std::size_t{30} << 20, ' ')); },
+     {"build", "bad.gml", "-o", "o.svt", "--memory", "64"},
+     kLimit,
+     "E104 InputTooBig: bad\\.gml: .*a third of the 64 MB that --memory grants.*gunzip"},
+    {"RingOutOfOrder", "a roof of 3,000 points in no order", "bad.gml",
+     [] {
+         Face roof;
+         std::uint32_t state = 1;
+         const auto next = [&] { return double((state = state * 1664525u + 1013904223u) >> 8) / double(1 << 24); };
+         for (int i = 0; i < 3000; ++i) {
+             const double x = 500000 + 4 * next(), y = 5400000 + 6 * next();
+             roof += fmt::format("{:.4f} {:.4f} 103 ", x, y);
+         }
+         return withRoof(roof + roof.substr(0, roof.find(" 103") + 4));
+     },
+     kCheck, kInvalid,
+     "E212 TriangulationFailed: bad\\.gml.*3000 points cross .*more than 6000 places.*near \\(50000[0-9.]+, 540"},
+};
+INSTANTIATE_TEST_SUITE_P(Endless, BadInputTest, ::testing::ValuesIn(kEndless), nameOf);
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kTakesAnyMemory = true;
+#elif defined(__has_feature)
+constexpr bool kTakesAnyMemory = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool kTakesAnyMemory = false;
+#endif
+
+TEST(BadInput, ModelOverTheMemoryIsToldWithTheFileAndTheLimit) {
+    if (kTakesAnyMemory) GTEST_SKIP() << "no limit is set for a sanitizer";
+    const TemporaryFolder folder;
+    std::string names;
+    for (int i = 0; i < 400'000; ++i)
+        names += fmt::format("<cityObjectMember><bldg:Building gml:id=\"b{}\"/></cityObjectMember>", i);
+    writeText(folder / "big.gml", cityModel(names));
+    const CommandResult given = runSvt(folder.path(), {"build", "big.gml", "-o", "o.svt", "--memory", "64"});
+    EXPECT_EQ(given.exitCode, kLimit) << given.toString();
+    EXPECT_TRUE(std::regex_search(
+        given.err, std::regex("E104 InputTooBig: big\\.gml: .*more memory than the 64 MB that --memory grants; split")))
+        << given.err;
+    Limits limits;
+    limits.memoryBytes = 100'000'000;
+    const CommandResult bySystem = runSvt(folder.path(), {"build", "big.gml", "-o", "o.svt"}, limits);
+    EXPECT_EQ(bySystem.exitCode, kLimit) << bySystem.toString();
+    EXPECT_NE(bySystem.err.find("the 100 MB that ulimit -v grants"), std::string::npos) << bySystem.err;
+}
+
 INSTANTIATE_TEST_SUITE_P(Xml, BadInputTest, ::testing::ValuesIn(kXml), nameOf);
 
 constexpr const char* kNear = "500000 5400000 103 500004 5400000 103 500004 5400006 103";

@@ -6,6 +6,7 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/image/png.hpp>
 #include <svt/render/frame_buffers.hpp>
@@ -40,6 +41,7 @@ public:
                          "--gl draws one volume at its finest level, and the passes of this scene draw others; leave "
                          "out --gl");
         if (!context_) {
+            unlimitMemory();  // drivers reserve what they never use
             auto context = render_gl::EglContext::make();
             if (!context) return context.error();
             context_.emplace(std::move(*context));

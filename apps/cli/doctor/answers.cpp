@@ -28,12 +28,6 @@ Json orNull(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-std::string sizeText(std::uint64_t bytes) {
-    constexpr double kMb = 1e6, kGb = 1e9;
-    return double(bytes) < kGb ? fmt::format("{:.0f} MB", double(bytes) / kMb)
-                               : fmt::format("{:.1f} GB", double(bytes) / kGb);
-}
-
 void warn(Answer& answer, const std::string& what) {
     answer.state = State::Warning;
     answer.text += (answer.text.empty() ? "" : "; ") + what;
@@ -52,7 +46,7 @@ void tryFolder(Answer& answer, const fs::path& folder, State otherwise) {
     const auto file = AtomicFile::create(folder / "svt-doctor");
     answer.values = {{"path", folder.string()}, {"free", orNull(free)}, {"writable", file.hasValue()}};
     answer.text = folder.string();
-    if (free) answer.text += fmt::format(", {} free", sizeText(*free));
+    if (free) answer.text += fmt::format(", {} free", bytesText(*free));
     if (file) {
         if (free && *free < kLittle) warn(answer, "free some, or outputs may not fit");
     } else if (otherwise == State::Error) {
@@ -107,10 +101,10 @@ Answer memoryAnswer() {
                      {"available", orNull(figures.availableBytes)},
                      {"limit", orNull(figures.limitBytes)},
                      {"limitedBy", figures.limitedBy.empty() ? Json(nullptr) : Json(figures.limitedBy)}};
-    answer.text = figures.totalBytes ? sizeText(*figures.totalBytes) : "not known";
-    if (figures.availableBytes) answer.text += fmt::format(", {} available", sizeText(*figures.availableBytes));
+    answer.text = figures.totalBytes ? bytesText(*figures.totalBytes) : "not known";
+    if (figures.availableBytes) answer.text += fmt::format(", {} available", bytesText(*figures.availableBytes));
     if (figures.limitBytes)
-        answer.text += fmt::format(", limited to {} ({})", sizeText(*figures.limitBytes), figures.limitedBy);
+        answer.text += fmt::format(", limited to {} ({})", bytesText(*figures.limitBytes), figures.limitedBy);
     const std::uint64_t usable =
         std::min(figures.availableBytes.value_or(kLittle), figures.limitBytes.value_or(kLittle));
     if (usable < kLittle) warn(answer, "little; end other programs, raise the limit, or choose a coarser --spacing");

@@ -6,6 +6,7 @@
 
 #include <svt/core/check.hpp>
 #include <svt/core/edit_distance.hpp>
+#include <svt/core/machine.hpp>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -156,8 +157,15 @@ int runCommand(const CLI::App& app, const Given& given, const CommandText& text,
 Command::Command(const CommandText& text) : text_(&text) {
     for (const Option& option : optionsOf(text)) connections_.push_back({option, nullptr});
     // One for all commands that have it.
-    for (const auto& [option, take_] : connections_)
+    for (const auto& [option, take_] : connections_) {
         if (longName(option) == "--quiet") take("--quiet", [](const std::vector<std::string>&) { beQuiet(); });
+        if (longName(option) == "--memory") {
+            limitMemoryToMachine();
+            take("--memory", [](const std::vector<std::string>& values) {
+                limitMemory(static_cast<std::uint64_t>(number(values.front())) * 1000000, "--memory");
+            });
+        }
+    }
 }
 
 Command::Connection& Command::connection(std::string_view option) {

@@ -1,6 +1,9 @@
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/core/file.hpp>
+#include <svt/core/machine.hpp>
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -47,6 +50,17 @@ void note(std::string_view text) {
     if (isQuiet()) return;
     TerminalProgress::hide();
     fmt::print(stderr, "svt: {}\n", text);
+}
+
+int failOfMemory() {
+    TerminalProgress::hide();
+    const auto grant = memoryGrant();
+    fmt::print(
+        stderr,
+        "svt: error: out of memory: the work needs more than {}; choose a coarser --spacing, give a smaller model, "
+        "or grant more\n",
+        grant ? grant->text : "there is");
+    return kLimit;
 }
 
 void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose) {

@@ -36,6 +36,9 @@ int fail(const Error& error);
 /// Prints "svt: ..." to stderr, unless quiet.
 void note(std::string_view text);
 
+/// Says on stderr that the memory is used up: how much there is, who grants it, and what to do. Returns kLimit.
+int failOfMemory();
+
 /// Prints findings to stderr: all with --verbose, else up to a dozen errors and warnings and the number of the rest;
 /// where quiet, errors alone.
 void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose);

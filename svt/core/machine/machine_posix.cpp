@@ -69,6 +69,39 @@ bool readAll(int from, double seconds, std::string& text) {
     }
 }
 
+// The limit of this process's data that was set here.
+struct OwnLimit {
+    std::string by;  // empty: it is that of the machine
+    std::uint64_t bytes = 0;
+    rlim_t before = RLIM_INFINITY;  // what it was
+    bool isSet = false;
+};
+
+OwnLimit& ownLimit() {
+    static OwnLimit limit;
+    return limit;
+}
+
+void setDataLimit(rlim_t bytes) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+    const rlim_t before = limit.rlim_cur;
+    limit.rlim_cur = std::min(bytes, limit.rlim_max);
+    if (::setrlimit(RLIMIT_DATA, &limit) != 0) return;
+    if (!ownLimit().isSet) ownLimit().before = before;
+    ownLimit().isSet = true;
+}
+
+constexpr bool isSanitized() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return true;
+#elif defined(__has_feature)
+    return __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer);
+#else
+    return false;
+#endif
+}
+
 std::string faultOf(int status) {
     if (WIFSIGNALED(status)) return fmt::format("ended by signal {}", WTERMSIG(status));
     return WEXITSTATUS(status) == 0 ? "" : fmt::format("ended with code {}", WEXITSTATUS(status));
@@ -87,6 +120,7 @@ MemoryFigures memoryFigures() {
         if (!(words >> name >> kilobytes)) continue;
         if (name == "MemTotal:") figures.totalBytes = kilobytes * 1024;
         if (name == "MemAvailable:") figures.availableBytes = kilobytes * 1024;
+        if (name == "SwapTotal:") figures.swapBytes = kilobytes * 1024;
     }
     const auto limit = [&](std::uint64_t bytes, const char* by) {
         if (figures.totalBytes && bytes >= *figures.totalBytes) return;
@@ -97,7 +131,35 @@ MemoryFigures memoryFigures() {
     if (const auto bytes = controlGroupLimits("/").memoryBytes) limit(*bytes, "control group");
     rlimit space{};
     if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) limit(space.rlim_cur, "ulimit -v");
+    if (!ownLimit().by.empty())
+        limit(ownLimit().bytes, ownLimit().by.c_str());
+    else if (!ownLimit().isSet && ::getrlimit(RLIMIT_DATA, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
+        limit(space.rlim_cur, "ulimit -d");
     return figures;
+}
+
+void limitMemory(std::uint64_t bytes, std::string_view by) {
+    ownLimit().by = by;
+    ownLimit().bytes = bytes;
+    if (!isSanitized()) setDataLimit(static_cast<rlim_t>(bytes));
+}
+
+void limitMemoryToMachine() {
+    rlimit data{};
+    if (isSanitized() || ::getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur != RLIM_INFINITY) return;
+    const MemoryFigures figures = memoryFigures();
+    const std::optional<std::uint64_t> bytes = figures.limitBytes ? figures.limitBytes : figures.totalBytes;
+    if (!bytes || figures.limitedBy == "ulimit -v") return;
+    rlimit stack{};
+    constexpr std::uint64_t kUsualStack = std::uint64_t{8} << 20;
+    const bool hasStack = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
+    const std::uint64_t stacks =
+        static_cast<std::uint64_t>(machineCores().value_or(1)) * (hasStack ? stack.rlim_cur : kUsualStack);
+    setDataLimit(static_cast<rlim_t>(*bytes + figures.swapBytes.value_or(0) + stacks));
+}
+
+void unlimitMemory() {
+    if (ownLimit().isSet && ownLimit().by.empty()) setDataLimit(ownLimit().before);
 }
 
 std::optional<int> machineCores() noexcept {

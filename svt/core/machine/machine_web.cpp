@@ -5,6 +5,10 @@ namespace svt {
 
 MemoryFigures memoryFigures() { return {}; }
 
+void limitMemory(std::uint64_t, std::string_view) {}
+void limitMemoryToMachine() {}
+void unlimitMemory() {}
+
 std::optional<int> machineCores() noexcept { return {}; }
 
 std::optional<double> grantedCores() { return {}; }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <new>
 
 namespace svt::readers::citygml {
 namespace {
@@ -80,6 +81,7 @@ Part parseChunk(string_view document, string_view rootTag, const xml::Chunk& chu
                                   pugi::parse_wconv_attribute | pugi::parse_embed_pcdata | pugi::parse_fragment;
     const pugi::xml_parse_result result =
         tree.load_buffer_inplace(text.data(), text.size(), kOptions, pugi::encoding_utf8);
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
         fail(Code::BadXml, describe(result), text.offsetOf(text.data() + result.offset));
         return part;

@@ -1,5 +1,6 @@
 #include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_reader.hpp>
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,18 +35,43 @@ string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>
 
 bool isGzip(Bytes bytes) noexcept { return asText(bytes).starts_with("\x1F\x8B\x08"); }
 
+// How much gzip data may unpack to, and what to say of more.
+struct UnpackLimit {
+    std::uint64_t bytes;
+    std::string message;
+};
+
+UnpackLimit unpackLimit(std::uint64_t packedBytes, std::uint64_t maxBytes) {
+    // Models unpack to 5 to 50 times their size, the generated ones 20, deflate can do 1000.
+    constexpr std::uint64_t kMaxRatio = 100, kFreeBytes = std::uint64_t{64} << 20;
+    // The text stays while the model is made of it.
+    constexpr std::uint64_t kShare = 3;
+    constexpr string_view kInstead =
+        "unpack it (gunzip) and read the result, which takes less memory, or split the model";
+    UnpackLimit limit{maxBytes, fmt::format("more than {} bytes after decompression, which is the limit", maxBytes)};
+    if (const std::uint64_t byRatio = std::max(kFreeBytes, packedBytes * kMaxRatio); byRatio < limit.bytes)
+        limit = {byRatio,
+                 fmt::format("{} bytes of gzip data unpack to more than {}, {} times as much; models unpack to 5 "
+                             "to 50 times. The file is damaged or made to fill the memory; if it is not, unpack "
+                             "it (gunzip) and read the result",
+                             packedBytes, bytesText(byRatio), byRatio / std::max<std::uint64_t>(packedBytes, 1))};
+    if (const auto grant = memoryGrant(); grant && grant->bytes / kShare < limit.bytes)
+        limit = {grant->bytes / kShare, fmt::format("the gzip data unpack to more than {}, a third of {}; {}",
+                                                    bytesText(grant->bytes / kShare), grant->text, kInstead)};
+    return limit;
+}
+
 // All members of a gzip file, concatenated.
 Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::uint64_t maxBytes) {
+    const UnpackLimit limit = unpackLimit(bytes.size(), maxBytes);
     const auto fail = [&](Code code, std::string message) {
         return Error(code, std::move(message), {std::string(name), 0, 0, {}});
     };
     Inflated unpacked =
-        inflateBytes(bytes, DeflateFormat::Gzip, std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), maxBytes);
+        inflateBytes(bytes, DeflateFormat::Gzip, std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), limit.bytes);
     switch (unpacked.status) {
         case InflateStatus::Done: return std::move(unpacked.bytes);
-        case InflateStatus::TooLong:
-            return fail(Code::InputTooBig,
-                        fmt::format("more than {} bytes after decompression, which is the limit", maxBytes));
+        case InflateStatus::TooLong: return fail(Code::InputTooBig, limit.message);
         case InflateStatus::CutShort:
             return fail(Code::CannotOpen, "the gzip data ends too early; the file seems to be cut off");
         case InflateStatus::Damaged: break;
@@ -134,6 +162,14 @@ Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> mode
     return model;
 }
 
+Result<model::BuildingModel> readAny(Bytes bytes, string_view name, const ReadOptions& options,
+                                     Diagnostics* diagnostics) {
+    if (!isGzip(bytes)) return readPlain(bytes, name, options, diagnostics);
+    const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);
+    if (!plain) return plain.error();
+    return readPlain(*plain, name, options, diagnostics);
+}
+
 }  // namespace
 
 std::span<const Format> formats() noexcept { return kFormats; }
@@ -144,10 +180,18 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
         return Error(Code::InputTooBig,
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
-    if (!isGzip(bytes)) return withStatedClasses(readPlain(bytes, name, options, diagnostics));
-    const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);
-    if (!plain) return plain.error();
-    return withStatedClasses(readPlain(*plain, name, options, diagnostics));
+    try {
+        return withStatedClasses(readAny(bytes, name, options, diagnostics));
+    } catch (const std::bad_alloc&) {
+        // Here it is known which file; the memory of its half-made model is free again.
+        const auto grant = memoryGrant();
+        return Error(
+            Code::InputTooBig,
+            fmt::format("reading its {} takes more memory than {}; split the model and read the parts, or grant "
+                        "more",
+                        bytesText(bytes.size()), grant ? grant->text : "there is"),
+            {std::string(name), 0, 0, {}});
+    }
 }
 
 Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
