@@ -11,7 +11,7 @@ constexpr std::uint32_t kLeafSize = 4;
 
 // Boxes that the rays of one mesh may be tested against: those of a building take 10 to 200 each. Where thin triangles
 // lie across each other's boxes, as in a star of many thousand spikes, each ray meets all of them.
-constexpr std::uint64_t kFreeTests = std::uint64_t{1} << 27, kMaxTestsPerFace = 1024;
+constexpr std::uint64_t kFreeTests = std::uint64_t{1} << 27, kMaxTestsPerFace = 256;
 
 struct Node {
     Box3d box;
