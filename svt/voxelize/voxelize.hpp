@@ -52,22 +52,25 @@ struct VoxelizeResult {
     volume::ColumnVolume columns;
     std::vector<std::uint64_t>
         thinVoxels;  ///< per object: voxels claimed only by the pass for thin parts, before priority is applied
-    std::vector<std::uint64_t> uncertainVoxels;  ///< per object: voxels with a winding number between 0.25 and 0.75
-    std::vector<ClaimPair> overlaps;             ///< ordered by (a, b); between solids only
+    std::vector<std::uint64_t>
+        uncertainVoxels;              ///< per object: voxels with a winding number over 0.25 from a whole one
+    std::vector<ClaimPair> overlaps;  ///< ordered by (a, b); between solids only
 };
 
 /// Voxelizes all objects of `meshes` into one volume.
 ///
 /// Solids are filled by signed crossings along z (inside = winding number > 0), open shells with solid meaning by the
-/// generalized winding number (Jacobson, Kavan & Sorkine 2013, evaluated after Martens & Bessmeltsev 2025), all other
+/// generalized winding number (Jacobson, Kavan & Sorkine 2013, see surfaces/winding.hpp), all other
 /// surfaces become sheets. An object left without voxels receives one inside the grid, unless that would take another
 /// object's last voxel.
 ///
 /// \param claims  one per meshes.objects, same order
 /// \param grid    need not contain all objects; what lies outside is clipped
-/// \return the volume, or GridTooLarge, or Cancelled
-/// Cost: O(triangles * rows they cover + distinct columns); open shells O(samples evaluated * open edges + rows *
-/// triangles). Memory: the result and per thread one tile of 64 x 64 columns.
+/// \return the volume, or GridTooLarge (also where sheets or the surroundings of holes need too many voxels), or
+///         Cancelled
+/// Cost: O(triangles * rows they cover + distinct columns); open shells in addition about O(area of their holes in
+/// voxels * pieces of rim close by). Memory: the result, per thread one tile of 64 x 64 columns, and at most 30 million
+/// runs of voxels next to holes.
 [[nodiscard]] Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid& grid,
                                               std::span<const ObjectClaim> claims, const VoxelizeOptions& options = {});
 
