@@ -97,6 +97,14 @@ ClassRank classRank(string_view className) noexcept {
 
 bool isBoundarySurface(string_view className) noexcept { return isIn(kBoundaries, className); }
 
+Facing facingOf(string_view surfaceClass, bool boundsSpace) noexcept {
+    if (surfaceClass == "GroundSurface" || surfaceClass == "OuterCeilingSurface") return Facing::Down;
+    if (surfaceClass == "RoofSurface" || surfaceClass == "OuterFloorSurface") return Facing::Up;
+    if (boundsSpace && surfaceClass == "FloorSurface") return Facing::Down;
+    if (boundsSpace && surfaceClass == "CeilingSurface") return Facing::Up;
+    return Facing::Any;
+}
+
 bool isFilling(string_view className) noexcept { return isIn(kFillings, className); }
 
 bool isSpace(string_view className) noexcept {

@@ -36,6 +36,19 @@ enum class ClassRank : std::uint8_t {
 /// True for surfaces that bound a space: WallSurface, RoofSurface, ..., ClosureSurface.
 [[nodiscard]] bool isBoundarySurface(std::string_view className) noexcept;
 
+/// Which way the faces of a boundary surface look, out of what it bounds.
+enum class Facing : std::uint8_t {
+    Any,  ///< walls, closure surfaces, and classes whose meaning does not tell
+    Up,
+    Down
+};
+
+/// How faces of a boundary surface look in the shell that they bound: GroundSurface and OuterCeilingSurface down,
+/// RoofSurface and OuterFloorSurface up.
+/// \param boundsSpace  the shell is that of a room or another space, seen from within: then FloorSurface looks down,
+///                     CeilingSurface up; in a shell of material they can be either face of a slab
+[[nodiscard]] Facing facingOf(std::string_view surfaceClass, bool boundsSpace) noexcept;
+
 /// True for Door, Window, DoorSurface, WindowSurface.
 [[nodiscard]] bool isFilling(std::string_view className) noexcept;
 

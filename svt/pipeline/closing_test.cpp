@@ -43,9 +43,8 @@ std::vector<DamageCase> damageCases(const std::vector<std::string>& classes) {
     std::vector<DamageCase> cases;
     for (const double part : {0.01, 0.1}) cases.push_back(randomDamage("turned", part, test::turnPolygons));
     for (const std::string& name : classes)
-        cases.push_back({"all " + name + " turned", [=](BuildingModel& model) {
-                             test::turnPolygons(model, test::polygonsOfClass(model, name));
-                         }});
+        cases.push_back({"all " + name + " turned",
+                         [=](BuildingModel& model) { test::turnPolygons(model, test::polygonsOfClass(model, name)); }});
     for (const double part : {0.01, 0.05, 0.1}) cases.push_back(randomDamage("removed", part, test::removePolygons));
     for (const std::string& name : classes)
         cases.push_back({"all " + name + " removed", [=](BuildingModel& model) {
@@ -130,10 +129,12 @@ TEST(ClosingTable, IsWrittenWhereItIsWanted) {
     sets.push_back({"tower", [=] { return sampleModel(samples::SampleKind::Tower, small); }, 0.2, rooms});
     sets.push_back({"district", [=] { return sampleModel(samples::SampleKind::District, small); }, 0.2, rooms});
     std::ofstream table(file);
-    table << "| model | damage | objects | closed | closed by us | open | sheets | wrong, median | wrong, 95 % | wrong, "
-             "worst | volume off | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+    table
+        << "| model | damage | objects | closed | closed by us | open | sheets | wrong, median | wrong, 95 % | wrong, "
+           "worst | volume off | seconds |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
     for (const Data& data : sets) {
-        if (const char* const set = std::getenv("SVT_CLOSING_SET"); set != nullptr && data.name.find(set) != 0) continue;
+        if (const char* const set = std::getenv("SVT_CLOSING_SET"); set != nullptr && data.name.find(set) != 0)
+            continue;
         DamageBench bench(data.make(), data.spacing);
         for (const DamageCase& damage : damageCases(data.classes)) {
             if (only != nullptr && damage.name.find(only) == std::string::npos) continue;
@@ -146,7 +147,8 @@ TEST(ClosingTable, IsWrittenWhereItIsWanted) {
                   << std::flush;
             if (isVerbose)
                 for (std::size_t w = f.all.size() - std::min<std::size_t>(f.all.size(), 8); w < f.all.size(); ++w)
-                    fmt::print("{} | {} | {:.2f} % | {}\n", data.name, damage.name, f.all[w].first * 100, f.all[w].second);
+                    fmt::print("{} | {} | {:.2f} % | {}\n", data.name, damage.name, f.all[w].first * 100,
+                               f.all[w].second);
         }
     }
 }

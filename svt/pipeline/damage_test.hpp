@@ -87,8 +87,8 @@ inline Vec3d areaVectorOf(const model::Polygon& polygon) {
     Vec3d sum{};
     const std::uint32_t end = polygon.ringEnds.empty() ? 0 : polygon.ringEnds[0];
     for (std::uint32_t i = 0; i < end; ++i)
-        sum = sum +
-              cross(polygon.points[i] - polygon.points[0], polygon.points[(i + 1) % end] - polygon.points[0]) * 0.5;
+        sum =
+            sum + cross(polygon.points[i] - polygon.points[0], polygon.points[(i + 1) % end] - polygon.points[0]) * 0.5;
     return sum;
 }
 
@@ -248,8 +248,7 @@ inline std::optional<FilledSolids> fillSolids(const model::BuildingModel& model,
     }
     auto voxels = voxelize::voxelize(*meshes, *grid, claims);
     if (!voxels) return std::nullopt;
-    for (std::size_t o = 0; o < claims.size(); ++o)
-        filled.uncertain[claims[o].scalar - 1] = voxels->uncertainVoxels[o];
+    for (std::size_t o = 0; o < claims.size(); ++o) filled.uncertain[claims[o].scalar - 1] = voxels->uncertainVoxels[o];
     filled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     filled.columns = std::move(voxels->columns);
     return filled;
@@ -260,9 +259,9 @@ struct DamageFigures {
     std::size_t objects = 0;
     double median = 0, percentile95 = 0, worst = 0;  ///< wrong voxels of an object / its voxels
     std::string worstId;
-    double volume = 0;                                ///< sum of |voxels - true voxels| / sum of true voxels
+    double volume = 0;                                           ///< sum of |voxels - true voxels| / sum of true voxels
     std::size_t closed = 0, capped = 0, open = 0, surfaces = 0;  ///< verdicts; capped: also complemented
-    std::vector<std::pair<double, std::string>> all;  ///< ascending
+    std::vector<std::pair<double, std::string>> all;             ///< ascending
 };
 
 inline DamageFigures compareSolids(const FilledSolids& truth, const FilledSolids& damaged,

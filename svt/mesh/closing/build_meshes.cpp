@@ -1,5 +1,8 @@
 #include <svt/core/parallel.hpp>
 #include <svt/mesh/closing/closing.hpp>
+#include <svt/mesh/closing/gaps.hpp>
+#include <svt/mesh/closing/holes.hpp>
+#include <svt/mesh/closing/orient_faces.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/planes.hpp>
 #include <svt/mesh/polygons/edges.hpp>
@@ -176,6 +179,7 @@ Gathered gather(const Source& source, const LocalPolygons& polygons, ObjectMesh&
         for (const auto& corners : polygons.trianglesOf(use.polygon)) {
             Triangle triangle;
             triangle.corners = {corners[0], corners[1], corners[2]};
+            triangle.polygon = use.polygon;
             if (use.isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
             mesh.triangles.push_back(triangle);
         }
@@ -220,8 +224,43 @@ struct Work {
     bool isClosedAsRead = false;
 };
 
+// Per polygon the boundary surface that lists it, or kNoFeature.
+std::vector<FeatureIndex> findSurfacesOfPolygons(const BuildingModel& model) {
+    std::vector<FeatureIndex> surfaceOf(model.polygons.size(), model::kNoFeature);
+    for (FeatureIndex f = 0; f < model.features.size(); ++f) {
+        if (!model::isBoundarySurface(model.features[f].className)) continue;
+        for (const model::Geometry& geometry : model.features[f].geometries)
+            for (const SurfaceUse& use : geometry.surfaces)
+                if (surfaceOf[use.polygon] == model::kNoFeature) surfaceOf[use.polygon] = f;
+    }
+    return surfaceOf;
+}
+
+// Per triangle which way it should look by the boundary surface of the feature that it is a part of.
+std::vector<model::Facing> facingsOf(const BuildingModel& model, const std::vector<FeatureIndex>& surfaceOf,
+                                     const ObjectMesh& mesh) {
+    const bool isSpace = model::isSpace(model.features[mesh.feature].className);
+    std::vector<model::Facing> facings(mesh.triangles.size(), model::Facing::Any);
+    for (std::size_t t = 0; t < facings.size(); ++t) {
+        if (mesh.triangles[t].polygon == kNoPolygon) continue;
+        const FeatureIndex surface = surfaceOf[mesh.triangles[t].polygon];
+        FeatureIndex above = surface;
+        while (above != model::kNoFeature && above != mesh.feature) above = model.features[above].parent;
+        if (above != model::kNoFeature) facings[t] = model::facingOf(model.features[surface].className, isSpace);
+    }
+    return facings;
+}
+
+// What all closing tests share.
+struct ClosingInput {
+    const BuildingModel& model;
+    const MeshOptions& options;
+    std::vector<FeatureIndex> surfaceOf;
+};
+
 // The closing test, and the repairs that need no other features.
-void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
+void testClosing(ObjectMesh& mesh, Work& work, const ClosingInput& input, bool hasSolidMeaning) {
+    const MeshOptions& options = input.options;
     mesh.openEdges = findOpenEdges(mesh.triangles);
     mesh.unmatchedEdges = static_cast<std::uint32_t>(mesh.openEdges.size());
     if (!mesh.openEdges.empty()) {
@@ -244,6 +283,11 @@ void testClosing(ObjectMesh& mesh, Work& work, const MeshOptions& options) {
         mesh.flippedFaces += turned;
         if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
     }
+    if (!mesh.openEdges.empty() && hasSolidMeaning) {
+        const std::uint32_t turned = orientFaces(mesh, facingsOf(input.model, input.surfaceOf, mesh));
+        mesh.flippedFaces += turned;
+        if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
+    }
     mesh.leakCount = static_cast<std::uint32_t>(mesh.openEdges.size());
     for (const OpenEdge& edge : mesh.openEdges) {
         if (mesh.leaks.size() == kMaxLeaks) break;
@@ -259,12 +303,6 @@ void finish(ObjectMesh& mesh) {
         measureThickness(mesh);
     } else {
         for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
-        // An open shell has no exact volume, but the sign still tells which side is outside.
-        if (mesh.closure == Closure::Open && signedVolume(mesh.vertices, mesh.triangles) < 0) {
-            for (Triangle& triangle : mesh.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
-            for (OpenEdge& edge : mesh.openEdges) std::swap(edge.from, edge.to);
-            mesh.flippedFaces += static_cast<std::uint32_t>(mesh.triangles.size());
-        }
     }
     for (const Triangle& triangle : mesh.triangles) {
         const Vec3d a = mesh.vertices[triangle.corners[0]];
@@ -285,38 +323,42 @@ bool isFlat(const ObjectMesh& mesh) {
 }
 
 // Meshes of all sources, each with its closing test.
-MeshSet gatherMeshes(const std::vector<Source>& sources, const LocalPolygons& polygons, const MeshOptions& options,
+MeshSet gatherMeshes(const std::vector<Source>& sources, const LocalPolygons& polygons, const ClosingInput& input,
                      std::vector<Work>& work) {
     MeshSet meshes;
     meshes.origin = polygons.origin;
     meshes.objects.resize(sources.size());
-    parallelFor(sources.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+    parallelFor(sources.size(), 1, input.options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             ObjectMesh& mesh = meshes.objects[i];
             mesh.feature = sources[i].feature;
             mesh.lod = sources[i].lod;
             mesh.isAssembled = sources[i].isAssembled;
             work[i].gathered = gather(sources[i], polygons, mesh);
-            testClosing(mesh, work[i], options);
+            testClosing(mesh, work[i], input, sources[i].hasSolidMeaning);
         }
     });
     return meshes;
 }
 
-void capOpenShell(ObjectMesh& mesh, const MeshOptions& options) {
-    const std::vector<Triangle> uncapped = mesh.triangles;
-    capPlanarHoles(mesh, options.capDeviation);
+void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {
+    const std::vector<Vec3d> vertices = mesh.vertices;
+    const std::vector<Triangle> triangles = mesh.triangles;
+    mesh.joinedEdges = joinGaps(mesh);
+    mesh.bridgedLoops = bridgeLoops(mesh);
+    capHoles(mesh, options.capDeviation);
     mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
-    if (isFlat(mesh)) {
-        // A footprint or a single face: there is no volume to fill.
-        mesh.triangles = uncapped;
-        mesh.caps.clear();
-        mesh.openEdges = findOpenEdges(mesh.triangles);
-        mesh.closure = Closure::Surface;
-    }
+    if (!isFlat(mesh) && (mesh.isSolid() || enclosesVolume(mesh))) return;
+    // A footprint, a single face or loose sheets: there is no volume to fill.
+    mesh.vertices = vertices;
+    mesh.triangles = triangles;
+    mesh.caps.clear();
+    mesh.joinedEdges = mesh.bridgedLoops = 0;
+    mesh.openEdges = findOpenEdges(mesh.triangles);
+    mesh.closure = Closure::Surface;
 }
 
-// Closes the open objects with solid meaning, where they can be: by faces of adjoining features, then by caps.
+// Closes the open objects with solid meaning, where they can be: by faces of adjoining features, then by their own.
 Result<void> closeShells(const BuildingModel& model, const std::vector<Source>& sources, const LocalPolygons& polygons,
                          const MeshOptions& options, MeshSet& meshes, std::vector<Work>& work) {
     std::optional<FaceFinder> finder;  // made for the first open object
@@ -330,7 +372,7 @@ Result<void> closeShells(const BuildingModel& model, const std::vector<Source>& 
         if (mesh.openEdges.empty())
             mesh.closure = Closure::Complemented;
         else
-            capOpenShell(mesh, options);
+            closeByItself(mesh, options);
     }
     return {};
 }
@@ -342,6 +384,14 @@ std::string leakText(const ObjectMesh& mesh, Vec3d origin) {
         text += fmt::format("{}({:.3f}, {:.3f}, {:.3f})", i == 0 ? "" : ", ", at.x, at.y, at.z);
     }
     return text + (mesh.leakCount > 3 ? ", ..." : "");
+}
+
+// What else than caps closed a shell.
+std::string joinedText(const ObjectMesh& mesh) {
+    std::string text;
+    if (mesh.joinedEdges != 0) text += fmt::format(", {} edges joined over gaps of up to 25 cm", mesh.joinedEdges);
+    if (mesh.bridgedLoops != 0) text += fmt::format(", {} pairs of loops bridged", mesh.bridgedLoops);
+    return text;
 }
 
 void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work, Vec3d origin, Diagnostics& log) {
@@ -372,8 +422,8 @@ void report(const BuildingModel& model, const ObjectMesh& mesh, const Work& work
         case Closure::Capped:
             log.add(Severity::Warning, Code::ShellCapped,
                     fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
-                                "as {}; closed with {} planar caps",
-                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size()),
+                                "as {}; closed with {} planar caps{}",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size(), joinedText(mesh)),
                     place);
             break;
         case Closure::Open:
@@ -420,7 +470,7 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     Progress::tell(options.progress, "mesh", 0.4);
 
     std::vector<Work> work(sources.size());
-    MeshSet meshes = gatherMeshes(sources, polygons, options, work);
+    MeshSet meshes = gatherMeshes(sources, polygons, {model, options, findSurfacesOfPolygons(model)}, work);
     if (const auto closed = closeShells(model, sources, polygons, options, meshes, work); !closed)
         return closed.error();
     Progress::tell(options.progress, "mesh", 0.7);
