@@ -195,7 +195,7 @@ std::uint32_t joinGaps(ObjectMesh& mesh) {
         if (!joined.openEdges.empty() && orientConsistently(joined.triangles) != 0)
             joined.openEdges = findOpenEdges(joined.triangles);
         const double open = openLength(joined.vertices, joined.openEdges);
-        if (open < least || (joined.openEdges.empty() && asRead > 0)) {
+        if (open < least || joined.openEdges.empty()) {
             least = open / 2;  // a longer reach must be worth it
             best = std::move(joined);
             isFound = true;
