@@ -246,7 +246,10 @@ inline std::optional<FilledSolids> fillSolids(const model::BuildingModel& model,
         filled.closures[scalar - 1] = object.closure;
         claims.push_back({scalar, static_cast<std::uint8_t>(model::classRank(feature.className)), feature.id});
     }
-    auto voxels = voxelize::voxelize(*meshes, *grid, claims);
+    // Which voxels parts thinner than a voxel get depends on how their faces are triangulated; that is not the question.
+    voxelize::VoxelizeOptions options;
+    options.keepThinParts = false;
+    auto voxels = voxelize::voxelize(*meshes, *grid, claims, options);
     if (!voxels) return std::nullopt;
     for (std::size_t o = 0; o < claims.size(); ++o) filled.uncertain[claims[o].scalar - 1] = voxels->uncertainVoxels[o];
     filled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -291,7 +294,8 @@ inline DamageFigures compareSolids(const FilledSolids& truth, const FilledSolids
     for (std::size_t s = 1; s < count; ++s) {
         if (voxels[s] < fewestVoxels) continue;
         ++figures.objects;
-        figures.all.emplace_back(double(wrong[s]) / double(voxels[s]), truth.ids[s - 1]);
+        figures.all.emplace_back(double(wrong[s]) / double(voxels[s]),
+                                 truth.ids[s - 1] + ", " + std::string(mesh::closureName(damaged.closures[s - 1])));
         difference += std::abs(double(damagedVoxels[s]) - double(voxels[s]));
         total += double(voxels[s]);
         switch (damaged.closures[s - 1]) {

@@ -30,6 +30,23 @@ struct Work {
     std::vector<Shell> parts;
 };
 
+// Where solids touch, faces of both that look the wrong way cancel all the same, so that the shells are closed together.
+// Then those of the solids one by one are taken, if turning faces closes them.
+void checkSolidsAlone(const std::vector<MeshSource>& solids, const ShellInput& input, Shell& together) {
+    std::vector<Shell> parts;
+    bool isWrong = false;
+    for (const MeshSource& solid : solids) {
+        parts.push_back(gatherShell(solid, input));
+        isWrong = isWrong || !findOpenEdges(parts.back().mesh.triangles).empty();
+    }
+    if (!isWrong) return;
+    for (Shell& part : parts) {
+        testClosing(part, input, false);
+        if (!part.mesh.openEdges.empty()) return;
+    }
+    together = joinShells(std::move(parts));
+}
+
 // The shells of all sources, each with its closing test.
 void gatherShells(const std::vector<MeshSource>& sources, const ShellInput& input, std::vector<Work>& work) {
     parallelFor(sources.size(), 1, input.options.threads, [&](std::size_t begin, std::size_t end) {
@@ -37,7 +54,10 @@ void gatherShells(const std::vector<MeshSource>& sources, const ShellInput& inpu
             const std::vector<MeshSource> parts = splitIntoSolids(sources[i]);
             work[i].shell = gatherShell(sources[i], input);
             testClosing(work[i].shell, input, sources[i].hasSolidMeaning && parts.empty());
-            if (work[i].shell.mesh.openEdges.empty()) continue;
+            if (work[i].shell.mesh.openEdges.empty()) {
+                checkSolidsAlone(parts, input, work[i].shell);
+                continue;
+            }
             // Surfaces around something that need not be a body, and enclose nothing: they stand for themselves.
             if (!sources[i].hasSolidMeaning && sources[i].isAssembled) work[i].shell = {};
             if (!sources[i].hasSolidMeaning) continue;

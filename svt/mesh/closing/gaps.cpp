@@ -12,12 +12,6 @@
 namespace svt::mesh {
 namespace {
 
-double openLength(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& edges) {
-    double sum = 0;
-    for (const OpenEdge& edge : edges) sum += length(vertices[edge.to] - vertices[edge.from]);
-    return sum;
-}
-
 // Ends of open edges, each with how far it may be from what it is joined with.
 struct LooseEnd {
     std::uint32_t vertex;
@@ -25,11 +19,11 @@ struct LooseEnd {
 };
 
 std::vector<LooseEnd> findLooseEnds(const ObjectMesh& mesh, double distance) {
-    constexpr double kPartOfEdge = 0.3;
+    constexpr double kPartOfEdge = 0.3, kNoEdge = 1e-4;  // shorter ones are noise: their ends are one
     std::map<std::uint32_t, double> reach;
     for (const OpenEdge& edge : mesh.openEdges) {
-        const double limit =
-            std::min(distance, kPartOfEdge * length(mesh.vertices[edge.to] - mesh.vertices[edge.from]));
+        const double edgeLength = length(mesh.vertices[edge.to] - mesh.vertices[edge.from]);
+        const double limit = edgeLength > kNoEdge ? std::min(distance, kPartOfEdge * edgeLength) : distance;
         for (const std::uint32_t vertex : {edge.from, edge.to}) {
             double& least = reach.try_emplace(vertex, limit).first->second;
             least = std::min(least, limit);
@@ -43,32 +37,10 @@ std::vector<LooseEnd> findLooseEnds(const ObjectMesh& mesh, double distance) {
     return ends;
 }
 
-// Joins loose ends within reach of each other in their middle: each with the first of a group, in the order along x.
-void weldLooseEnds(ObjectMesh& mesh, double distance) {
-    const std::vector<LooseEnd> ends = findLooseEnds(mesh, distance);
-    std::vector<std::uint32_t> target(mesh.vertices.size());
-    std::iota(target.begin(), target.end(), 0u);
-    std::vector<std::uint8_t> isTaken(ends.size(), 0);
-    for (std::size_t e = 0; e < ends.size(); ++e) {
-        if (isTaken[e] != 0) continue;
-        const Vec3d at = mesh.vertices[ends[e].vertex];
-        Vec3d sum = at;
-        double count = 1;
-        for (std::size_t o = e + 1; o < ends.size() && mesh.vertices[ends[o].vertex].x - at.x <= distance; ++o) {
-            const Vec3d other = mesh.vertices[ends[o].vertex];
-            if (isTaken[o] != 0 || length(other - at) > std::min(ends[e].reach, ends[o].reach)) continue;
-            isTaken[o] = 1;
-            target[ends[o].vertex] = ends[e].vertex;
-            sum = sum + other;
-            count += 1;
-        }
-        if (count > 1) mesh.vertices[ends[e].vertex] = sum / count;
-    }
-    for (Triangle& triangle : mesh.triangles)
-        for (std::uint32_t& corner : triangle.corners) corner = target[corner];
-    std::erase_if(mesh.triangles, [](const Triangle& t) {
-        return t.corners[0] == t.corners[1] || t.corners[1] == t.corners[2] || t.corners[0] == t.corners[2];
-    });
+double openLength(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& edges) {
+    double sum = 0;
+    for (const OpenEdge& edge : edges) sum += length(vertices[edge.to] - vertices[edge.from]);
+    return sum;
 }
 
 double diagonalOf(const ObjectMesh& mesh) {
@@ -176,6 +148,33 @@ void addStrip(ObjectMesh& mesh, const BridgeLoop& a, const BridgeLoop& b) {
 }
 
 }  // namespace
+
+void weldLooseEnds(ObjectMesh& mesh, double distance) {
+    const std::vector<LooseEnd> ends = findLooseEnds(mesh, distance);
+    std::vector<std::uint32_t> target(mesh.vertices.size());
+    std::iota(target.begin(), target.end(), 0u);
+    std::vector<std::uint8_t> isTaken(ends.size(), 0);
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        if (isTaken[e] != 0) continue;
+        const Vec3d at = mesh.vertices[ends[e].vertex];
+        Vec3d sum = at;
+        double count = 1;
+        for (std::size_t o = e + 1; o < ends.size() && mesh.vertices[ends[o].vertex].x - at.x <= distance; ++o) {
+            const Vec3d other = mesh.vertices[ends[o].vertex];
+            if (isTaken[o] != 0 || length(other - at) > std::min(ends[e].reach, ends[o].reach)) continue;
+            isTaken[o] = 1;
+            target[ends[o].vertex] = ends[e].vertex;
+            sum = sum + other;
+            count += 1;
+        }
+        if (count > 1) mesh.vertices[ends[e].vertex] = sum / count;
+    }
+    for (Triangle& triangle : mesh.triangles)
+        for (std::uint32_t& corner : triangle.corners) corner = target[corner];
+    std::erase_if(mesh.triangles, [](const Triangle& t) {
+        return t.corners[0] == t.corners[1] || t.corners[1] == t.corners[2] || t.corners[0] == t.corners[2];
+    });
+}
 
 std::uint32_t joinGaps(ObjectMesh& mesh) {
     const double diagonal = diagonalOf(mesh), asRead = openLength(mesh.vertices, mesh.openEdges);

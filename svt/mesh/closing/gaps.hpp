@@ -8,6 +8,12 @@
 
 namespace svt::mesh {
 
+/// Makes one corner, in their middle, of ends of open edges that are up to `distance` metres apart; by no more than 0.3
+/// of the shortest open edge of each, edges below 0.1 mm aside. Triangles that lose a side are dropped.
+/// \pre mesh.openEdges holds the open edges; it is out of date afterwards
+/// Cost: O(n log n) in the open edges, plus their pairs that overlap along x.
+void weldLooseEnds(ObjectMesh& mesh, double distance);
+
 /// Joins ends of open edges, and ends and edges, that are up to 1 mm, 1 cm, 5 cm or 25 cm apart: the smallest of these
 /// distances with which no edge stays open, else the one that leaves the least length of open edges, if that is less
 /// than half. Corners that are joined meet in their middle. A corner moves by no more than 0.3 of its shortest open

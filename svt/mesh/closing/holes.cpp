@@ -19,16 +19,28 @@ struct FittedPlane {
     double area = 0, deviation = kInfinity;
 };
 
+// The face beside an open edge.
+struct Beside {
+    Vec3d unitNormal{};
+    std::uint32_t component = 0;  // of findComponents()
+};
+
 class HoleCapper {
 public:
     HoleCapper(ObjectMesh& mesh, double deviation) : mesh_(mesh), deviation_(deviation) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3d> all;
+        const std::vector<std::uint32_t> component = findComponents(mesh.triangles);
+        std::map<std::pair<std::uint32_t, std::uint32_t>, Beside> all;
         for (const OpenEdge& edge : mesh.openEdges) all[{edge.from, edge.to}] = {};
-        for (const Triangle& t : mesh.triangles) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            const Triangle& t = mesh.triangles[i];
+            if (component[i] >= members_.size()) members_.resize(component[i] + 1);
+            members_[component[i]].insert(members_[component[i]].end(), t.corners.begin(), t.corners.end());
             for (std::size_t c = 0; c < 3; ++c)
                 if (const auto found = all.find({t.corners[c], t.corners[(c + 1) % 3]}); found != all.end()) {
                     const Vec3d a = mesh.vertices[t.corners[0]];
-                    found->second = normalized(cross(mesh.vertices[t.corners[1]] - a, mesh.vertices[t.corners[2]] - a));
+                    found->second = {
+                        normalized(cross(mesh.vertices[t.corners[1]] - a, mesh.vertices[t.corners[2]] - a)),
+                        component[i]};
                 }
             for (const std::uint32_t corner : t.corners) box_.add(mesh.vertices[corner]);
         }
@@ -36,7 +48,7 @@ public:
     }
 
     void close(const Loop& loop) {
-        if (loop.size() < 3 || addCap(loop)) return;
+        if (loop.size() < 3 || (!boundsFlatPart(loop) && addCap(loop))) return;
         constexpr std::size_t kMostCorners = 200;
         if (loop.size() > kMostCorners || fit(loop).deviation <= deviation_) return;
         if (!closeCorner(loop)) closeAlongChords(loop);
@@ -62,6 +74,20 @@ private:
         return plane;
     }
 
+    // True if the loop is the border of a part that lies in its plane as a whole: a cap would only be its back. Where
+    // faces overlap in a part that bends, a cap on them is right: it takes away what is there twice.
+    [[nodiscard]] bool boundsFlatPart(const Loop& loop) const {
+        const auto beside = besideEdge_.find({loop[1], loop[0]});
+        if (beside == besideEdge_.end()) return false;
+        const FittedPlane plane = fit(loop);
+        if (!(plane.area > 0)) return false;
+        const double limit = std::max(1e-3, 2 * plane.deviation);
+        const auto& corners = members_[beside->second.component];
+        return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
+            return std::abs(dot(at(corner) - plane.center, plane.unitNormal)) <= limit;
+        });
+    }
+
     // True if a cap with this normal would lie on the faces beside most of its border.
     [[nodiscard]] bool foldsBack(const Loop& ring, Vec3d unitNormal) const {
         constexpr double kSamePlane = 0.95;
@@ -72,7 +98,7 @@ private:
             if (beside == besideEdge_.end()) continue;  // a chord
             const double edge = length(at(to) - at(from));
             border += edge;
-            if (dot(beside->second, unitNormal) < -kSamePlane) folded += edge;
+            if (dot(beside->second.unitNormal, unitNormal) < -kSamePlane) folded += edge;
         }
         return folded * 2 > border;
     }
@@ -99,7 +125,6 @@ private:
         const Triangulation cap = triangulatePolygon(ring, {&end, 1});
         // If the ring crosses itself, the cap would need points that the shell does not have.
         if (cap.triangles.empty() || !cap.extraPoints.empty() || cap.planeDeviation > deviation_) return false;
-        if (foldsBack(loop, normalized(newellNormal(ring)))) return false;
         for (const auto& corners : cap.triangles) {
             Triangle triangle;
             for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = loop[corners[c]];
@@ -165,7 +190,7 @@ private:
         const std::size_t triangles = mesh_.triangles.size(), caps = mesh_.caps.size();
         for (Loop& run : runs) {
             run.push_back(vertex);
-            if (addCap(run)) continue;
+            if (!foldsBack(run, fit(run).unitNormal) && addCap(run)) continue;
             mesh_.vertices.pop_back();
             mesh_.triangles.resize(triangles);
             mesh_.caps.resize(caps);
@@ -191,14 +216,15 @@ private:
             std::erase_if(rest, [&](std::uint32_t vertex) {
                 return std::find(best.begin() + 1, best.end() - 1, vertex) != best.end() - 1;
             });
-            if (rest.size() >= 3 && addCap(rest)) return;
+            if (rest.size() >= 3 && !foldsBack(rest, fit(rest).unitNormal) && addCap(rest)) return;
         }
     }
 
     ObjectMesh& mesh_;
     double deviation_;
     Box3d box_;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3d> besideEdge_;  // open edge -> unit normal of its face
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Beside> besideEdge_;  // per open edge
+    std::vector<std::vector<std::uint32_t>> members_;                       // corners per component
 };
 
 }  // namespace

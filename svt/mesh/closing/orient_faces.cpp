@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kPointsPerPatch = 8, kRayPairs = 16;
 constexpr double kMeaningWeight = 0.5, kParityWeight = 0.25, kMajority = 0.02;
+// Of the area of the shell. Less is a sliver where faces overlap: it holds no volume, and fits its neighbours as it is.
+constexpr double kSmallestPatch = 0.001;
 
 // Directions all around: points of the R3 sequence (Roberts 2018) within the unit ball, at most sums and products, so
 // that they are the same on every machine.
@@ -144,6 +146,52 @@ double meaningOfPatch(std::span<const RayFace* const> faces, std::span<const mod
     return total > 0 ? sum / total : 0;
 }
 
+// Takes turns back where the patch agreed better with its neighbours before: less length of open edges.
+void takeBackTurns(const ObjectMesh& mesh, const Patches& patches, std::vector<std::uint8_t>& isTurned) {
+    struct Use {
+        std::uint32_t low, high, patch;
+        int direction;  // of the patch along the edge
+    };
+    std::vector<Use> uses;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t a = mesh.triangles[t].corners[c], b = mesh.triangles[t].corners[(c + 1) % 3];
+            const bool isForward = (a < b) != (isTurned[patches.of[t]] != 0);
+            uses.push_back({std::min(a, b), std::max(a, b), patches.of[t], isForward ? 1 : -1});
+        }
+    std::sort(uses.begin(), uses.end(), [](const Use& p, const Use& q) {
+        return std::tie(p.low, p.high, p.patch, p.direction) < std::tie(q.low, q.high, q.patch, q.direction);
+    });
+    std::vector<std::vector<std::size_t>> usesOf(patches.count);  // first uses of edges, per patch
+    std::vector<std::size_t> firstUse(uses.size());
+    std::vector<int> net(uses.size(), 0);  // at the first use of an edge: forward minus backward uses
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+        const bool isSame = u > 0 && uses[u].low == uses[u - 1].low && uses[u].high == uses[u - 1].high;
+        firstUse[u] = isSame ? firstUse[u - 1] : u;
+        net[firstUse[u]] += uses[u].direction;
+        if (isTurned[uses[u].patch] != 0) usesOf[uses[u].patch].push_back(u);
+    }
+    for (std::uint32_t patch = 0; patch < patches.count; ++patch) {
+        double change = 0;
+        const auto& own = usesOf[patch];
+        const auto forEachOwnEdge = [&](const auto& body) {
+            for (std::size_t i = 0, end = 0; i < own.size(); i = end) {
+                int direction = 0;
+                for (end = i; end < own.size() && firstUse[own[end]] == firstUse[own[i]]; ++end)
+                    direction += uses[own[end]].direction;
+                body(firstUse[own[i]], direction);
+            }
+        };
+        forEachOwnEdge([&](std::size_t edge, int direction) {
+            const double edgeLength = length(mesh.vertices[uses[edge].high] - mesh.vertices[uses[edge].low]);
+            change += edgeLength * (std::abs(net[edge] - 2 * direction) - std::abs(net[edge]));
+        });
+        if (!(change < -1e-9)) continue;
+        forEachOwnEdge([&](std::size_t edge, int direction) { net[edge] -= 2 * direction; });
+        isTurned[patch] = 0;
+    }
+}
+
 double windingAt(const ObjectMesh& mesh, Vec3d point) {
     double sum = 0;
     for (const Triangle& triangle : mesh.triangles) {
@@ -166,17 +214,21 @@ std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Facing> facin
     std::sort(faces.begin(), faces.end(), [&](const RayFace* p, const RayFace* q) {
         return std::tuple(patches.of[p->triangle], p->triangle) < std::tuple(patches.of[q->triangle], q->triangle);
     });
+    const auto areaOf = [](double sum, const RayFace* face) { return sum + length(cross(face->ab, face->ac)); };
+    const double area = std::accumulate(faces.begin(), faces.end(), 0.0, areaOf);
     std::vector<std::uint8_t> isTurned(patches.count, 0);
     for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
         const std::uint32_t patch = patches.of[faces[begin]->triangle];
         for (end = begin; end < faces.size() && patches.of[faces[end]->triangle] == patch;) ++end;
         const auto members = std::span<const RayFace* const>(faces).subspan(begin, end - begin);
+        if (std::accumulate(members.begin(), members.end(), 0.0, areaOf) < kSmallestPatch * area) continue;
         const RayVotes votes = votesOfPatch(tree, members);
         const double escape = votes.weight > 0 ? votes.escape / votes.weight : 0;
         double score = kMeaningWeight * meaningOfPatch(members, facings) + escape;
         if (std::abs(escape) < kMajority && votes.weight > 0) score += kParityWeight * votes.parity / votes.weight;
         isTurned[patch] = score < -kMajority;
     }
+    takeBackTurns(mesh, patches, isTurned);
     std::uint32_t turned = 0;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         if (isTurned[patches.of[t]] == 0) continue;

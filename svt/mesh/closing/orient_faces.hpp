@@ -21,7 +21,8 @@ namespace svt::mesh {
 ///
 /// What the faces mean counts half as much as rays that all escape on one side: a GroundSurface looks down, a
 /// RoofSurface up. So the underside of an eaves, called RoofSurface as well, still looks down. Without a majority a
-/// patch stays as it is.
+/// patch stays as it is, and so does one that would agree less with its neighbours, by the length of open edges, or that is
+/// less than a thousandth of the shell.
 /// \param facings  per triangle of the mesh: which way it should look; empty: nothing is known
 /// \return count of reversed triangles
 /// Cost: O((patches + log triangles) * kRays): at most 8 points and 16 pairs of rays for each patch. Directions are

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <set>
-#include <tuple>
 
 namespace svt::mesh {
 namespace {
@@ -82,24 +80,6 @@ bool isFlat(const ObjectMesh& mesh) {
     return std::abs(signedVolume(mesh.vertices, mesh.triangles)) < 1e-6 * area * std::sqrt(area);
 }
 
-// Makes one of vertices in the same place: the tessellator adds points where rings touch, which may have a twin.
-void weldSamePlaces(ObjectMesh& mesh) {
-    std::vector<std::uint32_t> order(mesh.vertices.size()), target(mesh.vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::tie(mesh.vertices[a], a) < std::tie(mesh.vertices[b], b);
-    });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool isTwin = i > 0 && mesh.vertices[order[i]] == mesh.vertices[order[i - 1]];
-        target[order[i]] = isTwin ? target[order[i - 1]] : order[i];
-    }
-    for (Triangle& triangle : mesh.triangles)
-        for (std::uint32_t& corner : triangle.corners) corner = target[corner];
-    std::erase_if(mesh.triangles, [](const Triangle& t) {
-        return t.corners[0] == t.corners[1] || t.corners[1] == t.corners[2] || t.corners[0] == t.corners[2];
-    });
-}
-
 // Gives a sheet a back: closed, but without a volume.
 void addBack(ObjectMesh& mesh) {
     const std::size_t count = mesh.triangles.size();
@@ -168,9 +148,13 @@ void testClosing(Shell& shell, const ShellInput& input, bool usesRays) {
     mesh.openEdges = findOpenEdges(mesh.triangles);
     mesh.unmatchedEdges = static_cast<std::uint32_t>(mesh.openEdges.size());
     if (!mesh.openEdges.empty()) {
-        weldSamePlaces(mesh);
         shell.duplicateFaces += removeDoubledTriangles(mesh.triangles);
         mesh.tJunctionCount = cutAtTJunctions(mesh.vertices, mesh.triangles, input.options.tJunctionDistance);
+        mesh.openEdges = findOpenEdges(mesh.triangles);
+    }
+    if (!mesh.openEdges.empty()) {
+        // The tessellator adds points where rings touch, which may be twins of corners up to its precision.
+        weldLooseEnds(mesh, input.options.tJunctionDistance);
         mesh.openEdges = findOpenEdges(mesh.triangles);
     }
     if (!mesh.openEdges.empty()) {
