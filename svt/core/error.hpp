@@ -47,6 +47,7 @@ enum class Code : std::uint16_t {
     TriangulationFailed = 212,  ///< a polygon that could not be triangulated; left out
     NoGeometry = 213,           ///< a feature without the geometry expected of it
     FacesComplemented = 214,    ///< open shell completed with faces of adjoining objects
+    VolumeDiffers = 215,        ///< an object whose voxels are more or less than its shell encloses
     // 3xx: voxels
     BadDimension = 301,   ///< grid dimension or spacing out of range
     GridTooLarge = 302,   ///< over the grid's limits

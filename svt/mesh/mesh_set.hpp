@@ -17,6 +17,7 @@
 namespace svt::mesh {
 
 inline constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
+inline constexpr model::PolygonIndex kNoPolygon = 0xFFFFFFFFu;
 
 /// The plane z = slopeX * x + slopeY * y + offset in local space. It is shared by all coplanar triangles of the meshes,
 /// in all objects and for any triangulation, so that two solids that share a face get the same heights, bit for bit.
@@ -30,6 +31,7 @@ struct Triangle {
     std::array<std::uint32_t, 3> corners{};  ///< indices in ObjectMesh::vertices; counter-clockwise from outside
     std::uint32_t plane = kNoPlane;          ///< index in MeshSet::planes; kNoPlane if (nearly) vertical
     float thickness = 0;  ///< metres of the object's material behind the centre of this face; +inf: unknown or a sheet
+    model::PolygonIndex polygon = kNoPolygon;  ///< of the model, that it is a part of; kNoPolygon: added, as by a cap
 };
 
 /// How an object became a solid, or why it is none.
@@ -37,7 +39,7 @@ enum class Closure : std::uint8_t {
     Closed,        ///< every edge is used equally often in both directions
     TJunctions,    ///< the same, after edges were split at points that lie on them
     Complemented,  ///< closed by faces of adjoining features
-    Capped,        ///< closed by planar caps
+    Capped,        ///< closed by planar caps, by joining edges over gaps, or by bridges between loops
     Open,          ///< solid meaning, but still open: will be filled by generalized winding number
     Surface        ///< no solid meaning and not closed: a sheet
 };
@@ -69,11 +71,14 @@ struct ObjectMesh {
     std::uint32_t tJunctionCount = 0;  ///< edges that had to be split at points of others
     std::uint32_t flippedFaces = 0;    ///< triangles reversed to make the orientation consistent
     std::uint32_t complementedFaces = 0;
+    std::uint32_t joinedEdges = 0;   ///< edges that had no partner and were joined over gaps of up to 25 cm
+    std::uint32_t bridgedLoops = 0;  ///< pairs of loops of open edges with a strip of faces between them
     std::vector<Cap> caps;
-    double volume = 0;         ///< m3, of the closed mesh; 0 if open
-    double area = 0;           ///< m2
-    bool isAssembled = false;  ///< built from the boundary surfaces of the feature, since it has no own solid
-    Box3d bounds;              ///< local space
+    double volume = 0;          ///< m3, of the closed mesh; 0 if open
+    double enclosedVolume = 0;  ///< m3: volume, and of an Open mesh an estimate, its holes closed by fans
+    double area = 0;            ///< m2
+    bool isAssembled = false;   ///< built from the boundary surfaces of the feature, since it has no own solid
+    Box3d bounds;               ///< local space
 
     /// True if the mesh is closed, so that it defines inside and outside.
     [[nodiscard]] bool isSolid() const noexcept { return closure <= Closure::Capped; }
@@ -101,9 +106,10 @@ struct MeshOptions {
 /// boundary surfaces (with their openings) form one.
 ///
 /// Polygons are triangulated, points welded, duplicate faces removed, edges split at T-junctions, and faces oriented
-/// consistently and outwards. Every object is tested for being closed (paper, section 4.1). An open object with solid
-/// meaning is completed by faces of adjoining features, then by planar caps; otherwise it stays Open. Nothing is
-/// dropped without a diagnostic.
+/// consistently and outwards. Every object is tested for being closed (paper, section 4.1). The faces of an open object
+/// with solid meaning are turned by their meaning and by rays; then it is completed by faces of adjoining features, by
+/// joining edges over gaps, by bridges and by planar caps; otherwise it stays Open, or, where nothing is enclosed, a
+/// Surface. Nothing is dropped without a diagnostic.
 ///
 /// \param log  receives findings with feature id and world coordinates, in tree order; may be null
 /// \return the meshes, or EmptyModel if no feature has geometry, or Cancelled

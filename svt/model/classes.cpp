@@ -41,7 +41,7 @@ constexpr std::array<string_view, 4> kRooms{"BuildingRoom", "BridgeRoom", "Hollo
 constexpr std::array<string_view, 8> kBuildings{
     "Building", "BuildingPart", "Bridge", "BridgePart", "Tunnel", "TunnelPart", "OtherConstruction", "+NoiseBuilding"};
 // Thematic surfaces of all modules; water body and transportation surfaces bound spaces too.
-constexpr std::array<string_view, 17> kBoundaries{"WallSurface",
+constexpr std::array<string_view, 19> kBoundaries{"WallSurface",
                                                   "RoofSurface",
                                                   "GroundSurface",
                                                   "FloorSurface",
@@ -57,9 +57,11 @@ constexpr std::array<string_view, 17> kBoundaries{"WallSurface",
                                                   "AuxiliaryTrafficArea",
                                                   "GenericThematicSurface",
                                                   "HoleSurface",
-                                                  "Marking"};
+                                                  "Marking",
+                                                  "TransportationMarking",
+                                                  "TransportationHole"};
 // Transportation objects are surfaces in CityGML 1.0 and 2.0, and spaces without their own solid in 3.0.
-constexpr std::array<string_view, 14> kSurfaceOnly{"TINRelief",
+constexpr std::array<string_view, 22> kSurfaceOnly{"TINRelief",
                                                    "ReliefFeature",
                                                    "LandUse",
                                                    "CityObjectGroup",
@@ -72,7 +74,29 @@ constexpr std::array<string_view, 14> kSurfaceOnly{"TINRelief",
                                                    "Railway",
                                                    "Track",
                                                    "Square",
-                                                   "Waterway"};
+                                                   "Waterway",
+                                                   "TransportSquare",
+                                                   "Section",
+                                                   "Intersection",
+                                                   "TrafficSpace",
+                                                   "AuxiliaryTrafficSpace",
+                                                   "ClearanceSpace",
+                                                   "Hole",
+                                                   "DoorSurface"};
+// What files give as loose sheets as often as bodies.
+constexpr std::array<string_view, 13> kBodyIfDeclared{"Door",
+                                                      "Window",
+                                                      "SolitaryVegetationObject",
+                                                      "PlantCover",
+                                                      "CityFurniture",
+                                                      "GenericOccupiedSpace",
+                                                      "GenericUnoccupiedSpace",
+                                                      "GenericLogicalSpace",
+                                                      "Bridge",
+                                                      "BridgePart",
+                                                      "BridgeInstallation",
+                                                      "WaterBody",
+                                                      "OtherConstruction"};
 
 }  // namespace
 
@@ -97,15 +121,26 @@ ClassRank classRank(string_view className) noexcept {
 
 bool isBoundarySurface(string_view className) noexcept { return isIn(kBoundaries, className); }
 
+Facing facingOf(string_view surfaceClass, bool boundsSpace) noexcept {
+    if (surfaceClass == "GroundSurface" || surfaceClass == "OuterCeilingSurface") return Facing::Down;
+    if (surfaceClass == "RoofSurface" || surfaceClass == "OuterFloorSurface") return Facing::Up;
+    if (boundsSpace && surfaceClass == "FloorSurface") return Facing::Down;
+    if (boundsSpace && surfaceClass == "CeilingSurface") return Facing::Up;
+    return Facing::Any;
+}
+
 bool isFilling(string_view className) noexcept { return isIn(kFillings, className); }
 
 bool isSpace(string_view className) noexcept {
     return isIn(kRooms, className) || className == "BuildingUnit" || className == "Storey";
 }
 
-bool hasSolidMeaning(string_view className) noexcept {
-    if (isBoundarySurface(className) || className == "DoorSurface" || className == "WindowSurface") return false;
-    return !isIn(kSurfaceOnly, className);
+Inside insideOf(string_view className) noexcept {
+    if (isBoundarySurface(className) || className == "WindowSurface" || isIn(kSurfaceOnly, className))
+        return Inside::Never;
+    return isIn(kBodyIfDeclared, className) ? Inside::Declared : Inside::Always;
 }
+
+bool hasSolidMeaning(string_view className) noexcept { return insideOf(className) != Inside::Never; }
 
 }  // namespace svt::model

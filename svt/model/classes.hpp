@@ -29,12 +29,41 @@ enum class ClassRank : std::uint8_t {
 };
 [[nodiscard]] ClassRank classRank(std::string_view className) noexcept;
 
-/// True if the class represents a body with volume (Building, BuildingRoom, furniture, Door of CityGML 3.0);
-/// an open shell of such a feature gets closed. False for boundary surfaces, openings as surfaces, terrain.
+/// Whether things of a class have an inside that is filled. A shell that is closed as read is filled in any case.
+enum class Inside : std::uint8_t {
+    Always,    ///< a body or a space: an open shell is meant to be closed
+    Declared,  ///< only where the geometry is a solid: trees of crossed pictures, bridge decks, generic objects
+    Never      ///< terrain, roads, land use, boundary surfaces: a sheet
+};
+
+/// The inside of a class. Unknown classes are bodies (what encloses nothing becomes a sheet in any case).
+///
+///     Always    Building, BuildingPart, rooms, units, storeys, constructive elements, installations, furniture, tunnels
+///     Declared  Door, Window, SolitaryVegetationObject, PlantCover, CityFurniture, GenericOccupiedSpace,
+///               GenericUnoccupiedSpace, GenericLogicalSpace, Bridge, BridgePart, BridgeInstallation, WaterBody,
+///               OtherConstruction
+///     Never     boundary surfaces, DoorSurface, WindowSurface, relief, LandUse, CityObjectGroup, transportation
+[[nodiscard]] Inside insideOf(std::string_view className) noexcept;
+
+/// True if things of the class can be bodies with a volume (Building, BuildingRoom, furniture, Door of CityGML 3.0):
+/// insideOf() is not Never.
 [[nodiscard]] bool hasSolidMeaning(std::string_view className) noexcept;
 
 /// True for surfaces that bound a space: WallSurface, RoofSurface, ..., ClosureSurface.
 [[nodiscard]] bool isBoundarySurface(std::string_view className) noexcept;
+
+/// Which way the faces of a boundary surface look, out of what it bounds.
+enum class Facing : std::uint8_t {
+    Any,  ///< walls, closure surfaces, and classes whose meaning does not tell
+    Up,
+    Down
+};
+
+/// How faces of a boundary surface look in the shell that they bound: GroundSurface and OuterCeilingSurface down,
+/// RoofSurface and OuterFloorSurface up.
+/// \param boundsSpace  the shell is that of a room or another space, seen from within: then FloorSurface looks down,
+///                     CeilingSurface up; in a shell of material they can be either face of a slab
+[[nodiscard]] Facing facingOf(std::string_view surfaceClass, bool boundsSpace) noexcept;
 
 /// True for Door, Window, DoorSurface, WindowSurface.
 [[nodiscard]] bool isFilling(std::string_view className) noexcept;

@@ -76,5 +76,29 @@ TEST(Classes, EveryClassIsBodyOrSurfaceAsItsMeaningSays) {
     }
 }
 
+TEST(Classes, WhatCanBeSheetsIsFilledOnlyWhereItIsDeclaredASolid) {
+    for (const char* name : {"Building", "BuildingPart", "BuildingRoom", "BuildingInstallation", "BuildingFurniture",
+                             "BuildingConstructiveElement", "Tunnel", "+NoiseBuilding", "Blimp"})
+        EXPECT_EQ(insideOf(name), Inside::Always) << name;
+    for (const char* name : {"SolitaryVegetationObject", "PlantCover", "GenericOccupiedSpace", "Bridge", "BridgePart",
+                             "Door", "Window", "WaterBody", "CityFurniture"})
+        EXPECT_EQ(insideOf(name), Inside::Declared) << name;
+    for (const char* name : {"LandUse", "Road", "TransportSquare", "TINRelief", "WaterSurface", "TrafficSpace",
+                             "DoorSurface", "WindowSurface", "TransportationMarking", "GroundSurface"})
+        EXPECT_EQ(insideOf(name), Inside::Never) << name;
+}
+
+TEST(Classes, SurfacesLookOutOfWhatTheyBound) {
+    for (const bool boundsSpace : {false, true}) {
+        EXPECT_EQ(facingOf("GroundSurface", boundsSpace), Facing::Down);
+        EXPECT_EQ(facingOf("OuterCeilingSurface", boundsSpace), Facing::Down);
+        EXPECT_EQ(facingOf("RoofSurface", boundsSpace), Facing::Up);
+        EXPECT_EQ(facingOf("OuterFloorSurface", boundsSpace), Facing::Up);
+        EXPECT_EQ(facingOf("WallSurface", boundsSpace), Facing::Any);
+        EXPECT_EQ(facingOf("FloorSurface", boundsSpace), boundsSpace ? Facing::Down : Facing::Any);
+        EXPECT_EQ(facingOf("CeilingSurface", boundsSpace), boundsSpace ? Facing::Up : Facing::Any);
+    }
+}
+
 }  // namespace
 }  // namespace svt::model

@@ -125,6 +125,14 @@ bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, cons
     return box.overlaps({{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}});
 }
 
+// Whether an object lies in the grid as a whole.
+bool liesInGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, const volume::Grid& grid) {
+    const Vec3i n = grid.dimension();
+    const Box3d box{{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}};
+    return std::all_of(object.vertices.begin(), object.vertices.end(),
+                       [&](const Vec3d& vertex) { return box.contains(grid.indexFromWorld(vertex + meshes.origin)); });
+}
+
 // Reports objects outside a grid that was made for another model; an error if all are outside.
 Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
                             Diagnostics* log) {
@@ -216,12 +224,59 @@ void fillLabels(const voxelize::VoxelizeResult& voxels, const std::vector<voxeli
         }
 }
 
+// Voxels of a label, and those that others took which can stand in it: finer solids that claim the same voxels, the
+// surfaces, bodies and open shells below it, whose overlaps are not counted, and all that is below an open shell. An upper
+// bound: what three claim is counted twice.
+std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, std::uint64_t lostByPriority) {
+    const bool isOpen = table.labels[label].filling == volume::Filling::Winding;
+    std::uint64_t sum = table.labels[label].voxels + lostByPriority;
+    for (std::uint32_t below = label + 1; below < table.labels[label].subtreeEnd; ++below) {
+        const volume::Filling filling = table.labels[below].filling;
+        if (isOpen || filling == volume::Filling::Surface || filling == volume::Filling::Body ||
+            filling == volume::Filling::Winding)
+            sum += table.labels[below].voxels;
+    }
+    return sum;
+}
+
+// Warns of objects whose voxels are too many or too few for what their shells enclose. A face that is up to half a voxel
+// off shifts the volume by half a voxel times its area, so area * spacing / 2 is allowed beside 2 %, and the one voxel that
+// every object gets; small objects need no rule of their own by that.
+void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, const voxelize::VoxelizeResult& voxels,
+                  Diagnostics& log) {
+    constexpr double kPart = 0.02;
+    const auto& [meshes, grid, labelled] = prepared;
+    const Vec3d spacing = grid.spacing();
+    const double halfVoxel = std::max({spacing.x, spacing.y, spacing.z}) / 2;
+    std::vector<std::uint64_t> lost(meshes.objects.size(), 0);
+    for (const voxelize::ClaimPair& pair : voxels.overlaps) lost[pair.b] += pair.voxels;
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        const mesh::ObjectMesh& object = meshes.objects[o];
+        if (object.closure == mesh::Closure::Surface || !liesInGrid(object, meshes, grid)) continue;
+        const std::uint32_t l = labelled.labelOfObject[o];
+        const volume::Label& label = labelled.table.labels[l];
+        const double allowed = kPart * std::abs(object.enclosedVolume) + object.area * halfVoxel + grid.voxelVolume();
+        const double most = double(mostVoxels(labelled.table, l, lost[o])) * grid.voxelVolume();
+        const double least = double(label.voxels - std::min(label.voxels, label.thinVoxels)) * grid.voxelVolume();
+        if (most >= object.enclosedVolume - allowed && least <= object.enclosedVolume + allowed) continue;
+        const model::Feature& feature = model.features[object.feature];
+        log.add(
+            Severity::Warning, Code::VolumeDiffers,
+            fmt::format("its voxels are {:.1f} m3, its shell encloses {:.1f} m3{}; expected at most {:.1f} m3 between "
+                        "them; look at the object and correct its faces",
+                        most < object.enclosedVolume ? most : least, object.enclosedVolume,
+                        object.isSolid() ? "" : " if its holes are closed straight", allowed),
+            {model.source, feature.line, 0, feature.id});
+    }
+}
+
 void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
     report.objects = meshes.objects.size();
     report.triangles = meshes.triangleCount();
     for (const mesh::ObjectMesh& object : meshes.objects) {
         if (object.closure != mesh::Closure::Surface && object.leakCount != 0) ++report.open;
         if (object.closure == mesh::Closure::TJunctions) ++report.tJunctions;
+        ++report.closures[std::size_t(object.closure)];
     }
 }
 
@@ -298,7 +353,9 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     start = Clock::now();
     Progress::tell(options.progress, "pack", 0);
     fillLabels(*voxels, groups, *prepared);
+    if (log != nullptr) checkVolumes(model, *prepared, *voxels, *log);
     countObjects(meshes, report);
+    for (const std::uint64_t count : voxels->uncertainVoxels) report.uncertainVoxels += count;
     auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors, options.threads);
     if (!vectors) return vectors.error();
     output.volume.vectors = std::move(*vectors);

@@ -132,6 +132,25 @@ TEST(BuildVolume, CapsAreLabelsWithoutVoxels) {
     EXPECT_EQ(log.count(Code::ShellCapped), 1u);
 }
 
+TEST(BuildVolume, WarnsWhereVoxelsAreFarFromWhatTheShellEncloses) {
+    // Of the two boxes of one solid that overlap by half, the volume counts the common part twice.
+    model::BuildingModel model;
+    auto uses = test::addBox(model, {0, 0, 0}, {8, 6, 4});
+    for (const model::SurfaceUse& use : test::addBox(model, {1, 1, 0.5}, {9, 7, 4.5})) uses.push_back(use);
+    addFeature(model, "Building", "twice", model::kNoFeature, {test::solidOf(uses)});
+    const FeatureIndex right = addBoxFeature(model, "Building", "right", {20, 0, 0}, {28, 6, 4});
+    addBoxFeature(model, "BuildingRoom", "room", {21, 1, 0.5}, {27, 5, 3.5}, right);
+    addBoxFeature(model, "BuildingFurniture", "table", {22, 1.5, 1}, {23, 2.5, 2}, right);
+    Diagnostics log;
+    (void)build(model, withSpacing(0.1), &log);
+    ASSERT_EQ(log.count(Code::VolumeDiffers), 1u);
+    for (const Diagnostic& item : log.items()) {
+        if (item.code == Code::VolumeDiffers) {
+            EXPECT_EQ(item.where.id, "twice");
+        }
+    }
+}
+
 TEST(BuildVolume, OverlapsTellNestedFromConflicting) {
     model::BuildingModel model;
     const FeatureIndex house = addBoxFeature(model, "Building", "house", {0, 0, 0}, {8, 4, 4});

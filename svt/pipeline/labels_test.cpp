@@ -135,9 +135,12 @@ TEST(AddCapFeatures, CapIsAClosureSurfaceWithItsArea) {
     model::BuildingModel model;
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,
                {test::solidOf(test::addBox(model, {0, 0, 0}, {4, 3, 2}, {test::kTop, test::kWest}))});
+    // A corner of the hole is lifted, so that it lies in no planes.
+    for (model::Polygon& polygon : model.polygons)
+        for (Vec3d& point : polygon.points)
+            if (point == Vec3d{4, 3, 2}) point.z = 3.5;
     addBoxFeature(model, "BuildingRoom", "next", {8, 0, 0}, {9, 1, 1});
     LabelledObjects labelled = labelsOf(model);
-    // The top and the west side share an edge: they form one open loop that is not a planar hole.
     EXPECT_EQ(labelOf(labelled, "room").filling, volume::Filling::Winding);
     model = {};
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,

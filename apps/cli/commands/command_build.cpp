@@ -4,6 +4,7 @@
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -71,6 +72,9 @@ int runBuild(const BuildCommandArguments& arguments) {
         json["triangles"] = report.triangles;
         json["open"] = report.open;
         json["tJunctions"] = report.tJunctions;
+        for (std::size_t c = 0; c < report.closures.size(); ++c)
+            json["closures"][std::string(mesh::closureName(mesh::Closure(c)))] = report.closures[c];
+        json["uncertainVoxels"] = report.uncertainVoxels;
         json["seconds"] = {{"read", report.seconds.read},         {"mesh", report.seconds.mesh},
                            {"voxelize", report.seconds.voxelize}, {"pack", report.seconds.pack},
                            {"write", report.seconds.write},       {"total", report.seconds.total}};

@@ -44,6 +44,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(TriangulationFailed);
         SVT_CASE(NoGeometry);
         SVT_CASE(FacesComplemented);
+        SVT_CASE(VolumeDiffers);
         SVT_CASE(BadDimension);
         SVT_CASE(GridTooLarge);
         SVT_CASE(TooManyLabels);

@@ -209,27 +209,4 @@ std::uint32_t FaceFinder::complement(ObjectMesh& mesh, std::vector<std::uint32_t
     return static_cast<std::uint32_t>(chosen.size());
 }
 
-void capPlanarHoles(ObjectMesh& mesh, double deviation) {
-    for (const auto& loop : findBoundaryLoops(mesh.openEdges)) {
-        if (loop.size() < 3) continue;
-        std::vector<Vec3d> ring;
-        for (const std::uint32_t corner : loop) ring.push_back(mesh.vertices[corner]);
-        const std::uint32_t end = static_cast<std::uint32_t>(ring.size());
-        const Triangulation cap = triangulatePolygon(ring, {&end, 1});
-        // If the ring crosses itself, the cap would need points that the shell does not have.
-        if (cap.triangles.empty() || !cap.extraPoints.empty() || cap.planeDeviation > deviation) continue;
-        for (const auto& corners : cap.triangles) {
-            Triangle triangle;
-            for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = loop[corners[c]];
-            mesh.triangles.push_back(triangle);
-        }
-        Cap record;
-        record.area = length(newellNormal(ring)) / 2;
-        for (const Vec3d& point : ring) record.center = record.center + point / static_cast<double>(ring.size());
-        record.ring = std::move(ring);
-        mesh.caps.push_back(std::move(record));
-    }
-    mesh.openEdges = findOpenEdges(mesh.triangles);
-}
-
 }  // namespace svt::mesh

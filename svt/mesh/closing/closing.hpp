@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Ways to close an open shell, in the order in which they are tried (paper, section 4.1): faces of adjoining features,
-/// then planar caps.
+/// Closing an open shell with faces of adjoining features (paper, section 4.1). What they leave open: gaps.hpp, holes.hpp.
 
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
@@ -41,9 +40,5 @@ private:
     const LocalPolygons& polygons_;
     std::unique_ptr<Edges> edges_;
 };
-
-/// Caps boundary loops that lie within `deviation` metres of a plane, and records them in mesh.caps.
-/// \post mesh.openEdges holds the edges that are still open
-void capPlanarHoles(ObjectMesh& mesh, double deviation);
 
 }  // namespace svt::mesh

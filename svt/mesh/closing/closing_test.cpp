@@ -1,4 +1,5 @@
 #include <svt/mesh/closing/closing.hpp>
+#include <svt/mesh/closing/holes.hpp>
 #include <svt/mesh/models_test.hpp>
 #include <svt/mesh/polygons/edges.hpp>
 
@@ -25,9 +26,9 @@ ObjectMesh openBox(double lift = 0) {
     return mesh;
 }
 
-TEST(CapPlanarHoles, CapFacesOutwardsAndIsRecorded) {
+TEST(CapHoles, CapFacesOutwardsAndIsRecorded) {
     ObjectMesh mesh = openBox();
-    capPlanarHoles(mesh, 0.05);
+    capHoles(mesh, 0.05);
     EXPECT_TRUE(mesh.openEdges.empty());
     EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-12);
     ASSERT_EQ(mesh.caps.size(), 1u);
@@ -35,17 +36,17 @@ TEST(CapPlanarHoles, CapFacesOutwardsAndIsRecorded) {
     EXPECT_EQ(mesh.caps[0].center, (Vec3d{2, 1.5, 2}));
 }
 
-TEST(CapPlanarHoles, HoleFurtherFromItsPlaneStaysOpen) {
+TEST(CapHoles, HoleFurtherFromItsPlaneStaysOpen) {
     ObjectMesh bent = openBox(0.16);  // 0.04 m from the mean plane
-    capPlanarHoles(bent, 0.05);
+    capHoles(bent, 0.05);
     EXPECT_TRUE(bent.openEdges.empty());
     ObjectMesh torn = openBox(0.4);
-    capPlanarHoles(torn, 0.05);
+    capHoles(torn, 0.05);
     EXPECT_EQ(torn.openEdges.size(), 4u);
     EXPECT_TRUE(torn.caps.empty());
 }
 
-TEST(CapPlanarHoles, HoleWithAnIslandIsClosedAroundIt) {
+TEST(CapHoles, HoleWithAnIslandIsClosedAroundIt) {
     // A tower without a bottom stands in the middle of the missing top: two loops in one plane.
     ObjectMesh mesh = openBox(), tower = boxMesh({1, 1, 2}, {2, 2, 4});
     std::erase_if(tower.triangles, [](const Triangle& t) {
@@ -53,7 +54,7 @@ TEST(CapPlanarHoles, HoleWithAnIslandIsClosedAroundIt) {
     });
     test::append(mesh, tower);
     mesh.openEdges = findOpenEdges(mesh.triangles);
-    capPlanarHoles(mesh, 0.05);
+    capHoles(mesh, 0.05);
     EXPECT_TRUE(mesh.openEdges.empty());
     EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 26, 1e-12);
 }

@@ -1,0 +1,37 @@
+#pragma once
+/// \file
+/// What each mesh is made of: a feature, and the faces of its geometry or of its boundary surfaces.
+
+#include <svt/core/diagnostics.hpp>
+#include <svt/model/building_model.hpp>
+#include <svt/model/classes.hpp>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace svt::mesh {
+
+/// The source of one mesh.
+struct MeshSource {
+    model::FeatureIndex feature = model::kNoFeature;
+    double lod = -1;
+    bool isAssembled = false;      ///< of the boundary surfaces of the feature
+    bool hasSolidMeaning = false;  ///< if so, an open shell will be closed
+    std::vector<model::SurfaceUse> uses;
+    std::vector<std::pair<std::size_t, std::size_t>> voids;  ///< ranges of `uses` that are shells of voids
+    std::vector<std::size_t> solids;                         ///< where each solid begins in `uses`, with its voids
+};
+
+/// The sources of all meshes, in tree order.
+/// \param log  receives a note on coarser surfaces that are left out; may be null
+[[nodiscard]] std::vector<MeshSource> collectSources(const model::BuildingModel& model, const model::LodChoice& lod,
+                                                     Diagnostics* log);
+
+/// The solids of a source one by one, what belongs to none before them; empty if there are fewer than two.
+[[nodiscard]] std::vector<MeshSource> splitIntoSolids(const MeshSource& source);
+
+/// Per polygon the boundary surface that lists it, or kNoFeature.
+[[nodiscard]] std::vector<model::FeatureIndex> findSurfacesOfPolygons(const model::BuildingModel& model);
+
+}  // namespace svt::mesh
