@@ -48,10 +48,28 @@ public:
     }
 
     void close(const Loop& loop) {
-        if (loop.size() < 3 || (!boundsFlatPart(loop) && addCap(loop))) return;
+        if (loop.size() < 3) return;
+        if (boundsFlatPart(loop)) {
+            flatParts_.push_back(loop);
+            return;
+        }
+        if (addCap(loop)) return;
         constexpr std::size_t kMostCorners = 200;
         if (loop.size() > kMostCorners || fit(loop).deviation <= deviation_) return;
         if (!closeCorner(loop)) closeAlongChords(loop);
+    }
+
+    // Slivers that float beside a shell get a back, so that they do not keep it open.
+    void closeSlivers() {
+        constexpr double kPartOfShell = 0.01;
+        double slivers = 0, shell = 0;
+        for (const Loop& loop : flatParts_) slivers += fit(loop).area;
+        for (const Triangle& t : mesh_.triangles) {
+            const Vec3d a = at(t.corners[0]);
+            shell += length(cross(at(t.corners[1]) - a, at(t.corners[2]) - a)) / 2;
+        }
+        if (!(slivers < kPartOfShell * shell)) return;
+        for (const Loop& loop : flatParts_) (void)addCap(loop);
     }
 
 private:
@@ -80,7 +98,7 @@ private:
         const auto beside = besideEdge_.find({loop[1], loop[0]});
         if (beside == besideEdge_.end()) return false;
         const FittedPlane plane = fit(loop);
-        if (!(plane.area > 0)) return false;
+        if (!(plane.area > 0) || plane.deviation > deviation_) return false;
         const double limit = std::max(1e-3, 2 * plane.deviation);
         const auto& corners = members_[beside->second.component];
         return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t corner) {
@@ -222,6 +240,7 @@ private:
 
     ObjectMesh& mesh_;
     double deviation_;
+    std::vector<Loop> flatParts_;  // borders of parts that lie in one plane
     Box3d box_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, Beside> besideEdge_;  // per open edge
     std::vector<std::vector<std::uint32_t>> members_;                       // corners per component
@@ -232,6 +251,7 @@ private:
 void capHoles(ObjectMesh& mesh, double deviation) {
     HoleCapper capper(mesh, deviation);
     for (const auto& loop : findBoundaryLoops(mesh.openEdges)) capper.close(loop);
+    capper.closeSlivers();
     mesh.openEdges = findOpenEdges(mesh.triangles);
 }
 

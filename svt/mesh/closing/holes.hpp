@@ -16,7 +16,8 @@ namespace svt::mesh {
 ///                             o-----'   where they meet     o-------o
 ///
 /// A run is evidence of a plane if it bends at least twice, and if a cap there would not lie on the faces beside it. The
-/// border of a flat part, such as a single floating face, is no hole. What is no plane stays open.
+/// border of a flat part, such as a single floating face, is no hole, unless it is a sliver: a hundredth of the shell at most,
+/// all of them together. What is no plane stays open.
 /// \param deviation  how far the border may be from its plane, metres
 /// \post mesh.openEdges holds the edges that are still open
 /// Cost: O(n) for a planar loop of n points, else O(n^3); loops of more than 200 points are tried as one plane only.

@@ -189,6 +189,14 @@ void testClosing(Shell& shell, const ShellInput& input, bool usesRays) {
 void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {
     const std::vector<Vec3d> vertices = mesh.vertices;
     const std::vector<Triangle> triangles = mesh.triangles;
+    capHoles(mesh, options.capDeviation);
+    mesh.closure = Closure::Capped;
+    if (mesh.openEdges.empty() && !isFlat(mesh)) return;
+    // Caps alone do not close it.
+    mesh.vertices = vertices;
+    mesh.triangles = triangles;
+    mesh.caps.clear();
+    mesh.openEdges = findOpenEdges(mesh.triangles);
     mesh.joinedEdges = joinGaps(mesh);
     mesh.bridgedLoops = bridgeLoops(mesh);
     capHoles(mesh, options.capDeviation);
