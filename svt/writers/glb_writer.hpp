@@ -38,7 +38,7 @@ struct GlbOptions {
     const volume::SemanticVolume* planesOf = nullptr;
     std::uint64_t maxTriangles = std::uint64_t{1} << 27;  ///< upper limit; more give GridTooLarge
     int threads = 0;                                      ///< maximum; 0: all cores. The bytes do not depend on it.
-    const Progress* progress = nullptr;                   ///< stage "surface"
+    const Progress* progress = nullptr;                   ///< stages "surface", "triangles", "vertices", "write"
 };
 
 /// Figures of the file written.

@@ -229,9 +229,14 @@ Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volum
         slopes.emplace(bricks, labelOfScalar);
     }
     std::vector<Positions> positions(surfaces.size());
+    std::uint64_t count = 0;
+    for (const LabelSurface& surface : surfaces) count += surface.vertices.size();
+    ProgressCounter progress(options.progress, "vertices", count);
     parallelFor(surfaces.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t m = begin; m < end; ++m)
+        for (std::size_t m = begin; m < end; ++m) {
             positions[m] = positionsOf(surfaces[m], volume.grid.spacing(), slopes ? &*slopes : nullptr);
+            progress.add(surfaces[m].vertices.size());
+        }
     });
     return positions;
 }
@@ -255,6 +260,7 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
     if (!surfaces) return surfaces.error();
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
 
+    Progress::tell(options.progress, "vertices", 0);
     const auto positions = placeVertices(volume, *surfaces, options);
     if (!positions) return positions.error();
 
@@ -276,6 +282,7 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
             fmt::format("the .glb would have {} bytes, but none can have more than {}; use a coarser volume or "
                         "fewer features",
                         length, 0xFFFFFFFFu));
+    Progress::tell(options.progress, "write", 0);
     auto file = AtomicFile::create(path);
     if (!file) return file.error();
     auto done = writeWords(*file, {kMagic, 2, length, text.size(), kJsonChunk});

@@ -326,6 +326,8 @@ Result<std::vector<Rectangle>> findRectangles(const ColumnVolume& columns, std::
     const std::size_t piecesX = (planesX + kPlanes - 1) / kPlanes, piecesY = (planesY + kPlanes - 1) / kPlanes;
     std::vector<std::vector<Rectangle>> pieces(1 + piecesX + piecesY);
     std::atomic<std::uint64_t> count{0};
+    // The layers are many planes in one.
+    ProgressCounter progress(options.progress, "surface", 2 * (planesX + planesY));
     const auto isStopped = [&] {
         return Progress::isCancelled(options.progress) || 2 * count.load() > options.maxTriangles;
     };
@@ -340,8 +342,10 @@ Result<std::vector<Rectangle>> findRectangles(const ColumnVolume& columns, std::
                 const std::size_t before = pieces[p].size();
                 faces.addPlane(axis, static_cast<std::int32_t>(plane), pieces[p]);
                 count += pieces[p].size() - before;
+                progress.add();
             }
             if (p == 0) count += pieces[p].size();
+            if (p == 0) progress.add(planesX + planesY);
         }
     });
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "the surface was stopped");
@@ -372,16 +376,17 @@ Result<std::vector<LabelSurface>> labelSurfaces(const ColumnVolume& columns,
     }
     std::vector<LabelSurface> surfaces(ofLabel.size());
     std::atomic<std::uint64_t> triangles{0};
+    ProgressCounter progress(options.progress, "triangles", rectangles->size());
     parallelFor(surfaces.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
             if (Progress::isCancelled(options.progress) || triangles.load() > options.maxTriangles) return;
             surfaces[s] = Triangulation(ofLabel[s]).run();
             triangles += surfaces[s].triangles.size();
+            progress.add(ofLabel[s].size());
         }
     });
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "the surface was stopped");
     if (triangles.load() > options.maxTriangles) return tooMany(options.maxTriangles);
-    Progress::tell(options.progress, "surface", 1);
     return surfaces;
 }
 
