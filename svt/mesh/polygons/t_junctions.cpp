@@ -66,7 +66,8 @@ std::optional<std::vector<EdgeCut>> findCuts(const std::vector<Vec3d>& vertices,
     const BoxTree tree(std::move(boxes));
 
     std::vector<EdgeCut> cuts;
-    for (const auto& [from, to] : keys) {
+    for (const auto& key : keys) {
+        const std::uint32_t from = key.first, to = key.second;
         const Vec3d a = vertices[from], b = vertices[to];
         const bool isTooMany = tree.visit(
             // Twice the distance, so that rounding leaves nothing out.
