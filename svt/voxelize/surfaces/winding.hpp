@@ -25,8 +25,8 @@ namespace svt::voxelize {
 
 /// Fills the samples whose generalized winding number (Jacobson, Kavan & Sorkine 2013) is at least 1/2.
 ///
-/// Evaluated as crossings minus a boundary integral (after the one-shot method of Martens & Bessmeltsev 2025). Blocks of
-/// samples are halved until c is known well enough: in a block each lid is a quadratic polynomial with a bound of its
+/// Evaluated as crossings minus a boundary integral (after the one-shot method of Martens & Bessmeltsev 2025). Blocks
+/// of samples are halved until c is known well enough: in a block each lid is a quadratic polynomial with a bound of its
 /// error, far lids one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
 /// which the bound leaves the threshold open evaluate the solid angles. Close to a lid its side is decided as in the
 /// sweep, so that n and c always jump together.
@@ -50,7 +50,7 @@ public:
     std::size_t runPart(std::size_t n);
 
     /// Appends the boxes of all parts, disjoint as far as they count the same. Call it after all parts.
-    /// \return count of samples within the bounding box of the shell whose winding number is more than 1/4 away from every
+    /// \return count of samples within the bounding box of the shell whose winding number is over 1/4 away from every
     ///         whole number, where that distance differs from 1/4 by more than 0.01; closer ones may be miscounted
     std::uint64_t finish(std::vector<ClaimedBox>& boxes);
 

@@ -149,7 +149,7 @@ TEST(WindingFill, HugeCaps) {
 }
 
 TEST(WindingFill, LidsAtSamples) {
-    // The missing sides lie at samples, which are 1/512 voxel beyond the whole numbers, or up to 1/512 voxel beside them.
+    // The missing sides lie at samples, which are 1/512 voxel beyond the whole numbers, or up to 1/512 voxel beside.
     for (const double shift : {0.0, 1 / 512.0, 2 / 512.0})
         for (const auto& sides : {std::array<std::size_t, 2>{0, 1}, {2, 4}, {3, 5}, {1, 2}})
             for (const bool hasOther : {false, true}) {
@@ -158,7 +158,7 @@ TEST(WindingFill, LidsAtSamples) {
                     [&](std::size_t t) { return t / 2 == sides[0] || (hasOther && t / 2 == sides[1]); });
                 expectLikeSum(std::move(open), {0, 0, 0});
             }
-    // A wall that stands exactly on samples: x + y of its corners is 2/512 more than a whole number, as that of samples.
+    // A wall that stands exactly on samples: x + y of its corners is 2/512 more than a whole number, as of samples.
     for (const std::size_t wall : {0u, 1u, 2u, 3u}) {
         const double x = 9 + 2 / 512.0, y = 9;
         auto open =
