@@ -26,8 +26,8 @@ namespace svt::voxelize {
 /// Fills the samples whose generalized winding number (Jacobson, Kavan & Sorkine 2013) is at least 1/2.
 ///
 /// Evaluated as crossings minus a boundary integral (after the one-shot method of Martens & Bessmeltsev 2025). Blocks
-/// of samples are halved until c is known well enough: in a block each lid is a quadratic polynomial with a bound of its
-/// error, far lids one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
+/// of samples are halved until c is known well enough: in a block each lid is a quadratic polynomial with a bound of
+/// its error, far lids one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
 /// which the bound leaves the threshold open evaluate the solid angles. Close to a lid its side is decided as in the
 /// sweep, so that n and c always jump together.
 ///
