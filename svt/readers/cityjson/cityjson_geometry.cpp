@@ -191,6 +191,7 @@ private:
 
         model::Geometry result;
         result.kind = isSurface ? model::GeometryKind::Surface : model::GeometryKind::Solid;
+        result.isComposite = type == "CompositeSolid" || type == "CompositeSurface";
         result.lod = readLod(geometry);
         result.id = textMember(geometry, "id");
         beginSemantics(geometry, result.lod);
