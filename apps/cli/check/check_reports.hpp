@@ -5,6 +5,7 @@
 #include <apps/cli/output/json_output.hpp>
 
 #include <svt/core/diagnostics.hpp>
+#include <svt/model/building_model.hpp>
 #include <svt/validate/validate.hpp>
 
 #include <string>

@@ -48,6 +48,14 @@ double distanceFromLine(Point2 a, Point2 b, Point2 p) {
     return l > 0 ? std::abs(u * pv - v * pu) / l : std::sqrt(pu * pu + pv * pv);
 }
 
+double distanceFromSegment(Point2 a, Point2 b, Point2 p) {
+    const double u = static_cast<double>(b.u - a.u), v = static_cast<double>(b.v - a.v);
+    const double pu = static_cast<double>(p.u - a.u), pv = static_cast<double>(p.v - a.v);
+    const double square = u * u + v * v;
+    const double at = square > 0 ? std::clamp((pu * u + pv * v) / square, 0.0, 1.0) : 0;
+    return std::sqrt((pu - at * u) * (pu - at * u) + (pv - at * v) * (pv - at * v));
+}
+
 class PolygonChecker {
 public:
     PolygonChecker(const model::Polygon& polygon, const Lattice& lattice, const PolygonTolerances& tolerances)
@@ -288,7 +296,7 @@ private:
         for (const std::size_t corner : {e.index, ring.after(e.index)}) {
             const Point2 p = ring.at[corner];
             const bool isOn =
-                (turn(f.a, f.b, p) == 0 && isBetween(f.a, f.b, p)) || distanceFromLine(f.a, f.b, p) <= kNoise;
+                (turn(f.a, f.b, p) == 0 && isBetween(f.a, f.b, p)) || distanceFromSegment(f.a, f.b, p) <= kNoise;
             if (!isOn) continue;
             touches_.insert({e.ring, ring.ids[corner]});
             touches_.insert({f.ring, ring.ids[corner]});
