@@ -400,7 +400,8 @@ bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at, bool
                    fmt::format("a ring of {} points, fewer than three of them distinct", points_.size()), at);
         return false;
     }
-    if (!isClosed && !isPatch)
+    constexpr double kOnePoint = 0.001;  // metres; ends as near as this are meant to be one point
+    if (!isClosed && !isPatch && length(points_.front() - points_.back()) > kOnePoint)
         part_.findings.add(
             Severity::Warning, Code::RingNotClosed,
             fmt::format("the last point of a ring of {} is not its first; the ring is closed between them",

@@ -108,6 +108,11 @@ private:
                 ring.flat.push_back(i);
                 if (ring.ids.back() == firstAt_.size()) firstAt_.push_back(i);
             }
+            // A last point that is the first but for rounding only closes the ring.
+            while (ring.size() > 3 && ring.ids.back() == ring.ids.front()) {
+                ring.ids.pop_back();
+                ring.flat.pop_back();
+            }
             rings_.push_back(std::move(ring));
             begin = end;
         }

@@ -48,6 +48,7 @@ TEST(CheckPolygon, FindsTooFewAndRepeatedPoints) {
     EXPECT_EQ(codeOf({{{0, 0, 5}, {9, 0, 5}, {0, 0, 5}}}), Code::TooFewPoints);
     EXPECT_EQ(codeOf({{{0, 0, 5}, {9, 0, 5}, {9, 0.0005, 5}, {9, 9, 5}, {0, 9, 5}}}), Code::RepeatedPoint);
     EXPECT_EQ(codeOf({{{0, 0, 5}, {9, 0, 5}, {9, 0.002, 5}, {9, 9, 5}, {0, 9, 5}}}), Code::Internal);
+    EXPECT_EQ(codeOf({{{0, 0, 5}, {9, 0, 5}, {9, 9, 5}, {0, 9, 5}, {0, 0.0005, 5}}}), Code::Internal) << "only closes";
 }
 
 TEST(CheckPolygon, FindsRingsThatCrossTouchOrRunBackOnThemselves) {
