@@ -165,6 +165,13 @@ TEST(Validate, FindsVoidsThatStickOutShareFacesRepeatOrLieOutside) {
     EXPECT_EQ(withVoid({2, 2, 2}, {4, 4, 9}), std::set{Code::ShellsIntersect}) << "a part of a face in common";
     EXPECT_EQ(withVoid({-1, -1, -1}, {10, 10, 10}), std::set{Code::ShellsIntersect}) << "the void is around the box";
     EXPECT_EQ(withVoid({12, 2, 2}, {14, 4, 4}), std::set{Code::InnerShellOutside});
+    // A tip of a pyramid, ten micrometres out of the top.
+    const Vec3d base[4] = {{2, 2, 2}, {6, 2, 2}, {6, 6, 2}, {2, 6, 2}}, tip{4, 4, 9.00001};
+    Faces pyramid{{base[0], base[1], base[2], base[3]}};
+    for (int i = 0; i < 4; ++i) pyramid.push_back({base[(i + 1) % 4], base[i], tip});
+    EXPECT_EQ(codesOfShells({kBox, pyramid}), std::set{Code::ShellsIntersect});
+    for (std::size_t i = 1; i < 5; ++i) pyramid[i][2].z = 9;
+    EXPECT_EQ(codesOfShells({kBox, pyramid}), std::set<Code>{}) << "touches the top in a point";
     const Faces inner = inwards(box({2, 2, 2}, {4, 4, 4}));
     EXPECT_EQ(codesOfShells({kBox, inner, inner}), std::set{Code::DuplicateShell});
     EXPECT_EQ(codesOfShells({kBox, inner, inwards(box({3, 3, 3}, {6, 6, 6}))}), std::set{Code::ShellsIntersect});
@@ -239,6 +246,10 @@ TEST(Validate, ACompositeSurfaceMayHaveABorderAMultiSurfaceAnyFaces) {
     EXPECT_EQ(codesOf(reportOf(test.model)), std::set<Code>{});
     test.model.features[feature].geometries[0].isComposite = true;
     EXPECT_EQ(codesOf(reportOf(test.model)), std::set{Code::ShellDisconnected});
+    test.model.polygons[1].points[0] = {9, 0, 0};
+    EXPECT_EQ(codesOf(reportOf(test.model)), std::set{Code::NonManifold}) << "a point in common";
+    test.model.polygons[1].points[2] = {9, 9, 0};
+    EXPECT_EQ(codesOf(reportOf(test.model)), std::set<Code>{}) << "an edge in common";
 }
 
 TEST(Validate, AFaceOfASolidAndOfAWallIsReportedOnceWithTheSolid) {
