@@ -56,8 +56,9 @@ enum class GeometryKind : std::uint8_t {
 /// One geometry of a feature at one level of detail.
 struct Geometry {
     GeometryKind kind = GeometryKind::Surface;
-    double lod = -1;  ///< 0..4; CityJSON 2.2 is 2.2; -1: not stated
-    std::string id;   ///< gml:id of the solid or (multi)surface, or empty
+    bool isComposite = false;  ///< CompositeSolid, CompositeSurface: the members hang together and overlap nowhere
+    double lod = -1;           ///< 0..4; CityJSON 2.2 is 2.2; -1: not stated
+    std::string id;            ///< gml:id of the solid or (multi)surface, or empty
     std::vector<Solid> solids;
     std::vector<SurfaceUse> surfaces;
 };

@@ -118,7 +118,8 @@ TEST_F(TwoBoxes, QueryJsonIsRowsOfInfo) {
 
 TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
     const json check = runSvtForJson(folder.path(), {"check", "two.gml", "--json"});
-    EXPECT_EQ(keysOf(check), (Keys{"diagnostics", "leaking", "objects", "solids", "tJunctions"}));
+    EXPECT_EQ(keysOf(check), (Keys{"counts", "diagnostics", "features", "findings", "leaking", "objects", "polygons",
+                                   "primitives", "solids", "tJunctions", "valid"}));
     EXPECT_EQ(check["solids"], 2);
     EXPECT_EQ(check["leaking"], 0);
     EXPECT_EQ(check["tJunctions"], 0);

@@ -1,9 +1,11 @@
+#include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/core/file.hpp>
 #include <svt/mesh/mesh_set.hpp>
 
 #include <fmt/format.h>
@@ -13,11 +15,32 @@ namespace {
 
 struct CheckArguments {
     std::vector<std::filesystem::path> inputs;
+    std::filesystem::path report;
+    std::string format = "text";
+    validate::ValidateOptions validation;
     double lod = -1;
     bool json = false, verbose = false;
 };
 
-Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object) {
+// Why the volume of an object cannot be told although its mesh is closed; Internal: it can. A polygon that is not valid
+// leaves the volume of the closed mesh as it is.
+Code whyNoVolume(const model::BuildingModel& model, const validate::ValidationReport& report,
+                 const mesh::ObjectMesh& object) {
+    const model::Feature& feature = model.features[object.feature];
+    for (std::size_t g = 0; g < feature.geometries.size(); ++g) {
+        if (feature.geometries[g].lod != object.lod) continue;
+        const auto found = report.volumes.find({object.feature, static_cast<int>(g)});
+        if (found == report.volumes.end() || found->second.volume) continue;
+        const Code reason = found->second.reason;
+        const bool isClosedAnew = reason == Code::TriangulationFailed || reason == Code::ShellNotClosed ||
+                                  reason == Code::TJunction || reason == Code::FaceTurnedOver;
+        if (!isClosedAnew) return reason;
+    }
+    return Code::Internal;
+}
+
+Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object,
+                const validate::ValidationReport& report) {
     const model::Feature& feature = model.features[object.feature];
     Json json{{"id", feature.id}, {"class", feature.className}, {"name", feature.name}};
     if (feature.line != 0) json["line"] = feature.line;
@@ -37,15 +60,21 @@ Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, c
     for (const mesh::Cap& cap : object.caps)
         json["caps"].push_back({{"area", cap.area}, {"center", toJson(cap.center + scene.origin)}});
     json["assembled"] = object.isAssembled;
-    json["volume"] = object.isSolid() ? Json(object.volume) : Json(nullptr);
+    const Code reason = whyNoVolume(model, report, object);
+    json["volume"] = object.isSolid() && reason == Code::Internal ? Json(object.volume) : Json(nullptr);
+    if (object.isSolid() && reason != Code::Internal) json["volumeReason"] = codeTag(reason);
     json["area"] = object.area;
     return json;
 }
 
-void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object) {
+void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object,
+                 const validate::ValidationReport& report) {
     const model::Feature& feature = model.features[object.feature];
     fmt::print("{:<28} {:<13}", feature.className, mesh::closureName(object.closure));
-    if (object.isSolid())
+    const Code reason = whyNoVolume(model, report, object);
+    if (object.isSolid() && reason != Code::Internal)
+        fmt::print(" {:>15}", "no volume, " + codeTag(reason));
+    else if (object.isSolid())
         fmt::print(" {:>12.3f} m3", object.volume);
     else
         fmt::print(" {:>12.3f} m2", object.area);
@@ -69,47 +98,81 @@ void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, 
         fmt::print("    {} edges match only up to T-junctions (tight)\n", object.tJunctionCount);
 }
 
-int runCheck(const CheckArguments& arguments) {
-    Diagnostics diagnostics;
-    std::optional<TerminalProgress> progress(std::in_place);
-    const auto model = pipeline::readModels(arguments.inputs, 0, progress->get(), &diagnostics);
-    if (!model) {
-        printDiagnostics(diagnostics, arguments.verbose);
-        return fail(model.error());
-    }
-    mesh::MeshOptions options;
-    options.lod.lod = arguments.lod;
-    options.progress = progress->get();
-    const auto scene = mesh::buildMeshes(*model, options, &diagnostics);
-    progress.reset();
-    if (!scene) {
-        printDiagnostics(diagnostics, arguments.verbose);
-        return fail(scene.error());
-    }
+void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnostics& diagnostics) {
     std::size_t leaking = 0, solids = 0, tight = 0;
-    for (const mesh::ObjectMesh& object : scene->objects) {
+    Json json;
+    json["objects"] = Json::array();
+    for (const mesh::ObjectMesh& object : scene.objects) {
+        json["objects"].push_back(objectJson(checked.model, scene, object, checked.report));
         if (object.closure == mesh::Closure::Surface) continue;
         ++solids;
         leaking += object.leakCount != 0;
         tight += object.closure == mesh::Closure::TJunctions;
     }
-    const std::size_t findings = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
-    if (arguments.json) {
-        Json json;
-        json["objects"] = Json::array();
-        for (const mesh::ObjectMesh& object : scene->objects)
-            json["objects"].push_back(objectJson(*model, *scene, object));
-        json["solids"] = solids;
-        json["leaking"] = leaking;
-        json["tJunctions"] = tight;
-        json["diagnostics"] = diagnosticsJson(diagnostics);
-        print(json);
-    } else {
-        for (const mesh::ObjectMesh& object : scene->objects) printObject(*model, *scene, object);
-        fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n",
-                   scene->objects.size(), solids, leaking, tight);
-        printDiagnostics(diagnostics, arguments.verbose);
+    json["solids"] = solids;
+    json["leaking"] = leaking;
+    json["tJunctions"] = tight;
+    addValidationJson(json, checked, diagnostics);
+    json["diagnostics"] = diagnosticsJson(diagnostics);
+    print(json);
+}
+
+void printText(const Checked& checked, const mesh::MeshSet& scene) {
+    std::size_t leaking = 0, solids = 0, tight = 0;
+    for (const mesh::ObjectMesh& object : scene.objects) {
+        printObject(checked.model, scene, object, checked.report);
+        if (object.closure == mesh::Closure::Surface) continue;
+        ++solids;
+        leaking += object.leakCount != 0;
+        tight += object.closure == mesh::Closure::TJunctions;
     }
+    fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n", scene.objects.size(),
+               solids, leaking, tight);
+    std::size_t total = 0, valid = 0;
+    for (const auto& entry : checked.report.primitives) {
+        total += entry.second.total;
+        valid += entry.second.valid;
+    }
+    fmt::print("{} geometries of {} polygons: {} are valid\n", total, checked.report.polygonCount, valid);
+}
+
+// The tests by ISO 19107, then what meshes say of the same model.
+int runCheck(const CheckArguments& arguments) {
+    Diagnostics diagnostics;
+    std::optional<TerminalProgress> progress(std::in_place);
+    const auto stop = [&](const Error& error) {
+        progress.reset();
+        printDiagnostics(diagnostics, arguments.verbose);
+        return fail(error);
+    };
+    const auto model = pipeline::readModels(arguments.inputs, 0, progress->get(), &diagnostics);
+    if (!model) return stop(model.error());
+    validate::ValidateOptions validation = arguments.validation;
+    validation.lod = arguments.lod;
+    validation.progress = progress->get();
+    const auto report = validate::validateModel(*model, validation);
+    if (!report) return stop(report.error());
+    mesh::MeshOptions options;
+    options.lod.lod = arguments.lod;
+    options.progress = progress->get();
+    const auto scene = mesh::buildMeshes(*model, options, &diagnostics);
+    if (!scene) return stop(scene.error());
+    progress.reset();
+    const Checked checked{*model, *report, validation};
+    addFindings(diagnostics, checked);
+    const std::string inputFile = arguments.inputs.front().string();
+    if (!arguments.report.empty()) {
+        const auto written = writeFileAtomically(arguments.report, htmlReport(checked, diagnostics, inputFile));
+        if (!written) return stop(written.error());
+    }
+    if (arguments.format == "val3dity")
+        print(val3dityJson(checked, diagnostics, inputFile));
+    else if (arguments.json || arguments.format == "json")
+        printJson(checked, *scene, diagnostics);
+    else
+        printText(checked, *scene);
+    if (!arguments.json && arguments.format == "text") printDiagnostics(diagnostics, arguments.verbose);
+    const std::size_t findings = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
     return findings != 0 ? kInvalid : kDone;
 }
 
@@ -119,6 +182,10 @@ Action connectCheck(Command& command) {
     auto arguments = std::make_shared<CheckArguments>();
     command.set("input", arguments->inputs);
     command.set("--lod", arguments->lod);
+    command.set("--planarity", arguments->validation.planarity);
+    command.set("--overlap", arguments->validation.overlap);
+    command.set("--report", arguments->report);
+    command.set("--format", arguments->format);
     command.set("--json", arguments->json);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };

@@ -23,6 +23,7 @@ constexpr FileFormat kFormats[] = {
     {"geojson", ".geojson", FileContent::GeoJson},
     {"scene", ".json", FileContent::PlainJson},
     {"json", ".json", FileContent::PlainJson},
+    {"html", ".html", FileContent::Html},
     {"csv", ".csv", FileContent::Text},
     {"citygml", ".gml|.xml", FileContent::CityGml},
     {"cityjson", ".json", FileContent::CityJson},
@@ -32,6 +33,7 @@ constexpr FileFormat kFormats[] = {
 bool has(std::string_view text, std::string_view word) { return text.find(word) != std::string_view::npos; }
 
 FileContent contentOfXml(std::string_view text) {
+    if (has(text, "<html") || has(text, "<!DOCTYPE html")) return FileContent::Html;
     if (has(text, "<svg") || has(text, ":svg")) return FileContent::Svg;
     return has(text, "CityModel") ? FileContent::CityGml : FileContent::Xml;
 }
@@ -102,6 +104,7 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Gltf: return "a glTF (.glb)";
         case FileContent::Nrrd: return "an NRRD";
         case FileContent::Svg: return "an SVG drawing";
+        case FileContent::Html: return "an HTML page";
         case FileContent::CityGml: return "a CityGML model";
         case FileContent::Xml: return "an XML file";
         case FileContent::CityJson: return "a CityJSON model";

@@ -18,6 +18,7 @@ enum class FileContent : std::uint8_t {
     Gltf,
     Nrrd,
     Svg,
+    Html,
     CityGml,
     Xml,  ///< another XML
     CityJson,

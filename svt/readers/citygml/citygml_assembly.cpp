@@ -224,6 +224,7 @@ private:
             solids.kind = model::GeometryKind::Solid;
             solids.lod = lod;
             solids.id = id;
+            solids.isComposite = part_.nodes[geometry.node].isComposite;
             solids.solids = std::move(resolved.solids);
             geometries.push_back(std::move(solids));
         }
@@ -232,6 +233,7 @@ private:
             surfaces.kind = model::GeometryKind::Surface;
             surfaces.lod = lod;
             surfaces.id = id;
+            surfaces.isComposite = part_.nodes[geometry.node].isComposite && resolved.solids.empty();
             surfaces.surfaces = std::move(resolved.surfaces);
             geometries.push_back(std::move(surfaces));
         }

@@ -33,7 +33,8 @@ enum class NodeKind : std::uint8_t {
 /// A geometry element. Children form a linked list: firstChild, then nextSibling.
 struct Node {
     NodeKind kind = NodeKind::Empty;
-    bool isReversed = false;  ///< OrientableSurface "-": reverses everything below
+    bool isReversed = false;   ///< OrientableSurface "-": reverses everything below
+    bool isComposite = false;  ///< CompositeSolid, CompositeSurface
     std::uint32_t payload = kNone;
     NodeIndex firstChild = kNone;
     NodeIndex nextSibling = kNone;

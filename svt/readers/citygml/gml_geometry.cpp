@@ -185,6 +185,7 @@ NodeIndex GeometryReader::readElement(const Element& element, Shape shape, int d
     const NodeIndex index =
         addNode(shape == Shape::Bodies ? NodeKind::Bodies : NodeKind::Surfaces, element.node, attributes.id);
     part_.nodes[index].isReversed = shape == Shape::Orientable && attributes.orientation == "-";
+    part_.nodes[index].isComposite = element.localName == "CompositeSolid" || element.localName == "CompositeSurface";
     readMembers(element, index, dimension);
     if (element.localName == "Tin" && part_.nodes[index].firstChild == kNone)
         part_.findings.add(Severity::Warning, Code::NoGeometry,
@@ -254,7 +255,7 @@ NodeIndex GeometryReader::readPolygon(const Element& element, bool isCompact, in
         points_.clear();
         ringFailed_ = false;
         readPositions(element, dimension);
-        hasExterior = finishRing(polygon, element.node);
+        hasExterior = finishRing(polygon, element.node, true);
     } else {
         bool sawExterior = false;
         scope_.forEachChild(element.node, [&](const Element& property) {
@@ -289,7 +290,7 @@ bool GeometryReader::readRing(const Element& property, int dimension, model::Pol
         else
             readCurve(ring, dimension, 0);
     });
-    return finishRing(polygon, property.node);
+    return finishRing(polygon, property.node, false);
 }
 
 // A boundary made of curves: the positions of their segments, concatenated.
@@ -380,8 +381,8 @@ void GeometryReader::addPoints(int dimension) {
         for (std::size_t i = 0; i + 1 < numbers_.size(); i += 2) points_.push_back({numbers_[i], numbers_[i + 1], 0});
 }
 
-// Moves the points read into `polygon` as its next ring; false if the ring is unusable.
-bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at) {
+// Moves the points read into `polygon` as its next ring; false if the ring is unusable. A patch lists each point once.
+bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at, bool isPatch) {
     if (ringFailed_) return false;
     for (const Vec3d& point : points_) {
         const bool isGood = std::abs(point.x) <= kLargestCoordinate && std::abs(point.y) <= kLargestCoordinate &&
@@ -392,12 +393,20 @@ bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at) {
                    at);
         return false;
     }
-    if (points_.size() > 1 && points_.front() == points_.back()) points_.pop_back();
+    const bool isClosed = points_.size() > 1 && points_.front() == points_.back();
+    if (isClosed) points_.pop_back();
     if (!hasThreeDistinct(points_)) {
         reportRing(Code::TooFewPoints,
                    fmt::format("a ring of {} points, fewer than three of them distinct", points_.size()), at);
         return false;
     }
+    constexpr double kOnePoint = 0.001;  // metres; ends as near as this are meant to be one point
+    if (!isClosed && !isPatch && length(points_.front() - points_.back()) > kOnePoint)
+        part_.findings.add(
+            Severity::Warning, Code::RingNotClosed,
+            fmt::format("the last point of a ring of {} is not its first; the ring is closed between them",
+                        points_.size()),
+            offsetOf_(at), std::string(polygonId_));
     polygon.points.insert(polygon.points.end(), points_.begin(), points_.end());
     polygon.ringEnds.push_back(static_cast<std::uint32_t>(polygon.points.size()));
     return true;

@@ -77,7 +77,7 @@ private:
 
     void addNumbers(std::string_view text, int statedDimension, int inheritedDimension, pugi::xml_node at);
     void addPoints(int dimension);
-    bool finishRing(model::Polygon& polygon, pugi::xml_node at);
+    bool finishRing(model::Polygon& polygon, pugi::xml_node at, bool isPatch);
     void reportRing(Code code, const std::string& message, pugi::xml_node at);
 
     NodeIndex addNode(NodeKind kind, pugi::xml_node at, std::string_view id);

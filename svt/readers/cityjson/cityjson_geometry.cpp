@@ -95,8 +95,8 @@ private:
         add(code, fmt::format("geometry {}, {} {}", geometryNumber_, part, what));
     }
 
-    void add(Code code, std::string message) {
-        object_.diagnostics.add(Severity::Warning, code, std::move(message),
+    void add(Code code, std::string message, Severity severity = Severity::Warning) {
+        object_.diagnostics.add(severity, code, std::move(message),
                                 {std::string(context_.origin.file), object_.feature.line, 0, shortened(object_.id)});
     }
 
@@ -191,6 +191,7 @@ private:
 
         model::Geometry result;
         result.kind = isSurface ? model::GeometryKind::Surface : model::GeometryKind::Solid;
+        result.isComposite = type == "CompositeSolid" || type == "CompositeSurface";
         result.lod = readLod(geometry);
         result.id = textMember(geometry, "id");
         beginSemantics(geometry, result.lod);
@@ -372,8 +373,11 @@ private:
         const auto index = asInteger(*value);
         if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < materialEnd_ - materialBegin_)
             return static_cast<std::int32_t>(materialBegin_ + static_cast<std::size_t>(*index));
-        report(Code::BadIndex,
-               fmt::format("refers to a material that does not exist; there are {}", materialEnd_ - materialBegin_));
+        // Only a colour is lost: no defect of the model's bodies.
+        add(Code::BadIndex,
+            fmt::format("geometry {} refers to a material that does not exist; there are {}", geometryNumber_,
+                        materialEnd_ - materialBegin_),
+            Severity::Note);
         return -1;
     }
 

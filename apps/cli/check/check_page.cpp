@@ -1,0 +1,228 @@
+#include <apps/cli/check/check_reports.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::cli {
+namespace {
+
+using validate::Finding;
+
+constexpr std::size_t kMostPictures = 50;
+constexpr std::size_t kMostEdges = 6000;  // in one picture
+constexpr double kSide = 360;             // of a picture, pixels
+
+struct FlatPoint {
+    double u = 0, v = 0;
+};
+using FlatLine = std::array<FlatPoint, 2>;
+
+// Seen from the south-west and above, parallel lines stay parallel: u to the right, v downwards.
+FlatPoint flat(Vec3d p) {
+    constexpr double kCos = 0.8660254037844386, kSin = 0.5;
+    return {(p.x - p.y) * kCos, (p.x + p.y) * -kSin * 0.6 - p.z};
+}
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '"')
+            result += "&quot;";
+        else
+            result += c;
+    }
+    return result;
+}
+
+void addEdges(const model::BuildingModel& model, const model::SurfaceUse& use, Vec3d origin,
+              std::vector<FlatLine>& lines) {
+    const model::Polygon& polygon = model.polygons[use.polygon];
+    std::size_t begin = 0;
+    for (const std::uint32_t end : polygon.ringEnds) {
+        for (std::size_t i = begin; i < end && lines.size() < kMostEdges; ++i)
+            lines.push_back(
+                {flat(polygon.points[i] - origin), flat(polygon.points[i + 1 == end ? begin : i + 1] - origin)});
+        begin = end;
+    }
+}
+
+std::vector<FlatLine> edgesOf(const model::BuildingModel& model, const model::Geometry& geometry, Vec3d origin) {
+    std::vector<FlatLine> lines;
+    for (const model::SurfaceUse& use : geometry.surfaces) addEdges(model, use, origin, lines);
+    for (const model::Solid& solid : geometry.solids) {
+        for (const model::SurfaceUse& use : solid.exterior) addEdges(model, use, origin, lines);
+        for (const auto& shell : solid.interiors)
+            for (const model::SurfaceUse& use : shell) addEdges(model, use, origin, lines);
+    }
+    return lines;
+}
+
+struct Window {
+    FlatPoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+    void add(FlatPoint p) {
+        low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+        high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+    }
+    [[nodiscard]] double size() const { return std::max(high.u - low.u, high.v - low.v); }
+};
+
+// Pixels of a picture that shows a square window.
+class Picture {
+public:
+    Picture(FlatPoint center, double size) : center_(center), scale_(kSide / std::max(size, 1e-6)) {}
+
+    void add(const std::vector<FlatLine>& lines, std::string_view className) {
+        std::string path;
+        for (const FlatLine& line : lines) {
+            const FlatPoint a = pixel(line[0]), b = pixel(line[1]);
+            constexpr double kFar = 20 * kSide;  // what is far outside would only overflow
+            if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) > kFar) continue;
+            path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.u, a.v, b.u, b.v);
+        }
+        if (!path.empty()) text_ += fmt::format("<path class=\"{}\" d=\"{}\"/>", className, path);
+    }
+    void addRing(FlatPoint at) {
+        const FlatPoint p = pixel(at);
+        text_ += fmt::format("<circle class=\"at\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"9\"/>", p.u, p.v);
+    }
+    [[nodiscard]] std::string svg(std::string_view title) const {
+        return fmt::format(
+            "<svg viewBox=\"0 0 {0:.0f} {0:.0f}\" width=\"{0:.0f}\" height=\"{0:.0f}\" "
+            "role=\"img\"><title>{1}</title>{2}</svg>",
+            kSide, escaped(title), text_);
+    }
+
+private:
+    [[nodiscard]] FlatPoint pixel(FlatPoint p) const {
+        return {(p.u - center_.u) * scale_ + kSide / 2, (p.v - center_.v) * scale_ + kSide / 2};
+    }
+    FlatPoint center_;
+    double scale_;
+    std::string text_;
+};
+
+// The geometry with the defect, as a whole and from near.
+std::string picturesOf(const model::BuildingModel& model, const Finding& finding) {
+    const model::Feature& feature = model.features[finding.feature];
+    if (finding.geometry < 0) return {};
+    const Vec3d origin{std::floor(finding.at.x), std::floor(finding.at.y), std::floor(finding.at.z)};
+    const std::vector<FlatLine> edges =
+        edgesOf(model, feature.geometries[static_cast<std::size_t>(finding.geometry)], origin);
+    std::vector<FlatLine> marks;
+    Window whole, near;
+    const FlatPoint at = flat(finding.at - origin);
+    for (const FlatLine& line : edges)
+        for (const FlatPoint p : line) whole.add(p);
+    near.add(at);
+    for (const auto& mark : finding.marks) {
+        marks.push_back({flat(mark[0] - origin), flat(mark[1] - origin)});
+        for (const FlatPoint p : marks.back()) {
+            whole.add(p);
+            near.add(p);
+        }
+    }
+    whole.add(at);
+    const auto middle = [](const Window& w) { return FlatPoint{(w.low.u + w.high.u) / 2, (w.low.v + w.high.v) / 2}; };
+    Picture far(middle(whole), whole.size() * 1.12);
+    far.add(edges, "edge");
+    far.add(marks, "mark");
+    far.addRing(at);
+    // A mark as large as the whole shows nothing more from near; then around the place itself.
+    const bool isSmall = near.size() < 0.5 * whole.size() && near.size() > 0;
+    const double size = isSmall ? std::max(near.size() * 1.6, 0.002 * whole.size()) : 0.1 * whole.size();
+    Picture close(isSmall ? middle(near) : at, size);
+    close.add(edges, "edge");
+    close.add(marks, "mark");
+    close.addRing(at);
+    return far.svg("the whole geometry") + fmt::format("<figure>{}<figcaption>{:.3g} m wide</figcaption></figure>",
+                                                       close.svg("the defect from near"), size);
+}
+
+constexpr std::string_view kHead = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>svt check</title><style>
+body{font:15px/1.5 system-ui,sans-serif;color:#1b1f24;max-width:62rem;margin:2rem auto;padding:0 1rem}
+h1{font-size:1.6rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px solid #d5dae0}
+table{border-collapse:collapse;margin:.6rem 0}td,th{text-align:left;padding:.2rem .9rem .2rem 0;border-bottom:1px solid #e6e9ed}
+td.n{text-align:right;font-variant-numeric:tabular-nums}code{font-family:ui-monospace,monospace;font-size:.92em}
+section{margin:1.2rem 0;break-inside:avoid}section p{margin:.2rem 0}.p{display:flex;gap:1rem;flex-wrap:wrap}
+svg{border:1px solid #d5dae0;background:#fbfcfd}figure{margin:0}figcaption{color:#5b6570;font-size:.85em}
+.edge{fill:none;stroke:#6b7785;stroke-width:1}.mark{fill:none;stroke:#d1242f;stroke-width:2.4}
+.at{fill:none;stroke:#d1242f;stroke-width:2}.ok{color:#1a7f37}.bad{color:#d1242f}
+</style></head><body>
+)";
+
+std::string countsTable(std::string_view title, const std::map<std::string, validate::ValidCount>& counts) {
+    std::string text = fmt::format("<table><tr><th>{}</th><th>tested</th><th>valid</th></tr>", title);
+    for (const auto& [name, count] : counts)
+        text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", escaped(name),
+                            count.total, count.valid);
+    return text + "</table>\n";
+}
+
+std::string findingSection(const model::BuildingModel& model, const Finding& finding, bool hasPicture) {
+    const model::Feature& feature = model.features[finding.feature];
+    std::string text = fmt::format("<section><p><b>{}</b></p><p>{} <code>{}</code>", escaped(finding.message),
+                                   escaped(feature.className), escaped(feature.id));
+    if (finding.polygon != validate::kNoPolygon)
+        text += fmt::format(", polygon <code>{}</code>", escaped(polygonName(model, finding)));
+    text += fmt::format(", at {:.3f} {:.3f} {:.3f}</p>", finding.at.x, finding.at.y, finding.at.z);
+    if (hasPicture) text += "<div class=\"p\">" + picturesOf(model, finding) + "</div>";
+    return text + "</section>\n";
+}
+
+}  // namespace
+
+std::string htmlReport(const Checked& checked, const Diagnostics& diagnostics, const std::string& inputFile) {
+    const validate::ValidationReport& report = checked.report;
+    std::string text(kHead);
+    text += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", escaped(inputFile),
+                        report.counts.empty() ? "<b class=\"ok\">Every geometry is valid.</b>"
+                                              : "<b class=\"bad\">Some geometries are not valid.</b>");
+    text += fmt::format(
+        "<p>{} polygons tested; points closer than {} m are one, polygons may deviate by {} m and {} degrees.</p>\n",
+        report.polygonCount, checked.options.snap, checked.options.planarity, checked.options.normalsDegrees);
+    text += countsTable("features", report.features) + countsTable("geometries", report.primitives);
+    if (!report.counts.empty()) {
+        text +=
+            "<h2>By kind</h2><table><tr><th>code</th><th>name</th><th>val3dity</th><th>ISO "
+            "19107</th><th>count</th></tr>";
+        for (const auto& [code, count] : report.counts)
+            text += fmt::format(
+                "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td><td "
+                "class=\"n\">{4}</td></tr>",
+                codeTag(code), codeName(code), validate::val3dityCode(code), escaped(validate::isoTerm(code)), count);
+        text += "</table>\n";
+    }
+    // The pictures are shared out among the kinds, so that a frequent one does not take them all.
+    const std::size_t each = report.counts.empty() ? 0 : std::max<std::size_t>(1, kMostPictures / report.counts.size());
+    std::size_t pictures = 0;
+    for (const auto& [code, count] : report.counts) {
+        text += fmt::format("<h2 id=\"{0}\">{0} {1}</h2>\n", codeTag(code), codeName(code));
+        std::size_t ofKind = 0;
+        for (const Finding& finding : report.findings) {
+            if (finding.code != code) continue;
+            const bool hasPicture = ofKind < each && pictures < kMostPictures;
+            text += findingSection(checked.model, finding, hasPicture);
+            pictures += hasPicture;
+            ++ofKind;
+        }
+        if (ofKind < count) text += fmt::format("<p>{} more are only counted.</p>\n", count - ofKind);
+    }
+    std::string others;
+    for (const Diagnostic& item : diagnostics.items())
+        if (item.severity != Severity::Note && report.counts.count(item.code) == 0)
+            others += "<li>" + escaped(item.toString()) + "</li>\n";
+    if (!others.empty()) text += "<h2>Other findings</h2><ul>\n" + others + "</ul>\n";
+    return text + "</body></html>\n";
+}
+
+}  // namespace svt::cli

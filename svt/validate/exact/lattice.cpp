@@ -1,0 +1,114 @@
+#include <svt/validate/exact/lattice.hpp>
+
+namespace svt::validate {
+namespace {
+
+// Not of standard C++, but of each compiler that SVT is built with.
+__extension__ using Int128 = __int128;
+
+constexpr double kReach = 1099511627776.0;  // 2^40: products of three differences then fit 128 bits
+// Rounding error of the determinants below, relative to the sum of their terms' magnitudes: at most 8 roundings.
+constexpr double kRounding = 8 * 1.2e-16;
+
+int signOf(Int128 value) noexcept { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+
+Int128 product(std::int64_t a, std::int64_t b) noexcept { return static_cast<Int128>(a) * b; }
+
+bool isSame(int a, int b, int c) noexcept { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0); }
+
+}  // namespace
+
+Lattice::Lattice(const Box3d& bounds) noexcept {
+    if (bounds.isEmpty()) return;
+    const Vec3d center = bounds.center();
+    origin_ = {std::floor(center.x), std::floor(center.y), std::floor(center.z)};
+    const Vec3d half = bounds.size() * 0.5;
+    const double reach = std::max({half.x, half.y, half.z}) + 2;
+    while (reach / unit_ > kReach) unit_ *= 2;
+}
+
+Point Lattice::toLattice(Vec3d world) const noexcept {
+    const Vec3d at = (world - origin_) / unit_;
+    return {std::llround(at.x), std::llround(at.y), std::llround(at.z)};
+}
+
+int turn(Point2 a, Point2 b, Point2 c) noexcept {
+    const std::int64_t bu = b.u - a.u, bv = b.v - a.v, cu = c.u - a.u, cv = c.v - a.v;
+    const double left = static_cast<double>(bu) * static_cast<double>(cv);
+    const double right = static_cast<double>(bv) * static_cast<double>(cu);
+    const double difference = left - right;
+    const double error = kRounding * (std::abs(left) + std::abs(right));
+    if (difference > error) return 1;
+    if (difference < -error) return -1;
+    return signOf(product(bu, cv) - product(bv, cu));
+}
+
+int side(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
+    const Point p{b.x - a.x, b.y - a.y, b.z - a.z}, q{c.x - a.x, c.y - a.y, c.z - a.z},
+        r{d.x - a.x, d.y - a.y, d.z - a.z};
+    const Vec3d pd = Lattice::local(p), qd = Lattice::local(q), rd = Lattice::local(r);
+    const double yz = pd.y * qd.z, zy = pd.z * qd.y, zx = pd.z * qd.x, xz = pd.x * qd.z, xy = pd.x * qd.y,
+                 yx = pd.y * qd.x;
+    const double volume = (yz - zy) * rd.x + (zx - xz) * rd.y + (xy - yx) * rd.z;
+    const double error =
+        kRounding * ((std::abs(yz) + std::abs(zy)) * std::abs(rd.x) + (std::abs(zx) + std::abs(xz)) * std::abs(rd.y) +
+                     (std::abs(xy) + std::abs(yx)) * std::abs(rd.z));
+    if (volume > error) return 1;
+    if (volume < -error) return -1;
+    return signOf((product(p.y, q.z) - product(p.z, q.y)) * r.x + (product(p.z, q.x) - product(p.x, q.z)) * r.y +
+                  (product(p.x, q.y) - product(p.y, q.x)) * r.z);
+}
+
+int axisOf(const Point& a, const Point& b, const Point& c) noexcept {
+    const Vec3d n = cross(Lattice::local(b) - Lattice::local(a), Lattice::local(c) - Lattice::local(a));
+    // The largest component first; it is wrong only for slivers, whence the exact test.
+    int order[3] = {0, 1, 2};
+    const double size[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+    if (size[order[1]] > size[order[0]]) std::swap(order[0], order[1]);
+    if (size[order[2]] > size[order[0]]) std::swap(order[0], order[2]);
+    for (const int axis : order)
+        if (turn(dropped(a, axis), dropped(b, axis), dropped(c, axis)) != 0) return axis;
+    return -1;
+}
+
+bool isBetween(Point2 a, Point2 b, Point2 p) noexcept {
+    return std::min(a.u, b.u) <= p.u && p.u <= std::max(a.u, b.u) && std::min(a.v, b.v) <= p.v &&
+           p.v <= std::max(a.v, b.v);
+}
+
+Meeting meet(Point2 a, Point2 b, Point2 c, Point2 d) noexcept {
+    if (std::max(a.u, b.u) < std::min(c.u, d.u) || std::max(c.u, d.u) < std::min(a.u, b.u) ||
+        std::max(a.v, b.v) < std::min(c.v, d.v) || std::max(c.v, d.v) < std::min(a.v, b.v))
+        return Meeting::None;
+    const int abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
+    if (abc * abd < 0 && cda * cdb < 0) return Meeting::Cross;
+    const bool isTouch = (abc == 0 && isBetween(a, b, c)) || (abd == 0 && isBetween(a, b, d)) ||
+                         (cda == 0 && isBetween(c, d, a)) || (cdb == 0 && isBetween(c, d, b));
+    return isTouch ? Meeting::Touch : Meeting::None;
+}
+
+bool holds(const std::array<Point2, 3>& t, Point2 p) noexcept {
+    return isSame(turn(t[0], t[1], p), turn(t[1], t[2], p), turn(t[2], t[0], p));
+}
+
+Meeting meet(const Point& p, const Point& q, const std::array<Point, 3>& t) noexcept {
+    const int ofP = side(t[0], t[1], t[2], p), ofQ = side(t[0], t[1], t[2], q);
+    if (ofP * ofQ > 0) return Meeting::None;
+    if (ofP * ofQ < 0) {
+        const int a = side(p, q, t[0], t[1]), b = side(p, q, t[1], t[2]), c = side(p, q, t[2], t[0]);
+        if (!isSame(a, b, c)) return Meeting::None;
+        return a != 0 && b != 0 && c != 0 ? Meeting::Cross : Meeting::Touch;
+    }
+    const int axis = axisOf(t[0], t[1], t[2]);
+    if (axis < 0) return Meeting::None;
+    const std::array<Point2, 3> flat{dropped(t[0], axis), dropped(t[1], axis), dropped(t[2], axis)};
+    const Point2 a = dropped(p, axis), b = dropped(q, axis);
+    if (ofP == 0 && holds(flat, a)) return Meeting::Touch;
+    if (ofQ == 0 && holds(flat, b)) return Meeting::Touch;
+    if (ofP != 0 || ofQ != 0) return Meeting::None;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (meet(a, b, flat[i], flat[(i + 1) % 3]) != Meeting::None) return Meeting::Touch;
+    return Meeting::None;
+}
+
+}  // namespace svt::validate

@@ -1,0 +1,56 @@
+#pragma once
+/// \file
+/// A shell as faces and triangles over shared points, and the tests of one shell.
+
+#include <svt/validate/exact/snapper.hpp>
+#include <svt/validate/polygons/defect.hpp>
+#include <svt/validate/polygons/polygon_checks.hpp>
+#include <svt/validate/solids/triangle_tree.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace svt::validate {
+
+/// A face: rings of indices of points, in the direction of its use.
+struct Face {
+    std::uint32_t polygon = 0;  ///< in BuildingModel::polygons
+    std::vector<std::vector<std::uint32_t>> rings;
+};
+
+struct Shell {
+    std::vector<Face> faces;
+    std::vector<Corners> triangles;     ///< indices of points, in the direction of their faces
+    std::vector<std::uint32_t> faceOf;  ///< of each triangle
+};
+
+/// Points of a geometry and where they stand in the world.
+struct PointSet {
+    const std::vector<Point>* points = nullptr;
+    const Lattice* lattice = nullptr;
+    double snap = 0;  ///< in units
+
+    [[nodiscard]] const Point& at(std::uint32_t i) const { return (*points)[i]; }
+    [[nodiscard]] Vec3d units(std::uint32_t i) const { return Lattice::local(at(i)); }
+    [[nodiscard]] Vec3d world(std::uint32_t i) const { return lattice->toWorld(at(i)); }
+    [[nodiscard]] std::array<Point, 3> corners(const Corners& t) const { return {at(t[0]), at(t[1]), at(t[2])}; }
+};
+
+/// The tests of a shell.
+struct ShellRules {
+    bool isClosed = true;  ///< false for a CompositeSurface, which may have a border
+};
+
+/// Findings of each kind that one shell may have.
+inline constexpr std::size_t kLargestDefectCount = 100;
+
+/// Tests faces that are valid each: enough of them, every edge used by two in opposite directions, one umbrella around
+/// every point, one piece, closed, free of intersections. The tests end with the first that fails.
+/// Cost: O(n log n) for faces that meet only at their borders.
+[[nodiscard]] std::vector<Defect> checkShell(const Shell& shell, const PointSet& points, const ShellRules& rules = {});
+
+/// Six times the volume that a closed shell encloses, in units, positive if its faces look outwards.
+[[nodiscard]] double sixfoldVolume(std::span<const Corners> triangles, const PointSet& points) noexcept;
+
+}  // namespace svt::validate

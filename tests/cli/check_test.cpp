@@ -1,0 +1,151 @@
+// svt check: findings by ISO 19107, as text, JSON, val3dity's report and a page. The models are made here.
+#include "run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <gtest/gtest.h>
+
+namespace svt::test {
+namespace {
+
+using nlohmann::json;
+
+// Eight corners of a box, and its faces as CityJSON has them; `first` is the number of its first corner.
+json corners(double x, double y, double z, double size) {
+    json vertices = json::array();
+    for (const double dz : {0.0, size})
+        for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {size, 0.0}, {size, size}, {0.0, size}})
+            vertices.push_back({x + dx, y + dy, z + dz});
+    return vertices;
+}
+json boxShell(int first, bool isTurned = false) {
+    json shell = json::array();
+    for (std::vector<int> ring :
+         {std::vector{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
+        if (isTurned) std::reverse(ring.begin(), ring.end());
+        for (int& corner : ring) corner += first;
+        shell.push_back(json::array({ring}));
+    }
+    return shell;
+}
+
+json cityJson(const std::string& type, const json& boundaries, const std::vector<json>& vertices) {
+    json all = json::array();
+    for (const json& some : vertices) all.insert(all.end(), some.begin(), some.end());
+    return {
+        {"type", "CityJSON"},
+        {"version", "2.0"},
+        {"transform", {{"scale", {1, 1, 1}}, {"translate", {0, 0, 0}}}},
+        {"CityObjects",
+         {{"b", {{"type", "Building"}, {"geometry", {{{"type", type}, {"lod", "2"}, {"boundaries", boundaries}}}}}}}},
+        {"vertices", all}};
+}
+
+class Check : public ::testing::Test {
+protected:
+    CommandResult check(const json& model, std::vector<std::string> more = {}) {
+        writeText(folder / "m.json", model.dump());
+        more.insert(more.begin(), {"check", "m.json"});
+        return runSvt(folder.path(), more);
+    }
+    TemporaryFolder folder;
+};
+
+// A box whose void sticks out of its top.
+json voidSticksOut() {
+    return cityJson("Solid", {boxShell(0), boxShell(8, true)}, {corners(0, 0, 0, 9), corners(2, 2, 6, 5)});
+}
+
+TEST_F(Check, AValidSolidIsDoneWithItsVolume) {
+    const json model = cityJson("Solid", {boxShell(0), boxShell(8, true)}, {corners(0, 0, 0, 9), corners(2, 2, 2, 3)});
+    const CommandResult result = check(model, {"--json"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    const json report = result.json();
+    EXPECT_EQ(report["valid"], true);
+    EXPECT_EQ(report["findings"], json::array());
+    EXPECT_EQ(report["primitives"], json::parse(R"([{"type":"Solid","total":1,"valid":1}])"));
+    EXPECT_NEAR(report["objects"][0]["volume"].get<double>(), 729 - 27, 1e-6);
+}
+
+TEST_F(Check, AFindingNamesCodePlaceAndTermAndTheVolumeIsNone) {
+    const CommandResult result = check(voidSticksOut(), {"--json"});
+    EXPECT_EQ(result.exitCode, 4) << result.toString();
+    const json report = result.json();
+    EXPECT_EQ(report["valid"], false);
+    ASSERT_EQ(report["findings"].size(), 1u);
+    const json& finding = report["findings"][0];
+    EXPECT_EQ(finding["code"], "E234");
+    EXPECT_EQ(finding["name"], "ShellsIntersect");
+    EXPECT_EQ(finding["val3dity"], 401);
+    EXPECT_EQ(finding["val3dityName"], "INTERSECTION_SHELLS");
+    EXPECT_EQ(finding["feature"], "b");
+    EXPECT_EQ(finding["type"], "Solid");
+    EXPECT_EQ(finding["shell"], 1);
+    EXPECT_NEAR(finding["at"][2].get<double>(), 9, 1e-5);
+    EXPECT_FALSE(finding["iso"].get<std::string>().empty());
+    EXPECT_EQ(report["counts"], json::parse(R"({"E234":1})"));
+    EXPECT_EQ(report["objects"][0]["volume"], nullptr);
+    EXPECT_EQ(report["objects"][0]["volumeReason"], "E234");
+}
+
+TEST_F(Check, ReportsAsVal3dityDoes) {
+    const CommandResult result = check(voidSticksOut(), {"--format", "val3dity", "--planarity", "0.02"});
+    EXPECT_EQ(result.exitCode, 4) << result.toString();
+    const json report = result.json();
+    EXPECT_EQ(keysOf(report),
+              (std::vector<std::string>{"all_errors", "dataset_errors", "features", "features_overview", "input_file",
+                                        "input_file_type", "parameters", "primitives_overview", "time", "type",
+                                        "val3dity_version", "validity"}));
+    EXPECT_EQ(report["type"], "val3dity_report");
+    EXPECT_EQ(report["input_file_type"], "CityJSON");
+    EXPECT_EQ(report["validity"], false);
+    EXPECT_EQ(report["all_errors"], json::parse("[401]"));
+    EXPECT_EQ(report["dataset_errors"], json::array());
+    EXPECT_EQ(report["parameters"]["planarity_d2p_tol"], 0.02);
+    EXPECT_EQ(report["parameters"]["overlap_tol"], -1);
+    EXPECT_EQ(report["features_overview"], json::parse(R"([{"type":"Building","total":1,"valid":0}])"));
+    ASSERT_EQ(report["features"].size(), 1u);
+    EXPECT_EQ(report["features"][0]["id"], "b");
+    EXPECT_EQ(report["features"][0]["validity"], false);
+    EXPECT_EQ(report["features"][0]["errors"][0]["code"], 401);
+    EXPECT_EQ(report["features"][0]["errors"][0]["description"], "INTERSECTION_SHELLS");
+}
+
+TEST_F(Check, TheOverlapOfACompositeMayBeAllowed) {
+    json model =
+        cityJson("CompositeSolid", {{boxShell(0)}, {boxShell(8)}}, {corners(0, 0, 0, 9), corners(8.99, 0, 0, 9)});
+    EXPECT_EQ(check(model).exitCode, 4);
+    const CommandResult allowed = check(model, {"--overlap", "0.01"});
+    EXPECT_EQ(allowed.exitCode, 0) << allowed.toString();
+}
+
+TEST_F(Check, AMaterialThatIsMissingIsNoDefect) {
+    json model = cityJson("Solid", json::array({boxShell(0)}), {corners(0, 0, 0, 9)});
+    model["CityObjects"]["b"]["geometry"][0]["material"] = {{"theme", {{"value", 3}}}};
+    const CommandResult result = check(model, {"--verbose"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("note E119"), std::string::npos) << result.err;
+}
+
+TEST_F(Check, ThePageShowsEachDefectAndLoadsNothing) {
+    json model = voidSticksOut();
+    model["CityObjects"]["<b>"] = model["CityObjects"]["b"];
+    EXPECT_EQ(check(model, {"--report", "r.html"}).exitCode, 4);
+    const std::string page = readText(folder / "r.html");
+    EXPECT_NE(page.find("ShellsIntersect"), std::string::npos);
+    EXPECT_NE(page.find("&lt;b&gt;"), std::string::npos) << "ids are escaped";
+    EXPECT_EQ(page.find("<b>\""), std::string::npos);
+    std::size_t pictures = 0;
+    for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++pictures;
+    EXPECT_EQ(pictures, 4u) << "two of each defect: the whole, and from near";
+    for (const char* foreign : {"http:", "https:", "src=", "<script", "@import", "url("})
+        EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
+}
+
+TEST_F(Check, APageThatCannotBeWrittenIsAnError) {
+    const CommandResult result = check(voidSticksOut(), {"--report", "missing/r.html"});
+    EXPECT_EQ(result.exitCode, 5) << result.toString();
+}
+
+}  // namespace
+}  // namespace svt::test
