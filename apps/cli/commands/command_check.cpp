@@ -13,7 +13,8 @@ namespace {
 struct CheckArguments {
     std::vector<std::filesystem::path> inputs;
     double lod = -1;
-    bool json = false, verbose = false;
+    std::string crs;
+    bool json = false, verbose = false, keepFarFeatures = false;
 };
 
 Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object) {
@@ -70,9 +71,15 @@ void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, 
 
 int runCheck(const CheckArguments& arguments) {
     Diagnostics diagnostics;
+    const auto crs = parseCrs(arguments.crs);
+    if (!crs) return fail(crs.error());
     Result<model::BuildingModel> model = [&] {
         const TerminalProgress progress;
-        return pipeline::readModels(arguments.inputs, 0, progress.get(), &diagnostics);
+        readers::ReadOptions options;
+        options.progress = progress.get();
+        options.crs = *crs;
+        options.keepFarFeatures = arguments.keepFarFeatures;
+        return pipeline::readModels(arguments.inputs, options, &diagnostics);
     }();
     if (!model) {
         printDiagnostics(diagnostics, arguments.verbose);
@@ -118,6 +125,8 @@ Action connectCheck(Command& command) {
     auto arguments = std::make_shared<CheckArguments>();
     command.set("input", arguments->inputs);
     command.set("--lod", arguments->lod);
+    command.set("--crs", arguments->crs);
+    command.set("--keep-far-features", arguments->keepFarFeatures);
     command.set("--json", arguments->json);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };

@@ -49,6 +49,15 @@ constexpr Option kModel[] = {
      .kind = Flag,
      .help = "leave the material between hull and rooms to the building, not to its walls and slabs",
      .group = "Model"},
+    {.name = "--crs",
+     .value = "CODE",
+     .otherwise = "the file's own; degrees and feet become metres of the usual projection of the place",
+     .help = "bring the model to this projection in metres, such as EPSG:25832",
+     .group = "Model"},
+    {.name = "--keep-far-features",
+     .kind = Flag,
+     .help = "keep features that lie far away from all others",
+     .group = "Model"},
 };
 constexpr Option kStyle[] = {
     {.name = "--style",
@@ -161,6 +170,8 @@ constexpr Option kInfoOutput[] = {
 constexpr Option kCheck[] = {
     {.name = "input", .value = "FILE", .help = "model files", .isRequired = true, .mayRepeat = true},
     kModel[0],
+    kModel[2],
+    kModel[3],
     kInfoOutput[0],
 };
 

@@ -164,7 +164,7 @@ public:
             if (auto done = readLines(headLine); !done) return done.error();
         if (Progress::isCancelled(options_.progress)) return cancelled();
         if (auto done = linkObjects(std::move(objects_), name_, model_, diagnostics_); !done) return done.error();
-        if (auto done = settleCrs(model_, name_, diagnostics_); !done) return done.error();
+        if (auto done = settleCrs(model_, name_, options_, diagnostics_); !done) return done.error();
         Progress::tell(options_.progress, "read", 1);
         return std::move(model_);
     }
