@@ -18,9 +18,9 @@ void readMetadata(const std::optional<json::element>& metadata, model::BuildingM
         model.crs.name = asString(*system).value_or(std::string_view());
 }
 
-Result<void> settleCrs(model::BuildingModel& model, std::string_view file, const ReadOptions& options,
-                       Diagnostics& diagnostics) {
-    const georeference::GivenCrs given{model.crs.name, {}, true, {std::string(file), 0, 0, {}}};
+Result<void> settleCrs(model::BuildingModel& model, std::string_view file, std::span<const Vec3d> anchors,
+                       const ReadOptions& options, Diagnostics& diagnostics) {
+    const georeference::GivenCrs given{model.crs.name, {}, true, {std::string(file), 0, 0, {}}, anchors};
     return georeference::georeference(model, given, options, diagnostics);
 }
 

@@ -7,6 +7,8 @@
 #include <svt/model/building_model.hpp>
 #include <svt/readers/read_options.hpp>
 
+#include <span>
+
 namespace svt::readers::cityjson {
 
 /// Sets the name and CRS of `model` from the member `metadata`.
@@ -16,7 +18,8 @@ void readMetadata(const std::optional<json::element>& metadata, model::BuildingM
 /// Brings the coordinates of `model` to metres east, north, up; see georeference(). CityJSON does not define the order of
 /// axes and files have east first, so projected coordinates are swapped only if their magnitude proves that north comes
 /// first; degrees also by what the faces say.
-[[nodiscard]] Result<void> settleCrs(model::BuildingModel& model, std::string_view file, const ReadOptions& options,
-                                     Diagnostics& diagnostics);
+/// \param anchors  see GivenCrs
+[[nodiscard]] Result<void> settleCrs(model::BuildingModel& model, std::string_view file, std::span<const Vec3d> anchors,
+                                     const ReadOptions& options, Diagnostics& diagnostics);
 
 }  // namespace svt::readers::cityjson

@@ -177,6 +177,24 @@ TEST(CityJsonCrs, DegreesOfNoKnownSystemAreRefusedAndLocalMetresAreNot) {
               Code::Internal);
 }
 
+TEST(CityJsonCrs, TemplatesKeepTheirMetresAmongDegrees) {
+    const Reading reading = read(
+        R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"metadata":{"referenceSystem":)"
+        R"("https://www.opengis.net/def/crs/EPSG/0/4979"},"CityObjects":{"b":{"type":"CityFurniture","geometry":[)"
+        R"({"type":"GeometryInstance","template":0,"boundaries":[0],)"
+        R"("transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]}},"vertices":[[11.5755,48.1374,520]],)"
+        R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}],)"
+        R"("vertices-templates":[[0,0,0],[3,0,0],[0,2,5]]}})");
+    ASSERT_EQ(reading.model().polygons.size(), 1u);
+    const std::vector<Vec3d>& points = reading.model().polygons[0].points;
+    EXPECT_EQ(reading.model().crs.epsg, 32632);
+    EXPECT_NEAR(points[0].x, 691603.0320, 1e-3);
+    EXPECT_NEAR(points[0].y, 5334780.0309, 1e-3);
+    EXPECT_NEAR(length(points[1] - points[0]), 3, 2e-3);
+    EXPECT_GT(points[1].x, points[0].x + 2.9);
+    EXPECT_NEAR(points[2].z, 525, 1e-9);
+}
+
 TEST(CityJsonCrs, NorthFirstIsExchangedOnlyWhereTheCoordinatesProveIt) {
     const auto firstPoint = [](std::string_view vertices) {
         const Reading reading =

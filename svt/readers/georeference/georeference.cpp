@@ -129,10 +129,9 @@ private:
     gml::AxisDecision decide() const {
         const bool isDegrees = gml::decideAxes(given_.name, box_, 0).isGeographic;
         // The form "EPSG:n" promises no order; +1: the coordinates are taken as they are.
-        if (given_.isEastFirst && !isDegrees)
-            return gml::decideAxes(model_.crs.epsg != 0 ? fmt::format("EPSG:{}", model_.crs.epsg) : given_.name, box_,
-                                   +1);
-        return gml::decideAxes(given_.name, box_, handedness(model_));
+        const std::string name =
+            given_.isEastFirst && model_.crs.epsg != 0 ? fmt::format("EPSG:{}", model_.crs.epsg) : given_.name;
+        return gml::decideAxes(name, box_, given_.isEastFirst && !isDegrees ? +1 : handedness(model_));
     }
 
     std::size_t leaveOutFar(bool isDegrees) {
