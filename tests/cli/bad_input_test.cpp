@@ -381,7 +381,7 @@ const std::vector<BadInput> kReferences{
      kCheck, kInvalid, "E122 FarFeature: bad\\.gml:[0-9]+ \\(id 'far'\\): .*5423 km"},
     {"NoHeights", "coordinates of two numbers", "bad.gml",
      [] {
-         return cityModel(building("b",
+         return cityModel(building("b", "",
                                    "<bldg:lod0FootPrint><gml:MultiSurface><gml:surfaceMember><gml:Polygon>"
                                    "<gml:exterior><gml:LinearRing><gml:posList srsDimension=\"2\">500000 5400000 "
                                    "500004 5400000 500004 5400006 500000 5400000</gml:posList></gml:LinearRing>"
