@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # What cmake/LibraryDependencies.cmake looks for.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libtbb-dev, libpugixml-dev, libsimdjson-dev, nlohmann-json3-dev, \
-zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, libegl-dev, libgles-dev")
+zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, libproj-dev, libegl-dev, libgles-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, make labelled volumes
 of them, ask and draw these; a CMake package and a pkg-config file.")

@@ -17,8 +17,8 @@ function(web_library alias include)
 endfunction()
 
 # Header-only Debian packages work for every target.
-# No threads, since web hosts do not always allow them; Emscripten provides OpenGL.
-foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2)
+# No threads, since web hosts do not always allow them; Emscripten provides OpenGL; without PROJ svt/crs knows less.
+foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2 PROJ::proj)
   add_library(${none} INTERFACE IMPORTED)
 endforeach()
 add_library(web_fmt INTERFACE)

@@ -47,7 +47,9 @@ def range_text(option: dict) -> str:
     low, high = option.get("minimum"), option.get("maximum")
     if low is None and high is None or high is not None and high >= 1e9:
         return ""
-    return f"{low:g} to {high:g}" if None not in (low, high) else f"at least {low:g}" if high is None else f"at most {high:g}"
+    if None not in (low, high):
+        return f"{low:.9g} to {high:.9g}"
+    return f"at least {low:.9g}" if high is None else f"at most {high:.9g}"
 
 
 def value_cell(option: dict) -> str:

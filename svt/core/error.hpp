@@ -30,8 +30,12 @@ enum class Code : std::uint16_t {
     ExternalReference = 115,  ///< a reference to another file or host; never fetched
     UnknownElement = 116,     ///< an unknown element or type; skipped
     MixedCrs = 117,           ///< parts of one model in different CRSs
-    GeographicCrs = 118,      ///< coordinates in degrees; project them first
+    GeographicCrs = 118,      ///< coordinates in degrees: projected, or no one knows how to
     BadIndex = 119,           ///< a vertex, material or template index out of range
+    ForeignUnit = 120,        ///< coordinates in feet or another unit than the metre
+    CannotProject = 121,      ///< coordinates that cannot be brought into another CRS
+    FarFeature = 122,         ///< a feature far away from all others; left out
+    NoHeights = 123,          ///< coordinates of two numbers: heights are missing
     // 2xx: geometry
     TooFewPoints = 201,         ///< a ring of fewer than three distinct points
     BadCoordinate = 202,        ///< NaN, infinite or absurdly large coordinate

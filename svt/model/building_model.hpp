@@ -91,10 +91,10 @@ struct Material {
     float transparency = 0;           ///< 0 opaque .. 1 invisible
 };
 
-/// Coordinate reference system as named in the file. Coordinates are never reprojected;
-/// axes are reordered to (east, north, up).
+/// Coordinate reference system of the model: that of the file, or the projection in metres that its degrees or feet were
+/// brought to. Axes are always (east, north, up).
 struct Crs {
-    std::string name;          ///< srsName or referenceSystem, or empty
+    std::string name;          ///< srsName or referenceSystem, or empty; "EPSG:6677 (from EPSG:6697)" if projected
     int epsg = 0;              ///< horizontal EPSG code if the name contains one, else 0
     bool axesSwapped = false;  ///< true if the file's order is (north, east); the model's is always (east, north)
 };

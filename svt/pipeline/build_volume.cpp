@@ -26,10 +26,14 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
     const auto firstMaterial = static_cast<std::int32_t>(into.materials.size());
     std::unordered_set<std::string> known;
     for (const model::Feature& feature : into.features) known.insert(feature.id);
-    if (into.crs.name != from.crs.name && log != nullptr)
+    const bool isSameCrs =
+        into.crs.epsg != 0 && from.crs.epsg != 0 ? into.crs.epsg == from.crs.epsg : into.crs.name == from.crs.name;
+    if (!isSameCrs && log != nullptr)
         log->add(Severity::Warning, Code::MixedCrs,
-                 fmt::format("'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are",
-                             from.source, from.crs.name, into.crs.name),
+                 fmt::format(
+                     "'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are; --crs brings "
+                     "all files to one",
+                     from.source, from.crs.name, into.crs.name),
                  {from.source, 0, 0, {}});
     for (model::Polygon& polygon : from.polygons) {
         if (polygon.material >= 0) polygon.material += firstMaterial;
@@ -282,20 +286,19 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
 
 }  // namespace
 
-Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads,
-                                        const Progress* progress, Diagnostics* log) {
+Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, readers::ReadOptions options,
+                                        Diagnostics* log) {
     if (files.empty()) return Error(Code::BadArgument, "no input file");
     model::BuildingModel all;
     for (std::size_t f = 0; f < files.size(); ++f) {
-        readers::ReadOptions options;
-        options.threads = threads;
-        options.progress = progress;
         auto model = readers::readModel(files[f], options, log);
         if (!model) return model.error();
-        if (f == 0)
+        if (f == 0) {
+            options.likelyCrs = model->crs.epsg;
             all = std::move(*model);
-        else
+        } else {
             mergeModel(all, std::move(*model), f, log);
+        }
     }
     return all;
 }
@@ -373,7 +376,12 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
 Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options,
                                 Diagnostics* log) {
     const auto start = Clock::now();
-    auto model = readModels(files, options.threads, options.progress, log);
+    readers::ReadOptions reading;
+    reading.threads = options.threads;
+    reading.progress = options.progress;
+    reading.crs = options.crs;
+    reading.keepFarFeatures = options.keepFarFeatures;
+    auto model = readModels(files, reading, log);
     if (!model) return model.error();
     const double readSeconds = secondsSince(start);
     auto output = buildVolume(*model, options, log);

@@ -9,6 +9,7 @@
 #include <svt/model/building_model.hpp>
 #include <svt/pipeline/style_sheet.hpp>
 #include <svt/pipeline/vector_parts.hpp>
+#include <svt/readers/read_options.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/voxelize/voxelize.hpp>
 
@@ -32,6 +33,8 @@ struct BuildOptions {
     AxesKind axes = AxesKind::World;
     std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and axes are then ignored
     model::LodChoice lod;
+    int crs = 0;  ///< EPSG code of a projection in metres that files are brought to; 0: see ReadOptions
+    bool keepFarFeatures = false;      ///< features of files that lie far away from all others are not left out
     bool assignThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface
     bool usePatterns = false;          ///< use the patterns of the built-in style
     voxelize::SheetMode sheets = voxelize::SheetMode::Thin;
@@ -70,9 +73,9 @@ struct BuildOutput {
 [[nodiscard]] Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options = {},
                                               Diagnostics* log = nullptr);
 
-/// Reads all files into one model.
-[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, int threads,
-                                                      const Progress* progress, Diagnostics* log);
+/// Reads all files into one model. What a later file has in degrees or feet is brought to the CRS of the first.
+[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files,
+                                                      readers::ReadOptions options, Diagnostics* log);
 
 /// The grid requested by `options` for the meshes.
 [[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options);

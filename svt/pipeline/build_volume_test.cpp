@@ -314,8 +314,8 @@ protected:
 
 TEST_F(TwoFiles, EqualIdsAreToldApart) {
     Diagnostics log;
-    const auto one = readModels(std::span(files_).first(1), 0, nullptr, nullptr);
-    const auto both = readModels(files_, 0, nullptr, &log);
+    const auto one = readModels(std::span(files_).first(1), {}, nullptr);
+    const auto both = readModels(files_, {}, &log);
     ASSERT_TRUE(one && both);
     const std::size_t count = one->features.size();
     ASSERT_EQ(both->features.size(), 2 * count);
@@ -354,7 +354,7 @@ TEST_F(TwoFiles, BothHousesHaveTheSameVolumes) {
 
 TEST_F(TwoFiles, ThreeEqualFilesStayApart) {
     files_.push_back(files_[0]);
-    const auto all = readModels(files_, 0, nullptr, nullptr);
+    const auto all = readModels(files_, {}, nullptr);
     ASSERT_TRUE(all);
     std::set<std::string> ids;
     for (const model::Feature& feature : all->features) ids.insert(feature.id);
@@ -363,7 +363,7 @@ TEST_F(TwoFiles, ThreeEqualFilesStayApart) {
 
 TEST_F(TwoFiles, MissingFileIsAnError) {
     files_.push_back(folder_ / "missing.gml");
-    const auto all = readModels(files_, 0, nullptr, nullptr);
+    const auto all = readModels(files_, {}, nullptr);
     ASSERT_FALSE(all);
     EXPECT_EQ(all.error().code(), Code::CannotOpen);
 }

@@ -120,7 +120,7 @@ const std::vector<illustrate::SectionPlane> kPlanes{
 
 TEST(SectionOracle, FzkHausAgreesWithItsMeshes) {
     SVT_NEEDS_DATA(file, "fzk_haus_citygml3.gml");
-    auto model = readModels(std::span(&file, 1), 0, nullptr, nullptr);
+    auto model = readModels(std::span(&file, 1), {}, nullptr);
     ASSERT_TRUE(model);
     BuildOptions options;
     options.dimension = Vec3i{400, 350, 200};

@@ -13,6 +13,12 @@ struct ReadOptions {
     std::uint32_t maxDepth = 512;                      ///< limit on nesting of elements or arrays
     int threads = 0;                                   ///< 0: all cores; the result does not depend on it
     const Progress* progress = nullptr;                ///< may be null
+
+    /// EPSG code of a projection in metres that the model is to be in; 0: as the file has it, or where that is not in
+    /// metres, `likelyCrs`.
+    int crs = 0;
+    int likelyCrs = 0;             ///< where coordinates must be projected: to this code if possible; 0: the usual one
+    bool keepFarFeatures = false;  ///< features far away from all others are not left out
 };
 
 }  // namespace svt::readers

@@ -406,11 +406,52 @@ const std::vector<BadInput> kReferences{
     {"MixedCrs", "a building in another CRS than the model", "bad.gml",
      [] { return replaced(oneBox(), "<gml:Solid>", "<gml:Solid srsName=\"urn:ogc:def:crs:EPSG::31467\">"); }, kCheck,
      kInvalid, "E117 MixedCrs.*31467"},
-    {"Degrees", "coordinates in degrees", "bad.gml",
+    {"Degrees", "coordinates in degrees of no known system", "bad.gml",
+     [] { return cityModel(building("b", solid(boxFaces(8.0, 49.0, 100, 8.0001, 49.0001, 103))), "local"); }, kBuild,
+     kInput, "E118 GeographicCrs: bad\\.gml:[0-9]+: .*'local'"},
+    {"DegreesOfWgs84",
+     "coordinates in degrees that can be projected",
+     "bad.gml",
      [] {
-         return cityModel(building("b", solid(boxFaces(8.0, 49.0, 100, 8.1, 49.1, 103))), "urn:ogc:def:crs:EPSG::4326");
+         return cityModel(building("b", solid(boxFaces(8.0, 49.0, 100, 8.0001, 49.0001, 103))),
+                          "urn:ogc:def:crs:OGC:1.3:CRS84");
      },
-     kBuild, kInput, "E118 GeographicCrs.*4326"},
+     {"build", "bad.gml", "-o", "o.svt", "-v"},
+     0,
+     "note E118 GeographicCrs.*EPSG:32632"},
+    {"Feet",
+     "coordinates in feet",
+     "bad.gml",
+     [] { return cityModel(building("b", solid(boxFaces(981100, 195500, 0, 981140, 195540, 30))), "EPSG:2263"); },
+     {"build", "bad.gml", "-o", "o.svt", "-v"},
+     0,
+     "note E120 ForeignUnit.*EPSG:32118"},
+    {"NoCrsToProject",
+     "another projection for a file that names none",
+     "bad.gml",
+     [] { return cityModel(building("b", solid(box())), ""); },
+     {"build", "bad.gml", "-o", "o.svt", "--crs", "EPSG:25833"},
+     kInput,
+     "E121 CannotProject: bad\\.gml"},
+    {"FarFeature", "a building at the origin, far from the others", "bad.gml",
+     [] {
+         std::string members = building("far", solid(boxFaces(0, 0, 0, 4, 6, 3)));
+         for (int i = 0; i < 5; ++i)
+             members += building("b" + std::to_string(i),
+                                 solid(boxFaces(500000 + 10 * i, 5400000, 100, 500004 + 10 * i, 5400006, 103)));
+         return cityModel(members);
+     },
+     kCheck, kInvalid, "E122 FarFeature: bad\\.gml:[0-9]+ \\(id 'far'\\): .*5423 km"},
+    {"NoHeights", "coordinates of two numbers", "bad.gml",
+     [] {
+         return cityModel(building("b", "",
+                                   "<bldg:lod0FootPrint><gml:MultiSurface><gml:surfaceMember><gml:Polygon>"
+                                   "<gml:exterior><gml:LinearRing><gml:posList srsDimension=\"2\">500000 5400000 "
+                                   "500004 5400000 500004 5400006 500000 5400000</gml:posList></gml:LinearRing>"
+                                   "</gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface>"
+                                   "</bldg:lod0FootPrint>"));
+     },
+     kBuild, kInput, "E123 NoHeights: bad\\.gml:[0-9]+: all 1 rings"},
     {"UnknownCrs", "a CRS that no table has", "bad.gml",
      [] { return cityModel(building("b", solid(box())), "urn:example:my-grid"); }, kBuild, 0, ""},
 };
@@ -483,10 +524,10 @@ const std::vector<BadInput> kJson{
      kCheckJson, kInvalid, "E112 DuplicateId.*'b'"},
     {"BadUtf8", "bytes that are no UTF-8", "bad.json",
      [] { return replaced(cityJson(), "Building", "Build\xFF\xFEing"); }, kBuildJson, kInput, "E108 BadEncoding"},
-    {"Degrees", "coordinates in degrees", "bad.json",
+    {"Degrees", "coordinates in degrees of no known system", "bad.json",
      [] {
-         return replaced(cityJson({}, {}, "2.0", R"({"scale":[1e-6,1e-6,0.001],"translate":[8,49,100]})"),
-                         "EPSG/0/25832", "EPSG/0/4326");
+         return replaced(cityJson({}, {}, "2.0", R"({"scale":[1e-8,1e-8,0.001],"translate":[8,49,100]})"),
+                         "EPSG/0/25832", "local");
      },
      kBuildJson, kInput, "E118 GeographicCrs"},
 };
@@ -501,6 +542,12 @@ Arguments buildWith(Arguments more) {
 }
 
 const std::vector<BadInput> kOptions{
+    {"CrsIsNoNumber", "a code that is none", "good.gml", kGood, buildWith({"--crs", "Gauss"}), kUsage,
+     "E904 BadArgument.*--crs 'Gauss'"},
+    {"CrsInDegrees", "a code of degrees", "good.gml", kGood, buildWith({"--crs", "EPSG:4326"}), kUsage,
+     "E904 BadArgument.*4326.*UTM zone"},
+    {"CrsUnknown", "a code that there is not", "good.gml", kGood, buildWith({"--crs", "999999"}), kUsage,
+     "E904 BadArgument.*999999"},
     {"DimensionZero", "no samples", "good.gml", kGood, buildWith({"--dimension", "0"}), kUsage,
      "E301 BadDimension.*--dimension 0.*2 to 65535"},
     {"DimensionOne", "one sample", "good.gml", kGood, buildWith({"--dimension", "1,1,1"}), kUsage,

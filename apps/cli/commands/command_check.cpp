@@ -19,7 +19,8 @@ struct CheckArguments {
     std::string format = "text";
     validate::ValidateOptions validation;
     double lod = -1;
-    bool json = false, verbose = false;
+    std::string crs;
+    bool json = false, verbose = false, keepFarFeatures = false;
 };
 
 // Why the volume of an object cannot be told although its mesh is closed; Internal: it can. A polygon that is not valid
@@ -139,13 +140,19 @@ void printText(const Checked& checked, const mesh::MeshSet& scene) {
 // The tests by ISO 19107, then what meshes say of the same model.
 int runCheck(const CheckArguments& arguments) {
     Diagnostics diagnostics;
+    const auto crs = parseCrs(arguments.crs);
+    if (!crs) return fail(crs.error());
     std::optional<TerminalProgress> progress(std::in_place);
     const auto stop = [&](const Error& error) {
         progress.reset();
         printDiagnostics(diagnostics, arguments.verbose);
         return fail(error);
     };
-    const auto model = pipeline::readModels(arguments.inputs, 0, progress->get(), &diagnostics);
+    readers::ReadOptions reading;
+    reading.progress = progress->get();
+    reading.crs = *crs;
+    reading.keepFarFeatures = arguments.keepFarFeatures;
+    const auto model = pipeline::readModels(arguments.inputs, reading, &diagnostics);
     if (!model) return stop(model.error());
     validate::ValidateOptions validation = arguments.validation;
     validation.lod = arguments.lod;
@@ -186,6 +193,8 @@ Action connectCheck(Command& command) {
     command.set("--overlap", arguments->validation.overlap);
     command.set("--report", arguments->report);
     command.set("--format", arguments->format);
+    command.set("--crs", arguments->crs);
+    command.set("--keep-far-features", arguments->keepFarFeatures);
     command.set("--json", arguments->json);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };

@@ -1,10 +1,12 @@
 #include <apps/cli/options/build_options.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -34,12 +36,27 @@ Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std:
     return Vec3d{values[0], values[1], values[2]};
 }
 
+Result<int> parseCrs(const std::string& text) {
+    if (text.empty()) return 0;
+    std::string_view digits = text;
+    if (equalsIgnoringCase(digits.substr(0, 5), "EPSG:")) digits.remove_prefix(5);
+    int code = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
+    if (error != std::errc{} || end != digits.data() + digits.size() || code <= 0)
+        return Error(
+            Code::BadArgument,
+            fmt::format("--crs '{}': expected the EPSG code of a projection in metres, such as EPSG:25832", text));
+    return code;
+}
+
 void BuildArguments::connect(Command& command) {
     command.set("--dimension", dimension);
     command.set("--spacing", spacing);
     command.set("--axes", axes);
     command.set("--lod", lod);
     command.set("--no-bodies", noBodies);
+    command.set("--crs", crs);
+    command.set("--keep-far-features", keepFarFeatures);
     command.set("--style", style);
     command.set("--patterns", patterns);
     command.set("--sheets", sheets);
@@ -85,6 +102,10 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.sheets = sheets == "thin" ? voxelize::SheetMode::Thin : voxelize::SheetMode::Conservative;
     options.keepThinParts = !noThin;
     options.threads = threads;
+    const auto code = parseCrs(crs);
+    if (!code) return code.error();
+    options.crs = *code;
+    options.keepFarFeatures = keepFarFeatures;
     options.vectors = vectors;
     if (!style.empty()) {
         auto sheet = pipeline::readStyleSheet(style);

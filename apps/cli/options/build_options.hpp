@@ -17,9 +17,9 @@ namespace svt::cli {
 
 /// Options shared by all commands that turn models into volumes.
 struct BuildArguments {
-    std::string dimension, spacing, axes, sheets, style;
+    std::string dimension, spacing, axes, sheets, style, crs;
     double lod = -1;
-    bool noBodies = false, patterns = false, noThin = false;
+    bool noBodies = false, patterns = false, noThin = false, keepFarFeatures = false;
     int threads = 0;
     pipeline::VectorChoice vectors;  ///< not an option of all commands
 
@@ -33,6 +33,9 @@ struct BuildArguments {
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const BuildArguments& arguments, const Progress* progress,
                                                         Diagnostics& diagnostics, const volume::Grid* grid = nullptr);
+
+/// The code of --crs, such as EPSG:25832 or 25832; 0 for an empty text.
+[[nodiscard]] Result<int> parseCrs(const std::string& text);
 
 /// Parses "800,700,400" or "800x700x400" as three numbers; a single number is used for all three.
 [[nodiscard]] Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std::string_view unit);

@@ -30,6 +30,10 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(MixedCrs);
         SVT_CASE(GeographicCrs);
         SVT_CASE(BadIndex);
+        SVT_CASE(ForeignUnit);
+        SVT_CASE(CannotProject);
+        SVT_CASE(FarFeature);
+        SVT_CASE(NoHeights);
         SVT_CASE(TooFewPoints);
         SVT_CASE(BadCoordinate);
         SVT_CASE(ZeroArea);

@@ -4,12 +4,12 @@
 #include <svt/readers/citygml/citygml_materials.hpp>
 #include <svt/readers/citygml/citygml_references.hpp>
 #include <svt/readers/citygml/citygml_resolver.hpp>
+#include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/gml/gml_crs.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
@@ -26,53 +26,10 @@ using std::string_view;
 constexpr std::uint64_t kBudgetBase = 16'000'000;
 constexpr std::uint64_t kBudgetPerByte = 10;
 
-// Six times the signed volume of the cone from `apex` over a polygon; the sum over a closed shell is six times its
-// volume. Interior rings run the other way and therefore subtract.
-double coneVolume(const model::Polygon& polygon, Vec3d apex) {
-    double volume = 0;
-    std::size_t begin = 0;
-    for (const std::uint32_t end : polygon.ringEnds) {
-        for (std::size_t i = begin + 1; i + 1 < end; ++i)
-            volume += dot(polygon.points[begin] - apex, cross(polygon.points[i] - apex, polygon.points[i + 1] - apex));
-        begin = end;
-    }
-    return volume;
-}
-
-// Whether faces look outward as given (+1) or with x and y swapped (-1): judged by the volumes of solids and by roofs
-// (which face up) and grounds (which face down). 0 if less than nine tenths agree or there is no evidence.
-int handedness(const BuildingModel& model) {
-    double sum = 0;
-    double total = 0;
-    for (const Feature& feature : model.features) {
-        const double up = feature.className == "RoofSurface" ? 1 : feature.className == "GroundSurface" ? -1 : 0;
-        for (const model::Geometry& geometry : feature.geometries) {
-            for (const model::Solid& solid : geometry.solids) {
-                const Vec3d apex = model.polygons[solid.exterior.front().polygon].points.front();
-                double volume = 0;
-                for (const model::SurfaceUse use : solid.exterior)
-                    volume += (use.isReversed ? -1 : 1) * coneVolume(model.polygons[use.polygon], apex);
-                sum += volume;
-                total += std::abs(volume);
-            }
-            if (up == 0) continue;
-            for (const model::SurfaceUse use : geometry.surfaces) {
-                const model::Polygon& polygon = model.polygons[use.polygon];
-                // A cone of height 1 from below: its volume has the sign of the z component of the normal.
-                const double area =
-                    coneVolume(polygon, polygon.points.front() - Vec3d{0, 0, 1}) * (use.isReversed ? -up : up);
-                sum += area;
-                total += std::abs(area);
-            }
-        }
-    }
-    return std::abs(sum) < 0.9 * total || total == 0 ? 0 : sum > 0 ? 1 : -1;
-}
-
 class Assembly {
 public:
-    Assembly(Part&& part, const DocumentFacts& facts, Diagnostics& diagnostics)
-        : part_(std::move(part)), facts_(facts), diagnostics_(diagnostics) {}
+    Assembly(Part&& part, const DocumentFacts& facts, const ReadOptions& options, Diagnostics& diagnostics)
+        : part_(std::move(part)), facts_(facts), options_(options), diagnostics_(diagnostics) {}
 
     Result<BuildingModel> run() {
         makeIdsUnique();
@@ -95,6 +52,10 @@ public:
                                      kBudgetBase + kBudgetPerByte * facts_.bytes, facts_.bytes),
                          {facts_.fileName, 0, 0, {}});
         for (std::size_t i = 0; i < resolved.size(); ++i) part_.features[i].geometries = std::move(resolved[i]);
+        if (!resolver.anchors().empty()) {
+            anchors_.resize(part_.polygons.size(), georeference::kNoAnchor);
+            anchors_.insert(anchors_.end(), resolver.anchors().begin(), resolver.anchors().end());
+        }
         std::move(resolver.placedPolygons().begin(), resolver.placedPolygons().end(),
                   std::back_inserter(part_.polygons));
         dropUnusedPolygons();
@@ -270,9 +231,13 @@ private:
         for (std::uint32_t& index : newIndex)
             if (index != kNone) index = kept++;
         if (kept == newIndex.size()) return;
-        for (std::size_t i = 0; i < newIndex.size(); ++i)
-            if (newIndex[i] != kNone && newIndex[i] != i) part_.polygons[newIndex[i]] = std::move(part_.polygons[i]);
+        for (std::size_t i = 0; i < newIndex.size(); ++i) {
+            if (newIndex[i] == kNone || newIndex[i] == i) continue;
+            part_.polygons[newIndex[i]] = std::move(part_.polygons[i]);
+            if (!anchors_.empty()) anchors_[newIndex[i]] = anchors_[i];
+        }
         part_.polygons.resize(kept);
+        if (!anchors_.empty()) anchors_.resize(kept);
         forEachUse([&](model::SurfaceUse& use) { use.polygon = newIndex[use.polygon]; });
     }
 
@@ -301,7 +266,27 @@ private:
                              {facts_.fileName, 0, 0, {}});
     }
 
+    // A model of footprints has no volume, however many walls it names.
+    Result<void> checkHeights() {
+        if (part_.flatRings == 0) return {};
+        const Place first{facts_.fileName, facts_.lineOf(part_.firstFlat), 0, {}};
+        if (part_.fullRings == 0)
+            return Error(Code::NoHeights,
+                         fmt::format("all {} rings have points of two numbers (srsDimension=\"2\"), this is the first: "
+                                     "without heights there is no volume; take a model with heights, or give the "
+                                     "footprints theirs before",
+                                     part_.flatRings),
+                         first);
+        diagnostics_.add(Severity::Warning, Code::NoHeights,
+                         fmt::format("{} of {} rings have points of two numbers and are taken at height 0, this is the "
+                                     "first",
+                                     part_.flatRings, part_.flatRings + part_.fullRings),
+                         first);
+        return {};
+    }
+
     Result<BuildingModel> finish() {
+        if (Result<void> checked = checkHeights(); !checked) return checked.error();
         BuildingModel model;
         model.source = facts_.fileName;
         model.format = facts_.format;
@@ -312,53 +297,44 @@ private:
         model.materials = std::move(materials_);
         model.memberships = std::move(part_.memberships);
         model.memberships.insert(model.memberships.end(), memberships_.begin(), memberships_.end());
-        if (Result<void> decided = decideCrs(model); !decided) return decided.error();
+        if (Result<void> settled = settleCrs(model); !settled) return settled.error();
         return model;
     }
 
-    Result<void> decideCrs(BuildingModel& model) {
-        Box3d box;
-        for (const model::Polygon& polygon : model.polygons)
-            for (const Vec3d& point : polygon.points) box.add(point);
-        if (!part_.crsNames.empty()) model.crs.name = part_.crsNames.front().name;
-        model.crs.epsg = gml::epsgCode(model.crs.name);
+    Result<void> settleCrs(BuildingModel& model) {
+        georeference::GivenCrs given;
+        given.anchors = anchors_;
+        given.place.file = facts_.fileName;
+        if (!part_.crsNames.empty()) {
+            const CrsName& first = part_.crsNames.front();
+            given.name = first.name;
+            given.units = first.units;
+            given.place.line = facts_.lineOf(first.offset);
+        }
         for (const CrsName& other : part_.crsNames)
-            if (!gml::isSameCrs(model.crs.name, other.name))
+            if (!gml::isSameCrs(given.name, other.name))
                 report(Severity::Warning, Code::MixedCrs,
                        fmt::format("srsName '{}' differs from the file's '{}'; all coordinates are taken to be in the "
                                    "latter",
-                                   other.name, model.crs.name),
+                                   other.name, given.name),
                        other.offset, {});
-        const gml::AxisDecision axes = gml::decideAxes(model.crs.name, box, handedness(model));
-        if (axes.isGeographic)
-            return Error(
-                Code::GeographicCrs,
-                fmt::format("the coordinates are degrees (srsName '{}'), but a volume needs metres; project the "
-                            "file first, for instance to the UTM zone of its place",
-                            model.crs.name),
-                {facts_.fileName, part_.crsNames.empty() ? 0 : facts_.lineOf(part_.crsNames.front().offset), 0, {}});
-        if (!axes.remark.empty())
-            diagnostics_.add(Severity::Warning, Code::BadValue,
-                             fmt::format("srsName '{}': {}", model.crs.name, axes.remark),
-                             {facts_.fileName, facts_.lineOf(part_.crsNames.front().offset), 0, {}});
-        model.crs.axesSwapped = axes.isNorthFirst;
-        if (axes.isNorthFirst)
-            for (model::Polygon& polygon : model.polygons)
-                for (Vec3d& point : polygon.points) std::swap(point.x, point.y);
-        return {};
+        return georeference::georeference(model, given, options_, diagnostics_);
     }
 
     Part part_;
     const DocumentFacts& facts_;
+    const ReadOptions& options_;
     Diagnostics& diagnostics_;
     std::vector<model::Material> materials_;
     std::vector<model::Membership> memberships_;
+    std::vector<Vec3d> anchors_;  // see GivenCrs
 };
 
 }  // namespace
 
-Result<BuildingModel> assemble(Part&& part, const DocumentFacts& facts, Diagnostics& diagnostics) {
-    return Assembly(std::move(part), facts, diagnostics).run();
+Result<BuildingModel> assemble(Part&& part, const DocumentFacts& facts, const ReadOptions& options,
+                               Diagnostics& diagnostics) {
+    return Assembly(std::move(part), facts, options, diagnostics).run();
 }
 
 }  // namespace svt::readers::citygml

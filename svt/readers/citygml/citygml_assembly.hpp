@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Turns the joined part of a whole file into a model: makes ids unique, resolves references,
-/// assigns materials to polygons, collects memberships, reorders axes to east, north, up.
+/// assigns materials to polygons, collects memberships, brings coordinates to metres.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -22,8 +22,9 @@ struct DocumentFacts {
     std::function<std::uint64_t(std::uint64_t)> lineOf;  ///< 1-based line of a byte offset
 };
 
-/// \return the model; GeographicCrs for coordinates in degrees; InputTooBig if references expand to a model
+/// \return the model; an error of georeference(); NoHeights; InputTooBig if references expand to a model
 ///         out of proportion to the file size
-Result<model::BuildingModel> assemble(Part&& part, const DocumentFacts& facts, Diagnostics& diagnostics);
+Result<model::BuildingModel> assemble(Part&& part, const DocumentFacts& facts, const ReadOptions& options,
+                                      Diagnostics& diagnostics);
 
 }  // namespace svt::readers::citygml

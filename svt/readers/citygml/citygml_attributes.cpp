@@ -2,6 +2,7 @@
 
 #include <svt/readers/citygml/gml_geometry.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
+#include <svt/readers/gml/missing_values.hpp>
 
 #include <fmt/format.h>
 
@@ -69,6 +70,7 @@ std::optional<AttributeValue> parseValue(string_view text, ValueKind kind) {
 
 bool addValue(std::vector<Attribute>& attributes, std::string name, string_view text, string_view uom, ValueKind kind) {
     const std::optional<AttributeValue> value = parseValue(text, kind);
+    if (const auto number = parseFinite(text); number && gml::isMissingValue(name, *number)) return true;
     attributes.push_back({std::move(name), value.value_or(std::string(text)), std::string(unitName(uom))});
     return value.has_value();
 }

@@ -276,7 +276,8 @@ void FeatureReader::readGroupRole(FeatureIndex feature, const Element& element) 
 
 void FeatureReader::readEnvelope(const Element& boundedBy) {
     scope_.forEachChild(boundedBy.node, [&](const Element& envelope) {
-        part_.addCrsName(gml::attributesOf(scope_, envelope.node).srsName, offsetOf_(envelope.node));
+        const ElementAttributes attributes = gml::attributesOf(scope_, envelope.node);
+        part_.addCrsName(attributes.srsName, attributes.units, offsetOf_(envelope.node));
     });
 }
 

@@ -77,13 +77,19 @@ TEST(GmlGeometry, FlatRingsGetHeightZeroWhereverTheDimensionIsStated) {
         "<gml:Polygon><gml:exterior><gml:LinearRing><gml:coordinates>0,0 2,0 2,3 "
         "0,0</gml:coordinates></gml:LinearRing></gml:exterior></gml:Polygon>",
     };
-    for (const std::string_view polygon : polygons) {
-        const Reading reading = readGeometry(multiSurface(surfaceMember(polygon)));
-        EXPECT_EQ(onlyPolygon(reading).points, expected) << polygon;
-    }
+    // Beside a face with heights: a model that has none is refused.
+    const auto readBesideAnother = [](std::string_view polygon) {
+        Reading reading = readGeometry(multiSurface(surfaceMember(polygon) + surfaceMember(square({}, 5))));
+        EXPECT_EQ(reading.count(Code::NoHeights), 1u);
+        EXPECT_EQ(reading.model().polygons.size(), 2u);
+        return reading.model().polygons.at(0).points;
+    };
+    for (const std::string_view polygon : polygons) EXPECT_EQ(readBesideAnother(polygon), expected) << polygon;
     // The number of values of six 2D points also divides by three, but the ring closes only as a 2D ring.
-    const Reading six = readGeometry(polygonOf(ring("0 0 4 0 4 2 2 3 0 2 0 0")));
-    EXPECT_EQ(onlyPolygon(six).points.size(), 5u);
+    EXPECT_EQ(readBesideAnother("<gml:Polygon><gml:exterior>" + ring("0 0 4 0 4 2 2 3 0 2 0 0") +
+                                "</gml:exterior></gml:Polygon>")
+                  .size(),
+              5u);
     // A wrong dimension inherited from an ancestor does not break rings that are clearly three-dimensional.
     const Reading wrong =
         readGeometry("<gml:MultiSurface srsDimension=\"2\">" +
@@ -91,6 +97,17 @@ TEST(GmlGeometry, FlatRingsGetHeightZeroWhereverTheDimensionIsStated) {
                                    "</gml:exterior></gml:Polygon>") +
                      "</gml:MultiSurface>");
     EXPECT_EQ(onlyPolygon(wrong).points.size(), 5u);
+}
+
+TEST(GmlGeometry, AModelWithoutHeightsIsOneError) {
+    std::string members;
+    for (int i = 0; i < 20; ++i)
+        members +=
+            surfaceMember("<gml:Polygon><gml:exterior>" + ring("0 0 2 0 2 3 0 0") + "</gml:exterior></gml:Polygon>");
+    const Reading reading = readGeometry(multiSurface(members));
+    EXPECT_EQ(reading.code(), Code::NoHeights);
+    EXPECT_NE(reading.result.error().message().find("all 20 rings"), std::string::npos);
+    EXPECT_EQ(reading.result.error().where().line, 3u);
 }
 
 TEST(GmlGeometry, HolesFollowTheExteriorWithOldAndNewNames) {

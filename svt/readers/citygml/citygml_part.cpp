@@ -89,11 +89,11 @@ void Part::addUnknown(std::string_view name, std::uint64_t offset) {
     unknownOffsets.push_back(offset);
 }
 
-void Part::addCrsName(std::string_view name, std::uint64_t offset) {
+void Part::addCrsName(std::string_view name, std::string_view units, std::uint64_t offset) {
     if (name.empty() || crsNames.size() >= kMaxNames) return;
     for (const CrsName& known : crsNames)
         if (known.name == name) return;
-    crsNames.push_back({std::string(name), offset});
+    crsNames.push_back({std::string(name), std::string(units), offset});
 }
 
 void Part::join(Part&& next) {
@@ -124,8 +124,11 @@ void Part::join(Part&& next) {
     append(placements, std::move(next.placements));
     append(materials, std::move(next.materials));
     if (next.lastTheme) lastTheme = std::move(next.lastTheme);
+    if (flatRings == 0) firstFlat = next.firstFlat;
+    flatRings += next.flatRings;
+    fullRings += next.fullRings;
     if (modelName.empty()) modelName = std::move(next.modelName);
-    for (const CrsName& crs : next.crsNames) addCrsName(crs.name, crs.offset);
+    for (const CrsName& crs : next.crsNames) addCrsName(crs.name, crs.units, crs.offset);
     for (std::size_t i = 0; i < next.unknownNames.size(); ++i) addUnknown(next.unknownNames[i], next.unknownOffsets[i]);
 }
 

@@ -77,6 +77,7 @@ struct MaterialRecord {
 /// A srsName and its first occurrence.
 struct CrsName {
     std::string name;
+    std::string units;  ///< uomLabels beside it, or empty
     std::uint64_t offset = 0;
 };
 
@@ -124,6 +125,8 @@ struct Part {
     std::vector<MaterialRecord> materials;
     std::optional<std::string> lastTheme;  ///< theme of the last Appearance, which may continue in the next part
     std::vector<CrsName> crsNames;
+    std::uint64_t flatRings = 0, fullRings = 0;  ///< rings of two and of three numbers for each point
+    std::uint64_t firstFlat = 0;                 ///< offset of the first of two
     std::string modelName;
     std::vector<std::string> unknownNames;  ///< skipped elements, each name once
     std::vector<std::uint64_t> unknownOffsets;
@@ -135,7 +138,7 @@ struct Part {
 
     /// Records an unknown element; each name is kept once.
     void addUnknown(std::string_view name, std::uint64_t offset);
-    void addCrsName(std::string_view name, std::uint64_t offset);
+    void addCrsName(std::string_view name, std::string_view units, std::uint64_t offset);
 };
 
 }  // namespace svt::readers::citygml

@@ -127,7 +127,7 @@ public:
         }
         const citygml::DocumentFacts facts{fileName_, fmt::format("CityGML {}.0", root->version), document_.size(),
                                            [this](std::uint64_t offset) { return lines_.lineOf(offset); }};
-        return citygml::assemble(std::move(whole_), facts, diagnostics_);
+        return citygml::assemble(std::move(whole_), facts, options_, diagnostics_);
     }
 
 private:

@@ -211,6 +211,7 @@ void GeometryResolver::walkImplicit(NodeIndex index, bool isReversed, Resolved& 
                 "the matrix moves the shape to coordinates that are absurdly large; it is left out", node.offset,
                 featureId_);
         placed_.resize(firstPlaced);
+        anchors_.resize(firstPlaced);
         return;
     }
     into.surfaces.insert(into.surfaces.end(), prototype.surfaces.begin(), prototype.surfaces.end());
@@ -225,6 +226,7 @@ PolygonIndex GeometryResolver::placed(PolygonIndex index, const Placement& place
     Polygon polygon = prototype;
     for (Vec3d& point : polygon.points) point = place(placement, point);
     placed_.push_back(std::move(polygon));
+    anchors_.push_back(placement.referencePoint);
     entry->second = static_cast<PolygonIndex>(part_.polygons.size() + placed_.size() - 1);
     return entry->second;
 }

@@ -54,6 +54,8 @@ public:
 
     /// Polygons of placed prototypes. Their indices follow those of the part's polygons.
     [[nodiscard]] std::vector<model::Polygon>& placedPolygons() noexcept { return placed_; }
+    /// The reference point of each of placedPolygons().
+    [[nodiscard]] const std::vector<Vec3d>& anchors() const noexcept { return anchors_; }
 
     /// Adds to the work done; false once the budget is exceeded.
     bool chargeBudget(std::uint64_t amount);
@@ -85,6 +87,7 @@ private:
     std::vector<std::uint32_t> visitedBy_;  // for forEachPolygon
     std::uint32_t visit_ = 0;
     std::vector<model::Polygon> placed_;
+    std::vector<Vec3d> anchors_;
 };
 
 }  // namespace svt::readers::citygml

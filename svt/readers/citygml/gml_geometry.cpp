@@ -113,6 +113,8 @@ ElementAttributes attributesOf(const xml::NameScope& scope, pugi::xml_node node)
             result.hasHref = true;
         } else if (name.localName == "srsName") {
             result.srsName = xml::trimmed(value);
+        } else if (name.localName == "uomLabels") {
+            result.units = xml::trimmed(value);
         } else if (name.localName == "srsDimension") {
             result.dimension = value == "2" ? 2 : value == "3" ? 3 : 0;
         } else if (name.localName == "orientation") {
@@ -178,7 +180,7 @@ NodeIndex GeometryReader::readElement(const Element& element, Shape shape, int d
         return readPolygon(element, shape == Shape::Compact, dimension);
 
     const ElementAttributes attributes = attributesOf(scope_, element.node);
-    if (!isPrototype_) part_.addCrsName(attributes.srsName, offsetOf_(element.node));
+    if (!isPrototype_) part_.addCrsName(attributes.srsName, attributes.units, offsetOf_(element.node));
     dimension = firstNonZero(attributes.dimension, dimension);
     if (shape == Shape::Solid) return readSolid(element, dimension);
 
@@ -245,7 +247,7 @@ NodeIndex GeometryReader::readShell(const Element& property, NodeKind kind, int 
 
 NodeIndex GeometryReader::readPolygon(const Element& element, bool isCompact, int dimension) {
     const ElementAttributes attributes = attributesOf(scope_, element.node);
-    if (!isPrototype_) part_.addCrsName(attributes.srsName, offsetOf_(element.node));
+    if (!isPrototype_) part_.addCrsName(attributes.srsName, attributes.units, offsetOf_(element.node));
     dimension = firstNonZero(attributes.dimension, dimension);
     polygonId_ = attributes.id;
 
@@ -373,6 +375,7 @@ void GeometryReader::addNumbers(string_view text, int stated, int inherited, pug
 }
 
 void GeometryReader::addPoints(int dimension) {
+    isFlat_ = dimension == 2;
     points_.reserve(points_.size() + numbers_.size() / static_cast<std::size_t>(dimension));
     if (dimension == 3)
         for (std::size_t i = 0; i + 2 < numbers_.size(); i += 3)
@@ -409,6 +412,8 @@ bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at, bool
             offsetOf_(at), std::string(polygonId_));
     polygon.points.insert(polygon.points.end(), points_.begin(), points_.end());
     polygon.ringEnds.push_back(static_cast<std::uint32_t>(polygon.points.size()));
+    if (isFlat_ && part_.flatRings++ == 0) part_.firstFlat = offsetOf_(at);
+    if (!isFlat_) ++part_.fullRings;
     return true;
 }
 
@@ -432,7 +437,7 @@ NodeIndex GeometryReader::readImplicit(const Element& element) {
             points_.clear();
             ringFailed_ = false;
             scope_.forEachChild(property.node, [&](const Element& point) {
-                part_.addCrsName(attributesOf(scope_, point.node).srsName, offsetOf_(point.node));
+                part_.addCrsName(attributesOf(scope_, point.node).srsName, {}, offsetOf_(point.node));
                 readPositions(point, 0);
             });
             hasPoint = points_.size() == 1 && std::abs(points_[0].x) <= kLargestCoordinate &&

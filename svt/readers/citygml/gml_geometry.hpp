@@ -29,6 +29,7 @@ struct ElementAttributes {
     std::string_view href;  ///< xlink:href
     bool hasHref = false;
     std::string_view srsName;
+    std::string_view units;  ///< uomLabels
     std::string_view orientation;
     int dimension = 0;  ///< srsDimension, 0: not stated
 };
@@ -90,6 +91,7 @@ private:
     std::string_view polygonId_;        // of the polygon being read, for messages
     bool isPrototype_ = false;          // inside an ImplicitGeometry: no CRS
     bool ringFailed_ = false;
+    bool isFlat_ = false;  // the ring being read has points of two numbers
     std::vector<double> numbers_;
     std::vector<Vec3d> points_;  // of the ring being read
     std::string scratch_;

@@ -5,6 +5,9 @@
 #include <svt/readers/cityjson/cityjson_json.hpp>
 
 #include <svt/model/building_model.hpp>
+#include <svt/readers/read_options.hpp>
+
+#include <span>
 
 namespace svt::readers::cityjson {
 
@@ -12,9 +15,11 @@ namespace svt::readers::cityjson {
 void readMetadata(const std::optional<json::element>& metadata, model::BuildingModel& model, std::string_view file,
                   Diagnostics& diagnostics);
 
-/// Reorders the axes of `model` to (east, north). CityJSON does not define their order and files have east first, so
-/// they are swapped only if the magnitude of the coordinates proves that north comes first.
-/// \return GeographicCrs if the coordinates are degrees (see gml_crs.hpp). Cost: O(points).
-[[nodiscard]] Result<void> settleCrs(model::BuildingModel& model, std::string_view file, Diagnostics& diagnostics);
+/// Brings the coordinates of `model` to metres east, north, up; see georeference(). CityJSON does not define the order of
+/// axes and files have east first, so projected coordinates are swapped only if their magnitude proves that north comes
+/// first; degrees also by what the faces say.
+/// \param anchors  see GivenCrs
+[[nodiscard]] Result<void> settleCrs(model::BuildingModel& model, std::string_view file, std::span<const Vec3d> anchors,
+                                     const ReadOptions& options, Diagnostics& diagnostics);
 
 }  // namespace svt::readers::cityjson

@@ -1,6 +1,7 @@
 #include <svt/readers/cityjson/cityjson_geometry.hpp>
 
 #include <svt/model/classes.hpp>
+#include <svt/readers/georeference/georeference.hpp>
 
 #include <fmt/format.h>
 
@@ -271,6 +272,10 @@ private:
                 polygon.material = materialOf(own.material);
                 const auto index = static_cast<model::PolygonIndex>(object_.polygons.size());
                 object_.polygons.push_back(std::move(polygon));
+                if (isInstance_) {
+                    object_.anchors.resize(index, georeference::kNoAnchor);
+                    object_.anchors.push_back(anchor_);
+                }
                 uses.push_back({index, false});
                 giveToSemantics(own.semantics, index);
             }

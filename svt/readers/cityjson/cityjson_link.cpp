@@ -1,4 +1,5 @@
 #include <svt/readers/cityjson/cityjson_link.hpp>
+#include <svt/readers/georeference/georeference.hpp>
 
 #include <fmt/format.h>
 
@@ -15,8 +16,8 @@ constexpr std::int32_t kNone = -1;
 class Linker {
 public:
     Linker(std::vector<ParsedObject> objects, std::string_view file, model::BuildingModel& model,
-           Diagnostics& diagnostics)
-        : objects_(std::move(objects)), file_(file), model_(model), diagnostics_(diagnostics) {}
+           std::vector<Vec3d>& anchors, Diagnostics& diagnostics)
+        : objects_(std::move(objects)), file_(file), model_(model), anchors_(anchors), diagnostics_(diagnostics) {}
 
     Result<void> run() {
         for (const ParsedObject& object : objects_) diagnostics_.append(object.diagnostics);
@@ -37,6 +38,7 @@ public:
         findParents();
         orderChildren();
         emit();
+        if (!anchors_.empty()) anchors_.resize(model_.polygons.size(), georeference::kNoAnchor);
         addMemberships();
         return {};
     }
@@ -127,6 +129,10 @@ private:
         ParsedObject& object = objects_[i];
         const auto offset = static_cast<model::PolygonIndex>(model_.polygons.size());
         for (model::Polygon& polygon : object.polygons) model_.polygons.push_back(std::move(polygon));
+        if (!object.anchors.empty()) {
+            anchors_.resize(offset, georeference::kNoAnchor);
+            anchors_.insert(anchors_.end(), object.anchors.begin(), object.anchors.end());
+        }
         object.polygons = {};
         shiftPolygons(object.feature, offset);
         const std::int32_t parent = parents_[i];
@@ -208,6 +214,7 @@ private:
     std::vector<ParsedObject> objects_;
     std::string_view file_;
     model::BuildingModel& model_;
+    std::vector<Vec3d>& anchors_;
     Diagnostics& diagnostics_;
     std::unordered_map<std::string, std::int32_t> indexOfId_;
     std::vector<std::int32_t> parents_;
@@ -220,8 +227,8 @@ private:
 }  // namespace
 
 Result<void> linkObjects(std::vector<ParsedObject> objects, std::string_view file, model::BuildingModel& model,
-                         Diagnostics& diagnostics) {
-    return Linker(std::move(objects), file, model, diagnostics).run();
+                         std::vector<Vec3d>& anchors, Diagnostics& diagnostics) {
+    return Linker(std::move(objects), file, model, anchors, diagnostics).run();
 }
 
 }  // namespace svt::readers::cityjson

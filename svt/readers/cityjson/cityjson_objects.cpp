@@ -2,6 +2,7 @@
 
 #include <svt/model/classes.hpp>
 #include <svt/readers/cityjson/cityjson_geometry.hpp>
+#include <svt/readers/gml/missing_values.hpp>
 
 #include <fmt/format.h>
 
@@ -85,12 +86,14 @@ bool appendMeasure(const std::string& name, json::object object, std::vector<Att
     const auto value = findMember(object, "value");
     const auto unit = findMember(object, "uom");
     if (!value || !unit || !value->is_number() || !unit->is_string() || object.size() != 2) return false;
-    attributes.push_back({name, *scalarOf(*value), std::string(*asString(*unit))});
+    if (!gml::isMissingValue(name, asNumber(*value).value_or(0)))
+        attributes.push_back({name, *scalarOf(*value), std::string(*asString(*unit))});
     return true;
 }
 
 void appendValue(std::string name, json::element value, int parts, std::vector<Attribute>& attributes) {
     if (value.is_null()) return;
+    if (value.is_number() && gml::isMissingValue(name, asNumber(value).value_or(0))) return;
     if (auto scalar = scalarOf(value)) {
         attributes.push_back({std::move(name), std::move(*scalar), {}});
         return;

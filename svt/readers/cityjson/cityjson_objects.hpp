@@ -48,6 +48,7 @@ struct ParsedObject {
     model::Feature feature;
     std::vector<std::string> parents, children, childrenRoles;
     std::vector<model::Polygon> polygons;
+    std::vector<Vec3d> anchors;             ///< of polygons of instances, see GivenCrs; may end before `polygons` does
     std::vector<SemanticSurface> surfaces;  ///< parents precede their children
     Diagnostics diagnostics;
 };

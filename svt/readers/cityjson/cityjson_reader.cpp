@@ -163,8 +163,9 @@ public:
         if (hasLines)
             if (auto done = readLines(headLine); !done) return done.error();
         if (Progress::isCancelled(options_.progress)) return cancelled();
-        if (auto done = linkObjects(std::move(objects_), name_, model_, diagnostics_); !done) return done.error();
-        if (auto done = settleCrs(model_, name_, diagnostics_); !done) return done.error();
+        if (auto done = linkObjects(std::move(objects_), name_, model_, anchors_, diagnostics_); !done)
+            return done.error();
+        if (auto done = settleCrs(model_, name_, anchors_, options_, diagnostics_); !done) return done.error();
         Progress::tell(options_.progress, "read", 1);
         return std::move(model_);
     }
@@ -409,6 +410,7 @@ private:
     /// Key: name, colour and transparency of the materials of lines.
     std::map<std::tuple<std::string, float, float, float, float>, std::int32_t> materialNumbers_;
     std::vector<ParsedObject> objects_;
+    std::vector<Vec3d> anchors_;
     model::BuildingModel model_;
 };
 

@@ -157,7 +157,7 @@ TEST(CityJsonCrs, EpsgCodeIsFoundInEveryForm) {
     EXPECT_EQ(read(document("{}", R"(,"metadata":{"title":"T"})")).model().name, "T");
 }
 
-TEST(CityJsonCrs, DegreesAreRefusedAndLocalMetresAreNot) {
+TEST(CityJsonCrs, DegreesOfNoKnownSystemAreRefusedAndLocalMetresAreNot) {
     const auto codeOf = [](std::string_view system, std::string_view vertices) {
         const Reading reading = read(
             R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"metadata":{"referenceSystem":")" +
@@ -169,12 +169,30 @@ TEST(CityJsonCrs, DegreesAreRefusedAndLocalMetresAreNot) {
     };
     const std::string_view degrees = "[[139.71,35.67,10],[139.7101,35.67,12],[139.71,35.6701,14]]";
     const std::string_view metres = "[[0,0,0],[10,0,0],[10,8,3]]";
-    EXPECT_EQ(codeOf("https://www.opengis.net/def/crs/EPSG/0/6697", degrees), Code::GeographicCrs);
+    EXPECT_EQ(codeOf("https://www.opengis.net/def/crs/EPSG/0/6697", degrees), Code::Internal) << "can be projected";
     EXPECT_EQ(codeOf("", degrees), Code::GeographicCrs) << "a height of 4 over an extent of 0.0001";
     EXPECT_EQ(codeOf("", metres), Code::Internal);
     EXPECT_EQ(codeOf("https://www.opengis.net/def/crs/EPSG/0/25832", metres), Code::Internal);
     EXPECT_EQ(codeOf("https://www.opengis.net/def/crs/EPSG/0/4326", "[[1000,0,0],[1010,0,0],[1010,8,3]]"),
               Code::Internal);
+}
+
+TEST(CityJsonCrs, TemplatesKeepTheirMetresAmongDegrees) {
+    const Reading reading = read(
+        R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"metadata":{"referenceSystem":)"
+        R"("https://www.opengis.net/def/crs/EPSG/0/4979"},"CityObjects":{"b":{"type":"CityFurniture","geometry":[)"
+        R"({"type":"GeometryInstance","template":0,"boundaries":[0],)"
+        R"("transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}]}},"vertices":[[11.5755,48.1374,520]],)"
+        R"("geometry-templates":{"templates":[{"type":"MultiSurface","lod":"2","boundaries":[[[0,1,2]]]}],)"
+        R"("vertices-templates":[[0,0,0],[3,0,0],[0,2,5]]}})");
+    ASSERT_EQ(reading.model().polygons.size(), 1u);
+    const std::vector<Vec3d>& points = reading.model().polygons[0].points;
+    EXPECT_EQ(reading.model().crs.epsg, 32632);
+    EXPECT_NEAR(points[0].x, 691603.0320, 1e-3);
+    EXPECT_NEAR(points[0].y, 5334780.0309, 1e-3);
+    EXPECT_NEAR(length(points[1] - points[0]), 3, 2e-3);
+    EXPECT_GT(points[1].x, points[0].x + 2.9);
+    EXPECT_NEAR(points[2].z, 525, 1e-9);
 }
 
 TEST(CityJsonCrs, NorthFirstIsExchangedOnlyWhereTheCoordinatesProveIt) {

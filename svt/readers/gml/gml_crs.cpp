@@ -1,22 +1,16 @@
 #include <svt/readers/gml/gml_crs.hpp>
 
 #include <svt/core/text.hpp>
-#include <svt/readers/gml/gml_crs_table.hpp>
+#include <svt/crs/crs_facts.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace svt::readers::gml {
 namespace {
 
 using std::string_view;
-
-bool isIn(std::span<const CodeRange> ranges, int code) noexcept {
-    return std::any_of(ranges.begin(), ranges.end(),
-                       [&](CodeRange range) { return range.first <= code && code <= range.last; });
-}
 
 char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -49,6 +43,9 @@ bool promisesAuthorityOrder(string_view name) noexcept {
 }
 
 // CRSs in which northings and eastings differ by magnitude.
+struct CodeRange {
+    int first, last;
+};
 struct Magnitudes {
     CodeRange codes;
     double eastMin, eastMax, northMin, northMax;
@@ -73,6 +70,47 @@ bool looksLikeDegrees(const Box3d& box) noexcept {
            std::abs(center.x) + std::abs(center.y) > 5 && std::abs(center.x) <= 180 && std::abs(center.y) <= 180;
 }
 
+// Degrees of one of two orders: which of them lies on earth, else which lies in the area of use; 0: both or none.
+int orderOfDegrees(const Box3d& box, int code) noexcept {
+    const auto has = [](const Box3d& area, double x, double y) {
+        return x >= area.min.x - 1 && x <= area.max.x + 1 && y >= area.min.y - 1 && y <= area.max.y + 1;
+    };
+    const auto lies = [&](const Box3d& area, bool isSwapped) {
+        return isSwapped ? has(area, box.min.y, box.min.x) && has(area, box.max.y, box.max.x)
+                         : has(area, box.min.x, box.min.y) && has(area, box.max.x, box.max.y);
+    };
+    const Box3d earth{{-360, -90, 0}, {360, 90, 0}};
+    for (const Box3d& area : {earth, crs::areaOf(code).value_or(earth)}) {
+        const bool asGiven = lies(area, false), swapped = lies(area, true);
+        if (asGiven != swapped) return asGiven ? 1 : -1;
+    }
+    return 0;
+}
+
+void remarkOnOrder(AxisDecision& decision, bool isPromised) {
+    if (decision.isNorthFirst == isPromised) return;
+    decision.remark =
+        decision.isNorthFirst
+            ? "the coordinates are in north, east order, although this form of the name means east, north"
+            : "the coordinates are in east, north order, although this form of the name means north, east";
+}
+
+AxisDecision decideDegrees(string_view name, const Box3d& box, int code, int handedness) {
+    AxisDecision decision;
+    decision.isGeographic = box.isEmpty() || (std::max(std::abs(box.min.x), std::abs(box.max.x)) <= 360 &&
+                                              std::max(std::abs(box.min.y), std::abs(box.max.y)) <= 360);
+    if (!decision.isGeographic) {
+        decision.remark = "the srsName means degrees, but the coordinates are too large for that; taken as metres";
+        return decision;
+    }
+    if (box.isEmpty()) return decision;
+    const bool isPromised = promisesAuthorityOrder(name) && !isCrs84(name);
+    const int shown = orderOfDegrees(box, isCrs84(name) ? 4326 : code);
+    decision.isNorthFirst = shown != 0 ? shown < 0 : handedness != 0 ? handedness < 0 : isPromised;
+    remarkOnOrder(decision, isPromised);
+    return decision;
+}
+
 }  // namespace
 
 int epsgCode(string_view name) noexcept {
@@ -87,6 +125,18 @@ int epsgCode(string_view name) noexcept {
     return isNumber ? lastNumber(name) : 0;
 }
 
+int verticalCode(string_view name) noexcept {
+    const std::size_t first = findIgnoringCase(name, "epsg");
+    if (first == string_view::npos) return 0;
+    string_view rest = name.substr(first + 4);
+    if (const std::size_t second = findIgnoringCase(rest, "epsg"); second != string_view::npos)
+        return epsgCode(rest.substr(second));
+    const std::size_t plus = rest.find('+');
+    return plus == string_view::npos ? 0 : lastNumber(rest.substr(plus + 1));
+}
+
+bool isCrs84(string_view name) noexcept { return findIgnoringCase(name, "CRS84") != string_view::npos; }
+
 bool isSameCrs(string_view a, string_view b) noexcept {
     const int codeA = epsgCode(a);
     const int codeB = epsgCode(b);
@@ -94,25 +144,18 @@ bool isSameCrs(string_view a, string_view b) noexcept {
 }
 
 AxisDecision decideAxes(string_view name, const Box3d& box, int handedness) {
-    AxisDecision decision;
     const int code = epsgCode(name);
-    const bool isNamedGeographic = isIn(kGeographicCodes, code) || findIgnoringCase(name, "CRS84") != string_view::npos;
-    if (isNamedGeographic) {
-        const bool fits = box.isEmpty() || (std::max(std::abs(box.min.x), std::abs(box.max.x)) <= 360 &&
-                                            std::max(std::abs(box.min.y), std::abs(box.max.y)) <= 360);
-        decision.isGeographic = fits;
-        if (!fits)
-            decision.remark = "the srsName means degrees, but the coordinates are too large for that; taken as metres";
-        return decision;
-    }
+    const crs::CrsFacts facts = crs::factsOf(code);
+    if (facts.isDegrees || isCrs84(name)) return decideDegrees(name, box, code, handedness);
+    AxisDecision decision;
     if (box.isEmpty()) return decision;
     if (code == 0 && looksLikeDegrees(box)) {
         decision.isGeographic = true;
         return decision;
     }
-    if (isIn(kSouthWestCodes, code))
+    if (facts.order == crs::AxisOrder::SouthWest)
         decision.remark = "the axes of this CRS point south or west; the coordinates are taken as east and north";
-    if (!isIn(kNorthFirstCodes, code)) return decision;
+    if (facts.order != crs::AxisOrder::NorthEast) return decision;
 
     const bool promised = promisesAuthorityOrder(name);
     decision.isNorthFirst = handedness == 0 ? promised : handedness < 0;
@@ -125,11 +168,7 @@ AxisDecision decideAxes(string_view name, const Box3d& box, int handedness) {
             isWithin(center.y, known.eastMin, known.eastMax) && isWithin(center.x, known.northMin, known.northMax);
         if (isEastFirst != isNorthFirst) decision.isNorthFirst = isNorthFirst;
     }
-    if (decision.isNorthFirst != promised)
-        decision.remark =
-            decision.isNorthFirst
-                ? "the coordinates are in north, east order, although this form of the name means east, north"
-                : "the coordinates are in east, north order, although this form of the name means north, east";
+    remarkOnOrder(decision, promised);
     return decision;
 }
 

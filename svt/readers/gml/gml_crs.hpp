@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Names of coordinate reference systems: their EPSG code, whether coordinates are degrees,
-/// and which axis comes first. Nothing is reprojected.
+/// and which axis comes first.
 
 #include <svt/core/vec.hpp>
 
@@ -15,6 +15,12 @@ namespace svt::readers::gml {
 /// .../gml/srs/epsg.xml#25832, and the names of the German surveying authorities (urn:adv:crs:ETRS89_UTM32*...).
 [[nodiscard]] int epsgCode(std::string_view srsName) noexcept;
 
+/// The vertical EPSG code of a compound name, or 0.
+[[nodiscard]] int verticalCode(std::string_view srsName) noexcept;
+
+/// True for the name of longitude and latitude of WGS 84, in this order (urn:ogc:def:crs:OGC:1.3:CRS84).
+[[nodiscard]] bool isCrs84(std::string_view srsName) noexcept;
+
 /// True if both names denote the same horizontal CRS, as far as can be determined.
 [[nodiscard]] bool isSameCrs(std::string_view a, std::string_view b) noexcept;
 
@@ -25,7 +31,8 @@ struct AxisDecision {
 };
 
 /// Decides by code and form of the name (URN and URL forms imply the authority's axis order, EPSG:n does not).
-/// Many files break that rule, so the coordinates take precedence if conclusive: by magnitude, else by handedness.
+/// Many files break that rule, so the coordinates take precedence if conclusive: by magnitude or the area of use of the
+/// CRS, else by handedness.
 /// \param box         of the coordinates as given in the file; may be empty
 /// \param handedness  +1 if faces of solids look outward with coordinates as given, -1 if they do so
 ///                    only with x and y swapped, 0 if the geometry is inconclusive

@@ -1,5 +1,6 @@
 #include <svt/readers/gml/gml_crs.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
+#include <svt/readers/gml/missing_values.hpp>
 #include <svt/readers/xml/xml_encoding.hpp>
 
 #include <fmt/format.h>
@@ -85,6 +86,55 @@ TEST(GmlCrs, CodesAreFoundInEveryForm) {
     EXPECT_TRUE(isSameCrs("EPSG:25832", "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783"));
     EXPECT_FALSE(isSameCrs("EPSG:25832", "EPSG:25833"));
     EXPECT_FALSE(isSameCrs("local a", "local b"));
+}
+
+TEST(GmlCrs, TheVerticalPartIsTheSecondCode) {
+    EXPECT_EQ(verticalCode("urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::6360"), 6360);
+    EXPECT_EQ(verticalCode("EPSG:28992+5109"), 5109);
+    EXPECT_EQ(verticalCode("http://www.opengis.net/def/crs-compound?1=http://www.opengis.net/def/crs/EPSG/0/25833&2="
+                           "http://www.opengis.net/def/crs/EPSG/0/5783"),
+              5783);
+    EXPECT_EQ(verticalCode("urn:ogc:def:crs:EPSG::25832"), 0);
+    EXPECT_EQ(verticalCode(""), 0);
+}
+
+TEST(MissingValues, AreNumbersOfNinesOfHeightsAndYears) {
+    for (const double value : {-9999.0, 9999.0, -999999.0, 99999.0}) {
+        EXPECT_TRUE(isMissingValue("measuredHeight", value)) << value;
+        EXPECT_TRUE(isMissingValue("height/value", value));
+        EXPECT_TRUE(isMissingValue("yearOfConstruction", value));
+        EXPECT_FALSE(isMissingValue("price", value));
+        EXPECT_FALSE(isMissingValue("", value));
+    }
+    EXPECT_FALSE(isMissingValue("measuredHeight", 9998));
+    EXPECT_FALSE(isMissingValue("measuredHeight", 12.5));
+}
+
+TEST(XmlEncoding, DeclaredEncodingsBecomeUtf8) {
+    const auto convert = [](std::string_view encoding, std::string_view bytes) {
+        const std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"{}\"?><a>{}</a>", encoding, bytes);
+        const auto utf8 = xml::toUtf8({reinterpret_cast<const std::byte*>(text.data()), text.size()}, "a.xml");
+        if (!utf8) return std::string(codeName(utf8.error().code()));
+        const std::string_view view = utf8->view();
+        return std::string(view.substr(view.find("<a>") + 3, view.rfind("</a>") - view.find("<a>") - 3));
+    };
+    EXPECT_EQ(convert("ISO-8859-1", "\xE4\xA4"), "\xC3\xA4\xC2\xA4");
+    EXPECT_EQ(convert("ISO-8859-15", "\xE4\xA4"), "\xC3\xA4\xE2\x82\xAC") << "the euro sign";
+    EXPECT_EQ(convert("windows-1252", "\xE4\x80"), "\xC3\xA4\xE2\x82\xAC");
+    EXPECT_EQ(convert("EBCDIC-US", "x"), "BadEncoding");
+    EXPECT_EQ(convert("UTF-7//TRANSLIT", "x"), "BadEncoding");
+#ifndef __EMSCRIPTEN__
+    EXPECT_EQ(convert("Shift_JIS", "\x93\x8C\x8B\x9E"), "\xE6\x9D\xB1\xE4\xBA\xAC") << "Tokyo";
+    EXPECT_EQ(convert("ISO-8859-2",
+                      "\xB3\xF3"
+                      "d\xBC"),
+              "\xC5\x82\xC3\xB3"
+              "d\xC5\xBA");
+    EXPECT_EQ(convert("EUC-JP", "\xFF\xFF"), "BadEncoding");
+    std::string many;
+    for (int i = 0; i < 100000; ++i) many += "\x93\x8C";
+    EXPECT_EQ(convert("Shift_JIS", many).size(), 300000u) << "more than one block";
+#endif
 }
 
 TEST(XmlEncoding, BadBytesAreFoundWhereTheyAre) {

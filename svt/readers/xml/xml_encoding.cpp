@@ -6,9 +6,15 @@
 #include <fmt/format.h>
 #include <simdjson.h>
 
+#ifndef __EMSCRIPTEN__
+#include <iconv.h>
+#endif
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 namespace svt::readers::xml {
 namespace {
@@ -48,17 +54,81 @@ constexpr std::uint16_t kWindows1252[32] = {0x20AC, 0,      0x201A, 0x0192, 0x20
                                             0,      0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
                                             0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0,      0x017E, 0x0178};
 
-Utf8Text fromOneByte(string_view bytes, bool isWindows) {
+enum class OneByte { Latin1, Latin9, Windows1252 };
+
+// Where ISO-8859-15 (Latin-9) is not ISO-8859-1.
+constexpr std::pair<unsigned char, std::uint16_t> kLatin9[] = {{0xA4, 0x20AC}, {0xA6, 0x0160}, {0xA8, 0x0161},
+                                                               {0xB4, 0x017D}, {0xB8, 0x017E}, {0xBC, 0x0152},
+                                                               {0xBD, 0x0153}, {0xBE, 0x0178}};
+
+Utf8Text fromOneByte(string_view bytes, OneByte kind) {
+    std::uint32_t codes[256];
+    for (std::uint32_t code = 0; code < 256; ++code) {
+        codes[code] = code;
+        if (kind == OneByte::Windows1252 && code >= 0x80 && code < 0xA0 && kWindows1252[code - 0x80] != 0)
+            codes[code] = kWindows1252[code - 0x80];
+    }
+    if (kind == OneByte::Latin9)
+        for (const auto& [byte, code] : kLatin9) codes[byte] = code;
     Utf8Text text;
     text.owned.reserve(bytes.size() + bytes.size() / 16);
-    for (const char c : bytes) {
-        std::uint32_t code = static_cast<unsigned char>(c);
-        if (isWindows && code >= 0x80 && code < 0xA0 && kWindows1252[code - 0x80] != 0)
-            code = kWindows1252[code - 0x80];
-        appendUtf8(code, text.owned);
-    }
+    for (const char c : bytes) appendUtf8(codes[static_cast<unsigned char>(c)], text.owned);
     return text;
 }
+
+Error badEncoding(string_view fileName, std::string message) {
+    return {Code::BadEncoding, std::move(message), {std::string(fileName), 1, 1, {}}};
+}
+
+#ifdef __EMSCRIPTEN__
+Result<Utf8Text> fromOther(string_view, const std::string& encoding, string_view fileName) {
+    return badEncoding(fileName, fmt::format("the file declares the encoding '{}'; UTF-8, UTF-16, ISO-8859-1, "
+                                             "ISO-8859-15 and Windows-1252 can be read. Convert it, for instance with "
+                                             "iconv",
+                                             encoding.substr(0, 40)));
+}
+#else
+// Encodings that iconv is asked for: those of text, where ASCII is ASCII; not the stateful ones.
+bool isForIconv(string_view encoding) noexcept {
+    constexpr string_view kFamilies[] = {"iso-8859-", "iso8859-",  "windows-", "cp",       "koi8-",
+                                         "shift_jis", "shift-jis", "sjis",     "euc-",     "gbk",
+                                         "gb2312",    "gb18030",   "big5",     "macintosh"};
+    const bool isPlain = std::all_of(encoding.begin(), encoding.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || isDigit(c) || c == '-' || c == '_';
+    });
+    return isPlain && encoding.size() < 32 &&
+           std::any_of(std::begin(kFamilies), std::end(kFamilies),
+                       [&](string_view family) { return encoding.starts_with(family); });
+}
+
+Result<Utf8Text> fromOther(string_view bytes, const std::string& encoding, string_view fileName) {
+    const auto kFailed = reinterpret_cast<iconv_t>(-1);
+    const iconv_t converter = isForIconv(encoding) ? iconv_open("UTF-8", encoding.c_str()) : kFailed;
+    if (converter == kFailed)
+        return badEncoding(fileName,
+                           fmt::format("the file declares the encoding '{}', which is not known; convert it to "
+                                       "UTF-8, for instance with iconv",
+                                       encoding.substr(0, 40)));
+    Utf8Text text;
+    char* from = const_cast<char*>(bytes.data());
+    std::size_t left = bytes.size();
+    std::vector<char> block(std::size_t{1} << 16);
+    bool isGood = true;
+    while (left > 0 && isGood) {
+        char* to = block.data();
+        std::size_t room = block.size();
+        const std::size_t before = left;
+        const bool isDone = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
+        text.owned.append(block.data(), block.size() - room);
+        // A full block is no failure; what makes no progress is.
+        isGood = isDone || (left < before && room < 16);
+    }
+    iconv_close(converter);
+    if (isGood) return text;
+    return badEncoding(fileName, fmt::format("byte {} is not valid in the encoding '{}' that the file declares",
+                                             bytes.size() - left, encoding));
+}
+#endif
 
 }  // namespace
 
@@ -73,14 +143,12 @@ Result<Utf8Text> toUtf8(std::span<const std::byte> bytes, string_view fileName) 
     const std::string encoding = lowerAscii(readProlog(text.substr(0, 4096)).encoding);
     if (encoding.empty() || encoding == "utf-8" || encoding == "utf8" || encoding == "us-ascii" || encoding == "ascii")
         return Utf8Text{text, {}};
-    if (encoding == "iso-8859-1" || encoding == "latin1" || encoding == "iso8859-1") return fromOneByte(text, false);
-    if (encoding == "windows-1252" || encoding == "cp1252") return fromOneByte(text, true);
-    return Error(
-        Code::BadEncoding,
-        fmt::format("the file declares the encoding '{}'; UTF-8, UTF-16, ISO-8859-1 and Windows-1252 can be read. "
-                    "Convert it, for instance with iconv",
-                    encoding.substr(0, 40)),
-        {std::string(fileName), 1, 1, {}});
+    if (encoding == "iso-8859-1" || encoding == "latin1" || encoding == "iso8859-1")
+        return fromOneByte(text, OneByte::Latin1);
+    if (encoding == "iso-8859-15" || encoding == "latin-9" || encoding == "iso8859-15")
+        return fromOneByte(text, OneByte::Latin9);
+    if (encoding == "windows-1252" || encoding == "cp1252") return fromOneByte(text, OneByte::Windows1252);
+    return fromOther(text, encoding, fileName);
 }
 
 std::size_t firstBadUtf8(string_view text) noexcept {

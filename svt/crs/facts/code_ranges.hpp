@@ -3,7 +3,7 @@
 /// EPSG codes that are geographic, and those with north before east. Facts of the EPSG dataset (10.076);
 /// a range contains no code of another kind. Compound codes count as their horizontal part.
 
-namespace svt::readers::gml {
+namespace svt::crs::facts {
 
 struct CodeRange {
     int first;
@@ -80,4 +80,4 @@ inline constexpr CodeRange kSouthWestCodes[] = {
 };
 // clang-format on
 
-}  // namespace svt::readers::gml
+}  // namespace svt::crs::facts

@@ -1,0 +1,26 @@
+#include <svt/crs/project/proj_library.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::crs {
+
+std::string projVersion() { return {}; }
+
+namespace project {
+namespace {
+
+Error withoutProj(int code) {
+    return {
+        Code::CannotProject,
+        fmt::format("EPSG:{} needs the PROJ library, which this build is without; project the file first, or use the "
+                    "native program",
+                    code)};
+}
+
+}  // namespace
+
+Result<Projection> projBetween(int source, int) { return withoutProj(source); }
+Result<PlaceInDegrees> placeInDegrees(int source, Vec3d) { return withoutProj(source); }
+
+}  // namespace project
+}  // namespace svt::crs

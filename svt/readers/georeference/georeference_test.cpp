@@ -1,0 +1,248 @@
+#include <svt/crs/crs_facts.hpp>
+#include <svt/crs/projection.hpp>
+#include <svt/readers/georeference/far_features.hpp>
+#include <svt/readers/georeference/georeference.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace svt::readers::georeference {
+namespace {
+
+// A building of one triangle at `points`, and an own root.
+void addBuilding(model::BuildingModel& model, std::string id, std::vector<Vec3d> points) {
+    model::Polygon polygon;
+    polygon.ringEnds = {static_cast<std::uint32_t>(points.size())};
+    polygon.points = std::move(points);
+    model::Geometry geometry;
+    geometry.surfaces.push_back({model.addPolygon(std::move(polygon)), false});
+    model::Feature feature;
+    feature.id = std::move(id);
+    feature.className = "Building";
+    feature.geometries.push_back(std::move(geometry));
+    model.addFeature(std::move(feature), model::kNoFeature);
+}
+
+struct Placed {
+    Result<void> result;
+    model::BuildingModel model;
+    Diagnostics diagnostics;
+
+    const Vec3d& point(std::size_t i) const { return model.polygons.at(0).points.at(i); }
+    std::string findings() const {
+        std::string text;
+        for (const Diagnostic& item : diagnostics.items()) text += item.toString() + "\n";
+        return text;
+    }
+};
+
+Placed place(std::vector<Vec3d> points, std::string_view crs, const ReadOptions& options = {},
+             std::string_view units = {}) {
+    Placed placed;
+    addBuilding(placed.model, "b", std::move(points));
+    const GivenCrs given{std::string(crs), std::string(units), false, {"test.gml", 3, 0, {}}, {}};
+    placed.result = georeference(placed.model, given, options, placed.diagnostics);
+    return placed;
+}
+
+void expectNear(Vec3d a, Vec3d b, double tolerance) {
+    EXPECT_NEAR(a.x, b.x, tolerance);
+    EXPECT_NEAR(a.y, b.y, tolerance);
+    EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
+// Tokyo station in degrees north, east, and by cs2cs in plane IX; Munich in UTM zone 32.
+const std::vector<Vec3d> kTokyo{{35.6812, 139.7671, 3}, {35.6813, 139.7671, 3}, {35.6812, 139.7673, 8}};
+constexpr Vec3d kTokyoMetres{-5995.1852, -35367.2301, 3};
+const std::vector<Vec3d> kMunich{{48.1374, 11.5755, 520}, {48.1375, 11.5755, 520}, {48.1374, 11.5757, 530}};
+constexpr Vec3d kMunichMetres{691603.0320, 5334780.0309, 520};
+
+std::vector<Vec3d> swapped(std::vector<Vec3d> points) {
+    for (Vec3d& point : points) std::swap(point.x, point.y);
+    return points;
+}
+
+TEST(Georeference, DegreesBecomeMetresOfTheUsualProjectionInEitherOrder) {
+    for (const std::string_view name :
+         {"http://www.opengis.net/def/crs/EPSG/0/6697", "EPSG:6697", "urn:ogc:def:crs,crs:EPSG::6668,crs:EPSG::6695"})
+        for (const bool isNorthFirst : {true, false}) {
+            const Placed placed = place(isNorthFirst ? kTokyo : swapped(kTokyo), name);
+            ASSERT_TRUE(placed.result) << placed.result.error().toString();
+            expectNear(placed.point(0), kTokyoMetres, 1e-4);
+            EXPECT_GT(placed.point(1).y, placed.point(0).y + 11) << "the second point lies to the north";
+            EXPECT_GT(placed.point(2).x, placed.point(0).x + 18) << "the third to the east";
+            EXPECT_EQ(placed.model.crs.epsg, 6677);
+            EXPECT_EQ(placed.model.crs.axesSwapped, isNorthFirst);
+            EXPECT_NE(placed.model.crs.name.find("EPSG:6677 (from EPSG:66"), std::string::npos);
+            EXPECT_EQ(placed.diagnostics.count(Code::GeographicCrs), 1u);
+            EXPECT_EQ(placed.diagnostics.count(Severity::Error), 0u);
+        }
+}
+
+TEST(Georeference, WhereBothOrdersArePossibleTheAreaOfUseOrTheNameDecides) {
+    // Of ETRS89 only one order lies in Europe; of WGS 84 the form of the name counts.
+    const std::pair<std::string_view, std::vector<Vec3d>> cases[] = {
+        {"EPSG:4258", kMunich},
+        {"EPSG:4258", swapped(kMunich)},
+        {"urn:ogc:def:crs:EPSG::4326", kMunich},
+        {"EPSG:4326", swapped(kMunich)},
+        {"urn:ogc:def:crs:OGC:1.3:CRS84", swapped(kMunich)}};
+    for (const auto& [name, points] : cases) {
+        const Placed placed = place(points, name);
+        ASSERT_TRUE(placed.result) << placed.result.error().toString();
+        expectNear(placed.point(0), kMunichMetres, 1e-3);
+    }
+    EXPECT_EQ(place(kMunich, "EPSG:4258").model.crs.epsg, 25832);
+    EXPECT_EQ(place(kMunich, "urn:ogc:def:crs:EPSG::4979").model.crs.epsg, 32632);
+}
+
+TEST(Georeference, FeetBecomeMetresWithTheirHeights) {
+    const std::vector<Vec3d> feet{{981106, 195544, 100}, {981206, 195544, 100}, {981206, 195644, 130}};
+    const Vec3d metres{299041.7069, 59601.9304, 100};
+    struct Case {
+        std::string_view name, units;
+        double height;
+    };
+    const Case cases[] = {
+        {"EPSG:2263", "", 100 * crs::kSurveyFoot},
+        {"urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::6360", "", 100 * crs::kSurveyFoot},
+        {"urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::8228", "", 100 * crs::kFoot},
+        {"urn:ogc:def:crs,crs:EPSG::2263,crs:EPSG::5703", "", 100},
+        {"EPSG:2263+5703", "", 100},
+        {"EPSG:2263", "ftUS ftUS m", 100},
+        {"EPSG:2263", "ft ft ft", 100 * crs::kFoot},
+    };
+    for (const Case& each : cases) {
+        const Placed placed = place(feet, each.name, {}, each.units);
+        ASSERT_TRUE(placed.result) << placed.result.error().toString();
+        expectNear(placed.point(0), {metres.x, metres.y, each.height}, 5e-4);
+        EXPECT_EQ(placed.model.crs.epsg, 32118);
+        EXPECT_EQ(placed.diagnostics.count(Code::ForeignUnit), 1u) << placed.findings();
+    }
+    // Metres in plan, feet in height.
+    const Placed mixed = place({{500000, 5400000, 100}, {500010, 5400000, 100}, {500010, 5400010, 130}},
+                               "urn:ogc:def:crs,crs:EPSG::26918,crs:EPSG::6360");
+    ASSERT_TRUE(mixed.result);
+    expectNear(mixed.point(0), {500000, 5400000, 100 * crs::kSurveyFoot}, 1e-9);
+    EXPECT_EQ(mixed.diagnostics.count(Code::ForeignUnit), 1u);
+}
+
+TEST(Georeference, MetresStayAsTheyAre) {
+    const std::vector<Vec3d> points{{500000, 5400000, 3}, {500010, 5400000, 3}, {500010, 5400010, 8}};
+    for (const std::string_view name : {"EPSG:25832", "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837", "", "local"}) {
+        const Placed placed = place(points, name);
+        EXPECT_EQ(placed.model.polygons[0].points, points);
+        EXPECT_EQ(placed.model.crs.name, name);
+        EXPECT_TRUE(placed.diagnostics.items().empty()) << placed.findings();
+    }
+}
+
+TEST(Georeference, AnotherProjectionByWish) {
+    ReadOptions options;
+    options.crs = 25833;
+    const std::vector<Vec3d> points{{500000, 5400000, 3}, {500010, 5400000, 3}, {500010, 5400010, 8}};
+    EXPECT_EQ(place(points, "", options).result.error().code(), Code::CannotProject) << "a file that names no CRS";
+    EXPECT_EQ(place(points, "EPSG:4326", options).result.error().code(), Code::CannotProject) << "no degrees";
+    EXPECT_EQ(place(points, "EPSG:25833", options).model.polygons[0].points, points) << "it is there already";
+    const Placed own = place(kMunich, "EPSG:4258", options);
+    ASSERT_TRUE(own.result);
+    EXPECT_EQ(own.model.crs.epsg, 25833);
+    if (crs::projVersion().empty()) GTEST_SKIP() << "a build without PROJ";
+    const Placed placed = place(points, "EPSG:25832", options);
+    ASSERT_TRUE(placed.result) << placed.result.error().toString();
+    expectNear(placed.point(0), {59084.6944, 5417387.8212, 3}, 1e-3);
+    EXPECT_EQ(placed.model.crs.name, "EPSG:25833 (from EPSG:25832)");
+    for (const int target : {4326, 2263, 999999}) {
+        options.crs = target;
+        EXPECT_EQ(place(points, "EPSG:25832", options).result.error().code(), Code::BadArgument) << target;
+    }
+}
+
+TEST(Georeference, TheLikelyProjectionIsTakenForDegreesAlone) {
+    ReadOptions options;
+    options.likelyCrs = 32633;
+    EXPECT_EQ(place(kMunich, "urn:ogc:def:crs:EPSG::4326", options).model.crs.epsg, 32633);
+    EXPECT_EQ(place({{1, 2, 3}, {4, 5, 6}, {7, 8, 0}}, "EPSG:25832", options).model.crs.epsg, 25832);
+}
+
+TEST(Georeference, DegreesOfNoKnownSystemAreAnError) {
+    EXPECT_EQ(place(kTokyo, "").result.error().code(), Code::GeographicCrs);
+    EXPECT_EQ(place(kTokyo, "somewhere").result.error().code(), Code::GeographicCrs);
+}
+
+TEST(Georeference, PlacedShapesKeepTheirMetres) {
+    // A shape of 3 m by 2 m at a reference point in degrees, as the reader places it: metres added to degrees.
+    const Vec3d anchor{35.6812, 139.7671, 3};
+    model::BuildingModel model;
+    addBuilding(model, "house", kTokyo);
+    addBuilding(model, "lamp", {anchor, anchor + Vec3d{3, 0, 0}, anchor + Vec3d{3, 2, 5}});
+    const std::vector<Vec3d> anchors{kNoAnchor, anchor};
+    const GivenCrs given{"urn:ogc:def:crs:EPSG::6697", {}, false, {}, anchors};
+    Diagnostics diagnostics;
+    ASSERT_TRUE(georeference(model, given, {}, diagnostics));
+    const std::vector<Vec3d>& lamp = model.polygons[1].points;
+    expectNear(lamp[0], kTokyoMetres, 1e-4);
+    EXPECT_NEAR(length(lamp[1] - lamp[0]), 3, 1e-3);
+    EXPECT_GT(lamp[1].x, lamp[0].x + 2.99) << "to the east";
+    EXPECT_GT(lamp[2].y, lamp[1].y + 1.99) << "to the north";
+    EXPECT_NEAR(lamp[2].z, 8, 1e-9);
+}
+
+std::vector<Vec3d> triangleAt(double x, double y) { return {{x, y, 0}, {x + 10, y, 0}, {x, y + 10, 4}}; }
+
+TEST(FarFeatures, OneFarAwayIsNamedAndLeftOut) {
+    model::BuildingModel model;
+    for (int i = 0; i < 8; ++i) addBuilding(model, fmt::format("near{}", i), triangleAt(500000 + 30 * i, 5400000));
+    addBuilding(model, "far", triangleAt(0, 0));
+    const GivenCrs given{"EPSG:25832", {}, false, {"test.gml", 0, 0, {}}, {}};
+    Diagnostics diagnostics;
+    ReadOptions keeping;
+    keeping.keepFarFeatures = true;
+    model::BuildingModel kept = model;
+    ASSERT_TRUE(georeference(kept, given, keeping, diagnostics));
+    EXPECT_FALSE(kept.features.back().geometries.empty());
+    EXPECT_TRUE(diagnostics.items().empty());
+
+    ASSERT_TRUE(georeference(model, given, {}, diagnostics));
+    EXPECT_TRUE(model.features.back().geometries.empty());
+    EXPECT_TRUE(std::none_of(model.features.begin(), model.features.end() - 1,
+                             [](const model::Feature& feature) { return feature.geometries.empty(); }));
+    ASSERT_EQ(diagnostics.count(Code::FarFeature), 1u);
+    EXPECT_EQ(diagnostics.items()[0].where.id, "far");
+    EXPECT_NE(diagnostics.items()[0].message.find("5423 km"), std::string::npos) << diagnostics.items()[0].message;
+}
+
+TEST(FarFeatures, AFarBuildingWithPartsIsOneFinding) {
+    model::BuildingModel model;
+    for (int i = 0; i < 8; ++i) addBuilding(model, fmt::format("near{}", i), triangleAt(30 * i, 0));
+    addBuilding(model, "far", triangleAt(7e6, 0));
+    const auto far = static_cast<model::FeatureIndex>(model.features.size() - 1);
+    model::Feature part = model.features[far];
+    part.id = "part";
+    part.parent = model::kNoFeature;
+    model.addFeature(std::move(part), far);
+    Diagnostics diagnostics;
+    EXPECT_EQ(leaveOutFarFeatures(model, {1, 1, 1}, {}, diagnostics), 2u);
+    ASSERT_EQ(diagnostics.count(Code::FarFeature), 1u);
+    EXPECT_EQ(diagnostics.items()[0].where.id, "far");
+}
+
+TEST(FarFeatures, WideModelsKeepAll) {
+    const auto leftOut = [](const std::vector<double>& places) {
+        model::BuildingModel model;
+        for (const double x : places) addBuilding(model, "b", triangleAt(x, 0));
+        Diagnostics diagnostics;
+        return leaveOutFarFeatures(model, {1, 1, 1}, {}, diagnostics);
+    };
+    EXPECT_EQ(leftOut({0, 50, 100, 9000}), 0u) << "within 10 km";
+    EXPECT_EQ(leftOut({0, 1000, 2000, 3000, 40000}), 0u) << "within 50 times the spread";
+    EXPECT_EQ(leftOut({0, 7e6}), 0u) << "two: none is the far one";
+    EXPECT_EQ(leftOut({0, 100, 7e6, 7.0001e6}), 0u) << "two here and two there";
+    EXPECT_EQ(leftOut({0, 100, 200, 300, 400, 500, 600, 7e6}), 1u);
+}
+
+}  // namespace
+}  // namespace svt::readers::georeference
