@@ -34,13 +34,16 @@ protected:
 
 TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
     const json built = build();
-    EXPECT_EQ(keysOf(built), (Keys{"bytes", "dimension", "objects", "open", "overlaps", "seconds", "spacing",
-                                   "tJunctions", "triangles", "warnings"}));
+    EXPECT_EQ(keysOf(built), (Keys{"bytes", "closures", "dimension", "objects", "open", "overlaps", "seconds",
+                                   "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
     EXPECT_EQ(keysOf(built["seconds"]), (Keys{"mesh", "pack", "read", "total", "voxelize", "write"}));
     EXPECT_EQ(keysOf(built["bytes"]), (Keys{"file", "memory"}));
     EXPECT_EQ(built["objects"], 2);
     EXPECT_EQ(built["triangles"], 24);
     EXPECT_EQ(built["open"], 0);
+    EXPECT_EQ(built["closures"]["closed"], 2);
+    EXPECT_EQ(built["closures"]["open"], 0);
+    EXPECT_EQ(built["uncertainVoxels"], 0);
     EXPECT_EQ(built["tJunctions"], 0);
     EXPECT_EQ(built["warnings"], 0);
     EXPECT_EQ(built["dimension"].size(), 3u);
