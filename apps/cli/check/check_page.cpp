@@ -10,9 +10,9 @@ namespace {
 
 using validate::Finding;
 
-constexpr std::size_t kMostPictures = 50;
-constexpr std::size_t kMostEdges = 6000;  // in one picture
-constexpr double kSide = 360;             // of a picture, pixels
+constexpr std::size_t kMaxPictures = 50;
+constexpr std::size_t kMaxEdges = 6000;  // in one picture
+constexpr double kSide = 360;            // of a picture, pixels
 
 struct FlatPoint {
     double u = 0, v = 0;
@@ -47,7 +47,7 @@ void addEdges(const model::BuildingModel& model, const model::SurfaceUse& use, V
     const model::Polygon& polygon = model.polygons[use.polygon];
     std::size_t begin = 0;
     for (const std::uint32_t end : polygon.ringEnds) {
-        for (std::size_t i = begin; i < end && lines.size() < kMostEdges; ++i)
+        for (std::size_t i = begin; i < end && lines.size() < kMaxEdges; ++i)
             lines.push_back(
                 {flat(polygon.points[i] - origin), flat(polygon.points[i + 1 == end ? begin : i + 1] - origin)});
         begin = end;
@@ -203,14 +203,14 @@ std::string htmlReport(const Checked& checked, const Diagnostics& diagnostics, c
         text += "</table>\n";
     }
     // The pictures are shared out among the kinds, so that a frequent one does not take them all.
-    const std::size_t each = report.counts.empty() ? 0 : std::max<std::size_t>(1, kMostPictures / report.counts.size());
+    const std::size_t each = report.counts.empty() ? 0 : std::max<std::size_t>(1, kMaxPictures / report.counts.size());
     std::size_t pictures = 0;
     for (const auto& [code, count] : report.counts) {
         text += fmt::format("<h2 id=\"{0}\">{0} {1}</h2>\n", codeTag(code), codeName(code));
         std::size_t ofKind = 0;
         for (const Finding& finding : report.findings) {
             if (finding.code != code) continue;
-            const bool hasPicture = ofKind < each && pictures < kMostPictures;
+            const bool hasPicture = ofKind < each && pictures < kMaxPictures;
             text += findingSection(checked.model, finding, hasPicture);
             pictures += hasPicture;
             ++ofKind;

@@ -90,7 +90,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 std::string suggestionFor(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
     const auto commands = app.get_subcommands();
-    if (word.rfind("-", 0) == 0) {
+    if (word.starts_with('-')) {
         const CLI::App* scope = commands.empty() ? &app : commands.front();
         for (const CLI::Option* option : scope->get_options())
             for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

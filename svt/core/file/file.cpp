@@ -144,11 +144,11 @@ MappedFile::~MappedFile() {
 }
 
 fs::path withoutLinks(const fs::path& path) {
-    constexpr int kMostLinks = 40;
+    constexpr int kMaxLinks = 40;
     std::error_code ignored;
     fs::path target = path;
     for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
-        if (links == kMostLinks) return {};
+        if (links == kMaxLinks) return {};
         const fs::path next = fs::read_symlink(target, ignored);
         if (next.empty()) break;
         target = next.is_absolute() ? next : target.parent_path() / next;

@@ -210,9 +210,9 @@ std::uint32_t joinGaps(ObjectMesh& mesh) {
 }
 
 std::uint32_t bridgeLoops(ObjectMesh& mesh) {
-    constexpr std::size_t kMostLoops = 64;
+    constexpr std::size_t kMaxLoops = 64;
     std::vector<BridgeLoop> loops = findBridgeLoops(mesh);
-    if (loops.size() > kMostLoops) return 0;
+    if (loops.size() > kMaxLoops) return 0;
     std::uint32_t bridged = 0;
     for (std::size_t a = 0; a < loops.size(); ++a)
         for (std::size_t b = a + 1; b < loops.size() && !loops[a].isUsed; ++b) {

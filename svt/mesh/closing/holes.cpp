@@ -54,8 +54,8 @@ public:
             return;
         }
         if (addCap(loop)) return;
-        constexpr std::size_t kMostCorners = 200;
-        if (loop.size() > kMostCorners || fit(loop).deviation <= deviation_) return;
+        constexpr std::size_t kMaxCorners = 200;
+        if (loop.size() > kMaxCorners || fit(loop).deviation <= deviation_) return;
         if (!closeCorner(loop)) closeAlongChords(loop);
     }
 

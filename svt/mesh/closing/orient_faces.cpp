@@ -240,7 +240,7 @@ std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Facing> facin
 }
 
 bool enclosesVolume(const ObjectMesh& mesh) {
-    constexpr std::size_t kMostFaces = 64;
+    constexpr std::size_t kMaxTriedFaces = 64;
     FaceTree tree(mesh.vertices, mesh.triangles);
     std::vector<const RayFace*> faces;
     for (const RayFace& face : tree.faces()) faces.push_back(&face);
@@ -248,7 +248,7 @@ bool enclosesVolume(const ObjectMesh& mesh) {
     std::sort(faces.begin(), faces.end(), [&](const RayFace* p, const RayFace* q) {
         return std::tuple(-areaOf(p), p->triangle) < std::tuple(-areaOf(q), q->triangle);
     });
-    if (faces.size() > kMostFaces) faces.resize(kMostFaces);  // the largest
+    if (faces.size() > kMaxTriedFaces) faces.resize(kMaxTriedFaces);  // the largest
     double enclosing = 0, total = 0;
     for (const RayFace* face : faces) {
         const Vec3d inwards = -face->unitNormal;

@@ -180,7 +180,7 @@ void testClosing(Shell& shell, const ShellInput& input, bool usesRays) {
     }
     mesh.leakCount = static_cast<std::uint32_t>(mesh.openEdges.size());
     for (const OpenEdge& edge : mesh.openEdges) {
-        if (mesh.leaks.size() == kMostLeaks) break;
+        if (mesh.leaks.size() == kMaxLeaks) break;
         mesh.leaks.push_back((mesh.vertices[edge.from] + mesh.vertices[edge.to]) * 0.5);
     }
     if (mesh.openEdges.empty()) mesh.closure = mesh.tJunctionCount != 0 ? Closure::TJunctions : Closure::Closed;
@@ -227,7 +227,7 @@ Shell joinShells(std::vector<Shell> parts) {
         }
         for (const OpenEdge& edge : part.openEdges) mesh.openEdges.push_back({edge.from + first, edge.to + first});
         for (const Vec3d& leak : part.leaks)
-            if (mesh.leaks.size() < kMostLeaks) mesh.leaks.push_back(leak);
+            if (mesh.leaks.size() < kMaxLeaks) mesh.leaks.push_back(leak);
         mesh.caps.insert(mesh.caps.end(), part.caps.begin(), part.caps.end());
         mesh.closure = std::max(mesh.closure, part.closure);
         mesh.unmatchedEdges += part.unmatchedEdges;

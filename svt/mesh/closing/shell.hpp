@@ -11,7 +11,7 @@
 
 namespace svt::mesh {
 
-inline constexpr std::size_t kMostLeaks = 100;
+inline constexpr std::size_t kMaxLeaks = 100;
 
 struct Shell {
     ObjectMesh mesh;

@@ -5,8 +5,8 @@
 namespace svt::validate {
 namespace {
 
-constexpr std::size_t kMostPieces = 4096;  // of one triangle; further lines are left out
-constexpr double kParallel = 0.999;        // cosine of 2.6 degrees
+constexpr std::size_t kMaxPieces = 4096;  // of one triangle; further lines are left out
+constexpr double kParallel = 0.999;       // cosine of 2.6 degrees
 
 Vec3d normalOf(const Triangle& t) noexcept {
     const Vec3d a = Lattice::local(t[0]);
@@ -152,7 +152,7 @@ std::vector<Piece> cutTriangle(const Triangle& triangle, const std::vector<Segme
     Piece left, right;
     for (const Segment& segment : segments) {
         const std::size_t count = pieces.size();
-        for (std::size_t i = 0; i < count && pieces.size() < kMostPieces; ++i) {
+        for (std::size_t i = 0; i < count && pieces.size() < kMaxPieces; ++i) {
             if (!halve(pieces[i], segment, normal, least, left, right)) continue;
             pieces[i] = left;
             pieces.push_back(right);

@@ -35,10 +35,10 @@ Defect defectOf(Code code, const PointSet& points, Vec3d units, std::string mess
 }
 
 void markShell(Defect& defect, const Shell& shell, const PointSet& points) {
-    constexpr std::size_t kMostMarks = 200;
+    constexpr std::size_t kMaxMarks = 200;
     for (const Face& face : shell.faces)
         for (const auto& ring : face.rings)
-            for (std::size_t i = 0; i < ring.size() && defect.marks.size() < kMostMarks; ++i)
+            for (std::size_t i = 0; i < ring.size() && defect.marks.size() < kMaxMarks; ++i)
                 defect.marks.push_back({points.world(ring[i]), points.world(ring[i + 1 == ring.size() ? 0 : i + 1])});
 }
 

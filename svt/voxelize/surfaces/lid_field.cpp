@@ -165,7 +165,8 @@ void LidField::addLoop(const CoveredShell& shell, const RimLoop& loop, const Ind
         do {
             const std::uint32_t from = ring[n], to = ring[(n + 1) % count];
             sides_.emplace_back(lattice.points[loop.apex], lattice.points[from], lattice.points[to], depth);
-            std::ranges::copy(std::array{snapped(loop.apex), snapped(from), snapped(to)}, sides_.back().local);
+            const std::uint32_t corners[] = {loop.apex, from, to};
+            for (std::size_t c = 0; c < 3; ++c) sides_.back().local[c] = snapped(corners[c]);
             ++n;
         } while (loop.hasOwnApex && n < end &&
                  !isCorner(vertices[ring[n - 1]], vertices[ring[n]], vertices[ring[(n + 1) % count]]));
