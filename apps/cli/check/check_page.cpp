@@ -11,8 +11,9 @@ namespace {
 using validate::Finding;
 
 constexpr std::size_t kMaxPictures = 50;
-constexpr std::size_t kMaxEdges = 6000;  // in one picture
-constexpr double kSide = 360;            // of a picture, pixels
+constexpr std::size_t kMaxEdges = 6000;   // in one picture
+constexpr std::size_t kMaxAround = 3000;  // lines of the building around the defect; without it if it has more
+constexpr double kSide = 360;             // of a picture, pixels
 
 struct FlatPoint {
     double u = 0, v = 0;
@@ -65,6 +66,28 @@ std::vector<FlatLine> edgesOf(const model::BuildingModel& model, const model::Ge
     return lines;
 }
 
+// Edges of all features of the same level of detail below the topmost one that holds `feature`, such as the building
+// of a wall; empty if there are too many.
+std::vector<FlatLine> edgesAround(const model::BuildingModel& model, const Finding& finding, Vec3d origin) {
+    const double lod = model.features[finding.feature].geometries[static_cast<std::size_t>(finding.geometry)].lod;
+    model::FeatureIndex root = finding.feature;
+    while (model.features[root].parent != model::kNoFeature) root = model.features[root].parent;
+    std::vector<FlatLine> lines;
+    std::vector<model::FeatureIndex> open{root};
+    while (!open.empty()) {
+        const model::Feature& feature = model.features[open.back()];
+        open.pop_back();
+        for (const model::Geometry& geometry : feature.geometries) {
+            if (geometry.lod != lod) continue;
+            const std::vector<FlatLine> edges = edgesOf(model, geometry, origin);
+            lines.insert(lines.end(), edges.begin(), edges.end());
+            if (lines.size() > kMaxAround) return {};
+        }
+        open.insert(open.end(), feature.children.begin(), feature.children.end());
+    }
+    return lines;
+}
+
 struct Window {
     FlatPoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
     void add(FlatPoint p) {
@@ -109,18 +132,20 @@ private:
     std::string text_;
 };
 
-// The geometry with the defect, as a whole and from near.
+// The defect in its building, and from near.
 std::string picturesOf(const model::BuildingModel& model, const Finding& finding) {
     const model::Feature& feature = model.features[finding.feature];
     if (finding.geometry < 0) return {};
     const Vec3d origin{std::floor(finding.at.x), std::floor(finding.at.y), std::floor(finding.at.z)};
     const std::vector<FlatLine> edges =
         edgesOf(model, feature.geometries[static_cast<std::size_t>(finding.geometry)], origin);
+    const std::vector<FlatLine> around = edgesAround(model, finding, origin);
     std::vector<FlatLine> marks;
     Window whole, near;
     const FlatPoint at = flat(finding.at - origin);
-    for (const FlatLine& line : edges)
-        for (const FlatPoint p : line) whole.add(p);
+    for (const auto* lines : {&around, &edges})
+        for (const FlatLine& line : *lines)
+            for (const FlatPoint p : line) whole.add(p);
     near.add(at);
     for (const auto& mark : finding.marks) {
         marks.push_back({flat(mark[0] - origin), flat(mark[1] - origin)});
@@ -132,6 +157,7 @@ std::string picturesOf(const model::BuildingModel& model, const Finding& finding
     whole.add(at);
     const auto middle = [](const Window& w) { return FlatPoint{(w.low.u + w.high.u) / 2, (w.low.v + w.high.v) / 2}; };
     Picture far(middle(whole), whole.size() * 1.12);
+    far.add(around, "around");
     far.add(edges, "edge");
     far.add(marks, "mark");
     far.addRing(at);
@@ -142,8 +168,8 @@ std::string picturesOf(const model::BuildingModel& model, const Finding& finding
     close.add(edges, "edge");
     close.add(marks, "mark");
     close.addRing(at);
-    return far.svg("the whole geometry") + fmt::format("<figure>{}<figcaption>{:.3g} m wide</figcaption></figure>",
-                                                       close.svg("the defect from near"), size);
+    return far.svg("the whole") + fmt::format("<figure>{}<figcaption>{:.3g} m wide</figcaption></figure>",
+                                              close.svg("the defect from near"), size);
 }
 
 constexpr std::string_view kHead = R"(<!doctype html>
@@ -155,7 +181,7 @@ table{border-collapse:collapse;margin:.6rem 0}td,th{text-align:left;padding:.2re
 td.n{text-align:right;font-variant-numeric:tabular-nums}code{font-family:ui-monospace,monospace;font-size:.92em}
 section{margin:1.2rem 0;break-inside:avoid}section p{margin:.2rem 0}.p{display:flex;gap:1rem;flex-wrap:wrap}
 svg{border:1px solid #d5dae0;background:#fbfcfd}figure{margin:0}figcaption{color:#5b6570;font-size:.85em}
-.edge{fill:none;stroke:#6b7785;stroke-width:1}.mark{fill:none;stroke:#d1242f;stroke-width:2.4}
+.around{fill:none;stroke:#c3cad3;stroke-width:.8}.edge{fill:none;stroke:#4d5763;stroke-width:1}.mark{fill:none;stroke:#d1242f;stroke-width:2.4}
 .at{fill:none;stroke:#d1242f;stroke-width:2}.ok{color:#1a7f37}.bad{color:#d1242f}
 </style></head><body>
 )";

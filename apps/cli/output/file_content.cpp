@@ -66,7 +66,7 @@ FileContent contentOf(std::string_view head) {
     using namespace std::string_view_literals;
     if (head.empty()) return FileContent::Nothing;
     if (head.starts_with("\x89PNG\r\n\x1a\n"sv)) return FileContent::Png;
-    if (volume::looksLikeSvt(std::as_bytes(std::span(head)))) return FileContent::Volume;
+    if (volume::looksLikeSvt(std::as_bytes(std::span(head.data(), head.size())))) return FileContent::Volume;
     if (head.starts_with("PK\3\4"sv) || head.starts_with("PK\5\6"sv)) return FileContent::Zip;
     if (head.starts_with("\x1f\x8b"sv)) return FileContent::Gzip;
     if (head.starts_with("glTF"sv)) return FileContent::Gltf;
