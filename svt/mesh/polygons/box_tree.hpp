@@ -18,7 +18,7 @@ public:
     /// holds for one inside of it. The order is that of the tree.
     /// \return whether a call returned true
     template <class IsNear, class Take>
-    bool visit(const IsNear& isNear, const Take& take) const {
+    [[nodiscard]] bool visit(const IsNear& isNear, const Take& take) const {
         std::uint32_t stack[64];  // halves go down at most 32 steps
         std::uint32_t depth = 0;
         if (!nodes_.empty()) stack[depth++] = 0;

@@ -49,10 +49,10 @@ public:
             --testsLeft_;
             return hitsBox(box, origin, inverse, nearest);
         };
-        tree_.visit(isNear, [&](std::uint32_t f) {
+        static_cast<void>(tree_.visit(isNear, [&](std::uint32_t f) {
             body(faces_[f]);
             return false;
-        });
+        }));
     }
 
 private:
