@@ -158,7 +158,7 @@ private:
     }
 
     // How far a jet departs from its value within the block.
-    double spread(const Jet& jet, const Samples& samples) const {
+    [[nodiscard]] double spread(const Jet& jet, const Samples& samples) const {
         const auto along = [&](Vec3d v, int axis) { return dot(v, field_.step(axis)) * samples.half[axis]; };
         double sum = jet.error;
         for (int a = 0; a < 3; ++a) {
@@ -298,7 +298,7 @@ private:
     }
 
     // Is the sample so close to a lid of the block that its side has to be decided on the lattice?
-    bool isClose(const Block& block, Vec3i sample) const {
+    [[nodiscard]] bool isClose(const Block& block, Vec3i sample) const {
         const Vec3d at{sample.x + kShift, sample.y + kShift, sample.z + kShift};
         for (std::size_t n = block.lids.begin; n < block.lids.end; ++n) {
             const WindingFill::LidTriangle& lid = fill_.lids_[lids_[n]];
@@ -308,7 +308,7 @@ private:
     }
 
     // c at a sample of the block.
-    double evaluate(const Block& block, Vec3i sample) const {
+    [[nodiscard]] double evaluate(const Block& block, Vec3i sample) const {
         const Vec3d p = field_.localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
         const bool close = isClose(block, sample);
         for (const Block* b = &block;; b = b->parent) {
@@ -349,7 +349,7 @@ private:
     }
 
     // True if all lids of the block lie in one plane as far as it reaches.
-    bool isOnePlane(const Block& block, const Samples& samples) const {
+    [[nodiscard]] bool isOnePlane(const Block& block, const Samples& samples) const {
         const WindingFill::LidTriangle& first = fill_.lids_[lids_[block.lids.begin]];
         const double at = dot(first.normal, samples.center) - first.offset;
         for (std::size_t n = block.lids.begin + 1; n < block.lids.end; ++n) {

@@ -12,7 +12,6 @@
 namespace svt::voxelize {
 namespace {
 
-using test::asOpen;
 using test::ball;
 using test::box;
 using test::houseWithHoles;
