@@ -37,6 +37,15 @@ public:
         return false;
     }
 
+    /// Calls `body(i)` for each box i with isNear(box).
+    template <class IsNear, class Body>
+    void forEach(const IsNear& isNear, const Body& body) const {
+        static_cast<void>(visit(isNear, [&](std::uint32_t i) {
+            body(i);
+            return false;
+        }));
+    }
+
 private:
     struct Node {
         Box3d box;

@@ -227,15 +227,12 @@ private:
             trees_[c].emplace(std::move(boxes));
         }
         int winding = 0;
-        trees_[c]->visit(
+        trees_[c]->forEach(
             [&](const Box3d& box) {
                 return point.x >= box.min.x && point.x <= box.max.x && point.y >= box.min.y && point.y <= box.max.y &&
                        point.z <= box.max.z;
             },
-            [&](std::uint32_t i) {
-                winding += crossingAlongZ(point, vertices_, triangles_[members[i]]);
-                return false;
-            });
+            [&](std::uint32_t i) { winding += crossingAlongZ(point, vertices_, triangles_[members[i]]); });
         return winding;
     }
 

@@ -49,10 +49,7 @@ public:
             --testsLeft_;
             return hitsBox(box, origin, inverse, nearest);
         };
-        static_cast<void>(tree_.visit(isNear, [&](std::uint32_t f) {
-            body(faces_[f]);
-            return false;
-        }));
+        tree_.forEach(isNear, [&](std::uint32_t f) { body(faces_[f]); });
     }
 
 private:

@@ -126,7 +126,7 @@ private:
             if (isUsed_[i]) visit(model_.polygons[i]);
     }
 
-    gml::AxisDecision decide() const {
+    [[nodiscard]] gml::AxisDecision decide() const {
         const bool isDegrees = gml::decideAxes(given_.name, box_, 0).isGeographic;
         // The form "EPSG:n" promises no order; +1: the coordinates are taken as they are.
         const std::string name =
@@ -172,7 +172,7 @@ private:
         return {};
     }
 
-    Error cannotProject(std::string_view why) const {
+    [[nodiscard]] Error cannotProject(std::string_view why) const {
         return {Code::CannotProject, fmt::format("{} (CRS '{}')", why, given_.name.substr(0, 200)), given_.place};
     }
 

@@ -153,7 +153,7 @@ private:
         return bound;
     }
 
-    std::span<const std::uint32_t> nearOf(const Block& block) const {
+    [[nodiscard]] std::span<const std::uint32_t> nearOf(const Block& block) const {
         return std::span(near_).subspan(block.near.begin, block.near.end - block.near.begin);
     }
 
