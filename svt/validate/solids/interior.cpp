@@ -1,7 +1,8 @@
 #include <svt/validate/solids/interior.hpp>
 
+#include <svt/validate/solids/groups.hpp>
+
 #include <algorithm>
-#include <numeric>
 
 namespace svt::validate {
 namespace {
@@ -34,8 +35,7 @@ public:
 
     std::optional<Vec3d> run() {
         if (!cut()) return std::nullopt;
-        leader_.resize(pieces_.size());
-        std::iota(leader_.begin(), leader_.end(), std::size_t{0});
+        groups_ = Groups(pieces_.size());
         joinAlongSurfaces();
         if (groupCount() <= shells_.size()) return std::nullopt;  // no shell is cut in two
         joinBySight();
@@ -67,18 +67,9 @@ private:
         return haveContact;
     }
 
-    std::size_t leaderOf(std::size_t i) {
-        while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) {
-        a = leaderOf(a);
-        b = leaderOf(b);
-        leader_[std::max(a, b)] = std::min(a, b);
-    }
     std::size_t groupCount() {
         std::size_t count = 0;
-        for (std::size_t i = 0; i < pieces_.size(); ++i) count += leaderOf(i) == i;
+        for (std::size_t i = 0; i < pieces_.size(); ++i) count += groups_.leaderOf(i) == i;
         return count;
     }
 
@@ -93,8 +84,9 @@ private:
     void joinAlongSurfaces() {
         for (std::size_t i = 0; i < pieces_.size(); ++i)
             for (std::size_t j = i + 1; j < pieces_.size(); ++j)
-                if (pieces_[i].shell == pieces_[j].shell && leaderOf(i) != leaderOf(j) && areNeighbours(i, j))
-                    join(i, j);
+                if (pieces_[i].shell == pieces_[j].shell && groups_.leaderOf(i) != groups_.leaderOf(j) &&
+                    areNeighbours(i, j))
+                    groups_.join(i, j);
     }
 
     [[nodiscard]] bool areNeighbours(std::size_t i, std::size_t j) const {
@@ -134,7 +126,7 @@ private:
             seen = j;
         }
         // Seen from behind: the ray left the material elsewhere, between pieces.
-        if (seen != i && dot(direction, pieces_[seen].inwards) < 0) join(i, seen);
+        if (seen != i && dot(direction, pieces_[seen].inwards) < 0) groups_.join(i, seen);
     }
 
     [[nodiscard]] bool holdsPoint(const SurfacePiece& piece, Vec3d p) const {
@@ -148,10 +140,10 @@ private:
 
     std::optional<Vec3d> smallestPart() {
         std::vector<double> area(pieces_.size());
-        for (std::size_t i = 0; i < pieces_.size(); ++i) area[leaderOf(i)] += pieces_[i].piece.area;
+        for (std::size_t i = 0; i < pieces_.size(); ++i) area[groups_.leaderOf(i)] += pieces_[i].piece.area;
         std::size_t best = pieces_.size();
         for (std::size_t i = 0; i < pieces_.size(); ++i)
-            if (leaderOf(i) == i && (best == pieces_.size() || area[i] < area[best])) best = i;
+            if (groups_.leaderOf(i) == i && (best == pieces_.size() || area[i] < area[best])) best = i;
         return pieces_[best].piece.center;
     }
 
@@ -159,7 +151,7 @@ private:
     double noise_;
     std::vector<SurfacePiece> pieces_;
     std::vector<Segment> contacts_;
-    std::vector<std::size_t> leader_;
+    Groups groups_;  // of pieces_
 };
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include <svt/validate/solids/shell_topology.hpp>
 
+#include <svt/validate/solids/groups.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace svt::validate {
 namespace {
@@ -54,23 +55,6 @@ void forEachEdge(const std::vector<EdgeUse>& uses, const Visit& visit) {
         visit(std::span(uses).subspan(begin, end - begin));
     }
 }
-
-class Groups {
-public:
-    explicit Groups(std::size_t count) : leader_(count) { std::iota(leader_.begin(), leader_.end(), std::size_t{0}); }
-    std::size_t leaderOf(std::size_t i) {
-        while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
-        return i;
-    }
-    void join(std::size_t a, std::size_t b) {
-        a = leaderOf(a);
-        b = leaderOf(b);
-        leader_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::size_t> leader_;
-};
 
 Defect defectAt(Code code, Vec3d at, std::string message) {
     Defect defect;
