@@ -3,6 +3,14 @@ include(${CMAKE_CURRENT_LIST_DIR}/LibraryDependencies.cmake)
 
 find_path(CLI11_INCLUDE_DIR CLI/CLI.hpp REQUIRED)
 
+# Not linked: svt/crs loads it when it is first needed, by the name that the linker would have written down.
+find_package(PROJ REQUIRED)
+foreach(property IN ITEMS IMPORTED_SONAME_NONE IMPORTED_SONAME_RELEASE IMPORTED_SONAME)
+  if(NOT SVT_PROJ_LIBRARY)
+    get_target_property(SVT_PROJ_LIBRARY PROJ::proj ${property})
+  endif()
+endforeach()
+
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
   /usr/share/fonts/dejavu-sans-fonts REQUIRED)
 

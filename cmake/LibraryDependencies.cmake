@@ -11,7 +11,6 @@ find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(hwy REQUIRED)
 find_package(Freetype REQUIRED)
-find_package(PROJ REQUIRED)
 
 find_path(GLU_INCLUDE_DIR GL/glu.h REQUIRED)
 find_library(GLU_LIBRARY GLU REQUIRED)

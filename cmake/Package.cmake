@@ -16,6 +16,9 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME svt)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
+# PROJ is loaded with the first use, so that its package is not found by what is linked: libproj.so.25 is in libproj25.
+string(REPLACE ".so." "" SVT_PROJ_PACKAGE ${SVT_PROJ_LIBRARY})
+set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS ${SVT_PROJ_PACKAGE})
 # OpenGL is optional, and so is a browser that `svt view` may open.
 set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, xdg-utils")
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a semantic building model (CityGML, CityJSON) into a volume in which
@@ -27,7 +30,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # What cmake/LibraryDependencies.cmake looks for.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libtbb-dev, libpugixml-dev, libsimdjson-dev, nlohmann-json3-dev, \
-zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, libproj-dev, libegl-dev, libgles-dev")
+zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, ${SVT_PROJ_PACKAGE}, libegl-dev, libgles-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, make labelled volumes
 of them, ask and draw these; a CMake package and a pkg-config file.")

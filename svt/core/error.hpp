@@ -36,6 +36,11 @@ enum class Code : std::uint16_t {
     CannotProject = 121,      ///< coordinates that cannot be brought into another CRS
     FarFeature = 122,         ///< a feature far away from all others; left out
     NoHeights = 123,          ///< coordinates of two numbers: heights are missing
+    BadStep = 130,            ///< not a STEP file (ISO 10303-21), or one without records
+    BadRecord = 131,          ///< a record of a STEP file that cannot be read; left out
+    ReadInPart = 132,         ///< a product of which a part of the shape, or an opening, was not read
+    ShapeNotRead = 133,       ///< a product whose shape could not be read
+    ProductsRead = 134,       ///< how many products of a model were read, in part or not
     // 2xx: geometry
     TooFewPoints = 201,         ///< a ring of fewer than three distinct points
     BadCoordinate = 202,        ///< NaN, infinite or absurdly large coordinate
@@ -93,11 +98,14 @@ enum class Code : std::uint16_t {
     BadNrrd = 407,        ///< not a readable NRRD file
     WouldDestroy = 408,   ///< an output would take the place of an input, of another output or of another kind of file
     // 5xx: pictures
-    BadCamera = 501,   ///< up parallel to view, or field of view out of range
-    BadFrame = 502,    ///< picture size or plane out of range
-    BadSection = 503,  ///< a plane, region or lens that cannot be used
-    BadScene = 504,    ///< a scene file that does not follow its schema
-    NoGraphics = 505,  ///< no graphics context, or one without the required features
+    BadCamera = 501,      ///< up parallel to view, or field of view out of range
+    BadFrame = 502,       ///< picture size or plane out of range
+    BadSection = 503,     ///< a plane, region or lens that cannot be used
+    BadScene = 504,       ///< a scene file that does not follow its schema
+    NoGraphics = 505,     ///< no graphics context, or one without the required features
+    UncertainArea = 506,  ///< the bound of a cut area is larger than the area
+    PlaneInFaces = 507,   ///< a section plane lies in faces of the model
+    DrawnByVoxels = 508,  ///< a cut object that is drawn by its voxels beside exact ones
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

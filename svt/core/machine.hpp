@@ -1,7 +1,10 @@
 #pragma once
 /// \file
-/// What the operating system tells of the machine and of this process's share of it, and work in a process of its own.
+/// What the operating system tells of the machine and of this process's share of it, work in a process of its own, and
+/// libraries that are loaded when they are first needed.
 /// Where a system does not tell (a browser, Node.js), a value is empty.
+
+#include <svt/core/result.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -75,5 +78,27 @@ using Say = std::function<void(std::string_view)>;
 /// wait for the others forever. On systems without processes the work is done in this one.
 /// \param seconds  after this time the copy is ended
 [[nodiscard]] OwnProcessResult inOwnProcess(double seconds, const std::function<void(const Say&)>& work);
+
+/// A shared library that is loaded when it is first needed, for what few runs need and all would pay for at their start.
+/// Stays loaded until the process ends: what others keep of it stays valid.
+class SharedLibrary {
+public:
+    /// \param name  as the system's loader knows it, such as "libproj.so.25"
+    /// \return CannotOpen where there is none, or a system loads none
+    [[nodiscard]] static Result<SharedLibrary> load(const std::string& name);
+
+    /// Sets `function` to the function of that name.
+    /// \return whether the library has it; its type is not checked
+    template <typename Function>
+    bool find(const char* name, Function*& function) const {
+        function = reinterpret_cast<Function*>(symbol(name));
+        return function != nullptr;
+    }
+
+private:
+    explicit SharedLibrary(void* handle) : handle_(handle) {}
+    [[nodiscard]] void* symbol(const char* name) const noexcept;
+    void* handle_;
+};
 
 }  // namespace svt

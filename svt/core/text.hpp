@@ -45,6 +45,13 @@ void appendUtf8(char32_t code, std::string& to);
 /// Count of characters of valid UTF-8; in other text, of bytes that continue none.
 [[nodiscard]] std::size_t characterCount(std::string_view text) noexcept;
 
+/// `text` as content of an element of XML 1.0: markup is escaped; what XML forbids is replaced, control characters by
+/// blanks, other characters and invalid UTF-8 by U+FFFD. Cost: O(length), as of xmlAttribute().
+[[nodiscard]] std::string xmlContent(std::string_view text);
+/// The same for the value of an attribute in quotes of either kind, and for HTML: quotes, tabs and ends of lines are
+/// references, too, so that a parser gives them back.
+[[nodiscard]] std::string xmlAttribute(std::string_view text);
+
 /// 0 to 9.
 [[nodiscard]] constexpr bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 /// Space, tab or the end of a line: what separates words in XML, JSON and queries.

@@ -34,6 +34,11 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(CannotProject);
         SVT_CASE(FarFeature);
         SVT_CASE(NoHeights);
+        SVT_CASE(BadStep);
+        SVT_CASE(BadRecord);
+        SVT_CASE(ReadInPart);
+        SVT_CASE(ShapeNotRead);
+        SVT_CASE(ProductsRead);
         SVT_CASE(TooFewPoints);
         SVT_CASE(BadCoordinate);
         SVT_CASE(ZeroArea);
@@ -92,6 +97,9 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(BadSection);
         SVT_CASE(BadScene);
         SVT_CASE(NoGraphics);
+        SVT_CASE(UncertainArea);
+        SVT_CASE(PlaneInFaces);
+        SVT_CASE(DrawnByVoxels);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

@@ -9,13 +9,24 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace svt {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Sanitizers take address space of their own, so the limit is told and not held.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool isSanitized = true;
+#elif defined(__has_feature)
+constexpr bool isSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
+#else
+constexpr bool isSanitized = false;
+#endif
 
 // Linux as far as controlGroupLimits() reads it.
 class ControlGroups : public ::testing::Test {
@@ -96,6 +107,34 @@ TEST(Machine, FindsProgramsInThePath) {
     EXPECT_EQ(program, folder / "b/program");
     EXPECT_EQ(text, "") << "cannot be run";
     EXPECT_EQ(other, "") << "is a folder";
+}
+
+// Allocates bytes that are not optimised away. False: there is no memory.
+bool canTake(std::size_t bytes) {
+    try {
+        std::vector<char> memory(bytes, 'x');
+        volatile char last = memory[bytes - 1];
+        return last == 'x';
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+TEST(LimitMemory, AllocationsBeyondItFailAndThoseBelowDoNot) {
+    const auto result = inOwnProcess(20, [](const Say& say) {
+        constexpr std::size_t kMb = 1'000'000;
+        say(canTake(900 * kMb) ? "before " : "none ");
+        limitMemory(600 * kMb, "--memory");
+        const MemoryFigures figures = memoryFigures();
+        say(figures.limitBytes == 600 * kMb && figures.limitedBy == "--memory" ? "told " : "untold ");
+        const auto grant = memoryGrant();
+        say(grant && grant->text == "the 600 MB that --memory grants" ? "granted " : "not granted ");
+        say(canTake(200 * kMb) ? "little " : "too little ");
+        say(canTake(900 * kMb) ? "too much" : "no more");
+    });
+    if (result.text.find("none") == 0) GTEST_SKIP() << "this machine grants less than 900 MB";
+    EXPECT_EQ(result.fault, "");
+    EXPECT_EQ(result.text, std::string("before told granted little ") + (isSanitized ? "too much" : "no more"));
 }
 
 TEST(InOwnProcess, TellsWhatWasSaidAndWrittenToStderr) {

@@ -26,4 +26,10 @@ OwnProcessResult inOwnProcess(double, const std::function<void(const Say&)>& wor
     return result;
 }
 
+Result<SharedLibrary> SharedLibrary::load(const std::string& name) {
+    return Error(Code::CannotOpen, "cannot load " + name + ": not on this system");
+}
+
+void* SharedLibrary::symbol(const char*) const noexcept { return nullptr; }
+
 }  // namespace svt

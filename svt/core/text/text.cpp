@@ -48,4 +48,38 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept {
                       [](char x, char y) { return lowerAscii(x) == lowerAscii(y); });
 }
 
+namespace {
+
+std::string xmlText(std::string_view text, bool isAttribute) {
+    std::string safe;
+    safe.reserve(text.size() + text.size() / 16);
+    for (std::size_t at = 0; at < text.size();) {
+        const auto [c, size] = firstCharacter(text.substr(at));
+        if (size == 0 || c == 0xFFFE || c == 0xFFFF) {
+            safe += "\xEF\xBF\xBD";
+        } else if ((c < 0x20 && c != '\t' && c != '\n') || c == 0x7F) {
+            safe += ' ';
+        } else if (c == '&') {
+            safe += "&amp;";
+        } else if (c == '<') {
+            safe += "&lt;";
+        } else if (c == '>') {
+            safe += "&gt;";
+        } else if (isAttribute && c == '"') {
+            safe += "&quot;";
+        } else if (isAttribute && (c == '\'' || c == '\t' || c == '\n')) {
+            safe += c == '\'' ? "&#39;" : c == '\t' ? "&#9;" : "&#10;";
+        } else {
+            safe.append(text, at, size);
+        }
+        at += std::max<std::size_t>(size, 1);
+    }
+    return safe;
+}
+
+}  // namespace
+
+std::string xmlContent(std::string_view text) { return xmlText(text, false); }
+std::string xmlAttribute(std::string_view text) { return xmlText(text, true); }
+
 }  // namespace svt

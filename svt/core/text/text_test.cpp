@@ -52,5 +52,12 @@ TEST(Rounding, NumbersBecomeOneTwoOrFive) {
     }
 }
 
+TEST(XmlText, KeepsWhatXmlMayHold) {
+    EXPECT_EQ(xmlContent("a<b>&\"c'\n\t\u00e4"), "a&lt;b&gt;&amp;\"c'\n\t\u00e4");
+    EXPECT_EQ(xmlAttribute("a<b>&\"c'\n\t\u00e4"), "a&lt;b&gt;&amp;&quot;c&#39;&#10;&#9;\u00e4");
+    EXPECT_EQ(xmlContent(std::string_view("\0\r\x7F", 3)), "   ");
+    EXPECT_EQ(xmlContent("\xFFx\xEF\xBF\xBF"), "\xEF\xBF\xBDx\xEF\xBF\xBD") << "invalid, and U+FFFF";
+}
+
 }  // namespace
 }  // namespace svt
