@@ -17,7 +17,7 @@
 /// are literal quotes and any other backslash is kept. A quoted key is always an attribute: "class"=1000 tests the
 /// attribute `class`. Two values compare as numbers if both are numbers, else as text; `class`, `id` and `name` are
 /// always text, `volume` (m3) and `voxels` always numbers. Class names are compared after canonicalClassName():
-/// class=room selects BuildingRoom. `class`, `id` and `storey` support = != ~ !~ only. See regex.hpp for patterns.
+/// class=room selects BuildingRoom; of a row with an attribute `ifcType` that counts, too: class=IfcWall. `class`, `id` and `storey` support = != ~ !~ only. See regex.hpp for patterns.
 ///
 /// `under X` selects the feature whose id or name is X, all its descendants, its members and their descendants: a flat
 /// has its rooms as children in one format and as members in another. `storey=X` selects the descendants and members of

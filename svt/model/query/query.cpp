@@ -77,10 +77,24 @@ bool anyAttributeHolds(const Node& node, const QueryRow& row) {
     });
 }
 
+// IfcWall is IfcWallStandardCase, too, which is a wall of a simple shape.
+bool isSourceClass(std::string_view source, std::string_view wanted) {
+    if (source.size() < wanted.size() || !equalsIgnoringCase(source.substr(0, wanted.size()), wanted)) return false;
+    const std::string_view rest = source.substr(wanted.size());
+    return !source.empty() && (rest.empty() || rest == "StandardCase" || rest == "ElementedCase");
+}
+
+// Both names of a class count where a row has two: class=IfcWall selects what class=BuildingConstructiveElement does.
 bool classHolds(const Node& node, const QueryRow& row) {
     const std::string name = canonicalClassName(row.className);
-    if (node.pattern) return isFound(node, name);
-    return equalsIgnoringCase(name, node.value) == (node.op == Op::Equal);
+    const std::string_view source = query::sourceClass(row);
+    if (node.pattern) {
+        const bool isPositive = node.op == Op::Found;
+        const bool first = isFound(node, name);
+        return source.empty() ? first : isPositive ? first || isFound(node, source) : first && isFound(node, source);
+    }
+    const bool isSame = equalsIgnoringCase(name, node.value) || isSourceClass(source, node.value);
+    return isSame == (node.op == Op::Equal);
 }
 
 /// Descendants of each row: by the tree and by group membership.
@@ -195,6 +209,13 @@ Mask evaluate(const Node& node, Rows rows) {
 }  // namespace
 
 namespace query {
+
+std::string_view sourceClass(const QueryRow& row) noexcept {
+    for (const Attribute& attribute : row.attributes)
+        if (attribute.name == "ifcType")
+            if (const auto* type = std::get_if<std::string>(&attribute.value)) return *type;
+    return {};
+}
 
 bool containsWord(std::string_view text, std::string_view word) noexcept {
     return std::search(text.begin(), text.end(), word.begin(), word.end(),

@@ -53,6 +53,14 @@ std::string describe(std::string_view what, std::string_view wanted, const Names
 std::string unknownClass(const Node& node, Rows rows) {
     std::set<std::string> owned;
     for (const QueryRow& row : rows) owned.insert(canonicalClassName(row.className));
+    // Classes of the source are offered to those who ask for one.
+    if (lowerAscii(node.value.substr(0, 3)) == "ifc")
+        for (const QueryRow& row : rows)
+            if (const std::string_view source = query::sourceClass(row); !source.empty()) {
+                owned.emplace(source);
+                for (const std::string_view tail : {"StandardCase", "ElementedCase"})
+                    if (source.ends_with(tail)) owned.emplace(source.substr(0, source.size() - tail.size()));
+            }
     Names names(owned.begin(), owned.end());
     for (const std::string_view name : names)
         if (equalsIgnoringCase(name, node.value)) return {};

@@ -85,6 +85,18 @@ protected:
     std::vector<QueryRow> rows_;
 };
 
+TEST_F(QueryTest, ClassesOfTheSourceSelectToo) {
+    EXPECT_EQ(select("class=IfcWindow"), "w1");
+    EXPECT_EQ(select("class=ifcdoor"), "x");
+    EXPECT_EQ(select("class=IfcDo"), "");
+    EXPECT_EQ(select("class~'^Ifc'"), "w1 x");
+    EXPECT_EQ(select("class=IfcWindow or class=Door"), "w1 x");
+    EXPECT_EQ(select("(class=Window or class=Door) and class!=IfcDoor"), "w1");
+    EXPECT_EQ(select("(class=Window or class=Door) and class!~Ifc"), "");
+    EXPECT_EQ(unknown("class=IfcDor"), "no class 'IfcDor'; did you mean 'IfcDoor'?");
+    EXPECT_EQ(unknown("class=IfcWindow"), "");
+}
+
 TEST_F(QueryTest, ClassComparesCanonicalNamesWithoutCase) {
     EXPECT_EQ(select("class=BuildingRoom"), "r1 r2 og1");
     EXPECT_EQ(select("CLASS = buildingroom"), "r1 r2 og1");

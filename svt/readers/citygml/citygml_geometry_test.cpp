@@ -194,7 +194,21 @@ TEST(GmlGeometry, MultiAndCompositeSolidsKeepEachSolid) {
         ASSERT_EQ(onlyGeometry(reading).solids.size(), 2u);
         EXPECT_EQ(onlyGeometry(reading).id, "m");
         EXPECT_EQ(onlyGeometry(reading).solids[1].id, "s2");
+        EXPECT_EQ(onlyGeometry(reading).isComposite, name == "CompositeSolid");
     }
+}
+
+TEST(GmlGeometry, SurfacesAreCompositeByTheirElementAlone) {
+    for (const std::string_view name : {"MultiSurface", "CompositeSurface"}) {
+        const Reading reading =
+            readGeometry(fmt::format("<gml:{0} gml:id=\"m\">{1}</gml:{0}>", name, surfaceMember(square(""))));
+        EXPECT_EQ(onlyGeometry(reading).isComposite, name == "CompositeSurface");
+    }
+    // The composite that a shell is made of says nothing of the solid.
+    const Reading solids =
+        readGeometry("<gml:Solid gml:id=\"s\"><gml:exterior><gml:CompositeSurface>" + surfaceMember(square("")) +
+                     "</gml:CompositeSurface></gml:exterior></gml:Solid>");
+    EXPECT_FALSE(onlyGeometry(solids).isComposite);
 }
 
 TEST(GmlGeometry, OrientationsOfNestedSurfacesMultiply) {

@@ -67,6 +67,7 @@ TEST(CityJsonReader, CompositeAndMultiSolidsAreListsOfSolids) {
         ASSERT_TRUE(reading.result);
         ASSERT_EQ(reading.model().features[0].geometries.size(), 1u) << type;
         EXPECT_EQ(reading.model().features[0].geometries[0].solids.size(), 2u) << type;
+        EXPECT_EQ(reading.model().features[0].geometries[0].isComposite, type == "CompositeSolid");
         EXPECT_TRUE(reading.diagnostics.items().empty()) << type;
     }
 }
@@ -78,6 +79,7 @@ TEST(CityJsonReader, SurfacesKeepHoles) {
         ASSERT_TRUE(reading.result);
         const model::Geometry& geometry = reading.model().features[0].geometries[0];
         EXPECT_EQ(geometry.kind, GeometryKind::Surface);
+        EXPECT_EQ(geometry.isComposite, type == "CompositeSurface");
         ASSERT_EQ(geometry.surfaces.size(), 2u);
         EXPECT_EQ(reading.model().polygons[0].ringEnds, (std::vector<std::uint32_t>{4, 7}));
     }

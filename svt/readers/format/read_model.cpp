@@ -5,6 +5,8 @@
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_reader.hpp>
 #include <svt/readers/cityjson/cityjson_reader.hpp>
+#include <svt/readers/format/zip_member.hpp>
+#include <svt/readers/ifc/ifc_reader.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -29,6 +31,7 @@ constexpr std::size_t kHeadBytes = 1 << 20;
 constexpr Format kFormats[] = {
     {"CityGML 1.0 to 3.0", looksLikeCityGml, readCityGml},
     {"CityJSON and CityJSONSeq", looksLikeCityJson, readCityJson},
+    {"IFC 2x3 to 4.3 (STEP)", looksLikeIfc, readIfc},
 };
 
 string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
@@ -85,8 +88,6 @@ struct KnownOther {
     string_view isWhat;
 };
 constexpr KnownOther kOthers[] = {
-    {"ISO-10303-21", "an IFC (STEP) file; convert it to CityGML or CityJSON"},
-    {"PK\x03\x04", "a zip archive; unpack it first"},
     {"%PDF", "a PDF"},
     {"\x89PNG", "a PNG picture"},
     {"glTF", "a binary glTF, which has no semantics"},
@@ -103,7 +104,7 @@ constexpr KnownOther kOtherRoots[] = {
     {"html", "an HTML page, perhaps an error page that was saved instead of the file"},
     {"IndoorFeatures", "IndoorGML; convert it to CityGML 3.0 or CityJSON"},
     {"kml", "KML"},
-    {"ifcXML", "ifcXML; convert it to CityGML or CityJSON"},
+    {"ifcXML", "ifcXML; export it as IFC in the STEP format (.ifc)"},
     {"LandXML", "LandXML"},
     {"COLLADA", "COLLADA, which has no semantics"},
     {"X3D", "X3D, which has no semantics"},
@@ -162,8 +163,33 @@ Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> mode
     return model;
 }
 
+// An IFC file in a zip archive (.ifczip).
+Result<model::BuildingModel> readZip(Bytes bytes, string_view name, const ReadOptions& options,
+                                     Diagnostics* diagnostics) {
+    constexpr string_view kExtensions[] = {".ifc"};
+    const Result<ZipMember> member = findZipMember(bytes, name, kExtensions);
+    if (!member) return member.error();
+    if (!member->isDeflated) return readPlain(member->packed, name, options, diagnostics);
+    const UnpackLimit limit = unpackLimit(member->packed.size(), options.maxBytes);
+    const auto fail = [&](Code code, std::string message) {
+        return Error(code, std::move(message), {std::string(name), 0, 0, {}});
+    };
+    // The size in the archive is a guess until it is unpacked.
+    const Inflated unpacked =
+        inflateBytes(member->packed, DeflateFormat::Raw, std::min(member->size + 1, limit.bytes), limit.bytes);
+    switch (unpacked.status) {
+        case InflateStatus::Done: return readPlain(unpacked.bytes, name, options, diagnostics);
+        case InflateStatus::TooLong: return fail(Code::InputTooBig, limit.message);
+        case InflateStatus::CutShort:
+            return fail(Code::CannotOpen, "the zip archive ends too early; it seems to be cut off");
+        case InflateStatus::Damaged: break;
+    }
+    return fail(Code::CannotOpen, fmt::format("'{}' in the zip archive is damaged", member->name));
+}
+
 Result<model::BuildingModel> readAny(Bytes bytes, string_view name, const ReadOptions& options,
                                      Diagnostics* diagnostics) {
+    if (isZip(bytes)) return readZip(bytes, name, options, diagnostics);
     if (!isGzip(bytes)) return readPlain(bytes, name, options, diagnostics);
     const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);
     if (!plain) return plain.error();

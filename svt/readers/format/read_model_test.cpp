@@ -103,14 +103,13 @@ TEST(ReadModel, UnknownContentIsNamed) {
         {" \n\t ", "blanks"},
         {"<!DOCTYPE html><html><body>404</body></html>", "HTML"},
         {"<html></html>", "HTML"},
-        {"ISO-10303-21;\nHEADER;", "IFC"},
+        {"<ifcXML/>", "STEP"},
         {"<?xml version=\"1.0\"?><core:IndoorFeatures xmlns:core=\"http://www.opengis.net/indoorgml/1.0/core\"/>",
          "IndoorGML"},
         {"<kml/>", "KML"},
         {"<other:Thing/>", "other:Thing"},
         {"<?xml version=\"1.0\"?>", "no root"},
         {"{\"type\":\"FeatureCollection\"}", "JSON"},
-        {"PK\x03\x04", "zip"},
         {"hello world", "hello"},
         {"\x01\x02\x03", "binary"},
     };
@@ -136,7 +135,7 @@ TEST(ReadModel, RealFilesOfOtherFormatsAreNamed) {
     SVT_NEEDS_DATA(indoor, "fzk_haus_indoorgml.gml");
     EXPECT_EQ(readModel(indoor).error().code(), Code::UnknownFormat);
     SVT_NEEDS_DATA(ifc, "fzk_haus.ifc");
-    EXPECT_EQ(readModel(ifc).error().code(), Code::UnknownFormat);
+    EXPECT_TRUE(readModel(ifc));
     SVT_NEEDS_DATA(json, "fzk_haus.city.json");
     EXPECT_TRUE(readModel(json));
 }

@@ -1,0 +1,364 @@
+#include <svt/readers/ifc/ifc_reader.hpp>
+
+#include <svt/core/text.hpp>
+#include <svt/readers/georeference/far_features.hpp>
+#include <svt/readers/georeference/georeference.hpp>
+#include <svt/readers/ifc/properties.hpp>
+#include <svt/readers/ifc/structure.hpp>
+#include <svt/readers/ifc/styles.hpp>
+#include <svt/readers/ifc/units.hpp>
+#include <svt/readers/ifc_shape/shape_reader.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_set>
+
+namespace svt::readers {
+namespace {
+
+using namespace ifc;
+using std::string_view;
+
+constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+// "IFC4X3_ADD2" -> "IFC4X3", and what people call it.
+std::optional<std::string> versionName(string_view schema) {
+    const std::string lower = lowerAscii(schema);
+    if (lower.starts_with("ifc2x")) return "IFC " + lower.substr(3);
+    if (lower.starts_with("ifc4x")) return fmt::format("IFC 4.{}", lower.size() > 5 ? lower.substr(5, 1) : "0");
+    if (lower.starts_with("ifc4")) return "IFC 4";
+    return std::nullopt;
+}
+
+class IfcReader {
+public:
+    IfcReader(const step::StepFile& step, string_view name, const ReadOptions& options, Diagnostics& diagnostics)
+        : file_(step), name_(name), options_(options), diagnostics_(diagnostics) {}
+
+    Result<model::BuildingModel> read() {
+        const auto version = versionName(file_.step().schema());
+        if (!version)
+            return Error(
+                Code::UnknownVersion,
+                fmt::format("the schema of this STEP file is '{}', not IFC2X3, IFC4 or IFC4X3; only IFC is read from "
+                            "STEP files",
+                            file_.step().schema().substr(0, 60)),
+                place());
+        model_.source = name_;
+        model_.format = *version;
+        readProject();
+        const Styles styles = readStyles(file_);
+        model_.materials = styles.materials;
+        structure_ = readStructure(file_);
+        if (structure_.order.empty())
+            return Error(Code::EmptyModel, "the file has no product: no building, storey, space or element", place());
+        tellOfStructure();
+        const Properties properties(file_, units_);
+        for (const std::size_t p : structure_.order) addFeature(structure_.products[p], p, properties);
+        addGroups();
+        if (auto done = readShapes(styles, properties); !done) return done.error();
+        tellOfProducts();
+        return placeModel();
+    }
+
+private:
+    [[nodiscard]] Place place() const { return {std::string(name_), 0, 0, {}}; }
+    [[nodiscard]] std::uint64_t lineOf(RecordIndex record) const {
+        return file_.step().lineOf(file_.step().records()[record]);
+    }
+
+    void readProject() {
+        RecordIndex project = kNoRecord;
+        for (RecordIndex i = 0; i < file_.step().records().size() && project == kNoRecord; ++i)
+            if (file_.entityOf(i) == Entity::Project) project = i;
+        units_ = readUnits(file_, project, place(), diagnostics_);
+        file_.lengthUnit = units_.length;
+        file_.angleUnit = units_.angle;
+        map_ = readMapPlace(file_, project);
+        const Fields fields = file_.fieldsOf(project);
+        model_.name = fields[2].string().value_or("");
+        if (model_.name.empty()) model_.name = fields[5].string().value_or("");
+    }
+
+    void tellOfStructure() {
+        if (structure_.hasCycle)
+            diagnostics_.add(Severity::Warning, Code::ReferenceCycle,
+                             "products contain each other in a circle; they stand at the top of the tree", place());
+        for (const auto& [type, count] : structure_.unknownClasses)
+            diagnostics_.add(
+                Severity::Note, Code::UnknownElement,
+                fmt::format("the class {} is not known; its {} products are read as GenericOccupiedSpace", type, count),
+                place());
+    }
+
+    std::string uniqueId(const Fields& fields, const Product& product) {
+        std::string id = fields[0].string().value_or("");
+        if (id.empty()) {
+            id = fmt::format("{}_{}", product.ifcType, file_.step().records()[product.record].id);
+            diagnostics_.add(Severity::Warning, Code::MissingId,
+                             fmt::format("a product without GlobalId; it is called '{}'", id),
+                             {std::string(name_), lineOf(product.record), 0, id});
+        }
+        if (ids_.insert(id).second) return id;
+        const std::string wanted = id;
+        for (int i = 2; !ids_.insert(id).second; ++i) id = fmt::format("{}_{}", wanted, i);
+        diagnostics_.add(Severity::Warning, Code::DuplicateId,
+                         fmt::format("the GlobalId '{}' is used again; renamed to '{}'", wanted, id),
+                         {std::string(name_), lineOf(product.record), 0, id});
+        return id;
+    }
+
+    void addFeature(const Product& product, std::size_t number, const Properties& properties) {
+        const Fields fields = file_.fieldsOf(product.record);
+        model::Feature feature;
+        feature.id = uniqueId(fields, product);
+        feature.className = product.className;
+        feature.name = fields[2].string().value_or("");
+        feature.line = lineOf(product.record);
+        const auto add = [&](string_view attribute, Value value) {
+            if (auto text = value.string(); text && !text->empty())
+                feature.attributes.push_back({std::string(attribute), std::move(*text), ""});
+        };
+        feature.attributes.push_back({"ifcType", product.ifcType, ""});
+        add("description", fields[3]);
+        add("objectType", fields[4]);
+        add(product.kind == ProductKind::Spatial ? "longName" : "tag", fields[7]);
+        if (product.ifcType == "IfcBuildingStorey" && fields[9].number())
+            feature.attributes.push_back({"elevation", file_.metres(fields[9]), "m"});
+        if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
+        if (product.kind == ProductKind::Element && !fields[8].enumeration().empty() &&
+            fields[8].enumeration().size() > 1)
+            feature.attributes.push_back({"predefinedType", std::string(fields[8].enumeration()), ""});
+        if (const auto host = structure_.filled.find(product.record); host != structure_.filled.end())
+            if (auto id = file_.fieldsOf(host->second)[0].string())
+                feature.attributes.push_back({"fills", std::move(*id), ""});
+        properties.append(product.record, feature.attributes);
+        const auto parent = product.parent == Product::kNoProduct ? model::kNoFeature : featureOf_[product.parent];
+        featureOf_.resize(structure_.products.size(), model::kNoFeature);
+        featureOf_[number] = model_.addFeature(std::move(feature), parent);
+    }
+
+    void addSitePlace(const Fields& fields, model::Feature& feature) const {
+        if (const auto latitude = compoundDegrees(fields[9]))
+            feature.attributes.push_back({"latitude", *latitude, "deg"});
+        if (const auto longitude = compoundDegrees(fields[10]))
+            feature.attributes.push_back({"longitude", *longitude, "deg"});
+        if (fields[11].number()) feature.attributes.push_back({"elevation", file_.metres(fields[11]), "m"});
+        if (map_.trueNorthDegrees) feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
+    }
+
+    void addGroups() {
+        for (const Structure::Group& group : structure_.groups) {
+            const Fields fields = file_.fieldsOf(group.record);
+            Product product{group.record, ProductKind::Spatial, "", "CityObjectGroup", Product::kNoProduct};
+            const Entity entity = file_.entityOf(group.record);
+            product.ifcType =
+                entity == Entity::Other ? std::string(file_.typeName(group.record)) : std::string(entityName(entity));
+            const auto known = groupFeature_.find(group.record);
+            model::FeatureIndex index = known != groupFeature_.end() ? known->second : model::kNoFeature;
+            if (index == model::kNoFeature) {
+                model::Feature feature;
+                feature.id = uniqueId(fields, product);
+                feature.className = product.className;
+                feature.name = fields[2].string().value_or("");
+                feature.line = lineOf(group.record);
+                feature.attributes.push_back({"ifcType", product.ifcType, ""});
+                index = groupFeature_[group.record] = model_.addFeature(std::move(feature), model::kNoFeature);
+            }
+            for (const std::size_t member : group.members)
+                if (featureOf_[member] != model::kNoFeature)
+                    model_.memberships.push_back({index, featureOf_[member], "member"});
+        }
+    }
+
+    [[nodiscard]] RecordIndex shapeOf(RecordIndex product) const { return file_.follow(file_.fieldsOf(product)[6]); }
+    // What of it could not be read is added to `leftOut`.
+    [[nodiscard]] Transform placementOf(RecordIndex product, std::vector<std::string>& leftOut) const {
+        std::string lost;
+        const Value value = file_.fieldsOf(product)[5];
+        const RecordIndex record = file_.follow(value);
+        if (record == kNoRecord && value.reference()) lost = "its placement, which the file lacks";
+        const Transform placement = file_.placement(record, lost);
+        if (!lost.empty()) leftOut.push_back(std::move(lost));
+        return placement;
+    }
+
+    // Openings or projections of a product, in its axes; those of a whole belong to its parts, too.
+    std::vector<Body> bodiesOf(const std::vector<RecordIndex>& records, const Transform& intoProduct,
+                               ShapeReader& shapes, Shape& shape) {
+        std::vector<Body> bodies;
+        for (const RecordIndex record : records) {
+            if (record == kNoRecord) continue;
+            const Shape opening = shapes.readShape(shapeOf(record));
+            if (opening.bodies.empty() && opening.hasRepresentation)
+                shape.leftOut.push_back("an opening without a body");
+            for (const std::string& what : opening.leftOut) shape.leftOut.push_back("of an opening: " + what);
+            std::vector<std::string> lost;
+            const Transform relative = intoProduct.after(placementOf(record, lost));
+            for (const std::string& what : lost) shape.leftOut.push_back("of an opening: " + what);
+            for (const Body& body : opening.bodies) bodies.push_back(transformed(body, relative));
+        }
+        return bodies;
+    }
+
+    [[nodiscard]] std::vector<RecordIndex> openingsOf(const Product& product) const {
+        std::vector<RecordIndex> records;
+        const Product* at = &product;
+        for (int level = 0; level < 4; ++level) {
+            if (const auto found = structure_.openings.find(at->record); found != structure_.openings.end())
+                records.insert(records.end(), found->second.begin(), found->second.end());
+            if (at->parent == Product::kNoProduct || structure_.products[at->parent].kind != ProductKind::Element)
+                break;
+            at = &structure_.products[at->parent];
+        }
+        return records;
+    }
+
+    Result<void> readShapes(const Styles& styles, const Properties& properties) {
+        ShapeReader shapes(file_, styles.ofItem);
+        std::size_t done = 0;
+        for (const std::size_t p : structure_.order) {
+            if (Progress::isCancelled(options_.progress))
+                return Error(Code::Cancelled, "stopped while reading", place());
+            if (++done % 64 == 0)
+                Progress::tell(options_.progress, "read", double(done) / double(structure_.order.size()));
+            const Product& product = structure_.products[p];
+            const RecordIndex definition = shapeOf(product.record);
+            if (definition == kNoRecord) continue;
+            Shape shape = shapes.readShape(definition);
+            const Transform placement = placementOf(product.record, shape.leftOut);
+            if (!shape.bodies.empty()) cutOpenings(product, placement, shapes, shape);
+            if (!shape.hasRepresentation) continue;
+            finishProduct(p, shape, placement, styles, properties);
+        }
+        return {};
+    }
+
+    void cutOpenings(const Product& product, const Transform& placement, ShapeReader& shapes, Shape& shape) {
+        const std::vector<RecordIndex> openings = openingsOf(product);
+        const auto added = structure_.projections.find(product.record);
+        if (openings.empty() && added == structure_.projections.end()) return;
+        if (!(std::abs(placement.determinant()) > 1e-12)) {
+            shape.leftOut.push_back("its openings, for its placement has no volume");
+            return;
+        }
+        const Transform intoProduct = placement.inverse();
+        if (added != structure_.projections.end())
+            for (Body& body : bodiesOf(added->second, intoProduct, shapes, shape))
+                shape.bodies.push_back(std::move(body));
+        if (!openings.empty()) shapes.subtract(shape, bodiesOf(openings, intoProduct, shapes, shape));
+    }
+
+    void finishProduct(std::size_t number, Shape& shape, const Transform& placement, const Styles& styles,
+                       const Properties& properties) {
+        model::Feature& feature = model_.features[featureOf_[number]];
+        const Place where{std::string(name_), feature.line, 0, feature.id};
+        const std::string& type = structure_.products[number].ifcType;
+        ++withShape_;
+        std::string what;
+        for (std::size_t i = 0; i < shape.leftOut.size() && i < 5; ++i) what += (i == 0 ? "" : "; ") + shape.leftOut[i];
+        if (shape.leftOut.size() > 5) what += fmt::format("; and {} more", shape.leftOut.size() - 5);
+        if (shape.bodies.empty()) {
+            ++skipped_;
+            diagnostics_.add(
+                Severity::Warning, Code::ShapeNotRead,
+                fmt::format("no shape of this {} could be read: {}", type,
+                            what.empty() ? "its representation has no body, or openings take all of it" : what),
+                where);
+            return;
+        }
+        if (!what.empty()) {
+            ++partial_;
+            diagnostics_.add(Severity::Warning, Code::ReadInPart,
+                             fmt::format("this {} was read in part; left out: {}", type, what), where);
+        }
+        std::int32_t material = -1;
+        if (const auto found = styles.ofMaterial.find(properties.materialOf(structure_.products[number].record));
+            found != styles.ofMaterial.end())
+            material = found->second;
+        addGeometry(feature, shape, placement, material);
+    }
+
+    void addGeometry(model::Feature& feature, Shape& shape, const Transform& placement, std::int32_t otherwise) {
+        model::Geometry geometry;
+        const bool isMirrored = placement.determinant() < 0;
+        for (Body& body : shape.bodies) {
+            std::vector<model::SurfaceUse> uses;
+            if (isMirrored) turnOver(body.faces);
+            for (model::Polygon& face : body.faces) {
+                for (Vec3d& p : face.points) p = map_.mapFromProject.point(placement.point(p));
+                if (!std::all_of(face.points.begin(), face.points.end(), [](Vec3d p) { return isFinite(p); })) continue;
+                face.material = body.material >= 0 ? body.material : otherwise;
+                uses.push_back({model_.addPolygon(std::move(face)), false});
+            }
+            if (uses.empty()) continue;
+            if (body.isSolid)
+                geometry.solids.push_back({"", std::move(uses), {}});
+            else
+                geometry.surfaces.insert(geometry.surfaces.end(), uses.begin(), uses.end());
+        }
+        geometry.kind = geometry.solids.empty() ? model::GeometryKind::Surface : model::GeometryKind::Solid;
+        if (!geometry.solids.empty() || !geometry.surfaces.empty()) feature.geometries.push_back(std::move(geometry));
+    }
+
+    void tellOfProducts() {
+        diagnostics_.add(Severity::Note, Code::ProductsRead,
+                         fmt::format("{} of {} products with a shape were read, {} of them in part",
+                                     withShape_ - skipped_, withShape_, partial_),
+                         place());
+    }
+
+    Result<model::BuildingModel> placeModel() {
+        if (options_.crs != 0 || !map_.crs.empty()) {
+            const georeference::GivenCrs given{map_.crs, "", true, place(), {}};
+            if (auto done = georeference::georeference(model_, given, options_, diagnostics_); !done)
+                return done.error();
+        } else if (!options_.keepFarFeatures) {
+            georeference::leaveOutFarFeatures(model_, {1, 1, 1}, place(), diagnostics_);
+        }
+        return std::move(model_);
+    }
+
+    IfcFile file_;
+    string_view name_;
+    const ReadOptions& options_;
+    Diagnostics& diagnostics_;
+    Units units_;
+    MapPlace map_;
+    Structure structure_;
+    std::unordered_set<std::string> ids_;
+    std::vector<model::FeatureIndex> featureOf_;  // by product
+    std::unordered_map<RecordIndex, model::FeatureIndex> groupFeature_;
+    std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0;
+    model::BuildingModel model_;
+};
+
+}  // namespace
+
+bool looksLikeIfc(std::span<const std::byte> head) noexcept {
+    string_view text(reinterpret_cast<const char*>(head.data()), std::min<std::size_t>(head.size(), 4096));
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+    return text.starts_with("ISO-10303-21");
+}
+
+Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, string_view name, const ReadOptions& options,
+                                     Diagnostics* diagnostics) {
+    Diagnostics ignored;
+    Diagnostics& log = diagnostics != nullptr ? *diagnostics : ignored;
+    if (bytes.size() > options.maxBytes)
+        return Error(Code::InputTooBig,
+                     fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
+                     {std::string(name), 0, 0, {}});
+    string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    Progress::tell(options.progress, "read", 0);
+    const auto step = step::StepFile::scan(text, name, log);
+    if (!step) return step.error();
+    return IfcReader(*step, name, options, log).read();
+}
+
+}  // namespace svt::readers

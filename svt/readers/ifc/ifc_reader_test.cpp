@@ -1,0 +1,286 @@
+#include <svt/readers/ifc/ifc_documents_test.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace svt::readers {
+namespace {
+
+using namespace test;
+
+const model::Feature* find(const model::BuildingModel& model, const std::string& id) {
+    for (const model::Feature& feature : model.features)
+        if (feature.id == id) return &feature;
+    return nullptr;
+}
+
+std::string attribute(const model::Feature& feature, const std::string& name) {
+    for (const Attribute& a : feature.attributes)
+        if (a.name == name) return toText(a.value) + (a.unit.empty() ? "" : " " + a.unit);
+    return "none";
+}
+
+Box3d bounds(const model::BuildingModel& model, const model::Feature& feature) {
+    return feature.geometries.empty() ? Box3d{} : model.bounds(feature.geometries[0]);
+}
+
+const char* const kBox =
+    "#101=IFCPRODUCTDEFINITIONSHAPE($,$,(#102));\n"
+    "#102=IFCSHAPEREPRESENTATION(#20,'Body','SweptSolid',(#103));\n"
+    "#103=IFCEXTRUDEDAREASOLID(#104,#14,#11,1000.);\n"
+    "#104=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,200.,300.);\n";
+
+TEST(IfcReader, TheTreeAndItsClasses) {
+    Diagnostics log;
+    const auto model = readText(
+        ifcFile(
+            std::string("#100=IFCWALLSTANDARDCASE('wall',$,'W1','a wall','Basic',#15,#101,'tag7');\n"
+                        "#110=IFCDOOR('door',$,'D1',$,$,#15,#101,$,$,$);\n#111=IFCPUMP('pump',$,$,$,$,#15,#101,$,$);\n"
+                        "#112=IFCSPACE('space',$,'1.01',$,$,#15,#101,'Kitchen',$,$);\n"
+                        "#113=IFCRELAGGREGATES('r',$,$,$,#32,(#112));\n"
+                        "#114=IFCANNOTATION('note',$,$,$,$,#15,#101);\n#115=IFCNEWTHING('thing',$,$,$,$,#15,#101);\n"
+                        "#116=IFCBUILDINGELEMENTPART('part',$,$,$,$,#15,#101,$);\n"
+                        "#117=IFCRELAGGREGATES('r2',$,$,$,#100,(#116));\n"
+                        "#118=IFCZONE('zone',$,'Zone A',$,$);\n"
+                        "#119=IFCRELASSIGNSTOGROUP('r3',$,$,$,(#112),$,#118);\n") +
+                kBox,
+            "#100,#110,#111,#115"),
+        &log);
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(model->format, "IFC 4");
+    EXPECT_EQ(model->name, "Project");
+    std::string tree;
+    for (const model::FeatureIndex f : model->treeOrder()) {
+        const model::Feature& feature = model->features[f];
+        tree += feature.id + ":" + feature.className +
+                (feature.parent == model::kNoFeature ? "" : "<" + model->features[feature.parent].id) + " ";
+    }
+    EXPECT_EQ(tree,
+              "0site:GenericLogicalSpace 0building:Building<0site 0storey:Storey<0building "
+              "wall:BuildingConstructiveElement<0storey part:BuildingConstructiveElement<wall door:Door<0storey "
+              "pump:BuildingInstallation<0storey space:BuildingRoom<0storey thing:GenericOccupiedSpace<0storey "
+              "zone:CityObjectGroup ");
+    const model::Feature* wall = find(*model, "wall");
+    ASSERT_NE(wall, nullptr);
+    EXPECT_EQ(wall->name, "W1");
+    EXPECT_EQ(attribute(*wall, "ifcType"), "IfcWallStandardCase");
+    EXPECT_EQ(attribute(*wall, "description"), "a wall");
+    EXPECT_EQ(attribute(*wall, "tag"), "tag7");
+    EXPECT_EQ(attribute(*find(*model, "space"), "longName"), "Kitchen");
+    ASSERT_EQ(model->memberships.size(), 1U);
+    EXPECT_EQ(model->features[model->memberships[0].member].id, "space");
+    EXPECT_EQ(log.count(Code::UnknownElement), 1U);
+    ASSERT_EQ(log.count(Code::ProductsRead), 1U);
+    EXPECT_EQ(log.items().back().message, "6 of 6 products with a shape were read, 0 of them in part");
+}
+
+TEST(IfcReader, PlacementsAndUnits) {
+    const std::string records = std::string(
+                                    "#100=IFCWALL('wall',$,$,$,$,#40,#101,$,$);\n#40=IFCLOCALPLACEMENT(#41,#42);\n"
+                                    "#42=IFCAXIS2PLACEMENT3D(#43,#11,#13);\n#43=IFCCARTESIANPOINT((1000.,0.,0.));\n"
+                                    "#41=IFCLOCALPLACEMENT($,#44);\n#44=IFCAXIS2PLACEMENT3D(#45,$,$);\n"
+                                    "#45=IFCCARTESIANPOINT((0.,2000.,500.));\n") +
+                                kBox;
+    const auto model = readText(ifcFile(records, "#100"));
+    ASSERT_TRUE(model);
+    const Box3d box = bounds(*model, *find(*model, "wall"));
+    // Turned by a quarter: x of the profile points north.
+    EXPECT_NEAR(box.min.x, 1 - 0.15, 1e-12);
+    EXPECT_NEAR(box.max.x, 1 + 0.15, 1e-12);
+    EXPECT_NEAR(box.min.y, 2 - 0.1, 1e-12);
+    EXPECT_NEAR(box.max.z, 1.5, 1e-12);
+    const auto feet = readText(ifcFile(records, "#100", "IFC2X3",
+                                       "#3=IFCCONVERSIONBASEDUNIT(#7,.LENGTHUNIT.,'FOOT',#8);\n"
+                                       "#7=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);\n"
+                                       "#8=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#9);\n"
+                                       "#9=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);"));
+    ASSERT_TRUE(feet);
+    EXPECT_EQ(feet->format, "IFC 2x3");
+    EXPECT_NEAR(bounds(*feet, *find(*feet, "wall")).max.z, 1500 * 0.3048, 1e-9);
+}
+
+TEST(IfcReader, PropertiesQuantitiesTypesAndMaterials) {
+    const auto model = readText(ifcFile(
+        std::string(
+            "#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n#200=IFCRELDEFINESBYPROPERTIES('a',$,$,$,(#100),#201);\n"
+            "#201=IFCPROPERTYSET('b',$,'Pset_WallCommon',$,(#202,#203,#204,#205));\n"
+            "#202=IFCPROPERTYSINGLEVALUE('IsExternal',$,IFCBOOLEAN(.T.),$);\n"
+            "#203=IFCPROPERTYSINGLEVALUE('Reference',$,IFCIDENTIFIER('W-1'),$);\n"
+            "#204=IFCPROPERTYSINGLEVALUE('Width',$,IFCPOSITIVELENGTHMEASURE(300.),$);\n"
+            "#205=IFCPROPERTYENUMERATEDVALUE('Status',$,(IFCLABEL('NEW'),IFCLABEL('OLD')),$);\n"
+            "#210=IFCRELDEFINESBYPROPERTIES('c',$,$,$,(#100),#211);\n"
+            "#211=IFCELEMENTQUANTITY('d',$,'BaseQuantities',$,$,(#212,#213));\n"
+            "#212=IFCQUANTITYVOLUME('NetVolume',$,$,0.06);\n#213=IFCQUANTITYLENGTH('Length',$,$,4000.);\n"
+            "#220=IFCRELDEFINESBYTYPE('e',$,$,$,(#100),#221);\n"
+            "#221=IFCWALLTYPE('f',$,'Type 30',$,$,(#222),$,$,$,.STANDARD.);\n"
+            "#222=IFCPROPERTYSET('g',$,'Pset_WallCommon',$,(#223,#224));\n"
+            "#223=IFCPROPERTYSINGLEVALUE('IsExternal',$,IFCBOOLEAN(.F.),$);\n"
+            "#224=IFCPROPERTYSINGLEVALUE('FireRating',$,IFCLABEL('F90'),$);\n"
+            "#230=IFCRELASSOCIATESMATERIAL('h',$,$,$,(#100),#231);\n"
+            "#231=IFCMATERIALLAYERSETUSAGE(#232,.AXIS2.,.POSITIVE.,0.,$);\n"
+            "#232=IFCMATERIALLAYERSET((#233,#234),$,$);\n#233=IFCMATERIALLAYER(#235,200.,$,$,$,$,$);\n"
+            "#234=IFCMATERIALLAYER(#236,100.,$,$,$,$,$);\n#235=IFCMATERIAL('Stahlbeton',$,$);\n"
+            "#236=IFCMATERIAL('D\\X2\\00E4\\X0\\mmung',$,$);\n"
+            "#240=IFCRELASSOCIATESCLASSIFICATION('i',$,$,$,(#100),#241);\n"
+            "#241=IFCCLASSIFICATIONREFERENCE($,'330','Walls',$,$,$);\n") +
+            kBox,
+        "#100"));
+    ASSERT_TRUE(model);
+    const model::Feature& wall = *find(*model, "wall");
+    EXPECT_EQ(attribute(wall, "Pset_WallCommon.IsExternal"), "true");  // its own, not that of the type
+    EXPECT_EQ(attribute(wall, "Pset_WallCommon.FireRating"), "F90");
+    EXPECT_EQ(attribute(wall, "Pset_WallCommon.Reference"), "W-1");
+    EXPECT_EQ(attribute(wall, "Pset_WallCommon.Width"), "0.3 m");
+    EXPECT_EQ(attribute(wall, "Pset_WallCommon.Status"), "NEW, OLD");
+    EXPECT_EQ(attribute(wall, "BaseQuantities.NetVolume"), "0.06 m3");
+    EXPECT_EQ(attribute(wall, "BaseQuantities.Length"), "4 m");
+    EXPECT_EQ(attribute(wall, "type"), "Type 30");
+    EXPECT_EQ(attribute(wall, "material"), "Stahlbeton; D\u00e4mmung");
+    EXPECT_EQ(attribute(wall, "materialLayers"), "Stahlbeton 0.2 m; D\u00e4mmung 0.1 m");
+    EXPECT_EQ(attribute(wall, "classification"), "330 Walls");
+}
+
+TEST(IfcReader, StylesBecomeMaterials) {
+    const std::string style =
+        "#301=IFCSURFACESTYLE('red',.BOTH.,(#302));\n#302=IFCSURFACESTYLERENDERING(#303,0.25,$,$,$,$,$,$,"
+        ".FLAT.);\n#303=IFCCOLOURRGB($,1.,0.5,0.);\n";
+    const auto model = readText(ifcFile(
+        "#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n#300=IFCSTYLEDITEM(#103,(#301),$);\n" + style + kBox, "#100"));
+    ASSERT_TRUE(model);
+    ASSERT_EQ(model->materials.size(), 1U);
+    EXPECT_EQ(model->materials[0].name, "red");
+    EXPECT_FLOAT_EQ(model->materials[0].diffuse.y, 0.5F);
+    EXPECT_FLOAT_EQ(model->materials[0].transparency, 0.25F);
+    for (const model::Polygon& polygon : model->polygons) EXPECT_EQ(polygon.material, 0);
+    const auto byMaterial = readText(
+        ifcFile("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n#230=IFCRELASSOCIATESMATERIAL('h',$,$,$,(#100),#235);\n"
+                "#235=IFCMATERIAL('brick',$,$);\n#236=IFCMATERIALDEFINITIONREPRESENTATION($,$,(#237),#235);\n"
+                "#237=IFCSTYLEDREPRESENTATION(#20,$,$,(#238));\n#238=IFCSTYLEDITEM($,(#239),$);\n"
+                "#239=IFCPRESENTATIONSTYLEASSIGNMENT((#301));\n" +
+                    style + kBox,
+                "#100"));
+    ASSERT_TRUE(byMaterial);
+    for (const model::Polygon& polygon : byMaterial->polygons) EXPECT_EQ(polygon.material, 0);
+}
+
+TEST(IfcReader, DoorsKnowWhatTheyFill) {
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#110=IFCDOOR('door',$,$,$,$,#15,#101,$,$,$);\n"
+                                                    "#111=IFCOPENINGELEMENT('hole',$,$,$,$,#15,$,$,$);\n"
+                                                    "#112=IFCRELVOIDSELEMENT('a',$,$,$,#100,#111);\n"
+                                                    "#113=IFCRELFILLSELEMENT('b',$,$,$,#111,#110);\n") +
+                                            kBox,
+                                        "#100"));
+    ASSERT_TRUE(model);
+    const model::Feature& door = *find(*model, "door");
+    EXPECT_EQ(attribute(door, "fills"), "wall");
+    EXPECT_EQ(model->features[door.parent].id, "wall");  // nothing else contains it
+    EXPECT_EQ(find(*model, "hole"), nullptr);
+}
+
+TEST(IfcReader, GridsPlaceProducts) {
+    const std::string grid =
+        "#60=IFCGRID('grid',$,$,$,$,#61,$,(#63),(#64),$,$);\n#61=IFCLOCALPLACEMENT($,#62);\n"
+        "#62=IFCAXIS2PLACEMENT3D(#65,$,$);\n#65=IFCCARTESIANPOINT((0.,0.,3000.));\n"
+        "#63=IFCGRIDAXIS('A',#66,.T.);\n#64=IFCGRIDAXIS('1',#67,.T.);\n#66=IFCPOLYLINE((#70,#71));\n"
+        "#67=IFCPOLYLINE((#72,#73));\n#70=IFCCARTESIANPOINT((0.,5000.));\n#71=IFCCARTESIANPOINT((9000.,5000.));\n"
+        "#72=IFCCARTESIANPOINT((7000.,0.));\n#73=IFCCARTESIANPOINT((7000.,9000.));\n"
+        "#68=IFCVIRTUALGRIDINTERSECTION((#63,#64),(100.,0.,0.));\n";
+    for (const char* placement : {"#40=IFCGRIDPLACEMENT(#68,$);\n", "#40=IFCGRIDPLACEMENT(#61,#68,$);\n"}) {
+        const auto model =
+            readText(ifcFile("#100=IFCCOLUMN('column',$,$,$,$,#40,#101,$,$);\n" + grid + placement + kBox, "#100"));
+        ASSERT_TRUE(model);
+        const Vec3d center = bounds(*model, *find(*model, "column")).center();
+        EXPECT_NEAR(center.x, 7, 1e-12);
+        EXPECT_NEAR(center.y, 5.1, 1e-12);
+        EXPECT_NEAR(center.z, 3.5, 1e-12);
+    }
+}
+
+TEST(IfcReader, PlacementsThatCannotBeReadAreTold) {
+    const char* const kParallel =
+        "#40=IFCGRIDPLACEMENT(#68,$);\n#68=IFCVIRTUALGRIDINTERSECTION((#63,#63),(0.,0.,0.));\n"
+        "#63=IFCGRIDAXIS('A',#66,.T.);\n#66=IFCPOLYLINE((#70,#71));\n#70=IFCCARTESIANPOINT((0.,5000.));\n"
+        "#71=IFCCARTESIANPOINT((9000.,5000.));\n";
+    const std::pair<const char*, const char*> cases[] = {
+        {kParallel, "on a grid"},
+        {"#40=IFCLINEARPLACEMENT($,#14,$);\n", "along a curve"},
+        {"#40=IFCLOCALPLACEMENT(#41,#14);\n#41=IFCLOCALPLACEMENT(#40,#14);\n", "in a cycle"},
+        {"#40=IFCLOCALPLACEMENT($,#999);\n", "which the file lacks"},
+        {"#40=IFCLOCALPLACEMENT(#999,#14);\n", "the placement above it"},
+        {"#40=IFCDIRECTION((1.,0.,0.));\n", "of the type"},
+        {"", "its placement, which the file lacks"},
+    };
+    for (const auto& [placement, words] : cases) {
+        Diagnostics log;
+        const auto model = readText(
+            ifcFile(std::string("#100=IFCCOLUMN('column',$,$,$,$,#40,#101,$,$);\n") + placement + kBox, "#100"), &log);
+        ASSERT_TRUE(model) << words;
+        const auto found = std::ranges::find(log.items(), Code::ReadInPart, &Diagnostic::code);
+        ASSERT_NE(found, log.items().end()) << words;
+        EXPECT_NE(found->message.find(words), std::string::npos) << found->message;
+    }
+}
+
+TEST(IfcReader, MapConversionMovesToTheMap) {
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#50=IFCMAPCONVERSION(#20,#51,457850.,5439000.,110.,0.,1.,1.);\n"
+                                                    "#51=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,#52);\n"
+                                                    "#52=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n") +
+                                            kBox,
+                                        "#100"));
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(model->crs.epsg, 25832);
+    const Box3d box = bounds(*model, *find(*model, "wall"));
+    EXPECT_NEAR(box.min.x, 457850 - 0.15, 1e-8);
+    EXPECT_NEAR(box.max.y, 5439000 + 0.1, 1e-8);
+    EXPECT_NEAR(box.max.z, 111, 1e-9);
+    EXPECT_EQ(attribute(*find(*model, "0site"), "elevation"), "0.1 m");
+    EXPECT_EQ(attribute(*find(*model, "0site"), "latitude").substr(0, 8), "49.09972");
+}
+
+TEST(IfcReader, MissingAndRepeatedIds) {
+    Diagnostics log;
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#110=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#111=IFCWALL($,$,$,$,$,#15,#101,$,$);\n") +
+                                            kBox,
+                                        "#100,#110,#111"),
+                                &log);
+    ASSERT_TRUE(model);
+    EXPECT_NE(find(*model, "wall_2"), nullptr);
+    EXPECT_NE(find(*model, "IfcWall_111"), nullptr);
+    EXPECT_EQ(log.count(Code::DuplicateId), 1U);
+    EXPECT_EQ(log.count(Code::MissingId), 1U);
+}
+
+TEST(IfcReader, CirclesInTheTreeEnd) {
+    Diagnostics log;
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('a',$,$,$,$,#40,#101,$,$);\n"
+                                                    "#110=IFCWALL('b',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#111=IFCRELAGGREGATES('r',$,$,$,#100,(#110));\n"
+                                                    "#112=IFCRELAGGREGATES('r',$,$,$,#110,(#100));\n"
+                                                    "#40=IFCLOCALPLACEMENT(#40,#14);\n") +
+                                        kBox),
+                                &log);
+    ASSERT_TRUE(model);
+    EXPECT_NE(find(*model, "a"), nullptr);
+    EXPECT_NE(find(*model, "b"), nullptr);
+    EXPECT_EQ(log.count(Code::ReferenceCycle), 1U);
+}
+
+TEST(IfcReader, RefusesWhatIsNoIfc) {
+    const auto other = readText(ifcFile("", "", "AUTOMOTIVE_DESIGN"));
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().code(), Code::UnknownVersion);
+    EXPECT_NE(other.error().message().find("AUTOMOTIVE_DESIGN"), std::string::npos);
+    EXPECT_EQ(
+        readText("ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n#1=IFCPERSON($);\n").error().code(),
+        Code::EmptyModel);
+    EXPECT_TRUE(looksLikeIfc(std::as_bytes(std::span("\xEF\xBB\xBF\n ISO-10303-21;", 17))));
+    EXPECT_FALSE(looksLikeIfc(std::as_bytes(std::span("<ifcXML>", 8))));
+}
+
+}  // namespace
+}  // namespace svt::readers

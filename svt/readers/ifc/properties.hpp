@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Property sets, quantities, types, materials and classifications of products as attributes.
+
+#include <svt/core/attribute.hpp>
+#include <svt/readers/ifc/units.hpp>
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <unordered_map>
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// Which sets, types, materials and classifications each object has. Made once from the relations of a file.
+class Properties {
+public:
+    Properties(const IfcFile& file, const Units& units);
+
+    /// Attributes of an object beside its own: `Pset_WallCommon.IsExternal`, `BaseQuantities.NetVolume`, `type`, `material`,
+    /// `materialLayers`, `classification`. A property of the object takes the place of one of its type.
+    void append(RecordIndex object, std::vector<Attribute>& attributes) const;
+
+    /// The material that is nearest to being that of the whole object, for its colour; kNoRecord: none.
+    [[nodiscard]] RecordIndex materialOf(RecordIndex object) const;
+
+private:
+    using Records = std::vector<RecordIndex>;
+
+    void appendSet(RecordIndex set, std::vector<Attribute>& attributes) const;
+    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes) const;
+    void appendMaterial(RecordIndex material, std::vector<Attribute>& attributes) const;
+    [[nodiscard]] Records layersOf(RecordIndex material) const;
+    [[nodiscard]] static const Records& of(const std::unordered_map<RecordIndex, Records>& map, RecordIndex key);
+
+    const IfcFile& file_;
+    Units units_;
+    std::unordered_map<RecordIndex, Records> sets_, types_, materials_, classifications_;
+};
+
+}  // namespace svt::readers::ifc

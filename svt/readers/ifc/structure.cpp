@@ -1,0 +1,154 @@
+#include <svt/readers/ifc/structure.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace svt::readers::ifc {
+namespace {
+
+class StructureReader {
+public:
+    explicit StructureReader(const IfcFile& file) : file_(file) {}
+
+    Structure run() {
+        findProducts();
+        for (RecordIndex i = 0; i < file_.step().records().size(); ++i) relate(i);
+        sortTree();
+        return std::move(result_);
+    }
+
+private:
+    void findProducts() {
+        std::vector<ProductClass> classes;
+        for (const std::string_view type : file_.step().typeNames()) classes.push_back(productClassOf(type));
+        std::map<std::string, std::size_t> unknown;
+        for (RecordIndex i = 0; i < file_.step().records().size(); ++i) {
+            if (file_.entityOf(i) != Entity::Other) continue;
+            const step::Record& record = file_.step().records()[i];
+            const ProductClass& known = classes[record.type];
+            Product product{i, known.kind, "", std::string(known.className), Product::kNoProduct};
+            if (!known.ifcType.empty()) {
+                product.ifcType = "Ifc" + std::string(known.ifcType);
+            } else {
+                // A product has a placement and a shape, whatever it is called.
+                const Fields fields = file_.fieldsOf(i);
+                if (file_.entityOf(file_.follow(fields[6])) != Entity::ProductDefinitionShape || !fields[0].isString())
+                    continue;
+                product.ifcType = std::string(file_.typeName(i).substr(0, 100));
+                product.className = "GenericOccupiedSpace";
+                ++unknown[product.ifcType];
+            }
+            numberOf_[i] = result_.products.size();
+            result_.products.push_back(std::move(product));
+        }
+        result_.unknownClasses.assign(unknown.begin(), unknown.end());
+    }
+
+    [[nodiscard]] std::size_t productOf(RecordIndex record) const {
+        const auto found = numberOf_.find(record);
+        return found == numberOf_.end() ? Product::kNoProduct : found->second;
+    }
+
+    void relate(RecordIndex i) {
+        const Fields fields = file_.fieldsOf(i);
+        switch (file_.entityOf(i)) {
+            case Entity::RelAggregates:
+            case Entity::RelNests:
+                for (const RecordIndex part : file_.followAll(fields[5]))
+                    setParent(part, file_.follow(fields[4]), true);
+                break;
+            case Entity::RelContainedInSpatialStructure:
+                for (const RecordIndex element : file_.followAll(fields[4]))
+                    setParent(element, file_.follow(fields[5]), false);
+                break;
+            case Entity::RelVoidsElement:
+                result_.openings[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
+                hostOf_.emplace(file_.follow(fields[5]), file_.follow(fields[4]));
+                break;
+            case Entity::RelProjectsElement:
+                result_.projections[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
+                break;
+            case Entity::RelFillsElement: fills_.emplace_back(file_.follow(fields[4]), file_.follow(fields[5])); break;
+            case Entity::RelAssignsToGroup: {
+                Structure::Group group{file_.follow(fields[6]), {}};
+                if (group.record == kNoRecord) break;
+                for (const RecordIndex member : file_.followAll(fields[4]))
+                    if (const std::size_t product = productOf(member); product != Product::kNoProduct)
+                        group.members.push_back(product);
+                if (!group.members.empty()) result_.groups.push_back(std::move(group));
+                break;
+            }
+            default: break;
+        }
+    }
+
+    // A part of something is found there, whatever contains it too.
+    void setParent(RecordIndex child, RecordIndex parent, bool isPart) {
+        const std::size_t c = productOf(child), p = productOf(parent);
+        if (c == Product::kNoProduct || p == Product::kNoProduct || c == p) return;
+        Product& product = result_.products[c];
+        if (product.parent == Product::kNoProduct || (isPart && !isPart_[c])) product.parent = p;
+        if (isPart) isPart_[c] = true;
+    }
+
+    // Depth first from the products without parent; those on a cycle become such.
+    void sortTree() {
+        std::vector<Product>& products = result_.products;
+        for (const auto& [opening, filling] : fills_)
+            if (const auto host = hostOf_.find(opening); host != hostOf_.end())
+                result_.filled.emplace(filling, host->second);
+        const auto isFeature = [&](std::size_t p) {
+            return products[p].kind == ProductKind::Spatial || products[p].kind == ProductKind::Element;
+        };
+        std::vector<std::vector<std::size_t>> children(products.size());
+        std::vector<std::size_t> roots;
+        for (std::size_t p = 0; p < products.size(); ++p) {
+            if (!isFeature(p)) continue;
+            // A filling that nothing contains stands where what it fills stands.
+            if (products[p].parent == Product::kNoProduct)
+                if (const auto host = result_.filled.find(products[p].record); host != result_.filled.end())
+                    products[p].parent = productOf(host->second);
+            if (products[p].parent != Product::kNoProduct && !isFeature(products[p].parent))
+                products[p].parent = Product::kNoProduct;
+            if (products[p].parent == Product::kNoProduct)
+                roots.push_back(p);
+            else
+                children[products[p].parent].push_back(p);
+        }
+        std::vector<bool> isPlaced(products.size(), false);
+        const auto place = [&](std::size_t root) {
+            std::vector<std::size_t> stack{root};
+            while (!stack.empty()) {
+                const std::size_t p = stack.back();
+                stack.pop_back();
+                if (isPlaced[p]) continue;
+                isPlaced[p] = true;
+                result_.order.push_back(p);
+                stack.insert(stack.end(), children[p].rbegin(), children[p].rend());
+            }
+        };
+        for (const std::size_t root : roots) place(root);
+        for (std::size_t p = 0; p < products.size(); ++p) {
+            if (!isFeature(p) || isPlaced[p]) continue;
+            result_.hasCycle = true;
+            products[p].parent = Product::kNoProduct;
+            place(p);
+        }
+        for (const std::size_t p : result_.order)
+            if (products[p].parent != Product::kNoProduct)
+                result_.parts[products[products[p].parent].record].push_back(p);
+    }
+
+    const IfcFile& file_;
+    Structure result_;
+    std::unordered_map<RecordIndex, std::size_t> numberOf_;
+    std::unordered_map<std::size_t, bool> isPart_;
+    std::unordered_map<RecordIndex, RecordIndex> hostOf_;  // opening -> what it voids, by the first relation
+    std::vector<std::pair<RecordIndex, RecordIndex>> fills_;
+};
+
+}  // namespace
+
+Structure readStructure(const IfcFile& file) { return StructureReader(file).run(); }
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,43 @@
+#pragma once
+/// \file
+/// The products of a file and how they hang together: spatial structure, aggregates, openings, groups.
+
+#include <svt/readers/ifc/product_classes.hpp>
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// One product, in the order of the file.
+struct Product {
+    RecordIndex record = kNoRecord;
+    ProductKind kind = ProductKind::Element;
+    std::string ifcType;    ///< IfcWall; as in the file where the class is unknown
+    std::string className;  ///< of the model
+    std::size_t parent = kNoProduct;
+    static constexpr std::size_t kNoProduct = static_cast<std::size_t>(-1);  ///< stands at the top
+};
+
+struct Structure {
+    std::vector<Product> products;
+    std::vector<std::size_t> order;  ///< products that become features, parents before their children
+    std::unordered_map<RecordIndex, std::vector<RecordIndex>> openings;     ///< product -> what is cut out of it
+    std::unordered_map<RecordIndex, std::vector<RecordIndex>> projections;  ///< product -> what is added to it
+    std::unordered_map<RecordIndex, RecordIndex> filled;              ///< door, window -> product that it stands in
+    std::unordered_map<RecordIndex, std::vector<std::size_t>> parts;  ///< product -> products that it is made of
+    struct Group {
+        RecordIndex record = kNoRecord;
+        std::vector<std::size_t> members;
+    };
+    std::vector<Group> groups;  ///< zones, systems and groups, in the order of the file
+    std::vector<std::pair<std::string, std::size_t>> unknownClasses;  ///< type names with a shape that no table names
+    bool hasCycle = false;  ///< products that contain themselves; they stand at the top
+};
+
+[[nodiscard]] Structure readStructure(const IfcFile& file);
+
+}  // namespace svt::readers::ifc

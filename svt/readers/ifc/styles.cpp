@@ -1,0 +1,79 @@
+#include <svt/readers/ifc/styles.hpp>
+
+#include <algorithm>
+
+namespace svt::readers::ifc {
+namespace {
+
+class StyleReader {
+public:
+    explicit StyleReader(const IfcFile& file) : file_(file) {}
+
+    Styles run() {
+        for (RecordIndex i = 0; i < file_.step().records().size(); ++i) {
+            if (file_.entityOf(i) == Entity::StyledItem) {
+                const Fields fields = file_.fieldsOf(i);
+                const RecordIndex item = file_.follow(fields[0]);
+                if (item == kNoRecord) continue;
+                if (const std::int32_t material = materialOf(fields[1]); material >= 0) styles_.ofItem[item] = material;
+            } else if (file_.entityOf(i) == Entity::MaterialDefinitionRepresentation) {
+                readMaterial(file_.fieldsOf(i));
+            }
+        }
+        return std::move(styles_);
+    }
+
+private:
+    void readMaterial(const Fields& fields) {
+        const RecordIndex owner = file_.follow(fields[3]);
+        for (const RecordIndex representation : file_.followAll(fields[2]))
+            for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3]))
+                if (const std::int32_t material = materialOf(file_.fieldsOf(item)[1]); material >= 0)
+                    styles_.ofMaterial.emplace(owner, material);
+    }
+
+    // The first surface style among the styles of an item.
+    std::int32_t materialOf(Value list) {
+        for (const RecordIndex style : file_.followAll(list)) {
+            if (file_.entityOf(style) == Entity::SurfaceStyle) return numberOf(style);
+            if (file_.entityOf(style) != Entity::PresentationStyleAssignment) continue;
+            for (const RecordIndex inner : file_.followAll(file_.fieldsOf(style)[0]))
+                if (file_.entityOf(inner) == Entity::SurfaceStyle) return numberOf(inner);
+        }
+        return -1;
+    }
+
+    std::int32_t numberOf(RecordIndex style) {
+        const auto known = numbers_.find(style);
+        if (known != numbers_.end()) return known->second;
+        std::int32_t number = -1;
+        const Fields fields = file_.fieldsOf(style);
+        for (const RecordIndex shading : file_.followAll(fields[2])) {
+            const Entity entity = file_.entityOf(shading);
+            if (entity != Entity::SurfaceStyleRendering && entity != Entity::SurfaceStyleShading) continue;
+            const Fields values = file_.fieldsOf(shading);
+            const Fields color = file_.fieldsOf(file_.follow(values[0]));
+            model::Material material;
+            material.name = fields[0].string().value_or("");
+            const auto part = [&](std::size_t i) {
+                return static_cast<float>(std::clamp(color[i].number().value_or(0.8), 0.0, 1.0));
+            };
+            material.diffuse = {part(1), part(2), part(3)};
+            material.transparency = static_cast<float>(std::clamp(values[1].number().value_or(0), 0.0, 1.0));
+            number = static_cast<std::int32_t>(styles_.materials.size());
+            styles_.materials.push_back(std::move(material));
+            break;
+        }
+        return numbers_[style] = number;
+    }
+
+    const IfcFile& file_;
+    Styles styles_;
+    std::unordered_map<RecordIndex, std::int32_t> numbers_;
+};
+
+}  // namespace
+
+Styles readStyles(const IfcFile& file) { return StyleReader(file).run(); }
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,21 @@
+#pragma once
+/// \file
+/// Surface styles as materials of the model.
+
+#include <svt/model/building_model.hpp>
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <unordered_map>
+#include <vector>
+
+namespace svt::readers::ifc {
+
+struct Styles {
+    std::vector<model::Material> materials;
+    std::unordered_map<RecordIndex, std::int32_t> ofItem;      ///< representation item -> material
+    std::unordered_map<RecordIndex, std::int32_t> ofMaterial;  ///< IfcMaterial -> material
+};
+
+[[nodiscard]] Styles readStyles(const IfcFile& file);
+
+}  // namespace svt::readers::ifc

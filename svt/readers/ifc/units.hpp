@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// Units of an IFC project, and where on earth it stands.
+
+#include <svt/core/diagnostics.hpp>
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <string>
+
+namespace svt::readers::ifc {
+
+/// Factors to SI units.
+struct Units {
+    double length = 1, area = 1, volume = 1, angle = 1, mass = 1, time = 1;
+};
+
+/// The units of the project: SI with prefixes, and those defined by conversion. What is missing or makes no sense is the SI
+/// unit, with a finding (BadValue) for lengths.
+[[nodiscard]] Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics);
+
+/// How the coordinates of the project become those of a map.
+struct MapPlace {
+    Transform mapFromProject;
+    std::string crs;                         ///< name of IfcProjectedCRS, such as EPSG:25832; empty: none
+    bool isGiven = false;                    ///< an IfcMapConversion
+    std::optional<double> trueNorthDegrees;  ///< of the y axis to true north, clockwise
+};
+[[nodiscard]] MapPlace readMapPlace(const IfcFile& file, RecordIndex project);
+
+/// Degrees of an IfcCompoundPlaneAngleMeasure: (49,5,59,0); nothing for another value.
+[[nodiscard]] std::optional<double> compoundDegrees(Value list);
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,50 @@
+#pragma once
+/// \file
+/// Polygons of one representation item, in metres, and what is common to all that make them.
+
+#include <svt/model/building_model.hpp>
+#include <svt/readers/ifc_shape/transform.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// One item of a shape.
+struct Body {
+    std::vector<model::Polygon> faces;  ///< counter-clockwise from outside where it is a solid
+    bool isSolid = false;               ///< meant to be closed: a solid of the file, or a face set that says so
+    std::int32_t material = -1;         ///< into BuildingModel::materials
+};
+
+/// Appends a face; points closer than 0.1 micrometre to the one before are dropped, and rings of fewer than three points.
+/// \param rings  exterior ring, then holes
+void addFace(std::vector<model::Polygon>& faces, const std::vector<std::vector<Vec3d>>& rings);
+
+/// Appends a quadrilateral; two triangles where it is not flat within 1 micrometre.
+void addQuad(std::vector<model::Polygon>& faces, Vec3d a, Vec3d b, Vec3d c, Vec3d d);
+
+/// The faces taken through a map; turned over where it mirrors.
+[[nodiscard]] std::vector<model::Polygon> transformed(const std::vector<model::Polygon>& faces,
+                                                      const Transform& transform);
+[[nodiscard]] Body transformed(const Body& body, const Transform& transform);
+
+/// Reverses all faces.
+void turnOver(std::vector<model::Polygon>& faces);
+
+/// Signed volume enclosed by faces, m3, if they are closed: fans of all rings. Cost: O(points).
+[[nodiscard]] double enclosedVolume(const std::vector<model::Polygon>& faces) noexcept;
+
+/// Length of the sum of the area vectors, m2: 0 for closed faces.
+[[nodiscard]] double openArea(const std::vector<model::Polygon>& faces) noexcept;
+
+/// Whether each edge is used as often in both directions, points within 1 micrometre being one; edges that match only where
+/// they are cut at points of others count as matching.
+[[nodiscard]] bool isClosed(const std::vector<model::Polygon>& faces);
+
+/// Newell's normal of the exterior ring; its length is twice the area.
+[[nodiscard]] Vec3d newellNormal(const model::Polygon& face) noexcept;
+
+[[nodiscard]] Box3d boundsOf(const std::vector<model::Polygon>& faces) noexcept;
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,256 @@
+#include <svt/readers/ifc_shape/curved_face.hpp>
+
+#include <svt/readers/ifc_shape/body.hpp>
+#include <svt/readers/ifc_shape/curves.hpp>
+#include <svt/readers/ifc_shape/overlay.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace svt::readers::ifc {
+namespace {
+
+// A surface by its parameters, both in metres or nearly so. A period of 0: not periodic.
+struct Surface {
+    Entity kind = Entity::Other;
+    Transform axes;
+    double radius = 0, second = 0;  // second: of the tube of a torus; tangent of the angle of a cone
+    Vec3d sweep{};                  // unit vector of a linear extrusion
+    std::vector<Vec3d> curve;       // of a linear extrusion, in space
+    double periodU = 0, periodV = 0, stepU = 0, stepV = 0;  // steps: between lines of equal parameter; 0: none
+
+    [[nodiscard]] std::optional<Vec3d> parameters(Vec3d p) const {
+        const Vec3d local = p - axes.origin;
+        const double x = dot(local, axes.x), y = dot(local, axes.y), z = dot(local, axes.z), reach = std::hypot(x, y);
+        if (kind == Entity::SurfaceOfLinearExtrusion) return onCurve(p);
+        if (reach < 1e-6) return std::nullopt;
+        const double u = std::atan2(y, x) * radius;
+        switch (kind) {
+            case Entity::SphericalSurface: return Vec3d{u, std::atan2(z, reach) * radius, 0};
+            case Entity::ToroidalSurface: return Vec3d{u, std::atan2(z, reach - radius) * second, 0};
+            default: return Vec3d{u, z, 0};
+        }
+    }
+
+    [[nodiscard]] Vec3d at(Vec3d uv) const {
+        if (kind == Entity::SurfaceOfLinearExtrusion) return pointOfCurve(uv.x) + sweep * uv.y;
+        const SineCosine turn = sineCosine(uv.x / radius);
+        const auto turned = [&](double reach, double z) {
+            return axes.point({reach * turn.cosine, reach * turn.sine, z});
+        };
+        switch (kind) {
+            case Entity::SphericalSurface: {
+                const auto [sineV, cosineV] = sineCosine(uv.y / radius);
+                return turned(radius * cosineV, radius * sineV);
+            }
+            case Entity::ToroidalSurface: {
+                const auto [sineV, cosineV] = sineCosine(uv.y / second);
+                return turned(radius + second * cosineV, second * sineV);
+            }
+            case Entity::ConicalSurface: return turned(base + uv.y * second, uv.y);
+            default: return turned(radius, uv.y);
+        }
+    }
+
+    double base = 0;  // radius of a cone at v = 0
+
+private:
+    // Length along the curve and along the sweep, seen along the sweep.
+    [[nodiscard]] std::optional<Vec3d> onCurve(Vec3d p) const {
+        double best = kInfinity, length0 = 0;
+        Vec3d result{};
+        for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+            const Vec3d a = curve[i], d = curve[i + 1] - a, across = d - sweep * dot(d, sweep);
+            const Vec3d toP = p - a, toPAcross = toP - sweep * dot(toP, sweep);
+            const double size = dot(across, across), whole = length(d);
+            const double share = size > 0 ? std::clamp(dot(toPAcross, across) / size, 0.0, 1.0) : 0;
+            if (const double distance = length(toPAcross - across * share); distance < best) {
+                best = distance;
+                result = {length0 + whole * share, dot(toP - d * share, sweep), 0};
+            }
+            length0 += whole;
+        }
+        return best < 0.01 ? std::optional(result) : std::nullopt;
+    }
+
+    [[nodiscard]] Vec3d pointOfCurve(double along) const {
+        for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+            const double whole = length(curve[i + 1] - curve[i]);
+            if (along <= whole || i + 2 == curve.size()) return curve[i] + (curve[i + 1] - curve[i]) * (along / whole);
+            along -= whole;
+        }
+        return curve.front();
+    }
+};
+
+double stepOf(double radius) { return 2 * kPi * radius / arcSegments(radius, 2 * kPi); }
+
+std::optional<Surface> readSurface(const IfcFile& file, RecordIndex record) {
+    const Fields fields = file.fieldsOf(record);
+    Surface surface;
+    surface.kind = file.entityOf(record);
+    surface.axes = file.axes(file.follow(fields[0]));
+    surface.radius = file.metres(fields[1]);
+    switch (surface.kind) {
+        case Entity::CylindricalSurface: break;
+        case Entity::SphericalSurface: surface.stepV = stepOf(surface.radius); break;
+        case Entity::ConicalSurface:
+            surface.base = surface.radius;
+            surface.second = std::tan(file.radians(fields[2]));
+            if (!(surface.radius > 0)) surface.radius = 1;  // the apex; a scale of the angle is wanted
+            break;
+        case Entity::ToroidalSurface:
+            surface.second = file.metres(fields[2]);
+            if (!(surface.second > 0)) return std::nullopt;
+            surface.stepV = stepOf(surface.second);
+            surface.periodV = 2 * kPi * surface.second;
+            break;
+        default: return std::nullopt;
+    }
+    if (!(surface.radius > 0)) return std::nullopt;
+    surface.stepU = stepOf(surface.radius);
+    surface.periodU = 2 * kPi * surface.radius;
+    return surface;
+}
+
+// Along its curve a surface of linear extrusion needs no lines but those at the corners of the curve.
+std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
+    const Fields fields = file.fieldsOf(record);
+    Surface surface;
+    surface.kind = Entity::SurfaceOfLinearExtrusion;
+    surface.axes = file.axes(file.follow(fields[1]));
+    const RecordIndex profile = file.follow(fields[0]);
+    std::string why;
+    if (!readCurve(file, file.follow(file.fieldsOf(profile)[2]), surface.curve, why) || surface.curve.size() < 2)
+        return std::nullopt;
+    for (Vec3d& p : surface.curve) p = surface.axes.point(p);
+    surface.sweep = normalized(surface.axes.direction(file.direction(fields[2]).value_or(Vec3d{0, 0, 1})));
+    return surface;
+}
+
+struct Layout {
+    std::vector<std::vector<Vec3d>> rings;   // in parameters
+    std::vector<std::vector<Vec3d>> places;  // the same corners in space
+    double lowU = kInfinity, highU = -kInfinity, lowV = kInfinity, highV = -kInfinity;
+};
+
+// Takes the rings to parameters, without jumps; false where one goes around the surface.
+bool layOut(const Surface& surface, const std::vector<std::vector<Vec3d>>& rings, Layout& layout) {
+    const auto near = [](double value, double other, double period) {
+        return period > 0 ? value - period * std::round((value - other) / period) : value;
+    };
+    for (const auto& ring : rings) {
+        std::vector<Vec3d> flat;
+        for (const Vec3d p : ring) {
+            auto uv = surface.parameters(p);
+            if (!uv) return false;
+            const Vec3d before = !flat.empty() ? flat.back() : !layout.rings.empty() ? layout.rings[0][0] : *uv;
+            uv->x = near(uv->x, before.x, surface.periodU);
+            uv->y = near(uv->y, before.y, surface.periodV);
+            flat.push_back(*uv);
+            layout.lowU = std::min(layout.lowU, uv->x);
+            layout.highU = std::max(layout.highU, uv->x);
+            layout.lowV = std::min(layout.lowV, uv->y);
+            layout.highV = std::max(layout.highV, uv->y);
+        }
+        if (flat.size() < 3) return false;
+        // A seam is run through twice, so a ring with one comes back; one without goes around.
+        if (surface.periodU > 0 && std::abs(flat.back().x - flat.front().x) > surface.periodU / 2) return false;
+        if (surface.periodV > 0 && std::abs(flat.back().y - flat.front().y) > surface.periodV / 2) return false;
+        layout.rings.push_back(std::move(flat));
+        layout.places.push_back(ring);
+    }
+    return layout.highU - layout.lowU <= 1.01 * surface.periodU || surface.periodU == 0;
+}
+
+void addRectangle(double lowU, double highU, double lowV, double highV, std::uint32_t channel,
+                  std::vector<FlatSegment>& segments) {
+    const Vec3d a{lowU, lowV, 0}, b{highU, lowV, 0}, c{highU, highV, 0}, d{lowU, highV, 0};
+    segments.push_back({a, b, channel, 1});
+    segments.push_back({b, c, channel, 1});
+    segments.push_back({c, d, channel, 1});
+    segments.push_back({d, a, channel, 1});
+}
+
+constexpr int kMaxStrips = 512;
+constexpr std::uint64_t kMaxFaceSteps = 500'000'000;
+
+// Every second strip between lines of equal parameter as the inside of a channel.
+void addStrips(const Surface& surface, const Layout& layout, std::vector<FlatSegment>& segments) {
+    const double lowU = layout.lowU - 1, highU = layout.highU + 1, lowV = layout.lowV - 1, highV = layout.highV + 1;
+    if (surface.kind == Entity::SurfaceOfLinearExtrusion) {
+        double along = 0;
+        for (std::size_t i = 0; i + 1 < surface.curve.size() && i < std::size_t(kMaxStrips); ++i) {
+            const double next = along + length(surface.curve[i + 1] - surface.curve[i]);
+            if (i % 2 == 1) addRectangle(along, next, lowV, highV, 1, segments);
+            along = next;
+        }
+        return;
+    }
+    const auto first = [](double low, double step) { return std::floor(low / step / 2) * 2 * step; };
+    int count = 0;
+    for (double u = first(layout.lowU, surface.stepU); u < layout.highU && ++count < kMaxStrips; u += 2 * surface.stepU)
+        addRectangle(u, u + surface.stepU, lowV, highV, 1, segments);
+    if (surface.stepV == 0) return;
+    for (double v = first(layout.lowV, surface.stepV); v < layout.highV && ++count < kMaxStrips; v += 2 * surface.stepV)
+        addRectangle(lowU, highU, v, v + surface.stepV, 2, segments);
+}
+
+// A corner of a cell in space: on an edge of the face, on its chord; within the face, on the surface.
+Vec3d placeOf(const Surface& surface, const Layout& layout, Vec3d uv) {
+    for (std::size_t r = 0; r < layout.rings.size(); ++r) {
+        const auto& ring = layout.rings[r];
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const std::size_t j = (i + 1) % ring.size();
+            const Vec3d d = ring[j] - ring[i];
+            const double size = dot(d, d), share = size > 0 ? dot(uv - ring[i], d) / size : 0;
+            if (share < -1e-9 || share > 1 + 1e-9 || length(uv - ring[i] - d * share) > 2 * kSnap) continue;
+            return layout.places[r][i] + (layout.places[r][j] - layout.places[r][i]) * share;
+        }
+    }
+    return surface.at(uv);
+}
+
+void addCell(std::vector<std::vector<Vec3d>> rings, bool isTurned, std::vector<model::Polygon>& faces) {
+    if (isTurned)
+        for (auto& ring : rings) std::reverse(ring.begin(), ring.end());
+    if (rings.size() == 1 && rings[0].size() == 4)
+        addQuad(faces, rings[0][0], rings[0][1], rings[0][2], rings[0][3]);
+    else
+        addFace(faces, rings);
+}
+
+}  // namespace
+
+bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<std::vector<Vec3d>>& rings,
+                   std::vector<model::Polygon>& faces) {
+    const auto surface = file.entityOf(record) == Entity::SurfaceOfLinearExtrusion ? readExtrusion(file, record)
+                                                                                   : readSurface(file, record);
+    Layout layout;
+    if (!surface || !layOut(*surface, rings, layout)) return false;
+    const bool isTurned = twiceArea(layout.rings[0]) < 0;
+    for (std::size_t r = 1; r < layout.rings.size(); ++r)
+        if ((twiceArea(layout.rings[r]) < 0) == isTurned) {
+            std::reverse(layout.rings[r].begin(), layout.rings[r].end());
+            std::reverse(layout.places[r].begin(), layout.places[r].end());
+        }
+    std::vector<FlatSegment> segments;
+    for (const auto& ring : layout.rings)
+        for (std::size_t i = 0; i < ring.size(); ++i) segments.push_back({ring[i], ring[(i + 1) % ring.size()], 0, 1});
+    addStrips(*surface, layout, segments);
+    const auto stateOf = [](std::span<const std::int32_t> windings) {
+        if (windings[0] == 0) return std::uint8_t{0};
+        return static_cast<std::uint8_t>(1 + (windings[1] > 0 ? 1 : 0) + (windings[2] > 0 ? 2 : 0));
+    };
+    const std::size_t before = faces.size();
+    std::uint64_t budget = kMaxFaceSteps;
+    for (FlatFace& cell : overlay(segments, 3, stateOf, budget)) {
+        for (auto& ring : cell.rings)
+            for (Vec3d& p : ring) p = placeOf(*surface, layout, p);
+        addCell(std::move(cell.rings), isTurned, faces);
+    }
+    return faces.size() > before;
+}
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,27 @@
+#pragma once
+/// \file
+/// Faces on curved surfaces as flat polygons: the face is laid out in the parameters of its surface, cut along lines of
+/// equal parameter, and each cell taken back to space.
+///
+///     v ^   ,-----.           cells of a cylinder are strips, which are flat;
+///       | _/| | | |\_         those of a sphere or torus rectangles, cut in triangles
+///       |/ || | | || \.
+///       +---------------> u = angle * radius
+
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <svt/model/building_model.hpp>
+
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// Appends the polygons of a face. Corners of its rings stay where they are, and so do their edges: what neighbours has the
+/// same chords.
+/// \param surface  cylinder, cone, sphere, torus, or surface of linear extrusion
+/// \param rings    exterior one first, as the face sees them
+/// \return false where the surface is of another kind, or a ring goes around it or through its pole or apex
+[[nodiscard]] bool addCurvedFace(const IfcFile& file, RecordIndex surface, const std::vector<std::vector<Vec3d>>& rings,
+                                 std::vector<model::Polygon>& faces);
+
+}  // namespace svt::readers::ifc

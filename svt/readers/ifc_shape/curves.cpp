@@ -1,0 +1,396 @@
+#include <svt/readers/ifc_shape/curves.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace svt::readers::ifc {
+namespace {
+
+constexpr int kMaxCurveDepth = 32;
+constexpr std::size_t kMaxPoints = 1'000'000;
+
+// Joins `part` to `points`; a first point equal to the last one is left out.
+void appendPart(const std::vector<Vec3d>& part, std::vector<Vec3d>& points) {
+    for (const Vec3d p : part)
+        if (points.empty() || length(p - points.back()) > 1e-9) points.push_back(p);
+}
+
+bool readPointList(const IfcFile& file, RecordIndex list, std::vector<Vec3d>& points) {
+    step::ValueCursor cursor(file.fieldsOf(list)[0]);
+    for (Value item; cursor.next(item);) {
+        const auto point = file.coordinates(item);
+        if (!point) return false;
+        points.push_back(*point);
+    }
+    return true;
+}
+
+// Arc through three points; a straight line where they lie on one.
+void appendArcThrough(Vec3d a, Vec3d b, Vec3d c, std::vector<Vec3d>& points) {
+    const Vec3d ab = b - a, ac = c - a, normal = cross(ab, ac);
+    const double area = dot(normal, normal);
+    if (area < 1e-24 || area < 1e-16 * dot(ab, ab) * dot(ac, ac)) return appendPart({a, b, c}, points);
+    const Vec3d center = a + (cross(normal, ab) * dot(ac, ac) + cross(ac, normal) * dot(ab, ab)) / (2 * area);
+    const Transform axes = axesFrom(center, normal, a - center);
+    const auto angleOf = [&](Vec3d p) {
+        const double angle = std::atan2(dot(p - center, axes.y), dot(p - center, axes.x));
+        return angle < 0 ? angle + 2 * kPi : angle;
+    };
+    const double radius = length(a - center), end = angleOf(c);
+    std::vector<Vec3d> arc;
+    appendArc(axes, radius, radius, 0, end, arc);
+    arc.front() = a;
+    arc.back() = c;
+    appendPart(arc, points);
+}
+
+bool readIndexedPolyCurve(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points) {
+    std::vector<Vec3d> list;
+    if (!readPointList(file, file.follow(fields[0]), list) || list.empty()) return false;
+    if (!fields[1].isList()) {
+        appendPart(list, points);
+        return true;
+    }
+    step::ValueCursor segments(fields[1]);
+    for (Value segment; segments.next(segment);) {
+        std::vector<Vec3d> at;
+        step::ValueCursor indices(segment.inner());
+        for (Value item; indices.next(item);) {
+            const auto index = item.integer();
+            if (!index || *index < 1 || *index > std::int64_t(list.size())) return false;
+            at.push_back(list[std::size_t(*index - 1)]);
+        }
+        if (segment.typeName() == "IFCARCINDEX" && at.size() == 3)
+            appendArcThrough(at[0], at[1], at[2], points);
+        else
+            appendPart(at, points);
+    }
+    return points.size() >= 2;
+}
+
+struct Conic {
+    Transform axes;
+    double radiusX = 0, radiusY = 0;
+
+    [[nodiscard]] double angleOf(Vec3d p) const noexcept {
+        const Vec3d local = p - axes.origin;
+        return std::atan2(dot(local, axes.y) / radiusY, dot(local, axes.x) / radiusX);
+    }
+};
+
+bool readConic(const IfcFile& file, RecordIndex curve, Conic& conic) {
+    const Fields fields = file.fieldsOf(curve);
+    conic.axes = file.axes(file.follow(fields[0]));
+    conic.radiusX = file.metres(fields[1]);
+    conic.radiusY = file.entityOf(curve) == Entity::Ellipse ? file.metres(fields[2]) : conic.radiusX;
+    return conic.radiusX > 0 && conic.radiusY > 0;
+}
+
+// A trim of a curve: a point, a parameter, or both.
+struct Trim {
+    std::optional<Vec3d> point;
+    std::optional<double> parameter;
+};
+
+Trim readTrim(const IfcFile& file, Value list) {
+    Trim trim;
+    step::ValueCursor cursor(list);
+    for (Value item; cursor.next(item);) {
+        if (item.reference())
+            trim.point = file.point(file.follow(item));
+        else
+            trim.parameter = item.number();
+    }
+    return trim;
+}
+
+bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points);
+
+bool readTrimmedConic(const IfcFile& file, RecordIndex basis, Trim from, Trim to, bool isForward, bool prefersPoints,
+                      std::vector<Vec3d>& points) {
+    Conic conic;
+    if (!readConic(file, basis, conic)) return false;
+    const auto angleOf = [&](const Trim& trim) -> std::optional<double> {
+        if (trim.point && (prefersPoints || !trim.parameter)) return conic.angleOf(*trim.point);
+        if (trim.parameter) return *trim.parameter * file.angleUnit;
+        return std::nullopt;
+    };
+    const auto begin = angleOf(from), end = angleOf(to);
+    if (!begin || !end) return false;
+    double turn = std::fmod(isForward ? *end - *begin : *begin - *end, 2 * kPi);
+    if (turn < 1e-9) turn += 2 * kPi;
+    std::vector<Vec3d> arc;
+    appendArc(conic.axes, conic.radiusX, conic.radiusY, *begin, isForward ? *begin + turn : *begin - turn, arc);
+    appendPart(arc, points);
+    return true;
+}
+
+bool readTrimmedCurve(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why) {
+    const RecordIndex basis = file.follow(fields[0]);
+    const Trim from = readTrim(file, fields[1]), to = readTrim(file, fields[2]);
+    const bool isForward = fields[3].enumeration() != "F", prefersPoints = fields[4].enumeration() != "PARAMETER";
+    switch (file.entityOf(basis)) {
+        case Entity::Circle:
+        case Entity::Ellipse: return readTrimmedConic(file, basis, from, to, isForward, prefersPoints, points);
+        case Entity::Line: {
+            const Fields line = file.fieldsOf(basis), vector = file.fieldsOf(file.follow(line[1]));
+            const Vec3d origin = file.point(file.follow(line[0])).value_or(Vec3d{});
+            const Vec3d step =
+                normalized(file.direction(vector[0]).value_or(Vec3d{1, 0, 0})) * file.metres(vector[1], 1);
+            const auto pointOf = [&](const Trim& trim) {
+                return trim.point && (prefersPoints || !trim.parameter) ? *trim.point
+                                                                        : origin + step * trim.parameter.value_or(0);
+            };
+            appendPart({pointOf(from), pointOf(to)}, points);
+            return true;
+        }
+        default: {
+            // The whole curve where the trims are its ends, as they are nearly always; the part between two points else.
+            std::vector<Vec3d> whole;
+            if (!readCurve(file, basis, whole, why, 1) || whole.size() < 2) return false;
+            if (from.point && to.point)
+                return readCurveBetween(file, basis, *from.point, *to.point, isForward, points, why);
+            why = "a trimmed curve by parameters of another curve than a line or conic";
+            return false;
+        }
+    }
+}
+
+// Knots and control points of a B-spline curve.
+struct BSpline {
+    std::size_t degree = 0;
+    std::vector<double> knots, weights;
+    std::vector<Vec3d> points;
+
+    // De Boor's algorithm in homogeneous coordinates.
+    [[nodiscard]] Vec3d at(double t) const {
+        std::size_t span = degree;
+        while (span + 1 < points.size() && t >= knots[span + 1]) ++span;
+        std::vector<Vec3d> p(degree + 1);
+        std::vector<double> w(degree + 1);
+        for (std::size_t j = 0; j <= degree; ++j) {
+            w[j] = weights[span - degree + j];
+            p[j] = points[span - degree + j] * w[j];
+        }
+        for (std::size_t level = 1; level <= degree; ++level)
+            for (std::size_t j = degree; j >= level; --j) {
+                const double low = knots[span - degree + j], high = knots[span + 1 + j - level];
+                const double share = high > low ? (t - low) / (high - low) : 0;
+                p[j] = p[j - 1] * (1 - share) + p[j] * share;
+                w[j] = w[j - 1] * (1 - share) + w[j] * share;
+            }
+        return p[degree] / w[degree];
+    }
+};
+
+bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points) {
+    const Fields fields = file.fieldsOf(curve);
+    const auto degree = fields[0].integer();
+    if (!degree || *degree < 1 || *degree > 16) return false;
+    BSpline spline;
+    spline.degree = std::size_t(*degree);
+    for (const RecordIndex record : file.followAll(fields[1])) {
+        const auto point = file.point(record);
+        if (!point) return false;
+        spline.points.push_back(*point);
+    }
+    const std::vector<Value> multiplicities = step::itemsOf(fields[5]), knots = step::itemsOf(fields[6]);
+    if (multiplicities.size() != knots.size()) return false;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+        const auto count = multiplicities[i].integer();
+        const auto knot = knots[i].number();
+        if (!count || !knot || *count < 1 || *count > 1000 || (i > 0 && *knot < spline.knots.back())) return false;
+        spline.knots.insert(spline.knots.end(), std::size_t(*count), *knot);
+    }
+    if (spline.points.size() <= spline.degree || spline.knots.size() != spline.points.size() + spline.degree + 1)
+        return false;
+    spline.weights.assign(spline.points.size(), 1);
+    if (file.entityOf(curve) == Entity::RationalBSplineCurveWithKnots) {
+        const std::vector<Value> weights = step::itemsOf(fields[8]);
+        if (weights.size() != spline.points.size()) return false;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            spline.weights[i] = weights[i].number().value_or(0);
+            if (!(spline.weights[i] > 0)) return false;
+        }
+    }
+    std::vector<Vec3d> sampled;
+    for (std::size_t span = spline.degree; span < spline.points.size(); ++span) {
+        const double low = spline.knots[span], high = spline.knots[span + 1];
+        if (high <= low) continue;
+        const int steps = spline.degree == 1 ? 1 : 16;
+        for (int s = 0; s <= steps; ++s)
+            sampled.push_back(spline.at(s == steps ? high : low + (high - low) * s / steps));
+    }
+    appendPart(sampled, points);
+    return points.size() >= 2;
+}
+
+bool readComposite(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why, int depth) {
+    std::vector<std::vector<Vec3d>> pieces;
+    for (const RecordIndex segment : file.followAll(fields[0])) {
+        const Fields part = file.fieldsOf(segment);
+        std::vector<Vec3d> piece;
+        if (!readCurve(file, file.follow(part[2]), piece, why, depth + 1)) return false;
+        if (part[1].enumeration() == "F") std::reverse(piece.begin(), piece.end());
+        if (!piece.empty()) pieces.push_back(std::move(piece));
+    }
+    // Writers disagree about the sense of trimmed lines; what hangs together is meant.
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Vec3d from = pieces[i].front(), to = pieces[i].back();
+        if (i > 0) {
+            const Vec3d end = pieces[i - 1].back();
+            if (length(from - end) > 1e-6 && length(to - end) < length(from - end))
+                std::reverse(pieces[i].begin(), pieces[i].end());
+        } else if (pieces.size() > 1) {
+            const Vec3d a = pieces[1].front(), b = pieces[1].back();
+            const double ahead = std::min(length(to - a), length(to - b)),
+                         behind = std::min(length(from - a), length(from - b));
+            if (ahead > 1e-6 && behind < 1e-6) std::reverse(pieces[0].begin(), pieces[0].end());
+        }
+    }
+    for (const std::vector<Vec3d>& piece : pieces) appendPart(piece, points);
+    return points.size() >= 2;
+}
+
+double distanceToSegment(Vec3d p, Vec3d a, Vec3d b, double& share) noexcept {
+    const Vec3d ab = b - a;
+    const double size = dot(ab, ab);
+    share = size > 0 ? std::clamp(dot(p - a, ab) / size, 0.0, 1.0) : 0;
+    return length(p - (a + ab * share));
+}
+
+// Where a point lies on a polyline: number of its segment plus the share of it.
+double parameterOf(const std::vector<Vec3d>& line, Vec3d p) noexcept {
+    double best = kInfinity, parameter = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        double share = 0;
+        const double distance = distanceToSegment(p, line[i], line[i + 1], share);
+        if (distance < best) {
+            best = distance;
+            parameter = double(i) + share;
+        }
+    }
+    return parameter;
+}
+
+}  // namespace
+
+SineCosine sineCosine(double angle) noexcept {
+    constexpr double kDigits = 1e12;
+    return {std::round(std::sin(angle) * kDigits) / kDigits, std::round(std::cos(angle) * kDigits) / kDigits};
+}
+
+int arcSegments(double radius, double angle, int minSegments) noexcept {
+    const double share = std::min(std::abs(angle) / (2 * kPi), 4.0);
+    double whole = minSegments;
+    if (radius > kChordError) whole = std::max(whole, kPi / std::acos(1 - kChordError / radius));
+    whole = std::min<double>(whole, kMaxSegments);
+    const double count = std::ceil(share * std::ceil(whole / 4) * 4 - 1e-6);
+    return std::max(1, static_cast<int>(count));
+}
+
+void appendArc(const Transform& axes, double radiusX, double radiusY, double from, double to,
+               std::vector<Vec3d>& points) {
+    const int count = arcSegments(std::max(radiusX, radiusY), to - from);
+    for (int i = 0; i <= count; ++i) {
+        const auto [sine, cosine] = sineCosine(i == count ? to : from + (to - from) * i / count);
+        points.push_back(axes.point({radiusX * cosine, radiusY * sine, 0}));
+    }
+}
+
+bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why, int depth) {
+    const Entity entity = file.entityOf(curve);
+    if (depth > kMaxCurveDepth) {
+        why = "curves that refer to each other in a circle";
+        return false;
+    }
+    const Fields fields = file.fieldsOf(curve);
+    bool isRead = false;
+    switch (entity) {
+        case Entity::Polyline:
+            isRead = true;
+            for (const RecordIndex record : file.followAll(fields[0])) {
+                const auto point = file.point(record);
+                isRead = isRead && point;
+                if (point) appendPart({*point}, points);
+            }
+            break;
+        case Entity::IndexedPolyCurve: isRead = readIndexedPolyCurve(file, fields, points); break;
+        case Entity::CompositeCurve:
+        case Entity::CompositeCurveOnSurface: isRead = readComposite(file, fields, points, why, depth); break;
+        case Entity::TrimmedCurve: isRead = readTrimmedCurve(file, fields, points, why); break;
+        case Entity::Circle:
+        case Entity::Ellipse:
+            if (Conic conic; readConic(file, curve, conic)) {
+                appendArc(conic.axes, conic.radiusX, conic.radiusY, 0, 2 * kPi, points);
+                points.back() = points.front();
+                isRead = true;
+            }
+            break;
+        case Entity::BSplineCurveWithKnots:
+        case Entity::RationalBSplineCurveWithKnots: isRead = readBSpline(file, curve, points); break;
+        case Entity::SurfaceCurve:
+        case Entity::SeamCurve:
+        case Entity::IntersectionCurve: return readCurve(file, file.follow(fields[0]), points, why, depth + 1);
+        default:
+            if (why.empty()) why = fmt::format("the curve {}", file.typeName(curve).substr(0, 60));
+            return false;
+    }
+    isRead = isRead && points.size() <= kMaxPoints;
+    if (!isRead && why.empty()) why = fmt::format("values of a curve {}", entityName(entity));
+    return isRead;
+}
+
+bool readCurveBetween(const IfcFile& file, RecordIndex curve, Vec3d from, Vec3d to, bool isForward,
+                      std::vector<Vec3d>& points, std::string& why) {
+    const Entity entity = file.entityOf(curve);
+    if (entity == Entity::Line) {
+        appendPart({from, to}, points);
+        return true;
+    }
+    if (entity == Entity::SurfaceCurve || entity == Entity::SeamCurve || entity == Entity::IntersectionCurve)
+        return readCurveBetween(file, file.follow(file.fieldsOf(curve)[0]), from, to, isForward, points, why);
+    std::vector<Vec3d> part;
+    if (entity == Entity::Circle || entity == Entity::Ellipse) {
+        if (!readTrimmedConic(file, curve, {from, {}}, {to, {}}, isForward, true, part)) return false;
+    } else {
+        std::vector<Vec3d> whole;
+        if (!readCurve(file, curve, whole, why, 1) || whole.size() < 2) return false;
+        if (!isForward) std::reverse(whole.begin(), whole.end());
+        const bool isClosed = length(whole.front() - whole.back()) < 1e-6;
+        const double begin = parameterOf(whole, from);
+        double end = parameterOf(whole, to);
+        const double count = double(whole.size() - 1);
+        if (isClosed && end <= begin + 1e-9) end += count;
+        part.push_back(from);
+        for (double i = std::floor(begin) + 1; i < end; i += 1)
+            part.push_back(whole[std::size_t(i >= count ? i - count : i)]);
+        part.push_back(to);
+    }
+    part.front() = from;
+    part.back() = to;
+    appendPart(part, points);
+    return true;
+}
+
+void closeRing(std::vector<Vec3d>& points, double distance) {
+    std::vector<Vec3d> kept;
+    for (const Vec3d p : points)
+        if (kept.empty() || length(p - kept.back()) > distance) kept.push_back(p);
+    while (kept.size() > 1 && length(kept.front() - kept.back()) <= distance) kept.pop_back();
+    points = std::move(kept);
+}
+
+double twiceArea(const std::vector<Vec3d>& ring) noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec3d a = ring[i] - ring[0], b = ring[(i + 1) % ring.size()] - ring[0];
+        sum += a.x * b.y - a.y * b.x;
+    }
+    return sum;
+}
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Curves as polylines. Arcs are cut so that no chord is farther from its arc than kChordError, with at least kMinSegments
+/// and at most kMaxSegments to a full turn; all points lie on the arc.
+
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <vector>
+
+namespace svt::readers::ifc {
+
+inline constexpr double kPi = 3.14159265358979323846;
+inline constexpr double kChordError = 0.001;  ///< metres
+inline constexpr int kMinSegments = 48, kMaxSegments = 256;
+
+/// Sine and cosine of an angle (radians) to twelve decimals, which are the same on every machine.
+struct SineCosine {
+    double sine, cosine;
+};
+[[nodiscard]] SineCosine sineCosine(double angle) noexcept;
+
+/// Segments for an arc: at least one. \param radius metres \param angle radians, of any sign
+[[nodiscard]] int arcSegments(double radius, double angle, int minSegments = kMinSegments) noexcept;
+
+/// Points of an arc of an ellipse, with both ends. \param axes  x and y are taken times the radii
+void appendArc(const Transform& axes, double radiusX, double radiusY, double from, double to,
+               std::vector<Vec3d>& points);
+
+/// Points of a curve in its order; of a closed one the last equals the first.
+/// Reads polylines, indexed poly curves, composite and trimmed curves, circles, ellipses, B-splines, and the 3D curve of a
+/// curve on a surface. Metres; curves in 2D have z = 0.
+/// \return false where the curve, or a part of it, is of another kind or makes no sense; `why` says which
+[[nodiscard]] bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why,
+                             int depth = 0);
+
+/// Points of the part of a curve between two points on it, as an edge uses it. Lines are two points.
+/// \param isForward  whether the edge runs with the curve
+[[nodiscard]] bool readCurveBetween(const IfcFile& file, RecordIndex curve, Vec3d from, Vec3d to, bool isForward,
+                                    std::vector<Vec3d>& points, std::string& why);
+
+/// Drops points that are closer than `distance` to the one before, and a last one that equals the first.
+void closeRing(std::vector<Vec3d>& points, double distance = 1e-7);
+
+/// Twice the signed area in the plane z = 0.
+[[nodiscard]] double twiceArea(const std::vector<Vec3d>& ring) noexcept;
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,234 @@
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+
+#include <svt/core/text.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace svt::readers::ifc {
+namespace {
+
+using std::string_view;
+
+// The macro joins the prefix to each name.
+// NOLINTBEGIN(bugprone-suspicious-missing-comma)
+constexpr string_view kNames[] = {"Other",
+#define X(name) "Ifc" #name,
+                                  SVT_IFC_ENTITIES(X)
+#undef X
+};
+// NOLINTEND(bugprone-suspicious-missing-comma)
+
+constexpr int kMaxPlacements = 256;
+
+}  // namespace
+
+string_view entityName(Entity entity) noexcept { return kNames[static_cast<std::size_t>(entity)]; }
+
+Fields::Fields(string_view values) noexcept {
+    step::ValueCursor cursor(values);
+    while (count_ < values_.size() && cursor.next(values_[count_])) ++count_;
+}
+
+IfcFile::IfcFile(const step::StepFile& file) : step_(file) {
+    for (const string_view type : file.typeNames()) {
+        Entity entity = Entity::Other;
+        for (std::size_t i = 1; i < std::size(kNames) && entity == Entity::Other; ++i)
+            if (equalsIgnoringCase(kNames[i], type)) entity = static_cast<Entity>(i);
+        entityOfType_.push_back(entity);
+    }
+    for (RecordIndex i = 0; i < file.records().size(); ++i) {
+        if (!equalsIgnoringCase(typeName(i), "IfcGrid")) continue;
+        const Fields fields = fieldsOf(i);
+        for (const std::size_t list : {7, 8, 9})
+            for (const RecordIndex axis : followAll(fields[list])) placementOfAxis_[axis] = follow(fields[5]);
+    }
+}
+
+RecordIndex IfcFile::follow(Value reference) const noexcept {
+    const auto id = reference.reference();
+    return id ? step_.find(*id) : kNoRecord;
+}
+
+std::vector<RecordIndex> IfcFile::followAll(Value list) const {
+    std::vector<RecordIndex> records;
+    step::ValueCursor cursor(list);
+    for (Value item; cursor.next(item);)
+        if (const RecordIndex record = follow(item); record != kNoRecord) records.push_back(record);
+    return records;
+}
+
+std::vector<RecordIndex> IfcFile::all(Entity entity) const {
+    std::vector<RecordIndex> records;
+    for (RecordIndex i = 0; i < step_.records().size(); ++i)
+        if (entityOf(i) == entity) records.push_back(i);
+    return records;
+}
+
+double IfcFile::metres(Value length, double otherwise) const noexcept {
+    const auto number = length.number();
+    return number ? *number * lengthUnit : otherwise;
+}
+
+double IfcFile::radians(Value angle, double otherwise) const noexcept {
+    const auto number = angle.number();
+    return number ? *number * angleUnit : otherwise;
+}
+
+std::optional<Vec3d> IfcFile::coordinates(Value list) const noexcept {
+    step::ValueCursor cursor(list);
+    Vec3d point{};
+    int count = 0;
+    for (Value item; count < 3 && cursor.next(item); ++count) {
+        const auto number = item.number();
+        if (!number) return std::nullopt;
+        point[count] = *number * lengthUnit;
+    }
+    return count >= 2 ? std::optional(point) : std::nullopt;
+}
+
+std::optional<Vec3d> IfcFile::point(RecordIndex record) const noexcept {
+    if (entityOf(record) != Entity::CartesianPoint) return std::nullopt;
+    return coordinates(fieldsOf(record)[0]);
+}
+
+std::optional<Vec3d> IfcFile::direction(Value reference) const noexcept {
+    const RecordIndex record = follow(reference);
+    if (entityOf(record) != Entity::Direction) return std::nullopt;
+    step::ValueCursor cursor(fieldsOf(record)[0]);
+    Vec3d ratios{};
+    int count = 0;
+    for (Value item; count < 3 && cursor.next(item); ++count) {
+        const auto number = item.number();
+        if (!number) return std::nullopt;
+        ratios[count] = *number;
+    }
+    return length(ratios) > 0 ? std::optional(ratios) : std::nullopt;
+}
+
+Transform IfcFile::axes(RecordIndex record) const noexcept {
+    const Fields fields = fieldsOf(record);
+    const Vec3d origin = point(follow(fields[0])).value_or(Vec3d{});
+    switch (entityOf(record)) {
+        case Entity::Axis2Placement2D:
+            return axesFrom(origin, {0, 0, 1}, direction(fields[1]).value_or(Vec3d{1, 0, 0}));
+        case Entity::Axis2Placement3D:
+            return axesFrom(origin, direction(fields[1]).value_or(Vec3d{0, 0, 1}),
+                            direction(fields[2]).value_or(Vec3d{1, 0, 0}));
+        case Entity::Axis1Placement: return axesFrom(origin, direction(fields[1]).value_or(Vec3d{0, 0, 1}), {1, 0, 0});
+        default: return {};
+    }
+}
+
+// ISO 10303-42, base_axis: the second axis is made orthogonal to the first, and the third to both, but each keeps the side
+// that the file gives it, so a mirrored operator stays mirrored.
+Transform IfcFile::transformation(RecordIndex record) const noexcept {
+    const Fields fields = fieldsOf(record);
+    const Entity entity = entityOf(record);
+    const bool isFlat = entity == Entity::CartesianTransformationOperator2D ||
+                        entity == Entity::CartesianTransformationOperator2DnonUniform;
+    Transform result;
+    result.origin = point(follow(fields[2])).value_or(Vec3d{});
+    const double scale = fields[3].number().value_or(1);
+    double scaleY = scale, scaleZ = scale;
+    if (isFlat) {
+        const Vec3d x = normalized(direction(fields[0]).value_or(Vec3d{1, 0, 0}));
+        const Vec3d left = cross(Vec3d{0, 0, 1}, x);
+        const auto y = direction(fields[1]);
+        if (entity == Entity::CartesianTransformationOperator2DnonUniform) scaleY = fields[4].number().value_or(scale);
+        result.x = x * scale;
+        result.y = (y && dot(*y, left) < 0 ? -left : left) * scaleY;
+        return result;
+    }
+    if (entity == Entity::CartesianTransformationOperator3DnonUniform) {
+        scaleY = fields[5].number().value_or(scale);
+        scaleZ = fields[6].number().value_or(scale);
+    }
+    const auto axis1 = direction(fields[0]), axis2 = direction(fields[1]), axis3 = direction(fields[4]);
+    Vec3d z = normalized(axis3.value_or(axis1 && axis2 ? cross(*axis1, *axis2) : Vec3d{0, 0, 1}));
+    if (length(z) < 0.5) z = {0, 0, 1};
+    const Transform base = axesFrom({}, z, axis1.value_or(Vec3d{1, 0, 0}));
+    result.x = base.x * scale;
+    result.y = (axis2 && dot(*axis2, base.y) < 0 ? -base.y : base.y) * scaleY;
+    result.z = base.z * scaleZ;
+    return result;
+}
+
+Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
+    Transform result;
+    for (int level = 0; record != kNoRecord; ++level) {
+        if (level == kMaxPlacements) {
+            lost = fmt::format("placements above the {}th, or in a cycle", kMaxPlacements);
+            break;
+        }
+        const Fields fields = fieldsOf(record);
+        RecordIndex above = follow(fields[0]);
+        if (above == kNoRecord && fields[0].reference()) lost = "the placement above it, which the file lacks";
+        switch (entityOf(record)) {
+            case Entity::LocalPlacement:
+                if (follow(fields[1]) == kNoRecord) lost = "its place, which the file lacks";
+                result = axes(follow(fields[1])).after(result);
+                break;
+            case Entity::GridPlacement:
+                if (const auto axes = gridAxes(record, above))
+                    result = axes->after(result);
+                else
+                    lost = "its place on a grid (of straight axes that meet)";
+                break;
+            case Entity::LinearPlacement:
+                if (follow(fields[2]) == kNoRecord) lost = "its place along a curve (without Cartesian position)";
+                result = axes(follow(fields[2])).after(result);
+                break;
+            default: lost = fmt::format("a placement of the type {}", typeName(record)); above = kNoRecord;
+        }
+        record = above;
+    }
+    return result;
+}
+
+// A straight axis of a grid, moved to its left.
+bool IfcFile::readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const {
+    const Fields fields = fieldsOf(axis);
+    const RecordIndex curve = follow(fields[1]);
+    const Fields of = fieldsOf(curve);
+    if (entityOf(curve) == Entity::Polyline) {
+        const std::vector<RecordIndex> points = followAll(of[0]);
+        if (points.size() < 2) return false;
+        from = point(points.front()).value_or(Vec3d{});
+        along = point(points.back()).value_or(Vec3d{}) - from;
+    } else if (entityOf(curve) == Entity::Line) {
+        from = point(follow(of[0])).value_or(Vec3d{});
+        along = direction(fieldsOf(follow(of[1]))[0]).value_or(Vec3d{});
+    } else {
+        return false;
+    }
+    if (!(length(along) > 0)) return false;
+    along = normalized(fields[2].enumeration() == "F" ? -along : along);
+    from = from + Vec3d{-along.y, along.x, 0} * offset;
+    return true;
+}
+
+// Where two axes of a grid meet, x along the first one or in the direction that the placement gives.
+std::optional<Transform> IfcFile::gridAxes(RecordIndex placement, RecordIndex& above) const {
+    const Fields fields = fieldsOf(placement);
+    // IFC4.3 has the placement above it first.
+    const bool isOld = entityOf(follow(fields[0])) == Entity::VirtualGridIntersection;
+    const Fields intersection = fieldsOf(follow(fields[isOld ? 0 : 1]));
+    const std::vector<RecordIndex> axesOf = followAll(intersection[0]);
+    const std::vector<Value> offsets = step::itemsOf(intersection[1]);
+    const auto offset = [&](std::size_t i) { return i < offsets.size() ? metres(offsets[i]) : 0.0; };
+    if (isOld) above = kNoRecord;
+    Vec3d p, u, q, v;
+    if (axesOf.size() != 2 || !readGridAxis(axesOf[0], offset(0), p, u) || !readGridAxis(axesOf[1], offset(1), q, v))
+        return std::nullopt;
+    if (above == kNoRecord)
+        if (const auto grid = placementOfAxis_.find(axesOf[0]); grid != placementOfAxis_.end()) above = grid->second;
+    const double turn = u.x * v.y - u.y * v.x;
+    if (std::abs(turn) < 1e-9) return std::nullopt;
+    const double along = ((q.x - p.x) * v.y - (q.y - p.y) * v.x) / turn;
+    const Vec3d x = direction(fields[isOld ? 1 : 2]).value_or(u);
+    return axesFrom(p + u * along + Vec3d{0, 0, offset(2)}, {0, 0, 1}, x);
+}
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,339 @@
+#include <svt/readers/ifc_shape/profiles.hpp>
+
+#include <svt/readers/ifc_shape/curves.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace svt::readers::ifc {
+namespace {
+
+constexpr int kMaxProfileDepth = 16;
+
+using Ring = std::vector<Vec3d>;
+
+// A corner of an outline, rounded by an arc that touches both sides.
+struct Corner {
+    double x, y, radius = 0;
+};
+
+Ring ringOf(const std::vector<Corner>& corners) {
+    Ring ring;
+    const std::size_t n = corners.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Corner &before = corners[(i + n - 1) % n], &at = corners[i], &behind = corners[(i + 1) % n];
+        const Vec3d p{at.x, at.y, 0};
+        const Vec3d toBefore = Vec3d{before.x, before.y, 0} - p, toBehind = Vec3d{behind.x, behind.y, 0} - p;
+        const Vec3d u = normalized(toBefore), v = normalized(toBehind);
+        const double cosine = dot(u, v), sine = std::abs(u.x * v.y - u.y * v.x);
+        if (at.radius <= 0 || sine < 1e-6) {
+            ring.push_back(p);
+            continue;
+        }
+        const double halfTangent = sine / (1 + cosine);  // of half the angle between the sides
+        const double reach = std::min({at.radius / halfTangent, length(toBefore), length(toBehind)});
+        const double radius = reach * halfTangent;
+        const Vec3d center = p + normalized(u + v) * std::hypot(reach, radius);
+        const Vec3d from = p + u * reach - center, to = p + v * reach - center;
+        const double begin = std::atan2(from.y, from.x);
+        double turn = std::atan2(to.y, to.x) - begin;
+        if (turn > kPi) turn -= 2 * kPi;
+        if (turn < -kPi) turn += 2 * kPi;
+        Transform axes;
+        axes.origin = center;
+        appendArc(axes, radius, radius, begin, begin + turn, ring);
+    }
+    closeRing(ring);
+    return ring;
+}
+
+Ring rectangle(double width, double height, double radius = 0) {
+    const double x = width / 2, y = height / 2;
+    return ringOf({{-x, -y, radius}, {x, -y, radius}, {x, y, radius}, {-x, y, radius}});
+}
+
+Ring ellipse(double radiusX, double radiusY) {
+    Ring ring;
+    appendArc({}, radiusX, radiusY, 0, 2 * kPi, ring);
+    ring.pop_back();
+    return ring;
+}
+
+// I and asymmetric I: bottom and top flange of their own width, thickness and fillets. A slope makes the inner face of a flange
+// inclined; its thickness is that in the middle between web and edge.
+struct Flange {
+    double width, thickness, fillet, edge, slope;
+};
+Ring iShape(double depth, double web, const Flange& bottom, const Flange& top) {
+    const double h = depth / 2, w = web / 2;
+    const auto rise = [&](const Flange& f) { return std::tan(f.slope) * (f.width / 2 - w) / 2; };
+    const double b = bottom.width / 2, t = top.width / 2;
+    return ringOf({{-b, -h},
+                   {b, -h},
+                   {b, -h + bottom.thickness - rise(bottom), bottom.edge},
+                   {w, -h + bottom.thickness + rise(bottom), bottom.fillet},
+                   {w, h - top.thickness - rise(top), top.fillet},
+                   {t, h - top.thickness + rise(top), top.edge},
+                   {t, h},
+                   {-t, h},
+                   {-t, h - top.thickness + rise(top), top.edge},
+                   {-w, h - top.thickness - rise(top), top.fillet},
+                   {-w, -h + bottom.thickness + rise(bottom), bottom.fillet},
+                   {-b, -h + bottom.thickness - rise(bottom), bottom.edge}});
+}
+
+// Attributes of a parameterized profile, from number 3 on.
+struct Parameters {
+    const IfcFile& file;
+    Fields fields;
+    [[nodiscard]] double length(std::size_t number) const { return std::max(0.0, file.metres(fields[number])); }
+    [[nodiscard]] double angle(std::size_t number) const { return file.radians(fields[number]); }
+};
+
+Ring lShape(const Parameters& p) {
+    const double height = p.length(3), width = p.fields[4].isNothing() ? height : p.length(4), t = p.length(5);
+    const double x = width / 2, y = height / 2, fillet = p.length(6), edge = p.length(7);
+    const double riseX = std::tan(p.angle(8)) * (width - t) / 2, riseY = std::tan(p.angle(8)) * (height - t) / 2;
+    return ringOf({{-x, -y},
+                   {x, -y},
+                   {x, -y + t - riseX, edge},
+                   {-x + t + riseY, -y + t + riseX, fillet},
+                   {-x + t - riseY, y, edge},
+                   {-x, y}});
+}
+
+Ring tShape(const Parameters& p) {
+    const double depth = p.length(3), width = p.length(4), web = p.length(5), flange = p.length(6);
+    const double y = depth / 2, x = width / 2, w = web / 2;
+    const double riseF = std::tan(p.angle(11)) * (x - w) / 2, riseW = std::tan(p.angle(10)) * (depth - flange) / 2;
+    const double fillet = p.length(7), edge = p.length(8), webEdge = p.length(9);
+    return ringOf({{-w + riseW, -y, webEdge},
+                   {w - riseW, -y, webEdge},
+                   {w + riseW, y - flange - riseF, fillet},
+                   {x, y - flange + riseF, edge},
+                   {x, y},
+                   {-x, y},
+                   {-x, y - flange + riseF, edge},
+                   {-w - riseW, y - flange - riseF, fillet}});
+}
+
+Ring uShape(const Parameters& p) {
+    const double y = p.length(3) / 2, width = p.length(4), x = width / 2, web = p.length(5), t = p.length(6);
+    const double fillet = p.length(7), edge = p.length(8), rise = std::tan(p.angle(9)) * (width - web) / 2;
+    return ringOf({{-x, -y},
+                   {x, -y},
+                   {x, -y + t - rise, edge},
+                   {-x + web, -y + t + rise, fillet},
+                   {-x + web, y - t - rise, fillet},
+                   {x, y - t + rise, edge},
+                   {x, y},
+                   {-x, y}});
+}
+
+Ring cShape(const Parameters& p) {
+    const double y = p.length(3) / 2, x = p.length(4) / 2, t = p.length(5), girth = p.length(6), inner = p.length(7);
+    const double outer = inner > 0 ? inner + t : 0;
+    return ringOf({{-x, -y, outer},
+                   {x, -y, outer},
+                   {x, -y + girth},
+                   {x - t, -y + girth},
+                   {x - t, -y + t, inner},
+                   {-x + t, -y + t, inner},
+                   {-x + t, y - t, inner},
+                   {x - t, y - t, inner},
+                   {x - t, y - girth},
+                   {x, y - girth},
+                   {x, y, outer},
+                   {-x, y, outer}});
+}
+
+Ring zShape(const Parameters& p) {
+    const double y = p.length(3) / 2, flange = p.length(4), web = p.length(5), t = p.length(6);
+    const double w = web / 2, x = flange - w, fillet = p.length(7), edge = p.length(8);
+    return ringOf({{-w, -y},
+                   {x, -y},
+                   {x, -y + t, edge},
+                   {w, -y + t, fillet},
+                   {w, y},
+                   {-x, y},
+                   {-x, y - t, edge},
+                   {-w, y - t, fillet}});
+}
+
+// The outline of a parameterized profile about its own origin; empty where its numbers make no sense.
+Region parameterized(const IfcFile& file, Entity entity, const Parameters& p) {
+    (void)file;
+    Region region;
+    switch (entity) {
+        case Entity::RectangleProfileDef: region.outer = rectangle(p.length(3), p.length(4)); break;
+        case Entity::RoundedRectangleProfileDef: region.outer = rectangle(p.length(3), p.length(4), p.length(5)); break;
+        case Entity::RectangleHollowProfileDef: {
+            const double x = p.length(3), y = p.length(4), t = p.length(5);
+            region.outer = rectangle(x, y, p.length(7));
+            if (t > 0 && 2 * t < std::min(x, y)) region.holes = {rectangle(x - 2 * t, y - 2 * t, p.length(6))};
+            break;
+        }
+        case Entity::CircleProfileDef: region.outer = ellipse(p.length(3), p.length(3)); break;
+        case Entity::CircleHollowProfileDef:
+            region.outer = ellipse(p.length(3), p.length(3));
+            if (const double inner = p.length(3) - p.length(4); inner > 0) region.holes = {ellipse(inner, inner)};
+            break;
+        case Entity::EllipseProfileDef: region.outer = ellipse(p.length(3), p.length(4)); break;
+        case Entity::IShapeProfileDef: {
+            const Flange flange{p.length(3), p.length(6), p.length(7), p.length(8), p.angle(9)};
+            region.outer = iShape(p.length(4), p.length(5), flange, flange);
+            break;
+        }
+        case Entity::AsymmetricIShapeProfileDef: {
+            const Flange bottom{p.length(3), p.length(6), p.length(7), 0, 0};
+            const Flange top{p.length(8), p.fields[9].isNothing() ? bottom.thickness : p.length(9), p.length(10), 0, 0};
+            region.outer = iShape(p.length(4), p.length(5), bottom, top);
+            break;
+        }
+        case Entity::LShapeProfileDef: region.outer = lShape(p); break;
+        case Entity::TShapeProfileDef: region.outer = tShape(p); break;
+        case Entity::UShapeProfileDef: region.outer = uShape(p); break;
+        case Entity::CShapeProfileDef: region.outer = cShape(p); break;
+        case Entity::ZShapeProfileDef: region.outer = zShape(p); break;
+        case Entity::TrapeziumProfileDef: {
+            const double bottom = p.length(3), top = p.length(4), y = p.length(5) / 2;
+            const double offset = p.file.metres(p.fields[6]);
+            region.outer = {{-bottom / 2, -y, 0},
+                            {bottom / 2, -y, 0},
+                            {-bottom / 2 + offset + top, y, 0},
+                            {-bottom / 2 + offset, y, 0}};
+            closeRing(region.outer);
+            break;
+        }
+        default: break;
+    }
+    return region;
+}
+
+// A wall of constant thickness along an open line, with mitred corners.
+bool centerLine(const IfcFile& file, const Fields& fields, Region& region, std::string& why) {
+    Ring line;
+    if (!readCurve(file, file.follow(fields[2]), line, why)) return false;
+    const double half = file.metres(fields[3]) / 2;
+    const bool isClosed = line.size() > 3 && length(line.front() - line.back()) < 1e-6;
+    closeRing(line);
+    const std::size_t n = line.size();
+    if (n < 2 || !(half > 0)) return false;
+    Ring left, right;
+    for (std::size_t i = 0; i < n; ++i) {
+        const bool hasBefore = isClosed || i > 0, hasBehind = isClosed || i + 1 < n;
+        const Vec3d in = normalized(hasBefore ? line[i] - line[(i + n - 1) % n] : line[i + 1] - line[i]);
+        const Vec3d out = normalized(hasBehind ? line[(i + 1) % n] - line[i] : line[i] - line[i - 1]);
+        const Vec3d normalIn{-in.y, in.x, 0}, normalOut{-out.y, out.x, 0};
+        const double share = std::max(0.1, 1 + dot(normalIn, normalOut));  // sharp corners are cut off
+        const Vec3d offset = (normalIn + normalOut) * (half / share);
+        left.push_back(line[i] + offset);
+        right.push_back(line[i] - offset);
+    }
+    if (isClosed) {
+        region.outer = twiceArea(left) > twiceArea(right) ? left : right;
+        region.holes = {twiceArea(left) > twiceArea(right) ? right : left};
+        return true;
+    }
+    region.outer = right;
+    region.outer.insert(region.outer.end(), left.rbegin(), left.rend());
+    return true;
+}
+
+// Rings in the directions that a region has; drops what bounds nothing.
+bool orient(Region& region) {
+    closeRing(region.outer);
+    if (region.outer.size() < 3) return false;
+    const double area = twiceArea(region.outer);
+    if (std::abs(area) < 1e-12) return false;
+    if (area < 0) std::reverse(region.outer.begin(), region.outer.end());
+    for (Ring& hole : region.holes) {
+        closeRing(hole);
+        if (twiceArea(hole) > 0) std::reverse(hole.begin(), hole.end());
+    }
+    std::erase_if(region.holes, [](const Ring& hole) { return hole.size() < 3 || twiceArea(hole) > -1e-12; });
+    return true;
+}
+
+void transformRegion(Region& region, const Transform& transform) {
+    const auto apply = [&](Ring& ring) {
+        for (Vec3d& p : ring) {
+            p = transform.point(p);
+            p.z = 0;
+        }
+    };
+    apply(region.outer);
+    for (Ring& hole : region.holes) apply(hole);
+}
+
+bool readDerived(const IfcFile& file, RecordIndex profile, const Fields& fields, std::vector<Region>& regions,
+                 std::string& why, int depth) {
+    std::vector<Region> parent;
+    if (!readProfile(file, file.follow(fields[2]), parent, why, depth + 1)) return false;
+    Transform transform = file.transformation(file.follow(fields[3]));
+    if (file.entityOf(profile) == Entity::MirroredProfileDef) transform = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}};
+    for (Region& region : parent) {
+        transformRegion(region, transform);
+        if (orient(region)) regions.push_back(std::move(region));
+    }
+    return !regions.empty();
+}
+
+bool readRegion(const IfcFile& file, RecordIndex profile, const Fields& fields, Region& region, std::string& why) {
+    switch (file.entityOf(profile)) {
+        case Entity::ArbitraryClosedProfileDef:
+        case Entity::ArbitraryProfileDefWithVoids:
+            if (!readCurve(file, file.follow(fields[2]), region.outer, why)) return false;
+            if (file.entityOf(profile) == Entity::ArbitraryClosedProfileDef) return true;
+            for (const RecordIndex curve : file.followAll(fields[3])) {
+                region.holes.emplace_back();
+                if (!readCurve(file, curve, region.holes.back(), why)) return false;
+            }
+            return true;
+        case Entity::CenterLineProfileDef: return centerLine(file, fields, region, why);
+        default:
+            region = parameterized(file, file.entityOf(profile), {file, fields});
+            transformRegion(region, file.axes(file.follow(fields[2])));
+            return true;
+    }
+}
+
+}  // namespace
+
+bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& regions, std::string& why, int depth) {
+    if (depth > kMaxProfileDepth) {
+        why = "profiles that refer to each other in a circle";
+        return false;
+    }
+    const Fields fields = file.fieldsOf(profile);
+    const Entity entity = file.entityOf(profile);
+    if (entity == Entity::DerivedProfileDef || entity == Entity::MirroredProfileDef)
+        return readDerived(file, profile, fields, regions, why, depth);
+    if (entity == Entity::CompositeProfileDef) {
+        for (const RecordIndex part : file.followAll(fields[2]))
+            if (!readProfile(file, part, regions, why, depth + 1)) return false;
+        return !regions.empty();
+    }
+    const bool isKnown = entity >= Entity::RectangleProfileDef && entity <= Entity::CenterLineProfileDef &&
+                         entity != Entity::ArbitraryOpenProfileDef;
+    if (!isKnown) {
+        why = fmt::format("the profile {}", file.typeName(profile).substr(0, 60));
+        return false;
+    }
+    Region region;
+    if (!readRegion(file, profile, fields, region, why)) {
+        if (why.empty()) why = fmt::format("values of a profile {}", entityName(entity));
+        return false;
+    }
+    if (!orient(region)) {
+        why = fmt::format("a profile {} without area", entityName(entity));
+        return false;
+    }
+    regions.push_back(std::move(region));
+    return true;
+}
+
+}  // namespace svt::readers::ifc

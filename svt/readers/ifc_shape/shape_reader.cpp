@@ -1,0 +1,554 @@
+#include <svt/readers/ifc_shape/shape_reader.hpp>
+
+#include <svt/readers/ifc_shape/curved_face.hpp>
+#include <svt/readers/ifc_shape/curves.hpp>
+#include <svt/readers/ifc_shape/solid_boolean.hpp>
+#include <svt/readers/ifc_shape/sweeps.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::readers::ifc {
+namespace {
+
+using Polygons = std::vector<model::Polygon>;
+
+constexpr int kMaxItemDepth = 48;
+constexpr std::uint64_t kMaxExpandedPoints =
+    200'000'000;  // of mapped items: some bytes of the file stand for a whole shape
+
+bool isIn(std::string_view word, std::initializer_list<std::string_view> words) noexcept {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// How near a representation comes to being the body; 0: not at all.
+int bodyRank(std::string_view identifier, std::string_view type) noexcept {
+    if (isIn(identifier,
+             {"Axis", "FootPrint", "Annotation", "Plan", "Profile", "CoG", "Clearance", "Lighting", "Survey"}))
+        return 0;
+    if (isIn(type, {"Curve2D", "Curve3D", "Curve", "GeometricCurveSet", "Annotation2D", "Point", "PointCloud",
+                    "LightSource", "Text", "Segment"}))
+        return 0;
+    if (identifier == "Box" || type == "BoundingBox") return 1;
+    if (identifier == "Body") return 6;
+    if (isIn(identifier, {"Facetation", "Tessellation"})) return 5;
+    if (isIn(identifier, {"Body-FallBack", "Body-Fallback", "Surface"})) return 4;
+    if (identifier == "Reference") return 2;
+    return 3;
+}
+
+// Reverses a ring; it still begins where an edge begins, and `ends` are those of its edges.
+void turnLoop(std::vector<Vec3d>& ring, std::vector<std::size_t>& ends) {
+    if (ring.empty()) return;
+    std::reverse(ring.begin() + 1, ring.end());
+    if (ends.empty()) return;
+    for (std::size_t& end : ends) end = ring.size() - end;
+    std::reverse(ends.begin(), ends.end());
+    ends.erase(ends.begin());  // the 0 that was the last end
+    ends.push_back(ring.size());
+}
+
+}  // namespace
+
+ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem)
+    : file_(file), materialOfItem_(std::move(materialOfItem)) {}
+
+void ShapeReader::leaveOut(std::string what) {
+    if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
+}
+
+Shape ShapeReader::readShape(RecordIndex definition) {
+    Shape shape;
+    leftOut_.clear();
+    std::vector<std::pair<int, RecordIndex>> ranked;
+    for (const RecordIndex representation : file_.followAll(file_.fieldsOf(definition)[2])) {
+        const Fields fields = file_.fieldsOf(representation);
+        const int rank = bodyRank(fields[1].string().value_or(""), fields[2].string().value_or(""));
+        if (rank > 0) ranked.emplace_back(-rank, representation);
+    }
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+    shape.hasRepresentation = !ranked.empty();
+    std::vector<std::string> leftOut;
+    for (std::size_t i = 0; i < ranked.size() && shape.bodies.empty(); ++i) {
+        const int rank = ranked[i].first;
+        readRepresentation(ranked[i].second, shape.bodies);
+        // Several representations of one kind are parts of one body.
+        for (; i + 1 < ranked.size() && ranked[i + 1].first == rank && rank == -6; ++i)
+            readRepresentation(ranked[i + 1].second, shape.bodies);
+        if (rank == -1 && !shape.bodies.empty()) leaveOut("all but its bounding box, which stands for it");
+    }
+    shape.leftOut = std::move(leftOut_);
+    leftOut_.clear();
+    return shape;
+}
+
+void ShapeReader::readRepresentation(RecordIndex representation, Bodies& bodies) {
+    for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) readItem(item, 0, bodies);
+}
+
+void ShapeReader::readItem(RecordIndex item, int depth, Bodies& bodies) {
+    if (depth > kMaxItemDepth) return leaveOut("items that refer to each other in a circle, or nest too deep");
+    const std::size_t first = bodies.size();
+    readKnownItem(item, file_.fieldsOf(item), depth, bodies);
+    const auto style = materialOfItem_.find(item);
+    if (style == materialOfItem_.end()) return;
+    for (std::size_t b = first; b < bodies.size(); ++b)
+        if (bodies[b].material < 0) bodies[b].material = style->second;
+}
+
+void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, int depth, Bodies& bodies) {
+    switch (file_.entityOf(item)) {
+        case Entity::ExtrudedAreaSolid:
+        case Entity::ExtrudedAreaSolidTapered:
+        case Entity::RevolvedAreaSolid: return readSweep(item, fields, bodies);
+        case Entity::SweptDiskSolid:
+        case Entity::SweptDiskSolidPolygonal: return readDisk(fields, bodies);
+        case Entity::FacetedBrep:
+        case Entity::FacetedBrepWithVoids:
+        case Entity::AdvancedBrep:
+        case Entity::AdvancedBrepWithVoids: return readBrep(item, fields, bodies);
+        case Entity::FaceBasedSurfaceModel:
+        case Entity::ShellBasedSurfaceModel: return readSurfaceModel(fields, bodies);
+        case Entity::ConnectedFaceSet:
+        case Entity::OpenShell:
+        case Entity::ClosedShell: {
+            Body body{readFaces(fields[0]), file_.entityOf(item) == Entity::ClosedShell, -1};
+            if (!body.faces.empty()) bodies.push_back(std::move(body));
+            return;
+        }
+        case Entity::TriangulatedFaceSet:
+        case Entity::TriangulatedIrregularNetwork:
+        case Entity::PolygonalFaceSet: return readFaceSet(item, fields, bodies);
+        case Entity::MappedItem: return readMappedItem(fields, depth, bodies);
+        case Entity::BooleanResult:
+        case Entity::BooleanClippingResult: return readBoolean(fields, depth, bodies);
+        case Entity::CsgSolid: return readItem(file_.follow(fields[0]), depth + 1, bodies);
+        case Entity::Block:
+        case Entity::RectangularPyramid:
+        case Entity::RightCircularCone:
+        case Entity::RightCircularCylinder:
+        case Entity::Sphere:
+        case Entity::BoundingBox: return readPrimitive(item, fields, bodies);
+        default:
+            if (item == kNoRecord)
+                leaveOut("an item that is not in the file");
+            else
+                leaveOut(fmt::format("an item {}", file_.typeName(item).substr(0, 80)));
+    }
+}
+
+void ShapeReader::addSolid(Polygons faces, Bodies& bodies, RecordIndex item) {
+    if (faces.empty())
+        leaveOut(fmt::format("an {} whose measures make no body", file_.typeName(item)));
+    else
+        bodies.push_back({std::move(faces), true, -1});
+}
+
+void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    const Entity entity = file_.entityOf(item);
+    std::vector<Region> regions, ends;
+    std::string why;
+    if (!readProfile(file_, file_.follow(fields[0]), regions, why)) return leaveOut(why);
+    const Transform position = file_.axes(file_.follow(fields[1]));
+    if (entity == Entity::RevolvedAreaSolid) {
+        const Transform axis = file_.axes(file_.follow(fields[2]));
+        for (const Region& region : regions)
+            addSolid(transformed(revolve(region, axis, file_.radians(fields[3])), position), bodies, item);
+        return;
+    }
+    const Vec3d sweep = normalized(file_.direction(fields[2]).value_or(Vec3d{0, 0, 1})) * file_.metres(fields[3]);
+    const bool isTapered = entity == Entity::ExtrudedAreaSolidTapered;
+    if (isTapered && (!readProfile(file_, file_.follow(fields[4]), ends, why) || ends.size() != regions.size()))
+        return leaveOut(why.empty() ? "a tapered solid between unlike profiles" : why);
+    for (std::size_t r = 0; r < regions.size(); ++r)
+        addSolid(
+            transformed(isTapered ? extrudeTapered(regions[r], ends[r], sweep) : extrude(regions[r], sweep), position),
+            bodies, item);
+}
+
+void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {
+    std::vector<Vec3d> line;
+    std::string why;
+    if (!readCurve(file_, file_.follow(fields[0]), line, why)) return leaveOut(why);
+    Polygons faces = sweepDisk(std::move(line), file_.metres(fields[1]), file_.metres(fields[2]));
+    if (faces.empty()) return leaveOut("a swept disk without length or radius");
+    bodies.push_back({std::move(faces), true, -1});
+}
+
+void ShapeReader::readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    const Transform position = file_.axes(file_.follow(fields[0]));
+    const double a = file_.metres(fields[1]), b = file_.metres(fields[2]), c = file_.metres(fields[3]);
+    switch (file_.entityOf(item)) {
+        case Entity::Block: return addSolid(transformed(block({a, b, c}), position), bodies, item);
+        case Entity::RectangularPyramid: return addSolid(transformed(pyramid(a, b, c), position), bodies, item);
+        case Entity::RightCircularCone: return addSolid(transformed(cone(b, 0, a), position), bodies, item);
+        case Entity::RightCircularCylinder: return addSolid(transformed(cone(b, b, a), position), bodies, item);
+        case Entity::Sphere: return addSolid(transformed(sphere(a), position), bodies, item);
+        default: {
+            Transform corner;
+            corner.origin = file_.point(file_.follow(fields[0])).value_or(Vec3d{});
+            return addSolid(transformed(block({a, b, c}), corner), bodies, item);
+        }
+    }
+}
+
+void ShapeReader::readMappedItem(const Fields& fields, int depth, Bodies& bodies) {
+    const RecordIndex map = file_.follow(fields[0]);
+    auto found = mapped_.find(map);
+    if (found == mapped_.end()) {
+        const Fields source = file_.fieldsOf(map);
+        std::vector<std::string> outside;
+        std::swap(outside, leftOut_);
+        mapped_.emplace(map, std::make_shared<const Bodies>());  // a map that contains itself is empty there
+        Bodies made;
+        for (const RecordIndex item : file_.followAll(file_.fieldsOf(file_.follow(source[1]))[3]))
+            readItem(item, depth + 1, made);
+        const Transform origin = file_.axes(file_.follow(source[0]));
+        if (origin != Transform{})
+            for (Body& body : made) body = transformed(body, origin.inverse());
+        leftOutOfMap_[map] = leftOut_;
+        std::swap(outside, leftOut_);
+        found = mapped_.insert_or_assign(map, std::make_shared<const Bodies>(std::move(made))).first;
+    }
+    for (const std::string& what : leftOutOfMap_[map]) leaveOut(what);
+    const Transform target = file_.transformation(file_.follow(fields[1]));
+    if (!(std::abs(target.determinant()) > 1e-30)) return leaveOut("a mapped item with a scale of 0");
+    const std::shared_ptr<const Bodies> source = found->second;
+    for (const Body& body : *source) {
+        for (const model::Polygon& face : body.faces) expanded_ += face.points.size();
+        if (expanded_ > kMaxExpandedPoints) return leaveOut("mapped items beyond 200 million points in all");
+        bodies.push_back(transformed(body, target));
+    }
+}
+
+void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    const Entity entity = file_.entityOf(item);
+    Polygons faces = readFaces(file_.fieldsOf(file_.follow(fields[0]))[0]);
+    if (faces.empty()) return leaveOut(fmt::format("an {} without faces", entityName(entity)));
+    if (entity == Entity::FacetedBrepWithVoids || entity == Entity::AdvancedBrepWithVoids) {
+        if (enclosedVolume(faces) < 0) turnOver(faces);
+        for (const RecordIndex shell : file_.followAll(fields[1])) {
+            Polygons hollow = readFaces(file_.fieldsOf(shell)[0]);
+            if (enclosedVolume(hollow) > 0) turnOver(hollow);
+            faces.insert(faces.end(), hollow.begin(), hollow.end());
+        }
+    }
+    bodies.push_back({std::move(faces), true, -1});
+}
+
+void ShapeReader::readSurfaceModel(const Fields& fields, Bodies& bodies) {
+    for (const RecordIndex shell : file_.followAll(fields[0])) {
+        Body body{readFaces(file_.fieldsOf(shell)[0]), file_.entityOf(shell) == Entity::ClosedShell, -1};
+        if (!body.faces.empty()) bodies.push_back(std::move(body));
+    }
+}
+
+Polygons ShapeReader::readFaces(Value list) {
+    Polygons faces;
+    step::ValueCursor cursor(list);
+    for (Value item; cursor.next(item);) {
+        const RecordIndex face = file_.follow(item);
+        if (!readFace(face, faces))
+            leaveOut(fmt::format("a face {}", face == kNoRecord ? "that is not in the file" : file_.typeName(face)));
+    }
+    return faces;
+}
+
+bool ShapeReader::readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vector<std::size_t>& edgeEnds) {
+    const Fields fields = file_.fieldsOf(loop);
+    step::ValueCursor cursor(fields[0]);
+    if (file_.entityOf(loop) == Entity::PolyLoop) {
+        for (Value item; cursor.next(item);) {
+            const auto point = file_.point(file_.follow(item));
+            if (!point) return false;
+            ring.push_back(*point);
+        }
+        return true;
+    }
+    if (file_.entityOf(loop) != Entity::EdgeLoop) return false;
+    for (Value item; cursor.next(item);) {
+        const Fields oriented = file_.fieldsOf(file_.follow(item));
+        const RecordIndex edge = file_.follow(oriented[2]);
+        auto found = edges_.find(edge);
+        if (found == edges_.end()) {
+            const Fields curve = file_.fieldsOf(edge);
+            const auto from = file_.point(file_.follow(file_.fieldsOf(file_.follow(curve[0]))[0]));
+            const auto to = file_.point(file_.follow(file_.fieldsOf(file_.follow(curve[1]))[0]));
+            std::vector<Vec3d> points;
+            std::string why;
+            if (!from || !to) return false;
+            if (file_.entityOf(edge) != Entity::EdgeCurve)
+                points = {*from, *to};
+            else if (!readCurveBetween(file_, file_.follow(curve[2]), *from, *to, curve[3].enumeration() != "F", points,
+                                       why))
+                return false;
+            found = edges_.emplace(edge, std::make_shared<const std::vector<Vec3d>>(std::move(points))).first;
+        }
+        std::vector<Vec3d> points = *found->second;
+        if (oriented[3].enumeration() == "F") std::reverse(points.begin(), points.end());
+        if (points.empty()) return false;
+        ring.insert(ring.end(), points.begin(), points.end() - 1);
+        edgeEnds.push_back(ring.size());
+    }
+    return !ring.empty();
+}
+
+bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
+    const Entity entity = file_.entityOf(face);
+    if (entity != Entity::Face && entity != Entity::FaceSurface && entity != Entity::AdvancedFace) return false;
+    const Fields fields = file_.fieldsOf(face);
+    const bool isCurved = entity != Entity::Face && file_.entityOf(file_.follow(fields[1])) != Entity::Plane &&
+                          file_.follow(fields[1]) != kNoRecord;
+    std::vector<std::vector<Vec3d>> rings;
+    std::vector<std::size_t> edgeEnds;
+    bool hasOuter = false;
+    step::ValueCursor cursor(fields[0]);
+    for (Value item; cursor.next(item);) {
+        const RecordIndex bound = file_.follow(item);
+        const Fields of = file_.fieldsOf(bound);
+        std::vector<Vec3d> ring;
+        std::vector<std::size_t> ends;
+        if (!readLoop(file_.follow(of[0]), ring, ends)) return false;
+        if (of[1].enumeration() == "F") turnLoop(ring, ends);
+        const bool isOuter = file_.entityOf(bound) == Entity::FaceOuterBound && !hasOuter;
+        hasOuter = hasOuter || isOuter;
+        if (rings.empty()) edgeEnds = ends;
+        rings.insert(isOuter ? rings.begin() : rings.end(), std::move(ring));
+    }
+    if (rings.empty()) return false;
+    if (isCurved && addRuledFace(rings, edgeEnds, faces)) return true;
+    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces)) return true;
+    if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(file_.follow(fields[1]))));
+    const auto areaOf = [](const std::vector<Vec3d>& ring) {
+        Vec3d sum{};
+        for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
+        return sum;
+    };
+    if (!hasOuter && rings.size() > 1) {
+        const auto largest = std::max_element(rings.begin(), rings.end(), [&](const auto& p, const auto& q) {
+            return length(areaOf(p)) < length(areaOf(q));
+        });
+        std::iter_swap(rings.begin(), largest);
+    }
+    const Vec3d normal = areaOf(rings[0]);
+    for (std::size_t r = 1; r < rings.size(); ++r)
+        if (dot(areaOf(rings[r]), normal) > 0) std::reverse(rings[r].begin(), rings[r].end());
+    addFace(faces, rings);
+    return true;
+}
+
+// A face between two curves of equally many points: the sides of a cylinder or cone, whole, half or as a fillet.
+bool ShapeReader::addRuledFace(const std::vector<std::vector<Vec3d>>& rings, const std::vector<std::size_t>& edgeEnds,
+                               Polygons& faces) {
+    if (rings.size() == 2 && rings[0].size() == rings[1].size() && rings[0].size() >= 8) {
+        const std::size_t n = rings[0].size();
+        std::vector<Vec3d> other(rings[1].rbegin(), rings[1].rend());
+        const auto nearest = std::min_element(other.begin(), other.end(), [&](Vec3d p, Vec3d q) {
+            return length(p - rings[0][0]) < length(q - rings[0][0]);
+        });
+        std::rotate(other.begin(), nearest, other.end());
+        for (std::size_t i = 0; i < n; ++i)
+            addQuad(faces, rings[0][i], rings[0][(i + 1) % n], other[(i + 1) % n], other[i]);
+        return true;
+    }
+    if (rings.size() != 1 || edgeEnds.size() != 4) return false;
+    std::vector<std::vector<Vec3d>> edges;
+    std::size_t begin = 0;
+    for (const std::size_t end : edgeEnds) {
+        edges.emplace_back(rings[0].begin() + std::ptrdiff_t(begin), rings[0].begin() + std::ptrdiff_t(end));
+        edges.back().push_back(rings[0][end % rings[0].size()]);
+        begin = end;
+    }
+    if (edges[0].size() == 2) std::rotate(edges.begin(), edges.begin() + 1, edges.end());
+    if (edges[1].size() != 2 || edges[3].size() != 2 || edges[0].size() != edges[2].size()) return false;
+    std::reverse(edges[2].begin(), edges[2].end());
+    for (std::size_t i = 0; i + 1 < edges[0].size(); ++i)
+        addQuad(faces, edges[0][i], edges[0][i + 1], edges[2][i + 1], edges[2][i]);
+    return true;
+}
+
+void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    std::vector<Vec3d> points;
+    step::ValueCursor list(file_.fieldsOf(file_.follow(fields[0]))[0]);
+    for (Value point; list.next(point);) {
+        const auto coordinates = file_.coordinates(point);
+        if (!coordinates)
+            return leaveOut(fmt::format("an {} with a point that is no three numbers", file_.typeName(item)));
+        points.push_back(*coordinates);
+    }
+    bool isWrong = false;
+    const auto ringOf = [&](Value indices) {
+        std::vector<Vec3d> ring;
+        step::ValueCursor cursor(indices);
+        for (Value index; cursor.next(index);) {
+            const auto number = index.integer();
+            if (!number || *number < 1 || *number > std::int64_t(points.size()))
+                isWrong = true;
+            else
+                ring.push_back(points[std::size_t(*number - 1)]);
+        }
+        return ring;
+    };
+    Body body;
+    const bool isTriangles = file_.entityOf(item) != Entity::PolygonalFaceSet;
+    // Closed stands second in IFC4.3, third in IFC4; polygonal ones have it second.
+    const Value closed = fields[1].enumeration().empty() ? fields[2] : fields[1];
+    body.isSolid = closed.enumeration() == "T";
+    step::ValueCursor cursor(isTriangles ? fields[3] : fields[2]);
+    for (Value face; cursor.next(face);) {
+        if (isTriangles) {
+            addFace(body.faces, {ringOf(face)});
+            continue;
+        }
+        const RecordIndex record = file_.follow(face);
+        const Fields of = file_.fieldsOf(record);
+        std::vector<std::vector<Vec3d>> rings{ringOf(of[0])};
+        if (file_.entityOf(record) == Entity::IndexedPolygonalFaceWithVoids) {
+            step::ValueCursor inner(of[1]);
+            for (Value ring; inner.next(ring);) rings.push_back(ringOf(ring));
+        }
+        addFace(body.faces, rings);
+    }
+    if (isWrong) leaveOut(fmt::format("corners of an {} with an index that is out of range", file_.typeName(item)));
+    if (body.faces.empty()) return leaveOut(fmt::format("an {} without faces", file_.typeName(item)));
+    bodies.push_back(std::move(body));
+}
+
+// A plain, boxed or polygonal half-space, as a closed body that reaches beyond `around`.
+bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies) {
+    const Entity entity = file_.entityOf(item);
+    const Fields fields = file_.fieldsOf(item);
+    const RecordIndex surface = file_.follow(fields[0]);
+    if (file_.entityOf(surface) != Entity::Plane) {
+        leaveOut(fmt::format("a half-space bounded by {}", file_.typeName(surface)));
+        return false;
+    }
+    const Transform plane = file_.axes(file_.follow(file_.fieldsOf(surface)[0]));
+    const Vec3d inside = fields[1].enumeration() == "F" ? plane.z : -plane.z;
+    Polygons half = halfSpaceAround(around, plane.origin, inside);
+    if (entity == Entity::PolygonalBoundedHalfSpace) {
+        const Transform position = file_.axes(file_.follow(fields[2]));
+        Region region;
+        std::string why;
+        if (!readCurve(file_, file_.follow(fields[3]), region.outer, why)) {
+            leaveOut(why);
+            return false;
+        }
+        closeRing(region.outer);
+        if (twiceArea(region.outer) < 0) std::reverse(region.outer.begin(), region.outer.end());
+        const double middle = dot(around.center() - position.origin, position.z), reach = length(around.size()) + 1;
+        for (Vec3d& p : region.outer) p.z = middle - reach;
+        auto both = evaluateBoolean(BooleanOperator::Intersection,
+                                    {transformed(extrude(region, {0, 0, 2 * reach}), position), half});
+        if (!both) {
+            leaveOut("a polygonal half-space that is not closed");
+            return false;
+        }
+        half = std::move(*both);
+    }
+    if (!half.empty()) bodies.push_back({std::move(half), true, -1});
+    return true;
+}
+
+void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
+    Bodies first, second;
+    readItem(file_.follow(fields[1]), depth + 1, first);
+    if (first.empty()) return;
+    Box3d around;
+    for (const Body& body : first) around.add(boundsOf(body.faces));
+    const RecordIndex operand = file_.follow(fields[2]);
+    const std::string_view op = fields[0].enumeration();
+    const auto keepFirst = [&](std::string_view why) {
+        leaveOut(fmt::format("the {} with an {}: {}", op, file_.typeName(operand), why));
+        bodies.insert(bodies.end(), first.begin(), first.end());
+    };
+    switch (file_.entityOf(operand)) {
+        case Entity::HalfSpaceSolid:
+        case Entity::BoxedHalfSpace:
+        case Entity::PolygonalBoundedHalfSpace:
+            if (!readHalfSpace(operand, around, second)) return keepFirst("it cannot be read");
+            break;
+        default:
+            readItem(operand, depth + 1, second);
+            if (second.empty()) return keepFirst("it cannot be read");
+    }
+    const auto isOpen = [](const Body& body) { return !isClosed(body.faces); };
+    if (std::any_of(second.begin(), second.end(), isOpen)) return keepFirst("it is not closed");
+    if (std::any_of(first.begin(), first.end(), isOpen))
+        return keepFirst("the body that it is applied to is not closed");
+    const std::int32_t material = first.front().material;
+    std::vector<Polygons> operands;
+    for (const Body& body : second) operands.push_back(body.faces);
+    if (op == "UNION") {
+        for (const Body& body : first) operands.push_back(body.faces);
+        auto joined = evaluateBoolean(BooleanOperator::Union, operands);
+        if (!joined) {
+            bodies.insert(bodies.end(), second.begin(), second.end());
+            bodies.insert(bodies.end(), first.begin(), first.end());
+        } else if (!joined->empty()) {
+            bodies.push_back({std::move(*joined), true, material});
+        }
+        return;
+    }
+    // The second operand as one body.
+    if (op == "INTERSECTION" && operands.size() > 1) {
+        auto joined = evaluateBoolean(BooleanOperator::Union, operands);
+        if (!joined) return keepFirst("its parts cannot be joined");
+        operands = {std::move(*joined)};
+    }
+    for (const Body& body : first) {
+        std::vector<Polygons> all{body.faces};
+        all.insert(all.end(), operands.begin(), operands.end());
+        auto result =
+            evaluateBoolean(op == "INTERSECTION" ? BooleanOperator::Intersection : BooleanOperator::Difference, all);
+        if (!result) {
+            leaveOut(fmt::format("the {} with an {}: the result is not closed", op, file_.typeName(operand)));
+            bodies.push_back(body);
+        } else if (!result->empty()) {
+            bodies.push_back({std::move(*result), true, body.material});
+        }
+    }
+}
+
+void ShapeReader::subtract(Shape& shape, const Bodies& openings) {
+    const auto leave = [&](std::string what) {
+        if (std::find(shape.leftOut.begin(), shape.leftOut.end(), what) == shape.leftOut.end())
+            shape.leftOut.push_back(std::move(what));
+    };
+    std::vector<Polygons> closed;
+    for (const Body& opening : openings) {
+        if (isClosed(opening.faces))
+            closed.push_back(opening.faces);
+        else
+            leave("an opening whose body is not closed");
+    }
+    if (closed.empty()) return;
+    Bodies result;
+    for (Body& body : shape.bodies) {
+        const Box3d box = boundsOf(body.faces);
+        std::vector<Polygons> all{body.faces};
+        for (const Polygons& opening : closed)
+            if (boundsOf(opening).overlaps(box)) all.push_back(opening);
+        if (all.size() == 1) {
+            result.push_back(std::move(body));
+            continue;
+        }
+        if (!isClosed(body.faces)) {
+            leave("openings in a body that is not closed");
+            result.push_back(std::move(body));
+            continue;
+        }
+        auto cut = evaluateBoolean(BooleanOperator::Difference, all);
+        if (!cut) {
+            leave("openings: the body would not be closed with them");
+            result.push_back(std::move(body));
+        } else if (!cut->empty()) {
+            result.push_back({std::move(*cut), true, body.material});
+        }
+    }
+    shape.bodies = std::move(result);
+}
+
+}  // namespace svt::readers::ifc

@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// Representation items to polygons: what a product's body is made of, and openings cut out of it.
+
+#include <svt/readers/ifc_shape/body.hpp>
+#include <svt/readers/ifc_shape/ifc_file.hpp>
+#include <svt/readers/ifc_shape/profiles.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// What was read of a product's shape, in its own axes.
+struct Shape {
+    std::vector<Body> bodies;
+    std::vector<std::string> leftOut;  ///< what was not read, or not applied, and why; each once
+    bool hasRepresentation = false;    ///< there is something that could be a body
+};
+
+class ShapeReader {
+public:
+    /// \param materialOfItem  representation item -> material of its style
+    ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem);
+
+    /// The body of a product: the representation Body, or what comes nearest to it; a bounding box where there is nothing
+    /// else, which is said in `leftOut`.
+    /// \param definition  IfcProductDefinitionShape
+    [[nodiscard]] Shape readShape(RecordIndex definition);
+
+    /// Cuts openings out of the closed bodies of a shape.
+    /// \param openings  in the axes of the shape
+    void subtract(Shape& shape, const std::vector<Body>& openings);
+
+private:
+    using Bodies = std::vector<Body>;
+
+    void readRepresentation(RecordIndex representation, Bodies& bodies);
+    void readItem(RecordIndex item, int depth, Bodies& bodies);
+    void readKnownItem(RecordIndex item, const Fields& fields, int depth, Bodies& bodies);
+    void readMappedItem(const Fields& fields, int depth, Bodies& bodies);
+    void readSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readDisk(const Fields& fields, Bodies& bodies);
+    void readBrep(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readSurfaceModel(const Fields& fields, Bodies& bodies);
+    void readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readBoolean(const Fields& fields, int depth, Bodies& bodies);
+    bool readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies);
+    void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);
+    void leaveOut(std::string what);
+
+    [[nodiscard]] std::vector<model::Polygon> readFaces(Value list);
+    bool readFace(RecordIndex face, std::vector<model::Polygon>& faces);
+    bool readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vector<std::size_t>& edgeEnds);
+    static bool addRuledFace(const std::vector<std::vector<Vec3d>>& rings, const std::vector<std::size_t>& edgeEnds,
+                             std::vector<model::Polygon>& faces);
+
+    const IfcFile& file_;
+    std::unordered_map<RecordIndex, std::int32_t> materialOfItem_;
+    std::unordered_map<RecordIndex, std::shared_ptr<const Bodies>> mapped_;             // by representation map
+    std::unordered_map<RecordIndex, std::vector<std::string>> leftOutOfMap_;            // what was left out of it
+    std::unordered_map<RecordIndex, std::shared_ptr<const std::vector<Vec3d>>> edges_;  // points of edge curves
+    std::vector<std::string> leftOut_;                                                  // of the shape that is read
+    std::uint64_t expanded_ = 0;                                                        // points of mapped items
+};
+
+}  // namespace svt::readers::ifc

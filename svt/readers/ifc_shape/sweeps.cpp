@@ -1,0 +1,226 @@
+#include <svt/readers/ifc_shape/sweeps.hpp>
+
+#include <svt/readers/ifc_shape/curves.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace svt::readers::ifc {
+namespace {
+
+using Polygons = std::vector<model::Polygon>;
+using Ring = std::vector<Vec3d>;
+
+constexpr int kDiskSegments = 24;  // at least, of the section of a bar
+constexpr int kMaxDiskSegments = 64;
+
+Ring moved(const Ring& ring, Vec3d by) {
+    Ring result = ring;
+    for (Vec3d& p : result) p = p + by;
+    return result;
+}
+
+Ring reversed(Ring ring) {
+    std::reverse(ring.begin(), ring.end());
+    return ring;
+}
+
+// Rings of a region and those at the other end of a sweep: caps, and quadrilaterals between.
+void addCaps(const Region& bottom, const Region& top, Polygons& faces) {
+    std::vector<Ring> low{reversed(bottom.outer)}, high{top.outer};
+    for (const Ring& hole : bottom.holes) low.push_back(reversed(hole));
+    for (const Ring& hole : top.holes) high.push_back(hole);
+    addFace(faces, low);
+    addFace(faces, high);
+}
+
+void addSides(const Ring& bottom, const Ring& top, Polygons& faces) {
+    for (std::size_t i = 0; i < bottom.size(); ++i) {
+        const std::size_t j = (i + 1) % bottom.size();
+        addQuad(faces, bottom[i], bottom[j], top[j], top[i]);
+    }
+}
+
+Polygons between(const Region& bottom, const Region& top, bool isUpwards) {
+    Polygons faces;
+    addCaps(bottom, top, faces);
+    addSides(bottom.outer, top.outer, faces);
+    for (std::size_t h = 0; h < bottom.holes.size(); ++h) addSides(bottom.holes[h], top.holes[h], faces);
+    if (!isUpwards) turnOver(faces);
+    return faces;
+}
+
+Region movedRegion(const Region& region, Vec3d by) {
+    Region result{moved(region.outer, by), {}};
+    for (const Ring& hole : region.holes) result.holes.push_back(moved(hole, by));
+    return result;
+}
+
+// Points of a ring turned about an axis; those on the axis stay exactly.
+Ring turned(const Ring& ring, const Transform& axis, double angle) {
+    const auto [sine, cosine] = sineCosine(angle);
+    Ring result;
+    for (const Vec3d p : ring) {
+        const Vec3d local = p - axis.origin;
+        const double along = dot(local, axis.z);
+        const Vec3d across = local - axis.z * along;
+        if (length(across) < 1e-7)
+            result.push_back(axis.origin + axis.z * along);
+        else
+            result.push_back(axis.origin + axis.z * along + across * cosine + cross(axis.z, across) * sine);
+    }
+    return result;
+}
+
+// The ring of a bar where it turns from one direction to the next: on the plane that halves the angle.
+Ring mitre(const Ring& before, Vec3d at, Vec3d direction, Vec3d next) {
+    const Vec3d sum = direction + next;
+    const Vec3d normal = length(sum) > 1e-6 ? normalized(sum) : direction;
+    const double along = std::max(dot(direction, normal), 0.05);
+    Ring ring;
+    for (const Vec3d p : before) ring.push_back(p + direction * (dot(at - p, normal) / along));
+    return ring;
+}
+
+// Rings of a tube along a line; the last is the first again for a closed one.
+std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
+    const std::size_t n = line.size();
+    const auto directionOf = [&](std::size_t segment) {
+        return normalized(line[(segment + 1) % n] - line[segment % n]);
+    };
+    const Vec3d first = directionOf(0);
+    const Transform axes = axesFrom(line[0], first, {0.3, 0.5, 0.8});
+    const int count = std::min(arcSegments(radius, 2 * kPi, kDiskSegments), kMaxDiskSegments);
+    // A polygon of n corners on a circle has less area than it; its corners are put out so that the volume is right.
+    const double step = 2 * kPi / count, outwards = radius * std::sqrt(step / std::sin(step));
+    Ring ring;
+    for (int i = 0; i < count; ++i) {
+        const auto [sine, cosine] = sineCosine(step * i);
+        ring.push_back(axes.point({outwards * cosine, outwards * sine, 0}));
+    }
+    std::vector<Ring> rings;
+    if (isClosed) ring = mitre(ring, line[0], directionOf(n - 1), first);
+    rings.push_back(ring);
+    const std::size_t segments = isClosed ? n : n - 1;
+    for (std::size_t s = 0; s < segments; ++s) {
+        const bool isEnd = !isClosed && s + 1 == segments;
+        rings.push_back(
+            mitre(rings.back(), line[(s + 1) % n], directionOf(s), isEnd ? directionOf(s) : directionOf(s + 1)));
+    }
+    if (isClosed) rings.back() = rings.front();  // the frame may have turned by a part of a turn: see sweepDisk()
+    return rings;
+}
+
+void addTube(const std::vector<Ring>& rings, Polygons& faces) {
+    for (std::size_t r = 0; r + 1 < rings.size(); ++r) addSides(rings[r], rings[r + 1], faces);
+}
+
+}  // namespace
+
+Polygons extrude(const Region& region, Vec3d sweep) {
+    if (!(std::abs(sweep.z) > 1e-9)) return {};
+    return between(region, movedRegion(region, sweep), sweep.z > 0);
+}
+
+Polygons extrudeTapered(const Region& region, const Region& end, Vec3d sweep) {
+    if (!(std::abs(sweep.z) > 1e-9) || region.outer.size() != end.outer.size() ||
+        region.holes.size() != end.holes.size())
+        return {};
+    for (std::size_t h = 0; h < end.holes.size(); ++h)
+        if (region.holes[h].size() != end.holes[h].size()) return {};
+    return between(region, movedRegion(end, sweep), sweep.z > 0);
+}
+
+Polygons revolve(const Region& region, const Transform& axis, double angle) {
+    double reach = 0;
+    for (const Vec3d p : region.outer) reach = std::max(reach, length(cross(p - axis.origin, axis.z)));
+    const bool isWhole = std::abs(angle) >= 2 * kPi - 1e-9;
+    if (isWhole) angle = angle > 0 ? 2 * kPi : -2 * kPi;
+    const int count = arcSegments(reach, angle);
+    if (std::abs(angle) < 1e-9) return {};
+    const auto at = [&](int step) {
+        Region result;
+        const double turn = isWhole && step == count ? 0 : angle * step / count;
+        result.outer = turned(region.outer, axis, turn);
+        for (const Ring& hole : region.holes) result.holes.push_back(turned(hole, axis, turn));
+        return result;
+    };
+    Polygons faces;
+    Region low = at(0);
+    const Region first = low;
+    for (int step = 1; step <= count; ++step) {
+        const Region high = at(step);
+        addSides(low.outer, high.outer, faces);
+        for (std::size_t h = 0; h < low.holes.size(); ++h) addSides(low.holes[h], high.holes[h], faces);
+        low = high;
+    }
+    if (!isWhole) addCaps(first, low, faces);
+    if (enclosedVolume(faces) < 0) turnOver(faces);
+    return faces;
+}
+
+Polygons sweepDisk(Ring line, double radius, double inner) {
+    const bool isClosed = line.size() > 3 && length(line.front() - line.back()) < 1e-6;
+    closeRing(line, 1e-6);
+    if (line.size() < 2 || !(radius > 0)) return {};
+    const std::vector<Ring> outside = tube(line, isClosed, radius);
+    Polygons faces;
+    addTube(outside, faces);
+    const bool isHollow = inner > 0 && inner < radius;
+    if (isHollow) {
+        Polygons inside;
+        const std::vector<Ring> rings = tube(line, isClosed, inner);
+        addTube(rings, inside);
+        turnOver(inside);
+        faces.insert(faces.end(), inside.begin(), inside.end());
+        if (!isClosed) {
+            addFace(faces, {reversed(outside.front()), rings.front()});
+            addFace(faces, {outside.back(), reversed(rings.back())});
+        }
+    } else if (!isClosed) {
+        addFace(faces, {reversed(outside.front())});
+        addFace(faces, {outside.back()});
+    }
+    return faces;
+}
+
+Polygons block(Vec3d size) {
+    if (!(size.x > 0 && size.y > 0 && size.z > 0)) return {};
+    return extrude({{{0, 0, 0}, {size.x, 0, 0}, {size.x, size.y, 0}, {0, size.y, 0}}, {}}, {0, 0, size.z});
+}
+
+Polygons pyramid(double x, double y, double height) {
+    if (!(x > 0 && y > 0 && height > 0)) return {};
+    const Ring base{{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}};
+    Polygons faces;
+    addFace(faces, {reversed(base)});
+    for (std::size_t i = 0; i < 4; ++i) addFace(faces, {{base[i], base[(i + 1) % 4], {x / 2, y / 2, height}}});
+    return faces;
+}
+
+Polygons cone(double radius, double top, double height) {
+    if (!(radius > 0 && height > 0)) return {};
+    Ring low, high;
+    appendArc({}, radius, radius, 0, 2 * kPi, low);
+    low.pop_back();
+    for (const Vec3d p : low) high.push_back({p.x * (top / radius), p.y * (top / radius), height});
+    Polygons faces;
+    addFace(faces, {reversed(low)});
+    addSides(low, high, faces);
+    if (top > 0) addFace(faces, {high});
+    return faces;
+}
+
+Polygons sphere(double radius) {
+    if (!(radius > 0)) return {};
+    Transform axis;
+    axis.z = {0, 1, 0};
+    Region half;
+    appendArc({}, radius, radius, -kPi / 2, kPi / 2, half.outer);
+    half.outer.front() = {0, -radius, 0};
+    half.outer.back() = {0, radius, 0};
+    return revolve(half, axis, 2 * kPi);
+}
+
+}  // namespace svt::readers::ifc

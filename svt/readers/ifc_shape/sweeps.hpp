@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Solids that a profile sweeps, and the primitives of CSG, as closed polygons.
+
+#include <svt/readers/ifc_shape/body.hpp>
+#include <svt/readers/ifc_shape/profiles.hpp>
+
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// The prism between a region and the same region moved by `sweep`, which may point to either side of z = 0.
+/// \return the closed faces; none where `sweep` lies in the plane of the region
+[[nodiscard]] std::vector<model::Polygon> extrude(const Region& region, Vec3d sweep);
+
+/// The body between a region and another one of as many points, which lies `sweep` away; side faces are cut in triangles
+/// where they are not flat. \return none where rings or their points differ in number
+[[nodiscard]] std::vector<model::Polygon> extrudeTapered(const Region& region, const Region& end, Vec3d sweep);
+
+/// A region turned about an axis in its plane.
+/// \param axis   z is the axis of the turn
+/// \param angle  radians; a full turn or more has no ends
+[[nodiscard]] std::vector<model::Polygon> revolve(const Region& region, const Transform& axis, double angle);
+
+/// A pipe or bar of round section along a line, with mitred corners; of equal area with a round one.
+/// \param line    at least two points; a closed one ends at its first
+/// \param inner   radius of the hollow, 0: none
+[[nodiscard]] std::vector<model::Polygon> sweepDisk(std::vector<Vec3d> line, double radius, double inner);
+
+/// Box with one corner at the origin.
+[[nodiscard]] std::vector<model::Polygon> block(Vec3d size);
+/// Square or rectangular pyramid on z = 0, one corner at the origin.
+[[nodiscard]] std::vector<model::Polygon> pyramid(double x, double y, double height);
+/// Cone or cylinder on z = 0 about the z axis. \param top  radius there; 0: an apex
+[[nodiscard]] std::vector<model::Polygon> cone(double radius, double top, double height);
+[[nodiscard]] std::vector<model::Polygon> sphere(double radius);
+
+}  // namespace svt::readers::ifc
