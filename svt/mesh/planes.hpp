@@ -13,8 +13,9 @@
 namespace svt::mesh {
 
 /// Sets meshes.planes, and Triangle::plane of all triangles that are not (nearly) vertical. Triangles are processed by
-/// descending area, so that the largest ones define the planes. A triangle joins an existing plane if its corners are
-/// within `distance` metres of it, measured along z and scaled by the slope. Cost: O(triangles log triangles).
+/// descending area, so that the largest ones define the planes. A triangle joins the first plane whose slope is like its
+/// own and that passes its corners within `distance` metres, measured along z and scaled by the slope.
+/// Cost: O(triangles log triangles), also where planes hardly differ.
 void assignPlanes(MeshSet& meshes, double distance);
 
 }  // namespace svt::mesh

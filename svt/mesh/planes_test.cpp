@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <chrono>
 #include <random>
+#include <set>
 
 namespace svt::mesh {
 namespace {
@@ -75,6 +78,33 @@ TEST(AssignPlanes, FloorAtOneHeightIsOnePlaneHoweverFarApart) {
     EXPECT_EQ(meshes.planes[0].slopeX, 0);
     EXPECT_EQ(meshes.planes[0].slopeY, 0);
     EXPECT_EQ(meshes.planes[0].offset, 3.1);
+}
+
+TEST(AssignPlanes, ManyPlanesThatHardlyDifferAreToldApartInTime) {
+    // Triangles of a metre whose corners differ by 0.1 to 50 mm: all planes lie in few cells. Each triangle comes twice, and
+    // its double shares its plane. One by one it would be 10^9 comparisons.
+    std::mt19937_64 random(4);
+    std::uniform_int_distribution<int> uniform(0, 500);
+    constexpr std::uint32_t kCount = 30000;
+    ObjectMesh mesh;
+    for (std::uint32_t n = 0; n < kCount; ++n) {
+        const Vec3d a{0, 0, uniform(random) * 1e-4}, b{1, 0, uniform(random) * 1e-4}, c{0, 1, uniform(random) * 1e-4};
+        for (const Vec3d& corner : {a, b, c}) mesh.vertices.push_back(corner);
+        mesh.triangles.emplace_back();
+        mesh.triangles.back().corners = {3 * n, 3 * n + 1, 3 * n + 2};
+        mesh.triangles.push_back(mesh.triangles.back());
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const MeshSet meshes = meshSetOf({mesh});
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(seconds.count(), 60);
+    std::set<std::array<double, 3>> distinct;
+    for (std::uint32_t n = 0; n < kCount; ++n) {
+        const auto& triangles = meshes.objects[0].triangles;
+        EXPECT_EQ(triangles[2 * n].plane, triangles[2 * n + 1].plane);
+        distinct.insert({mesh.vertices[3 * n].z, mesh.vertices[3 * n + 1].z, mesh.vertices[3 * n + 2].z});
+    }
+    EXPECT_EQ(meshes.planes.size(), distinct.size());
 }
 
 TEST(AssignPlanes, EveryCornerLiesOnItsPlane) {

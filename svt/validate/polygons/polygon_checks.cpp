@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <tuple>
 
 namespace svt::validate {
 namespace {
@@ -78,7 +80,8 @@ private:
     struct Edge {
         std::size_t ring, index;
         Point2 a, b;
-        std::int64_t low, high;
+        std::int64_t low, high;  // along u
+        std::int64_t lowV, highV;
     };
 
     Defect& report(Code code, Vec3d at, std::string message) {
@@ -173,7 +176,8 @@ private:
         for (std::size_t r = 0; r < rings_.size(); ++r)
             for (std::size_t i = 0; i < rings_[r].size(); ++i) {
                 const Point2 a = rings_[r].at[i], b = rings_[r].at[rings_[r].after(i)];
-                edges_.push_back({r, i, a, b, std::min(a.u, b.u), std::max(a.u, b.u)});
+                edges_.push_back(
+                    {r, i, a, b, std::min(a.u, b.u), std::max(a.u, b.u), std::min(a.v, b.v), std::max(a.v, b.v)});
             }
         std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.low < b.low; });
     }
@@ -183,6 +187,7 @@ private:
     bool forEachMeeting(const Visit& visit) const {
         for (std::size_t i = 0; i < edges_.size(); ++i)
             for (std::size_t j = i + 1; j < edges_.size() && edges_[j].low <= edges_[i].high; ++j) {
+                if (edges_[j].lowV > edges_[i].highV || edges_[j].highV < edges_[i].lowV) continue;
                 const Meeting meeting = meet(edges_[i].a, edges_[i].b, edges_[j].a, edges_[j].b);
                 if (meeting != Meeting::None && !visit(edges_[i], edges_[j], meeting)) return false;
             }
@@ -247,15 +252,12 @@ private:
     }
 
     bool checkRingPairs() {
-        std::set<std::pair<std::size_t, std::size_t>> alike;
-        for (std::size_t i = 0; i < rings_.size(); ++i)
-            for (std::size_t j = i + 1; j < rings_.size(); ++j)
-                if (rings_[i].size() == rings_[j].size() && haveSameCorners(rings_[i], rings_[j])) {
-                    markRing(report(Code::DuplicateRing, world(rings_[j], 0),
-                                    fmt::format("{} and {} are the same", nameOf(i), nameOf(j))),
-                             rings_[j]);
-                    return false;
-                }
+        if (const auto alike = findSameRings()) {
+            markRing(report(Code::DuplicateRing, world(rings_[alike->second], 0),
+                            fmt::format("{} and {} are the same", nameOf(alike->first), nameOf(alike->second))),
+                     rings_[alike->second]);
+            return false;
+        }
         return forEachMeeting([&](const Edge& e, const Edge& f, Meeting meeting) {
             if (e.ring == f.ring) return true;
             if (!isCrossing(e, f, meeting) && !overlapAlongLine(e, f)) {
@@ -272,11 +274,20 @@ private:
         });
     }
 
-    static bool haveSameCorners(const Ring& a, const Ring& b) {
-        std::vector<std::uint32_t> one = a.ids, two = b.ids;
-        std::sort(one.begin(), one.end());
-        std::sort(two.begin(), two.end());
-        return one == two;
+    // The first two rings, if any, that have the same corners.
+    [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> findSameRings() const {
+        if (rings_.size() < 2) return {};
+        std::optional<std::pair<std::size_t, std::size_t>> first;
+        std::map<std::vector<std::uint32_t>, std::size_t> seen;
+        for (std::size_t r = 0; r < rings_.size(); ++r) {
+            std::vector<std::uint32_t> corners = rings_[r].ids;
+            std::sort(corners.begin(), corners.end());
+            const auto [same, isNew] = seen.try_emplace(std::move(corners), r);
+            if (isNew) continue;
+            const std::pair found{same->second, r};
+            if (!first || found < *first) first = found;
+        }
+        return first;
     }
 
     // An end that lies beyond the other edge by rounding alone only touches it.
@@ -333,15 +344,47 @@ private:
                 rings_[r]);
             return false;
         }
-        for (std::size_t r = 1; r < rings_.size(); ++r)
-            for (std::size_t other = 1; other < rings_.size(); ++other) {
-                if (r == other || locateRing(rings_[r], rings_[other]) != Where::Inside) continue;
-                markRing(report(Code::InnerRingsNested, world(rings_[r], 0),
-                                fmt::format("{} lies within {}", nameOf(r), nameOf(other))),
-                         rings_[r]);
-                return false;
+        const auto nested = findNestedRings();
+        if (!nested) return true;
+        markRing(report(Code::InnerRingsNested, world(rings_[nested->first], 0),
+                        fmt::format("{} lies within {}", nameOf(nested->first), nameOf(nested->second))),
+                 rings_[nested->first]);
+        return false;
+    }
+
+    // The first interior ring, if any, that lies within another, and the first one around it. Rings are compared whose
+    // boxes lie within each other.
+    [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> findNestedRings() const {
+        struct Extent {
+            Point2 low, high;
+            std::size_t ring;
+        };
+        std::vector<Extent> extents;
+        for (std::size_t r = 1; r < rings_.size(); ++r) {
+            Extent extent{rings_[r].at[0], rings_[r].at[0], r};
+            for (const Point2 p : rings_[r].at) {
+                extent.low = {std::min(extent.low.u, p.u), std::min(extent.low.v, p.v)};
+                extent.high = {std::max(extent.high.u, p.u), std::max(extent.high.v, p.v)};
             }
-        return true;
+            extents.push_back(extent);
+        }
+        std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) {
+            return std::tie(a.low.u, a.ring) < std::tie(b.low.u, b.ring);
+        });
+        std::optional<std::pair<std::size_t, std::size_t>> first;
+        for (std::size_t outer = 0; outer < extents.size(); ++outer) {
+            const Extent& o = extents[outer];
+            std::size_t inner = outer;
+            while (inner > 0 && extents[inner - 1].low.u == o.low.u) --inner;
+            for (; inner < extents.size() && extents[inner].low.u <= o.high.u; ++inner) {
+                const Extent& i = extents[inner];
+                if (inner == outer || i.high.u > o.high.u || i.low.v < o.low.v || i.high.v > o.high.v) continue;
+                const std::pair found{i.ring, o.ring};
+                if (first && !(found < *first)) continue;
+                if (locateRing(rings_[i.ring], rings_[o.ring]) == Where::Inside) first = found;
+            }
+        }
+        return first;
     }
 
     // Rings and the points where they touch, as a graph: a circle of them cuts the interior in two.

@@ -1,7 +1,12 @@
 #include <svt/validate/polygons/triangulate.hpp>
 
+#include <svt/validate/polygons/flat_grid.hpp>
+
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <optional>
+#include <queue>
 
 namespace svt::validate {
 namespace {
@@ -12,15 +17,31 @@ using Corners = std::array<std::uint32_t, 3>;
 struct Link {
     RingCorner corner;
     std::size_t previous = 0, next = 0;
+    bool isCut = false;
 };
+
+FlatGrid gridOver(const std::vector<std::vector<RingCorner>>& rings) {
+    Point2 low = rings.front().front().at, high = low;
+    std::size_t corners = 0;
+    for (const auto& ring : rings) {
+        corners += ring.size();
+        for (const RingCorner& corner : ring) {
+            low = {std::min(low.u, corner.at.u), std::min(low.v, corner.at.v)};
+            high = {std::max(high.u, corner.at.u), std::max(high.v, corner.at.v)};
+        }
+    }
+    return {low, high, corners};
+}
 
 class EarCutter {
 public:
-    explicit EarCutter(const std::vector<std::vector<RingCorner>>& rings) {
+    explicit EarCutter(const std::vector<std::vector<RingCorner>>& rings)
+        : grid_(gridOver(rings)), hasHoles_(rings.size() > 1) {
         std::size_t count = 0;
         for (const auto& ring : rings) count += ring.size();
         links_.reserve(count + 2 * rings.size());
         start_ = addRing(rings.front());
+        addToBorder(start_);
         struct Hole {
             Point2 leftmost;
             std::size_t link;
@@ -43,6 +64,7 @@ public:
         std::vector<Corners> triangles;
         std::size_t remaining = 1;
         for (std::size_t at = links_[start_].next; at != start_; at = links_[at].next) ++remaining;
+        remaining_ = remaining;
         std::size_t at = start_, tried = 0;
         while (remaining > 3) {
             const bool isStuck = tried > remaining;
@@ -50,7 +72,7 @@ public:
             if (isStuck ? isConvex(at) || tried > 2 * remaining : isEar(at)) {
                 emit(at, triangles);
                 at = remove(at);
-                --remaining;
+                remaining_ = --remaining;
                 tried = 0;
             } else {
                 at = links_[at].next;
@@ -67,6 +89,21 @@ private:
         for (std::size_t i = 0; i < ring.size(); ++i)
             links_.push_back({ring[i], first + (i + ring.size() - 1) % ring.size(), first + (i + 1) % ring.size()});
         return first;
+    }
+
+    // Files a ring, which becomes part of the border, in the grid. Lines are looked for where there are holes alone.
+    void addToBorder(std::size_t first) {
+        std::size_t i = first;
+        do {
+            addToBorder(i, links_[i].next);
+            i = links_[i].next;
+        } while (i != first);
+    }
+    void addToBorder(std::size_t link, std::size_t next) {
+        grid_.addPoint(at(link), link);
+        if (!hasHoles_) return;
+        grid_.addLine(at(link), at(next), lines_.size());
+        lines_.push_back({at(link), at(next)});
     }
 
     [[nodiscard]] const Point2& at(std::size_t link) const { return links_[link].corner.at; }
@@ -88,13 +125,17 @@ private:
         const std::array<Point2, 3> t{at(previous), at(link), at(next)};
         const std::int64_t lowU = std::min({t[0].u, t[1].u, t[2].u}), highU = std::max({t[0].u, t[1].u, t[2].u});
         const std::int64_t lowV = std::min({t[0].v, t[1].v, t[2].v}), highV = std::max({t[0].v, t[1].v, t[2].v});
-        for (std::size_t i = links_[next].next; i != previous; i = links_[i].next) {
+        const auto isClear = [&](std::size_t i) {
             const Point2& p = at(i);
-            if (p.u < lowU || p.u > highU || p.v < lowV || p.v > highV) continue;
-            if (p == t[0] || p == t[1] || p == t[2]) continue;
+            if (links_[i].isCut || p.u < lowU || p.u > highU || p.v < lowV || p.v > highV) return true;
+            if (p == t[0] || p == t[1] || p == t[2]) return true;
             // Only corners that do not turn outwards can reach into an ear first.
-            if (turnAt(i) <= 0 && holds(t, p)) return false;
-        }
+            return !(turnAt(i) <= 0 && holds(t, p));
+        };
+        const FlatGrid::Cells cells = grid_.cellsOf({lowU, lowV}, {highU, highV});
+        if (2 * cells.count() < double(remaining_)) return grid_.forPoints(cells, isClear);
+        for (std::size_t i = links_[next].next; i != previous; i = links_[i].next)
+            if (!isClear(i)) return false;
         return true;
     }
 
@@ -107,13 +148,14 @@ private:
     std::size_t remove(std::size_t link) {
         links_[links_[link].previous].next = links_[link].next;
         links_[links_[link].next].previous = links_[link].previous;
+        links_[link].isCut = true;
         return links_[link].next;
     }
 
     // Joins a hole at its leftmost corner to the border left of it.
     void join(std::size_t hole) {
         const std::size_t partner = findPartner(hole);
-        if (partner == kNoLink) return;
+        addToBorder(hole);
         if (at(partner) == at(hole)) {  // they touch here: the chains change over
             const std::size_t afterPartner = links_[partner].next, afterHole = links_[hole].next;
             links_[partner].next = afterHole;
@@ -130,47 +172,51 @@ private:
         links_[links_[partner].next].previous = partnerCopy;
         links_[partner].next = hole;
         links_[hole].previous = partner;
+        addToBorder(holeCopy, partnerCopy);
+        addToBorder(partnerCopy, links_[partnerCopy].next);
     }
 
-    // The nearest corner of the border from which the hole is seen.
+    // The nearest corner of the border from which the hole is seen; if there is none, one that touches it, else the nearest.
     [[nodiscard]] std::size_t findPartner(std::size_t hole) const {
         const Point2 from = at(hole);
-        std::vector<std::pair<double, std::size_t>> candidates;
-        std::size_t i = start_;
-        do {
-            const double u = static_cast<double>(at(i).u - from.u), v = static_cast<double>(at(i).v - from.v);
-            candidates.emplace_back(u * u + v * v, i);
-            i = links_[i].next;
-        } while (i != start_);
-        std::sort(candidates.begin(), candidates.end());
-        for (const auto& [distance, link] : candidates) {
-            if (distance == 0) {
-                if (opensTowards(link, at(links_[hole].next)) || opensTowards(link, at(links_[hole].previous)))
-                    return link;
-                continue;
+        using Candidate = std::pair<double, std::size_t>;  // squared distance, link
+        std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
+        std::optional<Candidate> nearest;
+        const auto isPartner = [&](const Candidate& candidate) {
+            const std::size_t link = candidate.second;
+            if (candidate.first == 0)
+                return opensTowards(link, at(links_[hole].next)) || opensTowards(link, at(links_[hole].previous));
+            return at(link).u <= from.u && opensTowards(link, from) && opensTowards(hole, at(link)) && sees(hole, link);
+        };
+        for (std::int64_t ring = 0;; ++ring) {
+            const bool isMore = grid_.forPointsInRing(from, ring, [&](std::size_t i) {
+                const double u = static_cast<double>(at(i).u - from.u), v = static_cast<double>(at(i).v - from.v);
+                candidates.emplace(u * u + v * v, i);
+            });
+            // What is nearer than the cells of the next ring comes in order.
+            const double reach = grid_.reachOf(ring) * grid_.reachOf(ring);
+            while (!candidates.empty() && (!isMore || candidates.top().first <= reach)) {
+                if (!nearest) nearest = candidates.top();
+                if (isPartner(candidates.top())) return candidates.top().second;
+                candidates.pop();
             }
-            if (at(link).u <= from.u && opensTowards(link, from) && opensTowards(hole, at(link)) && sees(hole, link))
-                return link;
+            if (!isMore) return nearest->second;
         }
-        for (const auto& [distance, link] : candidates)
-            if (distance == 0) return link;
-        return candidates.empty() ? kNoLink : candidates.front().second;
     }
 
     // Only the border can stand between a hole and what lies left of it, and holes that are joined already.
     [[nodiscard]] bool sees(std::size_t hole, std::size_t link) const {
         const Point2 a = at(hole), b = at(link);
-        std::size_t i = start_;
-        do {
-            const Point2 c = at(i), d = at(links_[i].next);
-            i = links_[i].next;
-            if (c == b || d == b || c == a || d == a) continue;
-            if (meet(a, b, c, d) != Meeting::None) return false;
-        } while (i != start_);
-        return true;
+        return grid_.forLines(a, b, [&](std::size_t line) {
+            const auto& [c, d] = lines_[line];
+            return c == b || d == b || c == a || d == a || meet(a, b, c, d) == Meeting::None;
+        });
     }
 
-    static constexpr std::size_t kNoLink = ~std::size_t{0};
+    FlatGrid grid_;
+    bool hasHoles_;
+    std::vector<std::pair<Point2, Point2>> lines_;  // of the border, with those to holes
+    std::size_t remaining_ = 0;                     // corners that are not cut
     std::vector<Link> links_;
     std::size_t start_ = 0;
 };

@@ -23,7 +23,7 @@ struct RingCorner {
 /// \param rings   the exterior counter-clockwise, then holes clockwise; rings may touch at shared corners, not cross
 /// \param points  in space, by index
 /// \return corners by index, counter-clockwise
-/// Cost: O(n^2) in the worst case, near O(n) for convex polygons.
+/// Cost: O(n^2) in the worst case; near O(n) for convex polygons, and for many small holes.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<std::vector<RingCorner>>& rings,
                                                                     const std::vector<Vec3d>& points);
 
