@@ -32,6 +32,7 @@
 ///   bit vector.
 /// - Equal palette bricks are stored once, and so are equal bit planes (walls repeat along their length).
 
+#include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -88,7 +89,8 @@ public:
         BrickFaces faces = BrickFaces::Planes;
         /// Planes of the model's faces, in the voxel space of `columns`. They are tried first, in this order.
         std::span<const FacePlane> planes{};
-        int threads = 0;  ///< 0: all cores; the result does not depend on it
+        int threads = 0;                     ///< 0: all cores; the result does not depend on it
+        const Progress* progress = nullptr;  ///< is told of the stage "prepare"
     };
 
     /// Bricks of `columns`. A given plane is used in a brick only if all samples of the brick agree with it. Each tile

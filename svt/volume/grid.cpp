@@ -61,8 +61,9 @@ Result<Grid> Grid::fromSpacing(const Box3d& envelope, Vec3d spacing) {
             return Error(Code::BadDimension,
                          fmt::format("spacing {} m along {} is out of range; it must be greater than 0", spacing[axis],
                                      kAxisNames[axis]));
-        // The tolerance avoids an extra step where rounding pushes a whole number of steps up.
-        count[axis] = std::max(2.0, std::ceil(size[axis] / spacing[axis] - 1e-6) + 1);
+        // The tolerance avoids an extra step where rounding pushes a whole number of steps up. One step more is the
+        // margin, half of it at each side.
+        count[axis] = std::max(0.0, std::ceil(size[axis] / spacing[axis] - 1e-6)) + 2;
     }
     if (auto checked = checkDimension(count); !checked) return checked.error();
     Grid grid;

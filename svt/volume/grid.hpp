@@ -1,12 +1,18 @@
 #pragma once
 /// \file
-/// The sample positions of a volume: the node grid of the paper (section 3.2),
-/// spacing[i] = envelope[i] / (dimension[i] - 1); the first and last samples lie on the envelope.
+/// The sample positions of a volume.
 ///
-///      envelope                        index space: sample (i, j, k) is at (i, j, k), the centre
-///      x---x---x---x   dimension 4     of its voxel [i-1/2, i+1/2] x ...
-///      |   spacing                     x runs fastest, then y, then z:
-///      x---x---x---x                   linear index = i + nx * (j + ny * k)
+///      by dimension                    by spacing               index space: sample (i, j, k) is at (i, j, k), the
+///                                      x   x   x   x   x        centre of its voxel [i-1/2, i+1/2] x ...
+///      x---x---x---x   dimension 4       +-----------+          x runs fastest, then y, then z:
+///      |   envelope                    x | x   x   x | x        linear index = i + nx * (j + ny * k)
+///      x---x---x---x                     +-----------+
+///                                      x   x   x   x   x
+///
+/// By dimension it is the node grid of the paper (section 3.2), spacing[i] = envelope[i] / (dimension[i] - 1): the first
+/// and last samples lie on the envelope. By spacing they lie half a step outside of it, so that faces at whole steps lie
+/// between samples, the lower ones like the upper ones, and a model that is turned by 90 or 180 degrees gets the same
+/// labels.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -29,7 +35,7 @@ public:
     [[nodiscard]] static Result<Grid> fromDimension(const Box3d& envelope, Vec3i dimension);
 
     /// A grid with `spacing` metres (> 0) between samples along each axis. The envelope is widened equally on both
-    /// sides to a whole number of steps. Errors as fromDimension.
+    /// sides to a whole number of steps, and by half a step more. Errors as fromDimension.
     [[nodiscard]] static Result<Grid> fromSpacing(const Box3d& envelope, Vec3d spacing);
 
     /// From stored values, which are checked and not changed. Errors as fromDimension, and BadDimension if `spacing`,

@@ -45,15 +45,15 @@ TEST(Grid, AxisWithoutExtentIsWidenedEvenly) {
     expectNear(point->worldFromIndex({0.5, 0.5, 0.5}), {1, 2, 3}, 1e-12);
 }
 
-TEST(Grid, SpacingWidensTheEnvelopeEvenlyToWholeSteps) {
+TEST(Grid, SpacingWidensTheEnvelopeEvenlyToWholeStepsAndHalfAStep) {
     const Box3d envelope{{1, 2, 3}, {2.05, 3, 3.9}};
     const auto grid = Grid::fromSpacing(envelope, {0.1, 0.25, 0.4});
     ASSERT_TRUE(grid);
-    EXPECT_EQ(grid->dimension(), (Vec3i{12, 5, 4}));  // 1.05 -> 11 steps, 1.0 -> 4, 0.9 -> 3
+    EXPECT_EQ(grid->dimension(), (Vec3i{13, 6, 5}));  // 1.05 -> 11 steps, 1.0 -> 4, 0.9 -> 3; one more of margin
     EXPECT_EQ(grid->spacing(), (Vec3d{0.1, 0.25, 0.4}));
-    const Vec3d low = grid->worldFromIndex({0, 0, 0}), high = grid->worldFromIndex({11, 4, 3});
+    const Vec3d low = grid->worldFromIndex({0, 0, 0}), high = grid->worldFromIndex({12, 5, 4});
     expectNear((low + high) * 0.5, envelope.center(), 1e-12);
-    expectNear(high - low, {1.1, 1.0, 1.2}, 1e-12);
+    expectNear(high - low, {1.2, 1.25, 1.6}, 1e-12);
 }
 
 TEST(Grid, WholeNumberOfStepsGetsNoStepMoreByRounding) {
@@ -61,14 +61,15 @@ TEST(Grid, WholeNumberOfStepsGetsNoStepMoreByRounding) {
         const auto grid =
             Grid::fromSpacing({{shift, shift, shift}, {shift + 0.3, shift + 0.7, shift + 16.5}}, {0.1, 0.1, 0.1});
         ASSERT_TRUE(grid);
-        EXPECT_EQ(grid->dimension(), (Vec3i{4, 8, 166})) << shift;
+        EXPECT_EQ(grid->dimension(), (Vec3i{5, 9, 167})) << shift;
+        expectNear(grid->origin(), {shift - 0.05, shift - 0.05, shift - 0.05}, 1e-9);
     }
 }
 
 TEST(Grid, FlatEnvelopeBySpacingHasTwoSamples) {
     const auto grid = Grid::fromSpacing({{0, 0, 1}, {1, 1, 1}}, {0.5, 0.5, 0.5});
     ASSERT_TRUE(grid);
-    EXPECT_EQ(grid->dimension(), (Vec3i{3, 3, 2}));
+    EXPECT_EQ(grid->dimension(), (Vec3i{4, 4, 2}));
     EXPECT_DOUBLE_EQ(grid->origin().z, 0.75);
 }
 

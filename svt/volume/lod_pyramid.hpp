@@ -54,11 +54,13 @@ struct LodLevel {
 /// \param grid      grid of `columns`
 /// \param coarsest  last level, 1..6
 /// \param threads   0: all cores; the result does not depend on it
+/// \param progress  is told of the stage "prepare"; may be null
 /// \return the levels, finest first, or BadArgument if `coarsest` is out of range or the dimension of `grid` differs
 ///         from that of `columns`
 /// Cost: O(columns + runs of the distinct blocks of columns) per level.
 [[nodiscard]] Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const Grid& grid,
-                                                            int coarsest = 6, int threads = 0);
+                                                            int coarsest = 6, int threads = 0,
+                                                            const Progress* progress = nullptr);
 
 /// Mixture of a block with these voxel counts.
 /// \param counts  scalar and number of voxels (> 0), each scalar once, any order; background may be among them

@@ -8,7 +8,7 @@
 ///     labels.json      label table, overlaps, phase colors (deflated)
 ///     columns/index    index of the blocks, see column_blocks.hpp
 ///     columns/blocks   zstd frames, one per block
-///     meshes/parts     lines and triangles by label, see vector_parts.hpp; optional
+///     meshes/shapes    lines and triangles by label, see vector_parts.hpp; optional (meshes/parts in older files)
 ///     meshes/planes    planes of the model's faces, see face_planes.hpp; optional
 
 #include <svt/core/result.hpp>

@@ -13,11 +13,13 @@
 
 namespace svt::volume {
 
-/// Lines and triangles by label. Points are integer multiples of kUnit, relative to Grid::origin(), along the axes of
-/// world space (also in a rotated grid). Memory and file hold the same numbers; rounding moves a point by at most
-/// 0.05 mm per axis.
+/// Lines and triangles by label. Points are integer multiples of `unit`, relative to Grid::origin(), along the axes of
+/// world space (also in a rotated grid). Memory and file hold the same numbers; rounding moves a point by at most half a
+/// unit per axis.
 struct VectorParts {
-    static constexpr double kUnit = 1e-4;  ///< metres
+    /// Unit of models within 1 km of the grid's lower corner, metres: about a micrometre.
+    static constexpr double kFinestUnit = 0x1p-20;
+    static constexpr double kCoarsestUnit = 0x1p-10;  ///< metres
 
     struct Segment {
         std::uint32_t label = 0;              ///< index into LabelTable::labels
@@ -30,6 +32,7 @@ struct VectorParts {
         friend bool operator==(const Triangle&, const Triangle&) = default;
     };
 
+    double unit = kFinestUnit;  ///< metres, a power of two from kFinestUnit to kCoarsestUnit
     std::vector<Vec3i> points;
     std::vector<Segment> segments;    ///< labels ascend
     std::vector<Triangle> triangles;  ///< labels ascend
@@ -39,13 +42,14 @@ struct VectorParts {
     /// \param origin  Grid::origin()
     [[nodiscard]] Vec3d position(std::uint32_t point, Vec3d origin) const noexcept {
         const Vec3i p = points[point];
-        return origin + toDouble(p) * kUnit;
+        return origin + toDouble(p) * unit;
     }
     friend bool operator==(const VectorParts&, const VectorParts&) = default;
 };
 
 /// Checks parts from an untrusted source.
-/// \return success, or BadVolume that names a part that is out of order or refers to a missing label or point
+/// \return success, or BadVolume that names a part that is out of order or refers to a missing label or point, or a
+///         unit that is none
 [[nodiscard]] Result<void> checkVectorParts(const VectorParts& parts, std::size_t labelCount);
 
 /// The parts as one zstd frame, see docs/formats/svt.md. Equal parts give equal bytes.
@@ -56,5 +60,8 @@ struct VectorParts {
 /// 8 MiB + 8192 times the frame.
 /// \return the parts, or BadVolume
 [[nodiscard]] Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_t labelCount);
+
+/// The same for the frame of older files, with points in 0.1 mm (`meshes/parts`).
+[[nodiscard]] Result<VectorParts> readTenthParts(std::span<const std::byte> frame, std::size_t labelCount);
 
 }  // namespace svt::volume

@@ -4,6 +4,7 @@
 /// outer hull and the rooms belongs to the building as a whole. Here every voxel of that material is assigned to the
 /// nearest boundary surface, so that each wall has a body of its own in a section.
 
+#include <svt/core/progress.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
@@ -23,12 +24,11 @@ struct BodyGroup {
 /// Assigns every voxel of `from` to the surface nearest to its centre (distance in world space, ties go to the earlier
 /// surface). Exact: octree blocks are split until one surface is nearest to the whole block, or down to single voxels.
 /// Surfaces too far from a block are discarded for all of its children.
+/// \param progress  is told of the stage "bodies"; may be null
 /// Cost: O(area between the bodies), not their volume. The result does not depend on `threads`.
 [[nodiscard]] volume::ColumnVolume assignThematicBodies(const volume::ColumnVolume& columns, const volume::Grid& grid,
                                                         const mesh::MeshSet& meshes,
-                                                        const std::vector<BodyGroup>& groups, int threads);
-
-/// Distance from `point` to the triangle a, b, c (Ericson 2005, Real-Time Collision Detection, 5.1.5).
-[[nodiscard]] double distanceToTriangle(Vec3d point, Vec3d a, Vec3d b, Vec3d c) noexcept;
+                                                        const std::vector<BodyGroup>& groups, int threads,
+                                                        const Progress* progress = nullptr);
 
 }  // namespace svt::voxelize

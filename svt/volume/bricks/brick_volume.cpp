@@ -659,6 +659,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     BrickMerger merger(volume, columns.tilesX());
     merger.begin(tiles.size());
     const PlanesByTile planes(options.planes, columns);
+    ProgressCounter progress(options.progress, "prepare", tiles.size());
     parallelFor(tiles.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const auto x = static_cast<std::int32_t>(n % tilesX), y = static_cast<std::int32_t>(n / tilesX);
@@ -667,6 +668,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
             TileCoding coding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
                               {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z});
             merger.placeTile(n, coding.run(options.faces, planes.of(n)));
+            progress.add();
         }
     });
     std::uint64_t words = 0;

@@ -268,8 +268,8 @@ Mixture makeMixture(std::span<const std::pair<Scalar, std::uint64_t>> counts, st
     return mixture;
 }
 
-Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const Grid& grid, int coarsest,
-                                              int threads) {
+Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const Grid& grid, int coarsest, int threads,
+                                              const Progress* progress) {
     if (coarsest < 1 || coarsest > kCoarsest)
         return Error(Code::BadArgument,
                      fmt::format("level {} is out of range; 1 to {} are possible", coarsest, kCoarsest));
@@ -280,6 +280,7 @@ Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const
     for (int level = 1; level <= coarsest; ++level) {
         for (int axis = 0; axis < 3; ++axis) dimension[axis] = (dimension[axis] + 1) / 2;
         if (std::min({dimension.x, dimension.y, dimension.z}) < 2) break;
+        Progress::tell(progress, "prepare", double(level - 1) / coarsest);
         auto made = makeLevel(columns, grid, level, dimension, threads);
         if (!made) return made.error();
         levels.push_back(std::move(*made));

@@ -23,9 +23,10 @@ constexpr std::string_view kLabels = "labels.json";
 constexpr std::string_view kIndex = "columns/index";
 constexpr std::string_view kBlocks = "columns/blocks";
 // Optional entries:
-constexpr std::string_view kVectors = "meshes/parts";
+constexpr std::string_view kVectors = "meshes/shapes";
 constexpr std::string_view kPlanes = "meshes/planes";
-constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes};
+constexpr std::string_view kTenthParts = "meshes/parts";  // of older files, instead of kVectors
+constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes, kTenthParts};
 
 Error named(const Error& error, const std::string& file) {
     return Error(error.code(), error.message(), Place{file, 0, 0, {}});
@@ -165,8 +166,11 @@ Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
     auto columns = tables->blocks.decodeAll(tables->frames);
     if (!columns) return columns.error();
     using Frame = std::span<const std::byte>;
-    auto vectors = readOptional<VectorParts>(
-        *entries, kVectors, [&](Frame frame) { return readVectorParts(frame, tables->labels.labels.size()); });
+    const bool isOld = !entries->has(kVectors);
+    auto vectors = readOptional<VectorParts>(*entries, isOld ? kTenthParts : kVectors, [&](Frame frame) {
+        return isOld ? readTenthParts(frame, tables->labels.labels.size())
+                     : readVectorParts(frame, tables->labels.labels.size());
+    });
     if (!vectors) return vectors.error();
     auto planes = readOptional<std::vector<FacePlane>>(
         *entries, kPlanes, [&](Frame frame) { return readFacePlanes(frame, tables->grid.dimension()); });

@@ -86,10 +86,10 @@ TEST(SvtFile, KeepsLinesAndMeshesWhereThereAreAny) {
     EXPECT_EQ(read->vectors, volume.vectors);
     EXPECT_EQ(bytesOfVolume(*read), file);
     // Without them the file has no such entry.
-    EXPECT_EQ(changed(bytesOfVolume(bare), [](EntryTexts& texts) { EXPECT_EQ(texts.count("meshes/parts"), 0u); }),
-              changed(file, [](EntryTexts& texts) { EXPECT_EQ(texts.erase("meshes/parts"), 1u); }));
+    EXPECT_EQ(changed(bytesOfVolume(bare), [](EntryTexts& texts) { EXPECT_EQ(texts.count("meshes/shapes"), 0u); }),
+              changed(file, [](EntryTexts& texts) { EXPECT_EQ(texts.erase("meshes/shapes"), 1u); }));
 
-    expectRefused(changed(file, [](EntryTexts& texts) { texts["meshes/parts"].pop_back(); }), Code::BadVolume,
+    expectRefused(changed(file, [](EntryTexts& texts) { texts["meshes/shapes"].pop_back(); }), Code::BadVolume,
                   "vector parts");
     volume.vectors.segments[0].label = 4000;
     const TemporaryFolder folder;
@@ -133,8 +133,8 @@ TEST(SvtFile, EntriesStandInTheOrderOfTheFormat) {
     const std::string file = bytesOfVolume(volume);
     const auto entries = readZip(std::as_bytes(std::span(file)));
     ASSERT_TRUE(entries);
-    const char* expected[] = {"mimetype",       "svt.json",     "labels.json",  "columns/index",
-                              "columns/blocks", "meshes/parts", "meshes/planes"};
+    const char* expected[] = {"mimetype",       "svt.json",      "labels.json",  "columns/index",
+                              "columns/blocks", "meshes/shapes", "meshes/planes"};
     ASSERT_EQ(entries->size(), std::size(expected));
     for (std::size_t e = 0; e < entries->size(); ++e) {
         EXPECT_EQ((*entries)[e].name, expected[e]);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace svt::volume {
@@ -33,9 +35,47 @@ Result<void> checkPart(const std::vector<Part>& list, Corners corners, std::stri
     return {};
 }
 
+bool isUnit(double unit) noexcept {
+    return unit >= VectorParts::kFinestUnit && unit <= VectorParts::kCoarsestUnit &&
+           std::ldexp(1.0, std::ilogb(unit)) == unit;
+}
+
+// The counts of points, segments and triangles, as empty lists of that size.
+Result<VectorParts> readCounts(NumberReader& reader) {
+    const std::uint64_t points = reader.number(), segments = reader.number(), triangles = reader.number();
+    if (!reader.isGood() ||
+        points * kPointBytes + segments * kSegmentBytes + triangles * kTriangleBytes > reader.left())
+        return badParts(fmt::format("{} points, {} segments and {} triangles are said to be in {} bytes", points,
+                                    segments, triangles, reader.left()));
+    VectorParts parts;
+    parts.points.resize(static_cast<std::size_t>(points));
+    parts.segments.resize(static_cast<std::size_t>(segments));
+    parts.triangles.resize(static_cast<std::size_t>(triangles));
+    return parts;
+}
+
+Result<void> checkEnd(const NumberReader& reader, const VectorParts& parts, std::size_t labelCount) {
+    if (!reader.isGood()) return badParts("a number is cut short or longer than 32 bits");
+    if (reader.left() != 0) return badParts(fmt::format("{} bytes are left over", reader.left()));
+    return checkVectorParts(parts, labelCount);
+}
+
+// Points of 0.1 mm in the finest unit that holds them.
+void toFinestUnit(VectorParts& parts) {
+    double reach = 0;
+    for (const Vec3i& point : parts.points)
+        for (int axis = 0; axis < 3; ++axis) reach = std::max(reach, std::abs(double{1e-4} * point[axis]));
+    parts.unit = VectorParts::kFinestUnit;
+    while (reach > parts.unit * double(1 << 30)) parts.unit *= 2;
+    for (Vec3i& point : parts.points)
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] = static_cast<std::int32_t>(std::lround(1e-4 * point[axis] / parts.unit));
+}
+
 }  // namespace
 
 Result<void> checkVectorParts(const VectorParts& parts, std::size_t labelCount) {
+    if (!isUnit(parts.unit)) return badParts(fmt::format("a unit of {} m is not one of 2^-20 to 2^-10 m", parts.unit));
     if (auto checked =
             checkPart(parts.segments, &VectorParts::Segment::ends, "segment", labelCount, parts.points.size());
         !checked)
@@ -50,24 +90,28 @@ Result<std::vector<std::byte>> compressVectorParts(const VectorParts& parts) {
         return Error(Code::BadArgument,
                      fmt::format("{} points, segments and triangles are over the limit of {}",
                                  parts.points.size() + parts.segments.size() + parts.triangles.size(), most));
+    writer.number(static_cast<std::uint32_t>(-std::ilogb(parts.unit)));
     writer.number(static_cast<std::uint32_t>(parts.points.size()));
     writer.number(static_cast<std::uint32_t>(parts.segments.size()));
     writer.number(static_cast<std::uint32_t>(parts.triangles.size()));
-    Vec3i before{};
-    for (const Vec3i point : parts.points) {
-        for (int axis = 0; axis < 3; ++axis) writer.difference(bitsOf(point[axis]), bitsOf(before[axis]));
-        before = point;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::int32_t before = 0;
+        for (const Vec3i& point : parts.points) {
+            writer.difference(bitsOf(point[axis]), bitsOf(before));
+            before = point[axis];
+        }
     }
     const auto writeList = [&](const auto& list, auto corners) {
-        std::uint32_t label = 0, last = 0;
+        std::uint32_t label = 0, next = 0;
         for (const auto& part : list) {
             writer.number(part.label - label);
             label = part.label;
-            for (const std::uint32_t corner : part.*corners) {
-                writer.difference(corner, last);
-                last = corner;
-            }
         }
+        for (const auto& part : list)
+            for (const std::uint32_t corner : part.*corners) {
+                writer.difference(next, corner);
+                next = std::max(next, corner + 1);
+            }
     };
     writeList(parts.segments, &VectorParts::Segment::ends);
     writeList(parts.triangles, &VectorParts::Triangle::corners);
@@ -78,15 +122,42 @@ Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_
     const auto bytes = unpackNumbers(frame, kPartsName);
     if (!bytes) return bytes.error();
     NumberReader reader(*bytes);
-    const std::uint64_t points = reader.number(), segments = reader.number(), triangles = reader.number();
-    if (!reader.isGood() ||
-        points * kPointBytes + segments * kSegmentBytes + triangles * kTriangleBytes > reader.left())
-        return badParts(fmt::format("{} points, {} segments and {} triangles are said to be in {} bytes", points,
-                                    segments, triangles, reader.left()));
-    VectorParts parts;
-    parts.points.resize(static_cast<std::size_t>(points));
-    parts.segments.resize(static_cast<std::size_t>(segments));
-    parts.triangles.resize(static_cast<std::size_t>(triangles));
+    const std::uint32_t exponent = reader.number();
+    auto sized = readCounts(reader);
+    if (!sized) return sized.error();
+    VectorParts parts = std::move(*sized);
+    parts.unit = std::ldexp(1.0, -static_cast<int>(std::min(exponent, 1000u)));
+    if (!isUnit(parts.unit)) return badParts(fmt::format("the unit is said to be 2^-{} m", exponent));
+    for (int axis = 0; axis < 3; ++axis) {
+        std::uint32_t before = 0;
+        for (Vec3i& point : parts.points) {
+            before = reader.difference(before);
+            point[axis] = static_cast<std::int32_t>(before);
+        }
+    }
+    const auto readList = [&](auto& list, auto corners) {
+        std::uint32_t label = 0, next = 0;
+        // If the sum wraps around, the order check will fail.
+        for (auto& part : list) part.label = label += reader.number();
+        for (auto& part : list)
+            for (std::uint32_t& corner : part.*corners) {
+                corner = next - reader.difference(0);
+                next = std::max(next, corner + 1);
+            }
+    };
+    readList(parts.segments, &VectorParts::Segment::ends);
+    readList(parts.triangles, &VectorParts::Triangle::corners);
+    if (auto finished = checkEnd(reader, parts, labelCount); !finished) return finished.error();
+    return parts;
+}
+
+Result<VectorParts> readTenthParts(std::span<const std::byte> frame, std::size_t labelCount) {
+    const auto bytes = unpackNumbers(frame, kPartsName);
+    if (!bytes) return bytes.error();
+    NumberReader reader(*bytes);
+    auto sized = readCounts(reader);
+    if (!sized) return sized.error();
+    VectorParts parts = std::move(*sized);
     Vec3i before{};
     for (Vec3i& point : parts.points) {
         for (int axis = 0; axis < 3; ++axis)
@@ -103,9 +174,8 @@ Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_
     };
     readList(parts.segments, &VectorParts::Segment::ends);
     readList(parts.triangles, &VectorParts::Triangle::corners);
-    if (!reader.isGood()) return badParts("a number is cut short or longer than 32 bits");
-    if (reader.left() != 0) return badParts(fmt::format("{} bytes are left over", reader.left()));
-    if (auto checked = checkVectorParts(parts, labelCount); !checked) return checked.error();
+    if (auto finished = checkEnd(reader, parts, labelCount); !finished) return finished.error();
+    toFinestUnit(parts);
     return parts;
 }
 

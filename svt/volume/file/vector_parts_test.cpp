@@ -50,41 +50,56 @@ TEST(VectorParts, ComeBackAsWritten) {
     }
 }
 
-TEST(VectorParts, PlacesAreTenthsOfAMillimetre) {
+TEST(VectorParts, UnitsArePowersOfTwo) {
     VectorParts parts;
-    parts.points = {{10000, -5, 1}};
+    parts.points = {{1048576, -5, 1}};
     const Vec3d place = parts.position(0, {458877, 5438353, 100});
     EXPECT_NEAR(place.x, 458878, 1e-9);
-    EXPECT_NEAR(place.y, 5438352.9995, 1e-9);
-    EXPECT_NEAR(place.z, 100.0001, 1e-9);
+    EXPECT_NEAR(place.y, 5438353 - 5 * 0x1p-20, 1e-9);
+    EXPECT_NEAR(place.z, 100 + 0x1p-20, 1e-9);
+    parts.unit = VectorParts::kCoarsestUnit;
+    EXPECT_NEAR(parts.position(0, {}).x, 1024, 1e-9);
+    EXPECT_EQ(readVectorParts(*compressVectorParts(parts), kLabels)->unit, VectorParts::kCoarsestUnit);
+    for (const double wrong : {1e-4, 0x1p-21, 1.0, 0.0}) {
+        parts.unit = wrong;
+        EXPECT_FALSE(checkVectorParts(parts, kLabels)) << wrong;
+    }
 }
 
-// The worked example of docs/formats/svt.md.
-TEST(VectorParts, TheExampleOfTheFormatReads) {
-    const auto parts = readVectorParts(
-        frameOf({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}), kLabels);
-    ASSERT_TRUE(parts) << parts.error().toString();
+// The worked examples of docs/formats/svt.md.
+TEST(VectorParts, TheExamplesOfTheFormatRead) {
     VectorParts expected;
-    expected.points = {{0, 0, 0}, {10000, 0, 0}, {10000, 10000, 0}};
+    expected.points = {{0, 0, 0}, {1 << 20, 0, 0}, {1 << 20, 1 << 20, 0}};
     expected.segments = {{2, {0, 1}}};
     expected.triangles = {{0, {0, 1, 2}}};
+    const auto parts = readVectorParts(frameOf({20,   3,    1,    1, 0, 0x80, 0x80, 0x80, 0x01, 0, 0, 0, 0x80,
+                                                0x80, 0x80, 0x01, 0, 0, 0,    2,    0,    0,    0, 0, 0, 0}),
+                                       kLabels);
+    ASSERT_TRUE(parts) << parts.error().toString();
     EXPECT_EQ(*parts, expected);
+    const auto old = readTenthParts(
+        frameOf({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}), kLabels);
+    ASSERT_TRUE(old) << old.error().toString();
+    EXPECT_EQ(*old, expected);
 }
 
 TEST(VectorParts, DamagedOnesAreRefused) {
     expectRefused({}, "no zstd frame");
     expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
     expectRefused(frameOf({}), "are said to be in");
-    expectRefused(frameOf({1, 0, 0, 2, 2}), "are said to be in 2 bytes");
-    expectRefused(frameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
-    expectRefused(frameOf({1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
-    expectRefused(frameOf({1, 0, 0, 2, 2, 0x80}), "cut short");
-    expectRefused(frameOf({1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
-    expectRefused(frameOf({1, 1, 0, 0, 0, 0, 9, 0, 0}), "segment 0 is of label 9, there are 9");
-    expectRefused(frameOf({1, 1, 0, 0, 0, 0, 1, 0, 2}), "segment 0 uses point 1, there are 1");
-    expectRefused(frameOf({1, 0, 1, 0, 0, 0, 1, 0, 0, 1}), "triangle 0 uses point 4294967295");
+    expectRefused(frameOf({9, 0, 0, 0}), "the unit is said to be 2^-9 m");
+    expectRefused(frameOf({21, 0, 0, 0}), "the unit is said to be 2^-21 m");
+    expectRefused(frameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 0}), "the unit is said to be 2^-4294967295 m");
+    expectRefused(frameOf({20, 1, 0, 0, 2, 2}), "are said to be in 2 bytes");
+    expectRefused(frameOf({20, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
+    expectRefused(frameOf({20, 1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
+    expectRefused(frameOf({20, 1, 0, 0, 2, 2, 0x80}), "cut short");
+    expectRefused(frameOf({20, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
+    expectRefused(frameOf({20, 1, 1, 0, 0, 0, 0, 9, 0, 2}), "segment 0 is of label 9, there are 9");
+    expectRefused(frameOf({20, 1, 1, 0, 0, 0, 0, 1, 0, 0}), "segment 0 uses point 1, there are 1");
+    expectRefused(frameOf({20, 1, 0, 1, 0, 0, 0, 1, 2, 0, 0}), "triangle 0 uses point 4294967295");
     // 3, then a difference that wraps around to 2.
-    expectRefused(frameOf({1, 2, 0, 0, 0, 0, 3, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0}), "out of the order");
+    expectRefused(frameOf({20, 1, 2, 0, 0, 0, 0, 3, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 2, 2, 2}), "out of the order");
     std::vector<std::uint8_t> zeros(std::size_t{64} << 20, 0);
     expectRefused(frameOf(zeros), "are possible");
 }

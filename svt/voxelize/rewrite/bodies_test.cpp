@@ -1,3 +1,4 @@
+#include <svt/core/triangle_distance.hpp>
 #include <svt/voxelize/bodies.hpp>
 #include <svt/voxelize/solids_test.hpp>
 #include <svt/voxelize/voxelize.hpp>

@@ -232,10 +232,12 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
         for (std::size_t part = 0; part < fills[n]->partCount(); ++part) parts.push_back({n, part});
     constexpr std::uint64_t kMaxRuns = 30'000'000;  // about 1.5 GB as boxes
     std::atomic<std::uint64_t> runs{0};
+    ProgressCounter progress(parts.empty() ? nullptr : options.progress, "fill", parts.size());
     parallelFor(parts.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end && runs <= kMaxRuns; ++n) {
             if (Progress::isCancelled(options.progress)) return;
             runs += fills[parts[n].fill]->runPart(parts[n].part);
+            progress.add();
         }
     });
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");

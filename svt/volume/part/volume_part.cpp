@@ -1,0 +1,259 @@
+#include <svt/volume/lod_pyramid.hpp>
+#include <svt/volume/volume_part.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+constexpr std::uint16_t kNoColumn = 0xFFFF;  // a tile has 4096 columns at most
+
+/// Counts voxels again; a volume that is no longer that of the whole label becomes that of its voxels.
+void recount(SemanticVolume& volume) {
+    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
+    for (Label& label : volume.labels.labels) {
+        std::uint64_t count = 0;
+        for (Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
+        if (count == label.voxels) continue;
+        if (label.volume > 0) label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
+        label.thinVoxels = std::min(label.thinVoxels, count);
+        label.uncertainVoxels = std::min(label.uncertainVoxels, count);
+        label.voxels = count;
+    }
+}
+
+void appendRun(std::vector<Run>& runs, Run run) {
+    if (!runs.empty() && runs.back().scalar == run.scalar)
+        runs.back().end = run.end;
+    else
+        runs.push_back(run);
+}
+
+ColumnTileData replacedTile(const ColumnTile& tile, std::size_t width, std::span<const Scalar> newOf) {
+    ColumnTileBuilder builder(static_cast<std::int32_t>(width));
+    std::vector<std::uint16_t> numberOf;
+    std::vector<Run> runs;
+    // Columns are numbered by first use, and what becomes equal takes the number of the first.
+    for (std::uint32_t c = 0; c + 1 < tile.columnStart.size(); ++c) {
+        runs.clear();
+        for (const Run& run : tile.column(c)) appendRun(runs, {run.end, newOf[run.scalar]});
+        numberOf.push_back(builder.addColumn(runs));
+    }
+    std::vector<std::uint16_t> row(width);
+    for (std::size_t r = 0; r < tile.rowOf.size(); ++r) {
+        if (r > 0 && tile.rowOf[r] == tile.rowOf[r - 1]) {
+            builder.repeatRow();
+            continue;
+        }
+        const auto* columns = tile.rowColumns.data() + tile.rowOf[r] * width;
+        for (std::size_t x = 0; x < width; ++x) row[x] = numberOf[columns[x]];
+        builder.addRow(row);
+    }
+    return builder.finish();
+}
+
+/// One tile of a box of columns. Columns of the source are cut once each.
+class Cropper {
+public:
+    Cropper(const ColumnVolume& source, const IndexBox& box) : source_(source), box_(box) {}
+
+    ColumnTileData tile(std::int32_t iBegin, std::int32_t jBegin, std::int32_t width, std::int32_t height) {
+        ColumnTileBuilder builder(width);
+        std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+        for (auto& known : numberOf_) known.clear();
+        for (std::int32_t j = jBegin; j < jBegin + height; ++j) {
+            for (std::int32_t x = 0; x < width; ++x)
+                row[std::size_t(x)] = number(builder, iBegin, iBegin + x, j, jBegin);
+            builder.addRow(row);
+        }
+        return builder.finish();
+    }
+
+private:
+    // A tile of the part lies in four tiles of the source at most.
+    std::uint16_t number(ColumnTileBuilder& builder, std::int32_t iBegin, std::int32_t i, std::int32_t j,
+                         std::int32_t jBegin) {
+        const std::int32_t tileX = i / kTile, tileY = j / kTile;
+        const auto quarter =
+            static_cast<std::size_t>((tileX > iBegin / kTile ? 1 : 0) + (tileY > jBegin / kTile ? 2 : 0));
+        const ColumnTile& tile =
+            source_.tiles()[std::size_t(tileX) + std::size_t(source_.tilesX()) * std::size_t(tileY)];
+        const std::size_t rowNumber = tile.rowOf[std::size_t(j % kTile)];
+        const std::uint16_t column =
+            tile.rowColumns[rowNumber * std::size_t(source_.tileWidth(tileX)) + std::size_t(i % kTile)];
+        auto& known = numberOf_[quarter];
+        if (known.empty()) known.assign(tile.columnStart.size() - 1, kNoColumn);
+        if (known[column] == kNoColumn) known[column] = builder.addColumn(cut(tile.column(column)));
+        return known[column];
+    }
+
+    std::span<const Run> cut(std::span<const Run> runs) {
+        runs_.clear();
+        const auto begin = static_cast<std::uint32_t>(box_.begin.z), end = static_cast<std::uint32_t>(box_.end.z);
+        for (const Run& run : runs) {
+            if (run.end <= begin) continue;
+            runs_.push_back({std::min(run.end, end) - begin, run.scalar});
+            if (run.end >= end) break;
+        }
+        return runs_;
+    }
+
+    const ColumnVolume& source_;
+    IndexBox box_;
+    std::array<std::vector<std::uint16_t>, 4> numberOf_;
+    std::vector<Run> runs_;
+};
+
+std::vector<FacePlane> croppedPlanes(std::span<const FacePlane> planes, const IndexBox& box) {
+    std::vector<FacePlane> kept;
+    for (FacePlane plane : planes) {
+        bool isInside = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            const std::int32_t least = std::max<std::int32_t>(plane.min[a], box.begin[axis]) - box.begin[axis];
+            const std::int32_t most = std::min<std::int32_t>(plane.max[a], box.end[axis]) - box.begin[axis];
+            isInside = isInside && least < most;
+            plane.min[a] = static_cast<std::uint16_t>(std::max(least, 0));
+            plane.max[a] = static_cast<std::uint16_t>(std::max(most, 0));
+        }
+        plane.plane.offset += dot(plane.plane.normal, toDouble(box.begin));
+        if (isInside) kept.push_back(plane);
+    }
+    return kept;
+}
+
+/// The scalar of a cell: that of which most is there, of the label that fills most; background where that fills more.
+Scalar scalarOf(const Mixture& mixture, std::span<const std::uint32_t> labelOf) {
+    int most = 0;
+    Scalar scalar = 0;
+    for (const MixturePart& part : mixture.labels()) {
+        int coverage = 0;
+        for (const MixturePart& other : mixture.labels())
+            if (labelOf[other.scalar] == labelOf[part.scalar]) coverage += other.coverage;
+        if (coverage <= most) continue;  // parts are ordered: of equal ones, the first
+        most = coverage;
+        scalar = part.scalar;
+    }
+    return most >= 255 - mixture.coverage() ? scalar : 0;
+}
+
+}  // namespace
+
+Result<IndexBox> samplesIn(const Grid& grid, const Box3d& world) {
+    Box3d index;
+    for (int corner = 0; corner < 8; ++corner)
+        index.add(grid.indexFromWorld({(corner & 1) != 0 ? world.max.x : world.min.x,
+                                       (corner & 2) != 0 ? world.max.y : world.min.y,
+                                       (corner & 4) != 0 ? world.max.z : world.min.z}));
+    IndexBox box;
+    const Vec3i dimension = grid.dimension();
+    // A bound that is meant to lie on a sample does so up to rounding.
+    constexpr double kRounding = 1e-6;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double least = std::max(std::ceil(index.min[axis] - kRounding), 0.0);
+        const double most = std::min(std::floor(index.max[axis] + kRounding), double(dimension[axis] - 1));
+        if (world.isEmpty() || !(least <= most))
+            return Error(Code::NothingSelected,
+                         fmt::format("no sample lies in the box from {:.3f},{:.3f},{:.3f} to {:.3f},{:.3f},{:.3f}; "
+                                     "`svt info` tells where the volume lies",
+                                     world.min.x, world.min.y, world.min.z, world.max.x, world.max.y, world.max.z));
+        box.begin[axis] = static_cast<std::int32_t>(least);
+        box.end[axis] = static_cast<std::int32_t>(most) + 1;
+        if (box.end[axis] - box.begin[axis] > 1) continue;
+        if (box.end[axis] < dimension[axis])
+            ++box.end[axis];
+        else
+            --box.begin[axis];
+    }
+    return box;
+}
+
+ColumnVolume replaceScalars(const ColumnVolume& columns, std::span<const Scalar> newOf) {
+    std::vector<ColumnTileData> tiles;
+    tiles.reserve(columns.tiles().size());
+    for (std::size_t t = 0; t < columns.tiles().size(); ++t) {
+        const auto tileX = static_cast<std::int32_t>(t % std::size_t(columns.tilesX()));
+        tiles.push_back(replacedTile(columns.tiles()[t], std::size_t(columns.tileWidth(tileX)), newOf));
+    }
+    return ColumnVolume::fromTiles(columns.dimension(), std::move(tiles));
+}
+
+Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBox& box) {
+    const Vec3i dimension = volume.grid.dimension();
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.begin[axis] < 0 || box.end[axis] > dimension[axis] || box.end[axis] - box.begin[axis] < 2)
+            return Error(Code::BadArgument, fmt::format("samples {} to {} of {} along axis {} are no box to crop to",
+                                                        box.begin[axis], box.end[axis], dimension[axis], axis));
+    if (box == IndexBox{{}, dimension}) return volume;
+    const Vec3i size = box.end - box.begin;
+    auto grid = Grid::fromParts(size, volume.grid.spacing(), volume.grid.worldFromIndex(toDouble(box.begin)),
+                                volume.grid.axes());
+    if (!grid) return grid.error();
+    Cropper cropper(volume.columns, box);
+    std::vector<ColumnTileData> tiles;
+    for (std::int32_t j = 0; j < size.y; j += kTile)
+        for (std::int32_t i = 0; i < size.x; i += kTile)
+            tiles.push_back(cropper.tile(box.begin.x + i, box.begin.y + j, std::min(kTile, size.x - i),
+                                         std::min(kTile, size.y - j)));
+    SemanticVolume part{*grid,          volume.labels,    ColumnVolume::fromTiles(size, std::move(tiles)),
+                        volume.crsName, volume.modelName, volume.source};
+    part.planes = croppedPlanes(volume.planes, box);
+    part.labels.overlaps.clear();
+    recount(part);
+    return part;
+}
+
+Result<SemanticVolume> selectedVolume(const SemanticVolume& volume, std::span<const std::uint32_t> kept) {
+    std::vector<Scalar> newOf(volume.labels.scalarCount(), 0);
+    for (const std::uint32_t label : kept) {
+        if (label >= volume.labels.labels.size())
+            return Error(Code::BadArgument, fmt::format("there is no label {}", label));
+        const Label& chosen = volume.labels.labels[label];
+        for (Scalar s = chosen.first; s < chosen.first + chosen.count; ++s) newOf[s] = s;
+    }
+    SemanticVolume part{volume.grid,    volume.labels,    replaceScalars(volume.columns, newOf),
+                        volume.crsName, volume.modelName, volume.source};
+    part.planes = volume.planes;
+    part.labels.overlaps.clear();
+    recount(part);
+    return part;
+}
+
+Result<std::vector<SemanticVolume>> coarseVolumes(const SemanticVolume& volume, int coarsest, int threads) {
+    auto levels = buildLodPyramid(volume.columns, volume.grid, coarsest, threads);
+    if (!levels) return levels.error();
+    const auto labelOf = volume.labels.labelOfScalar();
+    std::vector<SemanticVolume> parts;
+    for (const LodLevel& level : *levels) {
+        std::vector<Scalar> newOf;
+        newOf.reserve(level.mixtures.size());
+        for (const Mixture& mixture : level.mixtures) newOf.push_back(scalarOf(mixture, labelOf));
+        SemanticVolume& part =
+            parts.emplace_back(SemanticVolume{level.grid, volume.labels, replaceScalars(level.columns, newOf),
+                                              volume.crsName, volume.modelName, volume.source});
+        part.labels.overlaps.clear();
+        recount(part);
+    }
+    return parts;
+}
+
+Result<SemanticVolume> coarseVolume(const SemanticVolume& volume, int level, int threads) {
+    if (level == 0) return volume;
+    if (level < 0 || level > 6)
+        return Error(Code::BadArgument, fmt::format("level {} is out of range; 0 to 6 are possible", level));
+    auto levels = coarseVolumes(volume, level, threads);
+    if (!levels) return levels.error();
+    if (levels->size() < static_cast<std::size_t>(level))
+        return Error(Code::BadArgument,
+                     fmt::format("the volume is too small for level {}; its coarsest is {}", level, levels->size()));
+    return std::move(levels->back());
+}
+
+}  // namespace svt::volume
