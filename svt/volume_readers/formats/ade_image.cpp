@@ -1,0 +1,253 @@
+#include <svt/image/png.hpp>
+#include <svt/volume_readers/formats/label_formats.hpp>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+
+namespace svt::volume_readers {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxAdeHead = std::size_t{1} << 30;
+
+Error badAde(std::string message) { return Error(Code::BadImage, std::move(message)); }
+
+/// The name of an element without its prefix.
+std::string_view localName(pugi::xml_node node) {
+    const std::string_view name = node.name();
+    return name.substr(name.find(':') == std::string_view::npos ? 0 : name.find(':') + 1);
+}
+
+pugi::xml_node childOf(pugi::xml_node node, std::string_view name) {
+    for (const pugi::xml_node child : node.children())
+        if (localName(child) == name) return child;
+    return {};
+}
+
+/// "#a%20b" as "a b".
+std::string decoded(std::string_view reference) {
+    if (reference.starts_with('#')) reference.remove_prefix(1);
+    std::string text;
+    for (std::size_t i = 0; i < reference.size(); ++i) {
+        int code = 0;
+        if (reference[i] == '%' && i + 2 < reference.size() &&
+            std::from_chars(reference.data() + i + 1, reference.data() + i + 3, code, 16).ptr ==
+                reference.data() + i + 3) {
+            text += static_cast<char>(code);
+            i += 2;
+        } else {
+            text += reference[i];
+        }
+    }
+    return text;
+}
+
+/// A file beside the document. A reference never leads out of the document's folder.
+Result<fs::path> fileBeside(const fs::path& document, std::string_view reference) {
+    const fs::path name = decoded(reference);
+    bool isInside = !name.empty() && name.is_relative() && reference.find("://") == std::string_view::npos;
+    for (const fs::path& part : name) isInside = isInside && part != "..";
+    if (!isInside)
+        return badAde(
+            fmt::format("the document names '{}', which is not beside it; samples are read from its own folder alone",
+                        reference.substr(0, 200)));
+    return document.parent_path() / name;
+}
+
+/// The numbers of svt:image, without their head.
+ReadSamples pixelSamples(SharedFile file, std::string_view text) {
+    return [file = std::move(file), text](std::span<std::byte> out) mutable -> Result<void> {
+        for (; !out.empty(); out = out.subspan(4)) {
+            text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+            std::uint32_t value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error != std::errc())
+                return badAde("the image of the volume has fewer numbers than its dimension says");
+            text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+            std::memcpy(out.data(), &value, 4);
+        }
+        return {};
+    };
+}
+
+/// Slices as PNG with 16 bits, bottom slice first, read one at a time.
+ReadSamples sliceSamples(std::vector<fs::path> files, Vec3i dimension) {
+    return
+        [files = std::move(files), dimension, next = std::size_t{0}](std::span<std::byte> out) mutable -> Result<void> {
+            if (next == files.size()) return badAde("the volume has fewer slices than its dimension says");
+            const fs::path& path = files[next++];
+            const auto slice = image::readGrayPng(path);
+            if (!slice) return slice.error();
+            if (slice->width() != dimension.x || slice->height() != dimension.y)
+                return Error(Code::BadImage,
+                             fmt::format("the slice has {} x {} pixels, {} x {} are expected", slice->width(),
+                                         slice->height(), dimension.x, dimension.y),
+                             Place{path.string(), 0, 0, {}});
+            // The top row is the last one.
+            for (std::int32_t j = 0; j < dimension.y; ++j)
+                std::memcpy(out.data() + std::size_t(j) * std::size_t(dimension.x) * 2,
+                            &slice->at(0, dimension.y - 1 - j), std::size_t(dimension.x) * 2);
+            return {};
+        };
+}
+
+void readTargets(pugi::xml_node texture, LabelImage& image) {
+    const auto add = [&](std::string_view uri, pugi::xml_node node) {
+        std::array<std::uint32_t, 2> range{};
+        if (!readNumbers(childOf(node, "scalarRange").child_value(), range) || range[0] == 0 || range[1] < range[0])
+            return;
+        ToldLabel label;
+        label.first = range[0];
+        label.count = range[1] - range[0] + 1;
+        label.id = decoded(uri);
+        label.parent = decoded(childOf(node, "parent").child_value());
+        image.told.push_back(std::move(label));
+    };
+    for (const pugi::xml_node node : texture.children()) {
+        if (localName(node) == "target") add(node.attribute("uri").value(), node);
+        if (localName(node) == "volumeAssociation")
+            if (const pugi::xml_node association = node.first_child())
+                add(childOf(association, "target").child_value(), association);
+    }
+    for (const pugi::xml_node node : texture.children()) {
+        if (localName(node) != "metaDataProperty") continue;
+        const std::string_view text = node.first_child().child_value();
+        const std::size_t begin = std::min(text.find('{'), text.size());
+        const std::string_view json = text.substr(begin);
+        (json.starts_with("{\"labels\"") ? image.labelsJson : image.headerJson) = json;
+    }
+}
+
+Result<void> readGrid(pugi::xml_node texture, LabelImage& image) {
+    std::array<std::int32_t, 3> dimension{};
+    std::array<double, 3> spacing{}, corner{};
+    const pugi::xml_node envelope = childOf(texture, "envelope");
+    const std::string_view type = childOf(texture, "scalarType").child_value();
+    if (!readNumbers(childOf(texture, "dimension").child_value(), dimension) ||
+        !readNumbers(childOf(texture, "spacing").child_value(), spacing) ||
+        !readNumbers(childOf(envelope, "lowerCorner").child_value(), corner))
+        return badAde("dimension, spacing or envelope of the volume are missing or no numbers");
+    if (type != "uint8" && type != "uint16" && type != "uint32")
+        return badAde(fmt::format("scalar type '{}'; uint8, uint16 and uint32 are possible", type));
+    const bool isCell = std::string_view(childOf(texture, "sampleLocation").child_value()) == "cellCentre";
+    image.bits = type == "uint8" ? 8 : type == "uint16" ? 16 : 32;
+    image.dimension = {dimension[0], dimension[1], dimension[2]};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        image.steps[a] = {};
+        image.steps[a][axis] = spacing[a];
+        image.origin[axis] = corner[a] + (isCell ? spacing[a] / 2 : 0);
+    }
+    image.crsName = envelope.attribute("srsName").value();
+    return {};
+}
+
+Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage& image) {
+    const pugi::xml_node uri = childOf(texture, "imageURI");
+    const auto beside = fileBeside(path, uri.child_value());
+    if (!beside) return beside.error();
+    auto mapped = MappedFile::open(*beside);
+    if (!mapped) return mapped.error();
+    auto samples = openNrrd(std::make_shared<const MappedFile>(std::move(*mapped)));
+    if (!samples) return Error(samples.error().code(), samples.error().message(), Place{beside->string(), 0, 0, {}});
+    if (samples->dimension != image.dimension)
+        return badAde("the file beside the document has another dimension than the document says");
+    image.bits = samples->bits;
+    image.isSigned = samples->isSigned;
+    image.isSwapped = samples->isSwapped;
+    image.read = std::move(samples->read);
+    return {};
+}
+
+// The image in the document: sizes, then a number a sample. `numbers` is its text.
+Result<LabelImage> withPixels(LabelImage image, const SharedFile& file, std::string_view numbers) {
+    std::array<std::int64_t, 4> sizes{};
+    std::string_view list = numbers;
+    for (std::int64_t& size : sizes) {
+        list.remove_prefix(std::min(list.find_first_not_of(" \t\r\n"), list.size()));
+        const auto [after, error] = std::from_chars(list.data(), list.data() + list.size(), size);
+        if (error != std::errc()) return badAde("the image of the volume has no sizes");
+        list.remove_prefix(static_cast<std::size_t>(after - list.data()));
+    }
+    if (sizes != std::array<std::int64_t, 4>{1, image.dimension.x, image.dimension.y, image.dimension.z})
+        return badAde("the sizes of the image are not 1 component and the dimension of the volume");
+    image.bits = 32;
+    // A number takes two characters at least, and becomes four bytes.
+    if (auto checked = checkImage(image, 2 * list.size() + 4, false, Code::BadImage); !checked) return checked.error();
+    image.read = pixelSamples(file, list);
+    return image;
+}
+
+// The image as a picture for each slice, in files beside the document.
+Result<LabelImage> withSlices(LabelImage image, const fs::path& path, const pugi::xml_node& texture) {
+    std::vector<fs::path> slices;
+    for (const pugi::xml_node slice : texture.children()) {
+        if (localName(slice) != "sliceURI") continue;
+        auto beside = fileBeside(path, slice.child_value());
+        if (!beside) return beside.error();
+        slices.push_back(std::move(*beside));
+    }
+    if (slices.empty()) return badAde("the volume of the document has no samples that can be read");
+    image.bits = 16;
+    if (auto checked = checkImage(image, ~0ull, false, Code::BadImage); !checked) return checked.error();
+    if (slices.size() != static_cast<std::size_t>(image.dimension.z))
+        return badAde(fmt::format("the volume has {} slices, {} are expected", slices.size(), image.dimension.z));
+    image.read = sliceSamples(std::move(slices), image.dimension);
+    return image;
+}
+
+}  // namespace
+
+std::size_t findAdeTexture(std::string_view document) noexcept {
+    for (std::size_t at = document.find("urn:svt:citygml:ade:");
+         at != std::string_view::npos && at < document.size();) {
+        at = document.find("Texture3D", at + 1);
+        if (at == std::string_view::npos) return at;
+        const std::size_t open = document.rfind('<', at);
+        if (open == std::string_view::npos || at - open > 64 || document[open + 1] == '/') continue;
+        return open;
+    }
+    return std::string_view::npos;
+}
+
+Result<LabelImage> openAde(const SharedFile& file, const fs::path& path) {
+    const std::string_view text = file->text();
+    const std::size_t begin = findAdeTexture(text);
+    if (begin == std::string_view::npos) return badAde("the document holds no volume");
+    const std::string name(text.substr(begin + 1, text.find_first_of(" \t\r\n/>", begin) - begin - 1));
+    const std::size_t end = text.find("</" + name, begin);
+    if (end == std::string_view::npos) return badAde("the volume of the document does not end: it is cut short");
+    // The numbers of an image are read as they stand, all else by the parser.
+    const std::string prefix = name.substr(0, name.find(':') == std::string::npos ? 0 : name.find(':') + 1);
+    std::size_t pixels = text.find("<" + prefix + "image>", begin);
+    if (pixels > end) pixels = end;
+    const std::string head = std::string(text.substr(begin, pixels - begin)) + "</" + name + ">";
+    pugi::xml_document document;
+    const bool hasPixels = pixels < end;
+    const std::string rest = hasPixels ? head : std::string(text.substr(begin, end - begin)) + "</" + name + ">";
+    if (rest.size() > kMaxAdeHead) return badAde("the head of the volume is over a gigabyte");
+    if (const auto parsed = document.load_buffer(rest.data(), rest.size()); !parsed)
+        return badAde(fmt::format("the volume of the document is no XML: {}", parsed.description()));
+    const pugi::xml_node texture = document.first_child();
+    LabelImage image;
+    if (auto done = readGrid(texture, image); !done) return done.error();
+    readTargets(texture, image);
+    if (hasPixels) {
+        std::string_view numbers = text.substr(pixels, std::min(text.find("</", pixels), end) - pixels);
+        numbers.remove_prefix(numbers.find('>') + 1);
+        return withPixels(std::move(image), file, numbers);
+    }
+    if (childOf(texture, "imageURI")) {
+        if (auto done = openBeside(path, texture, image); !done) return done.error();
+        return image;
+    }
+    return withSlices(std::move(image), path, texture);
+}
+
+}  // namespace svt::volume_readers

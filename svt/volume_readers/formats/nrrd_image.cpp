@@ -1,0 +1,208 @@
+#include <svt/volume_readers/formats/label_formats.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <utility>
+
+namespace svt::volume_readers {
+namespace {
+
+Error badNrrd(std::string message) { return Error(Code::BadNrrd, std::move(message)); }
+
+std::string_view trimmed(std::string_view text) noexcept {
+    constexpr std::string_view kBlank = " \t\r";
+    const std::size_t begin = text.find_first_not_of(kBlank);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+std::string unescaped(std::string_view value) {
+    std::string text;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const bool isEscape = value[i] == '\\' && i + 1 < value.size() && (value[i + 1] == '\\' || value[i + 1] == 'n');
+        text += !isEscape ? value[i] : value[++i] == 'n' ? '\n' : '\\';
+    }
+    return text;
+}
+
+/// Removes and returns the next number of `text`; separators are blanks, commas and parentheses.
+template <class T>
+bool takeNumber(std::string_view& text, T& number) noexcept {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t,()"), text.size()));
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc()) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return true;
+}
+
+bool takeVector(std::string_view& text, Vec3d& v) noexcept {
+    return takeNumber(text, v.x) && takeNumber(text, v.y) && takeNumber(text, v.z) && isFinite(v);
+}
+
+struct NrrdHeader {
+    std::map<std::string, std::string, std::less<>> fields, keys;
+    std::size_t dataOffset = 0;
+
+    [[nodiscard]] std::string_view field(std::string_view name) const {
+        const auto found = fields.find(name);
+        return found == fields.end() ? std::string_view() : found->second;
+    }
+    [[nodiscard]] std::string_view key(std::string_view name) const {
+        const auto found = keys.find(name);
+        return found == keys.end() ? std::string_view() : found->second;
+    }
+};
+
+Result<NrrdHeader> readNrrdHeader(std::string_view text) {
+    if (!text.starts_with("NRRD000") || text.size() < 9 || text[7] < '1' || text[7] > '5')
+        return badNrrd("the file does not begin with NRRD0001 to NRRD0005");
+    NrrdHeader header;
+    bool isFirst = true;
+    for (std::size_t at = 0;;) {
+        const std::size_t end = text.find('\n', at);
+        if (end == std::string_view::npos)
+            return badNrrd("the header does not end with an empty line: the file is cut short");
+        std::string_view line = text.substr(at, end - at);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        at = end + 1;
+        if (line.empty()) {
+            header.dataOffset = at;
+            return header;
+        }
+        if (std::exchange(isFirst, false) || line.front() == '#') continue;
+        const std::size_t colon = line.find(':');
+        if (colon == std::string_view::npos)
+            return badNrrd(fmt::format("header line '{}' has no colon", line.substr(0, 80)));
+        if (line.substr(colon).starts_with(":="))
+            header.keys[unescaped(line.substr(0, colon))] = unescaped(line.substr(colon + 2));
+        else
+            header.fields[std::string(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
+    }
+}
+
+Result<void> readNrrdType(std::string_view type, LabelImage& image) {
+    struct Type {
+        std::string_view names;
+        int bits;
+        bool isSigned;
+    };
+    constexpr Type kTypes[] = {{"|uchar|unsigned char|uint8|uint8_t|", 8, false},
+                               {"|signed char|int8|int8_t|", 8, true},
+                               {"|ushort|unsigned short|unsigned short int|uint16|uint16_t|", 16, false},
+                               {"|short|short int|signed short|signed short int|int16|int16_t|", 16, true},
+                               {"|uint|unsigned int|uint32|uint32_t|", 32, false},
+                               {"|int|signed int|int32|int32_t|", 32, true}};
+    for (const Type& known : kTypes)
+        if (known.names.find(fmt::format("|{}|", type)) != std::string_view::npos) {
+            image.bits = known.bits;
+            image.isSigned = known.isSigned;
+            return {};
+        }
+    return badNrrd(
+        fmt::format("samples of type '{}' are no labels; whole numbers of 8, 16 or 32 bits are expected", type));
+}
+
+/// Anatomical spaces count in millimetres; those that look left or posterior are turned to right, anterior, superior.
+Result<void> readNrrdPlace(const NrrdHeader& header, LabelImage& image) {
+    std::string_view text = header.field("space directions");
+    if (!text.empty()) {
+        for (Vec3d& step : image.steps)
+            if (!takeVector(text, step)) return badNrrd("the space directions are not three vectors");
+    } else if (text = header.field("spacings"); !text.empty()) {
+        for (int axis = 0; axis < 3; ++axis)
+            if (!takeNumber(text, image.steps[std::size_t(axis)][axis]))
+                return badNrrd("the spacings are not three numbers");
+    }
+    text = header.field("space origin");
+    if (!text.empty() && !takeVector(text, image.origin)) return badNrrd("the space origin is no vector");
+    const std::string_view space = header.field("space"), units = header.field("space units");
+    const bool isMillimetres = units.empty() ? !space.empty() : units.find("mm") != std::string_view::npos;
+    const double unit = isMillimetres ? 0.001 : 1;
+    const double x = space.find("left") != std::string_view::npos || space == "LPS" || space == "LAS" ? -unit : unit;
+    const double y = space.find("posterior") != std::string_view::npos || space == "LPS" ? -unit : unit;
+    for (Vec3d* vector : {&image.origin, &image.steps[0], &image.steps[1], &image.steps[2]})
+        *vector = {vector->x * x, vector->y * y, vector->z * unit};
+    return {};
+}
+
+/// The table that `svt convert` writes, as text of labels.json, and the segments of 3D Slicer.
+void readTables(const NrrdHeader& header, LabelImage& image) {
+    const auto string = [&](std::string_view key) {
+        const std::string_view text = header.key(key);
+        return text.empty() ? std::string_view("\"\"") : text;
+    };
+    if (!header.key("svt_label_0").empty()) {
+        image.labelsJson = "{\"labels\":[";
+        for (std::size_t l = 0;; ++l) {
+            const std::string_view label = header.key(fmt::format("svt_label_{}", l));
+            if (label.empty()) break;
+            if (l > 0) image.labelsJson += ',';
+            image.labelsJson += label;
+        }
+        const std::string_view colors = header.key("svt_phase_colors");
+        image.labelsJson += fmt::format("],\"overlaps\":[],\"phaseColors\":{}}}", colors.empty() ? "[]" : colors);
+        // The header has the exact grid; its names are empty and stand in keys of their own, as JSON strings of ASCII.
+        image.headerJson = header.key("svt_header");
+        if (image.headerJson.empty()) image.headerJson = R"({"crs": "","model": "","source": ""})";
+        for (const char* name : {"crs", "model", "source"}) {
+            const std::string empty = fmt::format("\"{}\": \"\"", name);
+            if (const std::size_t at = image.headerJson.find(empty); at != std::string::npos)
+                image.headerJson.replace(at, empty.size(),
+                                         fmt::format("\"{}\": {}", name, string(fmt::format("svt_{}", name))));
+        }
+    }
+    for (std::size_t s = 0;; ++s) {
+        const auto key = [&](std::string_view name) { return header.key(fmt::format("Segment{}_{}", s, name)); };
+        if (key("ID").empty()) break;
+        ToldLabel label;
+        label.id = key("ID");
+        label.name = key("Name");
+        label.className = key("SVT_Class");
+        label.parent = key("SVT_Parent");
+        std::string_view color = key("Color"), value = key("LabelValue");
+        Vec3d channels;
+        label.hasColor = takeVector(color, channels);
+        label.color = {static_cast<float>(channels.x), static_cast<float>(channels.y), static_cast<float>(channels.z)};
+        if (takeNumber(value, label.first)) image.told.push_back(std::move(label));
+    }
+}
+
+}  // namespace
+
+Result<LabelImage> openNrrd(const SharedFile& file) {
+    const auto header = readNrrdHeader(file->text());
+    if (!header) return header.error();
+    LabelImage image;
+    if (auto done = readNrrdType(header->field("type"), image); !done) return done.error();
+    if (header->field("dimension") != "3")
+        return badNrrd(fmt::format("the image has {} axes, 3 are expected; write one layer of a segmentation alone",
+                                   header->field("dimension")));
+    std::string_view sizes = header->field("sizes");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!takeNumber(sizes, image.dimension[axis])) return badNrrd("the sizes are not three numbers");
+    for (const char* field : {"data file", "datafile"})
+        if (!header->field(field).empty())
+            return badNrrd(
+                "the samples stand in another file, which is not followed; save the image as one attached .nrrd");
+    for (const char* field : {"line skip", "lineskip", "byte skip", "byteskip"})
+        if (const std::string_view skip = header->field(field); !skip.empty() && skip != "0")
+            return badNrrd(fmt::format("'{}' is not supported; save the image as a plain attached .nrrd", field));
+    const std::string_view encoding = header->field("encoding"), endian = header->field("endian");
+    const bool isGzip = encoding == "gzip" || encoding == "gz";
+    if (!isGzip && encoding != "raw")
+        return badNrrd(fmt::format("encoding '{}' cannot be read; save the image as raw or gzip", encoding));
+    if (image.bits > 8 && endian != "little" && endian != "big")
+        return badNrrd("the field endian is missing or neither little nor big");
+    image.isSwapped = endian == "big";
+    if (auto done = readNrrdPlace(*header, image); !done) return done.error();
+    readTables(*header, image);
+    const auto stored = file->bytes().subspan(header->dataOffset);
+    if (auto checked = checkImage(image, stored.size(), isGzip, Code::BadNrrd); !checked) return checked.error();
+    image.read = isGzip ? gzipSamples(file, stored, Code::BadNrrd) : plainSamples(file, stored, Code::BadNrrd);
+    return image;
+}
+
+}  // namespace svt::volume_readers

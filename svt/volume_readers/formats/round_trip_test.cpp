@@ -1,0 +1,293 @@
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/volume/sample_volume_test.hpp>
+#include <svt/volume/volume_json.hpp>
+#include <svt/volume_readers/read_label_volume.hpp>
+#include <svt/writers/volume_formats.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::volume_readers {
+namespace {
+
+using svt::test::readText;
+using svt::test::TemporaryFolder;
+using svt::test::writeText;
+using volume::SemanticVolume;
+using volume::test::sampleVolume;
+
+/// The sample volume with scalars of `bits`, on a grid along the world's axes where `isPlain`.
+SemanticVolume volumeOf(int bits, bool isPlain, Vec3i dimension = {70, 66, 9}) {
+    SemanticVolume volume = sampleVolume(dimension);
+    if (bits > 8) {
+        volume.labels.labels[3].count = bits == 16 ? 300 : 70'000;
+        volume.labels.phaseColors.clear();
+        auto scalars = volume::test::sampleScalars(dimension);
+        for (std::size_t s = 0; s < scalars.size(); ++s)
+            if (scalars[s] == 5) scalars[s] += static_cast<volume::Scalar>(s / 7 % (bits == 16 ? 300 : 70'000));
+        volume.columns = volume::ColumnVolume::fromDense(dimension, scalars);
+    }
+    if (isPlain)
+        volume.grid = *volume::Grid::fromParts(dimension, {0.05, 0.1, 1.0 / 3.0}, {458877.03, 5438353.7, -0.1},
+                                               {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    return volume;
+}
+
+void expectSame(const SemanticVolume& read, const SemanticVolume& written, bool hasOverlaps) {
+    EXPECT_TRUE(read.columns == written.columns);
+    EXPECT_TRUE(read.grid == written.grid);
+    volume::LabelTable labels = written.labels;
+    if (!hasOverlaps) labels.overlaps.clear();
+    EXPECT_TRUE(read.labels == labels);
+    EXPECT_EQ(read.crsName, written.crsName);
+    EXPECT_EQ(read.modelName, written.modelName);
+    EXPECT_EQ(read.source, written.source);
+}
+
+TEST(RoundTrip, EveryFormatGivesTheSameVolumeBack) {
+    const TemporaryFolder folder;
+    for (const int bits : {8, 16, 32})
+        for (const bool isPlain : {false, true})
+            for (const bool isCompressed : {false, true})
+                for (const char* name : {"v.nrrd", "v.vti", "v.nii", "v.nii.gz", "v.tif", "v.ome.tif"}) {
+                    SCOPED_TRACE(testing::Message() << name << ", " << bits << " bits, plain " << isPlain);
+                    const SemanticVolume volume = volumeOf(bits, isPlain);
+                    writers::VolumeWriteOptions options;
+                    options.isCompressed = isCompressed;
+                    ASSERT_TRUE(writers::writeVolume(volume, folder / name, options));
+                    EXPECT_TRUE(looksLikeLabelVolume(folder / name));
+                    const auto read = readLabelVolume(folder / name);
+                    ASSERT_TRUE(read) << read.error().toString();
+                    expectSame(*read, volume, std::string_view(name) != "v.nrrd");
+                }
+}
+
+TEST(RoundTrip, CityGmlGivesTheSameVolumeBackFromAllThreeTextures) {
+    const TemporaryFolder folder;
+    for (const int bits : {8, 16})
+        for (const int version : {2, 3})
+            for (const auto texture :
+                 {writers::TextureKind::Pixel, writers::TextureKind::Image, writers::TextureKind::Composed}) {
+                SCOPED_TRACE(testing::Message() << int(texture) << ", " << bits << " bits, CityGML " << version);
+                const SemanticVolume volume = volumeOf(bits, true);
+                writers::VolumeWriteOptions options;
+                options.texture = texture;
+                options.cityGmlVersion = version;
+                const auto bytes = writers::writeVolume(volume, folder / "v w.ade.gml", options);
+                ASSERT_TRUE(bytes) << bytes.error().toString();
+                EXPECT_TRUE(looksLikeLabelVolume(folder / "v w.ade.gml"));
+                const auto read = readLabelVolume(folder / "v w.ade.gml");
+                ASSERT_TRUE(read) << read.error().toString();
+                expectSame(*read, volume, true);
+            }
+    const auto turned = writers::writeVolume(volumeOf(8, false), folder / "t.ade.gml");
+    ASSERT_FALSE(turned) << "the extension has no axes";
+    EXPECT_EQ(turned.error().code(), Code::BadArgument);
+    writers::VolumeWriteOptions few;
+    few.maxVoxels = 1000;
+    const auto large = writers::writeVolume(volumeOf(8, true), folder / "t.ade.gml", few);
+    ASSERT_FALSE(large);
+    EXPECT_NE(large.error().message().find("--texture image"), std::string::npos) << large.error().message();
+}
+
+TEST(RoundTrip, SegmentsOfSlicerAreLabelsWithNameAndPlace) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = volumeOf(8, true);
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "v.seg.nrrd"));
+    // As Slicer saves it: without what it does not need.
+    std::string text = readText(folder / "v.seg.nrrd");
+    for (std::size_t at = 0; (at = text.find("\nsvt_")) != std::string::npos;)
+        text.erase(at, text.find('\n', at + 1) - at);
+    writeText(folder / "s.nrrd", text);
+    const auto read = readLabelVolume(folder / "s.nrrd");
+    ASSERT_TRUE(read) << read.error().toString();
+    ASSERT_EQ(read->labels.labels.size(), 3u);
+    EXPECT_EQ(read->labels.labels[0].id, "room-1");
+    EXPECT_EQ(read->labels.labels[0].name, "Küche");
+    EXPECT_EQ(read->labels.labels[0].className, "BuildingRoom");
+    EXPECT_EQ(read->labels.labels[1].id, "wall");
+    EXPECT_EQ(read->labels.labels[1].parent, 0u);
+    EXPECT_EQ(read->labels.labels[1].color, volume.labels.labels[2].color);
+    EXPECT_LT(length(read->grid.worldFromIndex({60, 50, 8}) - volume.grid.worldFromIndex({60, 50, 8})), 1e-6)
+        << "millimetres become metres";
+    EXPECT_EQ(read->labels.labels[1].voxels, volume.labels.labels[2].voxels);
+}
+
+TEST(RoundTrip, AnotherGridThanTheHeadersIsTheFilesOwn) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = volumeOf(8, true);
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "v.vti"));
+    std::string text = readText(folder / "v.vti");
+    const std::size_t at = text.find(" Spacing=\"0.05 ");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 15, " Spacing=\"0.07 ");
+    writeText(folder / "v.vti", text);
+    const auto read = readLabelVolume(folder / "v.vti");
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_DOUBLE_EQ(read->grid.spacing().x, 0.07);
+}
+
+// ---------------------------------------------------------------------------------------------- volumes of others
+
+constexpr const char* kHead =
+    "NRRD0004\ntype: short\ndimension: 3\nsizes: 3 2 2\nspacings: 0.5 1 2\nendian: big\nencoding: raw\n\n";
+
+/// 3 x 2 x 2 samples: 7 below, 300 above, one of 9.
+std::string bigEndianShorts() {
+    std::string text = kHead;
+    for (const int value : {7, 7, 0, 7, 7, 0, 300, 300, 9, 0, 0, 0}) {
+        text += static_cast<char>(value >> 8);
+        text += static_cast<char>(value & 255);
+    }
+    return text;
+}
+
+TEST(OtherVolumes, EachValueIsALabelWhereNoTableTells) {
+    const TemporaryFolder folder;
+    writeText(folder / "v.nrrd", bigEndianShorts());
+    const auto read = readLabelVolume(folder / "v.nrrd");
+    ASSERT_TRUE(read) << read.error().toString();
+    ASSERT_EQ(read->labels.labels.size(), 3u);
+    EXPECT_EQ(read->labels.labels[2].id, "label-300");
+    EXPECT_EQ(read->labels.labels[0].voxels, 4u);
+    EXPECT_EQ(read->columns.scalarAt(0, 0, 0), 1u);
+    EXPECT_EQ(read->columns.scalarAt(2, 0, 1), 2u);
+    EXPECT_EQ(read->columns.scalarAt(1, 0, 1), 3u);
+    EXPECT_EQ(read->grid.spacing(), (Vec3d{0.5, 1, 2}));
+    EXPECT_DOUBLE_EQ(read->labels.labels[0].volume, 4.0);
+    EXPECT_TRUE(volume::checkLabels(read->labels));
+}
+
+TEST(OtherVolumes, ATableNamesValuesAndPutsThemIntoATree) {
+    const TemporaryFolder folder;
+    writeText(folder / "v.nrrd", bigEndianShorts());
+    writeText(
+        folder / "t.json",
+        R"({"labels":[{"value":[290,310],"id":"bone","parent":"body","name":"Knochen","color":"#ff8000","opacity":0.5},
+                  {"id":"body","class":"Building","attributes":{"age":41,"side":"left"}},{"value":7,"parent":"body"}]})");
+    const auto read = readLabelVolume(folder / "v.nrrd", {folder / "t.json"});
+    ASSERT_TRUE(read) << read.error().toString();
+    const auto& labels = read->labels.labels;
+    ASSERT_EQ(labels.size(), 4u);
+    EXPECT_EQ(labels[0].id, "body");
+    EXPECT_EQ(labels[0].count, 0u);
+    EXPECT_EQ(labels[0].subtreeEnd, 3u);
+    EXPECT_EQ(labels[0].attributes.size(), 2u);
+    EXPECT_EQ(labels[1].id, "bone");
+    EXPECT_EQ(labels[1].parent, 0u);
+    EXPECT_EQ(labels[1].opacity, 0.5f);
+    EXPECT_EQ(labels[1].color, (Vec3f{1, 128.0f / 255, 0}));
+    EXPECT_EQ(labels[2].id, "label-7");
+    EXPECT_EQ(labels[3].id, "label-9") << "not in the table";
+    EXPECT_EQ(read->columns.scalarAt(0, 0, 1), labels[1].first);
+    EXPECT_TRUE(volume::checkLabels(read->labels));
+}
+
+TEST(OtherVolumes, WrongTablesAreRefused) {
+    const TemporaryFolder folder;
+    writeText(folder / "v.nrrd", bigEndianShorts());
+    for (const auto& [text, code] : std::initializer_list<std::pair<const char*, Code>>{
+             {"{", Code::BadJson},
+             {"[]", Code::BadJson},
+             {R"({"labels":[{"value":0}]})", Code::BadJson},
+             {R"({"labels":[{"value":[5,4]}]})", Code::BadJson},
+             {R"({"labels":[{"name":"x"}]})", Code::BadJson},
+             {R"({"labels":[{"value":7,"color":"red"}]})", Code::BadJson},
+             {R"({"labels":[{"value":7,"opacity":2}]})", Code::BadJson},
+             {R"({"labels":[{"id":"a"},{"id":"a"}]})", Code::BadVolume},
+             {R"({"labels":[{"id":"a","parent":"b"},{"id":"b","parent":"a"}]})", Code::BadVolume},
+         }) {
+        writeText(folder / "t.json", text);
+        const auto read = readLabelVolume(folder / "v.nrrd", {folder / "t.json"});
+        ASSERT_FALSE(read) << text;
+        EXPECT_EQ(read.error().code(), code) << text << ": " << read.error().toString();
+    }
+    EXPECT_EQ(readLabelVolume(folder / "v.nrrd", {folder / "none.json"}).error().code(), Code::CannotOpen);
+}
+
+TEST(OtherVolumes, GridsThatAreNoneAreRefused) {
+    const TemporaryFolder folder;
+    for (const auto& [field, code] : std::initializer_list<std::pair<const char*, Code>>{
+             {"space directions: (1,0,0) (0,1,0) (0,0,-1)", Code::BadImage},
+             {"space directions: (1,0,0) (0.5,1,0) (0,0,1)", Code::BadImage},
+             {"spacings: 0 1 1", Code::BadDimension},
+             {"spacings: nan 1 1", Code::BadDimension},
+         }) {
+        std::string text = bigEndianShorts();
+        text.replace(text.find("spacings: 0.5 1 2"), 17, field);
+        writeText(folder / "v.nrrd", text);
+        const auto read = readLabelVolume(folder / "v.nrrd");
+        ASSERT_FALSE(read) << field;
+        EXPECT_EQ(read.error().code(), code) << field << read.error().toString();
+    }
+}
+
+/// Every file of every format cut at many places, and with single bytes changed: a result or an error, in bounded time.
+TEST(OtherVolumes, DamageIsAnErrorOrAVolumeAndNeverACrash) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = volumeOf(8, true, {12, 9, 8});
+    for (const char* name : {"v.nrrd", "v.seg.nrrd", "v.vti", "v.nii", "v.nii.gz", "v.tif", "v.ade.gml"}) {
+        ASSERT_TRUE(writers::writeVolume(volume, folder / name));
+        const std::string whole = readText(folder / name);
+        for (std::size_t step = 0; step < 24; ++step) {
+            const std::size_t at = whole.size() * step / 24;
+            writeText(folder / "d", std::string_view(whole).substr(0, at));
+            const auto cut = readLabelVolume(folder / "d");
+            // What is missing at the very end of a document or of VTK may not matter.
+            if (at < whole.size() * 8 / 10) {
+                EXPECT_FALSE(cut) << name << " cut at " << at;
+            }
+        }
+        std::uint32_t random = 12345;
+        for (int trial = 0; trial < 60; ++trial) {
+            std::string damaged = whole;
+            for (int n = 0; n < 3; ++n) {
+                random = random * 1664525 + 1013904223;
+                damaged[random % damaged.size()] = static_cast<char>(random >> 24);
+            }
+            writeText(folder / "d", damaged);
+            (void)readLabelVolume(folder / "d", {{}, std::uint64_t{64} << 20, nullptr});
+        }
+    }
+}
+
+TEST(OtherVolumes, SizesThatCannotBeAreRefusedBeforeMemoryIsTaken) {
+    const TemporaryFolder folder;
+    writeText(folder / "v.nrrd",
+              "NRRD0004\ntype: uint\ndimension: 3\nsizes: 65535 65535 65535\nendian: little\nencoding: raw\n\nabcd");
+    EXPECT_EQ(readLabelVolume(folder / "v.nrrd").error().code(), Code::BadNrrd);
+    writeText(folder / "v.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 65536 2 2\nencoding: raw\n\nabcd");
+    EXPECT_EQ(readLabelVolume(folder / "v.nrrd").error().code(), Code::BadNrrd);
+    writeText(folder / "v.nrrd", "NRRD0004\ntype: float\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n\nabcd");
+    EXPECT_EQ(readLabelVolume(folder / "v.nrrd").error().code(), Code::BadNrrd);
+    std::string shorts = bigEndianShorts();
+    shorts[shorts.size() - 2] = '\x80';
+    writeText(folder / "v.nrrd", shorts);
+    EXPECT_EQ(readLabelVolume(folder / "v.nrrd").error().code(), Code::BadNrrd) << "negative";
+    const SemanticVolume volume = volumeOf(16, true);
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "b.nrrd"));
+    EXPECT_EQ(readLabelVolume(folder / "b.nrrd", {{}, 100'000, nullptr}).error().code(), Code::InputTooBig);
+}
+
+TEST(OtherVolumes, ADocumentIsNeverFollowedOutOfItsFolder) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "in");
+    writers::VolumeWriteOptions options;
+    options.texture = writers::TextureKind::Image;
+    ASSERT_TRUE(writers::writeVolume(volumeOf(8, true), folder / "in/v.ade.gml", options));
+    std::filesystem::copy_file(folder / "in/v.labels.nrrd", folder / "v.labels.nrrd");
+    const std::string whole = readText(folder / "in/v.ade.gml");
+    const std::string absolute = (folder / "v.labels.nrrd").string();
+    for (const std::string& name : {std::string("../v.labels.nrrd"), absolute, std::string("%2e%2e/v.labels.nrrd"),
+                                    "file://" + absolute, std::string("in/../../v.labels.nrrd"), std::string("..")}) {
+        std::string text = whole;
+        text.replace(text.find("v.labels.nrrd"), 13, name);
+        writeText(folder / "in/w.ade.gml", text);
+        const auto read = readLabelVolume(folder / "in/w.ade.gml");
+        ASSERT_FALSE(read) << name;
+        EXPECT_EQ(read.error().code(), Code::BadImage) << name;
+        EXPECT_NE(read.error().message().find("beside"), std::string::npos) << read.error().message();
+    }
+}
+
+}  // namespace
+}  // namespace svt::volume_readers

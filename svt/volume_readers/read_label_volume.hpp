@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// Entry point: reads a label volume that another program, or `svt convert`, wrote in a format of others: segmentations of
+/// CT scans, results of simulations, other voxelizers. The format is told by the content.
+///
+/// What becomes what:
+///  - the sample values: with a table of `svt convert` in the file they are its scalars, and the volume is the one that was
+///    written, bit for bit; with a table that is given (docs/user/build.md), or none, each value but 0 is a label;
+///  - the grid: spacing and direction of the file, in metres (files that count in millimetres are brought to metres). A
+///    grid that is mirrored or sheared is refused;
+///  - NRRD: 8, 16 or 32 bits, raw or gzip, one file, segments of 3D Slicer as the table; VTI: cells or points, raw
+///    appended, zlib or not; NIfTI-1 and -2, .nii and .nii.gz; TIFF stacks, raw or Deflate; CityGML with a volume by the
+///    extension that `svt convert` writes, all three kinds of texture.
+
+#include <svt/core/progress.hpp>
+#include <svt/core/result.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace svt::volume_readers {
+
+struct LabelReadOptions {
+    std::filesystem::path labels;        ///< table of labels (JSON); empty: that of the file, or a label per value
+    std::uint64_t maxBytes = 0;          ///< memory that reading may take; 0: half of what is granted
+    const Progress* progress = nullptr;  ///< stage "read"
+};
+
+/// Whether a file with these first bytes (64 KiB are enough) may be a label volume. CityGML is one if `path` has the
+/// extension somewhere in it.
+[[nodiscard]] bool looksLikeLabelVolume(const std::filesystem::path& path);
+
+/// Cost: O(samples). Memory: the columns, and two slices; never the dense volume.
+/// \return the volume, or CannotOpen; BadNrrd, BadImage or BadVolume with what is wrong; InputTooBig; BadDimension,
+///         GridTooLarge; BadJson for a table; Cancelled
+[[nodiscard]] Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path,
+                                                             const LabelReadOptions& options = {});
+
+}  // namespace svt::volume_readers

@@ -1,0 +1,137 @@
+#include <svt/core/machine.hpp>
+#include <svt/volume_readers/samples/label_image.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+namespace svt::volume_readers {
+namespace {
+
+using volume::ColumnTileBuilder;
+using volume::ColumnTileData;
+using volume::ColumnVolume;
+using volume::Run;
+using volume::Scalar;
+
+/// The runs of all columns while slices come, bottom up. A row that reads as the one below it costs a comparison.
+class Collector {
+public:
+    Collector(const LabelImage& image, std::uint64_t maxBytes, Code code)
+        : image_(image),
+          maxBytes_(maxBytes),
+          code_(code),
+          rowBytes_(std::size_t(image.dimension.x) * std::size_t(image.bits / 8)),
+          runs_(std::size_t(image.dimension.x) * std::size_t(image.dimension.y)) {}
+
+    Result<void> add(std::int32_t k, std::span<const std::byte> slice) {
+        const auto width = static_cast<std::size_t>(image_.dimension.x);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(image_.dimension.y); ++j) {
+            const std::byte* row = slice.data() + j * rowBytes_;
+            if (k > 0 && std::memcmp(row, below_.data() + j * rowBytes_, rowBytes_) == 0) continue;
+            for (std::size_t i = 0; i < width; ++i) {
+                const Scalar value = valueAt(row, i);
+                auto& runs = runs_[i + width * j];
+                if (!runs.empty() && runs.back().scalar == value) continue;
+                // `end` is where the run begins until the next one does.
+                runs.push_back({static_cast<std::uint32_t>(k), value});
+                ++runCount_;
+            }
+        }
+        if (isNegative_)
+            return Error(code_, fmt::format("slice {} has a negative value; labels are whole numbers from 0 on", k));
+        if (runCount_ * 3 * sizeof(Run) > maxBytes_)
+            return Error(
+                Code::InputTooBig,
+                fmt::format("the labels change so often that {} are not enough to hold them; is this a label volume "
+                            "and no scan?",
+                            bytesText(maxBytes_)));
+        below_.assign(slice.begin(), slice.end());
+        return {};
+    }
+
+    ColumnVolume finish() {
+        const Vec3i dimension = image_.dimension;
+        constexpr std::int32_t kTile = ColumnVolume::kTileSize;
+        std::vector<ColumnTileData> tiles;
+        for (std::int32_t tileY = 0; tileY < dimension.y; tileY += kTile)
+            for (std::int32_t tileX = 0; tileX < dimension.x; tileX += kTile) {
+                const std::int32_t width = std::min(kTile, dimension.x - tileX);
+                ColumnTileBuilder builder(width);
+                std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+                for (std::int32_t j = tileY; j < std::min(tileY + kTile, dimension.y); ++j) {
+                    for (std::int32_t i = 0; i < width; ++i)
+                        row[std::size_t(i)] = builder.addColumn(column(tileX + i, j));
+                    builder.addRow(row);
+                }
+                tiles.push_back(builder.finish());
+            }
+        return ColumnVolume::fromTiles(dimension, std::move(tiles));
+    }
+
+private:
+    Scalar valueAt(const std::byte* row, std::size_t index) {
+        if (image_.bits == 8) {
+            const auto value = static_cast<std::uint8_t>(row[index]);
+            isNegative_ = isNegative_ || (image_.isSigned && value > 0x7F);
+            return value;
+        }
+        if (image_.bits == 16) {
+            std::uint16_t value = 0;
+            std::memcpy(&value, row + 2 * index, 2);
+            if (image_.isSwapped) value = static_cast<std::uint16_t>(value << 8 | value >> 8);
+            isNegative_ = isNegative_ || (image_.isSigned && value > 0x7FFF);
+            return value;
+        }
+        std::uint32_t value = 0;
+        std::memcpy(&value, row + 4 * index, 4);
+        if (image_.isSwapped) value = value << 24 | (value << 8 & 0xFF0000) | (value >> 8 & 0xFF00) | value >> 24;
+        isNegative_ = isNegative_ || (image_.isSigned && value > 0x7FFFFFFF);
+        return value;
+    }
+
+    /// The finished runs of a column; they are taken out of memory.
+    std::span<const Run> column(std::int32_t i, std::int32_t j) {
+        auto& runs = runs_[std::size_t(i) + std::size_t(image_.dimension.x) * std::size_t(j)];
+        done_ = std::exchange(runs, {});
+        for (std::size_t r = 0; r < done_.size(); ++r)
+            done_[r].end = r + 1 < done_.size() ? done_[r + 1].end : static_cast<std::uint32_t>(image_.dimension.z);
+        return done_;
+    }
+
+    const LabelImage& image_;
+    std::uint64_t maxBytes_;
+    Code code_;
+    std::size_t rowBytes_;
+    std::vector<std::vector<Run>> runs_;
+    std::vector<Run> done_;
+    std::vector<std::byte> below_;
+    std::uint64_t runCount_ = 0;
+    bool isNegative_ = false;
+};
+
+}  // namespace
+
+Result<ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes, Code code, const Progress* progress) {
+    static_assert(std::endian::native == std::endian::little);
+    const std::uint64_t columns = std::uint64_t(image.dimension.x) * std::uint64_t(image.dimension.y);
+    const std::uint64_t needed = 2 * image.sliceBytes() + columns * (sizeof(std::vector<Run>) + 2 * sizeof(Run));
+    if (needed > maxBytes)
+        return Error(Code::InputTooBig,
+                     fmt::format("{} x {} columns take {} at least, and {} may be taken", image.dimension.x,
+                                 image.dimension.y, bytesText(needed), bytesText(maxBytes)));
+    Collector collector(image, maxBytes, code);
+    std::vector<std::byte> slice(static_cast<std::size_t>(image.sliceBytes()));
+    for (std::int32_t k = 0; k < image.dimension.z; ++k) {
+        if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "reading the labels was stopped");
+        if (auto done = image.read(slice); !done) return done.error();
+        if (auto done = collector.add(k, slice); !done) return done.error();
+        if (k % 64 == 0) Progress::tell(progress, "read", double(k) / image.dimension.z);
+    }
+    return collector.finish();
+}
+
+}  // namespace svt::volume_readers

@@ -1,0 +1,78 @@
+#pragma once
+/// \file
+/// A label volume of another format while it is read: what its header says, and its samples as a stream.
+
+#include <svt/core/file.hpp>
+#include <svt/core/progress.hpp>
+#include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
+#include <svt/volume/column_volume.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace svt::volume_readers {
+
+/// A label that a format tells of itself, such as a segment of 3D Slicer.
+struct ToldLabel {
+    std::uint32_t first = 0, count = 1;  ///< values
+    std::string id, className, name, parent;
+    bool hasColor = false;
+    Vec3f color{};
+};
+
+/// Takes the next bytes of the samples, exactly as many as there is room for.
+using ReadSamples = std::function<Result<void>(std::span<std::byte>)>;
+
+struct LabelImage {
+    Vec3i dimension{};
+    int bits = 0;            ///< 8, 16 or 32
+    bool isSigned = false;   ///< values must not be negative even so
+    bool isSwapped = false;  ///< samples have the other byte order than this machine
+    Vec3d origin{};          ///< the first sample, metres
+    std::array<Vec3d, 3> steps{Vec3d{1, 0, 0}, Vec3d{0, 1, 0},
+                               Vec3d{0, 0, 1}};  ///< to the next sample along i, j, k, metres
+    std::string headerJson, labelsJson;          ///< what `svt convert` left in the file, as in a .svt; empty: nothing
+    std::vector<ToldLabel> told;
+    std::string crsName;
+    ReadSamples read;
+
+    [[nodiscard]] std::uint64_t sliceBytes() const noexcept {
+        return std::uint64_t(dimension.x) * std::uint64_t(dimension.y) * std::uint64_t(bits / 8);
+    }
+};
+
+/// A mapped file that lives as long as somebody reads from it.
+using SharedFile = std::shared_ptr<const MappedFile>;
+
+/// Checks what a header says before anything is allocated by it: 1 to 65535 samples along each axis (a grid has two at
+/// least), 8, 16 or 32 bits, and compressed samples that can be as many as that.
+/// \param storedBytes  of the samples in the file
+/// \return nothing, or `code` with what was found
+[[nodiscard]] Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool isCompressed, Code code);
+
+/// Samples that stand in the file as they are.
+[[nodiscard]] ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code);
+/// Samples in gzip members, one behind the other.
+[[nodiscard]] ReadSamples gzipSamples(SharedFile file, std::span<const std::byte> bytes, Code code);
+/// Samples in blocks of zlib, each for itself.
+struct ZlibBlock {
+    std::span<const std::byte> stored;
+    std::uint64_t size = 0;  ///< unpacked
+};
+[[nodiscard]] ReadSamples zlibSamples(SharedFile file, std::vector<ZlibBlock> blocks, bool isCompressed, Code code);
+
+/// Reads all samples into columns, whose scalars are the values. Memory: the runs and two slices.
+/// \param maxBytes  of memory
+/// \return the columns, or InputTooBig, Cancelled, `code` for negative values, or an error of LabelImage::read
+[[nodiscard]] Result<volume::ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes, Code code,
+                                                       const Progress* progress);
+
+}  // namespace svt::volume_readers

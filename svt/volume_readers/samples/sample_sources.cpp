@@ -1,0 +1,150 @@
+#include <svt/volume_readers/samples/label_image.hpp>
+
+#include <svt/volume/grid.hpp>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <utility>
+
+namespace svt::volume_readers {
+namespace {
+
+/// Maximum compression ratio of deflate; a header that claims more is invalid.
+constexpr std::uint64_t kMaxRatio = 1032;
+constexpr std::size_t kStep = std::size_t{1} << 30;  // zlib counts with 32 bits
+
+Bytef* zlibBytes(const std::byte* bytes) noexcept { return reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes)); }
+
+/// gzip members as one stream.
+class GzipSource {
+public:
+    GzipSource(SharedFile file, std::span<const std::byte> bytes, Code code)
+        : file_(std::move(file)), rest_(bytes), code_(code) {
+        if (inflateInit2(&stream_, MAX_WBITS + 16) != Z_OK) throw std::bad_alloc();
+    }
+    GzipSource(const GzipSource&) = delete;
+    GzipSource& operator=(const GzipSource&) = delete;
+    ~GzipSource() { inflateEnd(&stream_); }
+
+    Result<void> read(std::span<std::byte> out) {
+        while (!out.empty()) {
+            const std::size_t input = std::min(rest_.size(), kStep), room = std::min(out.size(), kStep);
+            stream_.next_in = zlibBytes(rest_.data());
+            stream_.avail_in = static_cast<uInt>(input);
+            stream_.next_out = zlibBytes(out.data());
+            stream_.avail_out = static_cast<uInt>(room);
+            const int status = inflate(&stream_, Z_NO_FLUSH);
+            rest_ = rest_.subspan(input - stream_.avail_in);
+            const std::size_t made = room - stream_.avail_out;
+            out = out.subspan(made);
+            if (status == Z_STREAM_END && !rest_.empty()) {
+                inflateReset(&stream_);
+                continue;
+            }
+            if (status != Z_OK && status != Z_STREAM_END)
+                return Error(code_, "the compressed samples are damaged or cut short");
+            if (made == 0 && !out.empty() && (rest_.empty() || status == Z_STREAM_END))
+                return Error(code_, "the compressed samples are fewer than the sizes say");
+        }
+        return {};
+    }
+
+private:
+    SharedFile file_;
+    std::span<const std::byte> rest_;
+    Code code_;
+    z_stream stream_{};
+};
+
+/// Blocks, unpacked one at a time.
+class BlockSource {
+public:
+    BlockSource(SharedFile file, std::vector<ZlibBlock> blocks, bool isCompressed, Code code)
+        : file_(std::move(file)), blocks_(std::move(blocks)), isCompressed_(isCompressed), code_(code) {}
+
+    Result<void> read(std::span<std::byte> out) {
+        while (!out.empty()) {
+            if (at_ == bytes_.size())
+                if (auto done = next(); !done) return done;
+            const std::size_t count = std::min(out.size(), bytes_.size() - at_);
+            std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), count, out.begin());
+            at_ += count;
+            out = out.subspan(count);
+        }
+        return {};
+    }
+
+private:
+    Result<void> next() {
+        if (block_ == blocks_.size()) return Error(code_, "the samples are fewer than the sizes say");
+        const ZlibBlock& block = blocks_[block_++];
+        at_ = 0;
+        if (!isCompressed_) {
+            bytes_.assign(block.stored.begin(), block.stored.end());
+            return {};
+        }
+        bytes_.resize(static_cast<std::size_t>(block.size));
+        uLongf size = static_cast<uLongf>(block.size);
+        const int status = uncompress(zlibBytes(bytes_.data()), &size, zlibBytes(block.stored.data()),
+                                      static_cast<uLong>(block.stored.size()));
+        if (status == Z_MEM_ERROR) throw std::bad_alloc();
+        if (status != Z_OK || size != block.size)
+            return Error(code_, fmt::format("block {} of the compressed samples is damaged or cut short", block_ - 1));
+        return {};
+    }
+
+    SharedFile file_;
+    std::vector<ZlibBlock> blocks_;
+    bool isCompressed_;
+    Code code_;
+    std::size_t block_ = 0, at_ = 0;
+    std::vector<std::byte> bytes_;
+};
+
+}  // namespace
+
+Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool isCompressed, Code code) {
+    if (image.bits != 8 && image.bits != 16 && image.bits != 32)
+        return Error(code,
+                     fmt::format("samples of {} bits are no labels; whole numbers of 8, 16 or 32 bits are expected",
+                                 image.bits));
+    for (int axis = 0; axis < 3; ++axis)
+        if (image.dimension[axis] < 2 || image.dimension[axis] > volume::Grid::kMaxDimension)
+            return Error(code,
+                         fmt::format("{} x {} x {} samples; 2 to {} along each axis are possible", image.dimension.x,
+                                     image.dimension.y, image.dimension.z, volume::Grid::kMaxDimension));
+    // 65535^3 samples of 4 bytes stay below 2^64.
+    const std::uint64_t bytes = image.sliceBytes() * static_cast<std::uint64_t>(image.dimension.z);
+    if (!isCompressed && storedBytes < bytes)
+        return Error(code,
+                     fmt::format("{} bytes of samples found, {} expected: the file is cut short", storedBytes, bytes));
+    if (isCompressed && bytes / kMaxRatio > storedBytes)
+        return Error(code, fmt::format("{} bytes of compressed samples cannot hold the {} bytes that the sizes say",
+                                       storedBytes, bytes));
+    return {};
+}
+
+ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code) {
+    return [file = std::move(file), bytes, code](std::span<std::byte> out) mutable -> Result<void> {
+        if (bytes.size() < out.size()) return Error(code, "the samples are fewer than the sizes say");
+        std::copy_n(bytes.begin(), out.size(), out.begin());
+        bytes = bytes.subspan(out.size());
+        return {};
+    };
+}
+
+ReadSamples gzipSamples(SharedFile file, std::span<const std::byte> bytes, Code code) {
+    auto source = std::make_shared<GzipSource>(std::move(file), bytes, code);
+    return [source](std::span<std::byte> out) { return source->read(out); };
+}
+
+ReadSamples zlibSamples(SharedFile file, std::vector<ZlibBlock> blocks, bool isCompressed, Code code) {
+    auto source = std::make_shared<BlockSource>(std::move(file), std::move(blocks), isCompressed, code);
+    return [source](std::span<std::byte> out) { return source->read(out); };
+}
+
+}  // namespace svt::volume_readers
