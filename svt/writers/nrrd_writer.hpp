@@ -6,6 +6,11 @@
 /// and `space origin` = first sample, in metres of the model's CRS, also for a rotated grid. `space dimension: 3` is
 /// written instead of `space`: the named spaces are anatomical (left, posterior, superior), and a reader that knows
 /// them would flip easting and northing. The label table is stored as key/value pairs, one label per key.
+///
+/// A segmentation of 3D Slicer (.seg.nrrd) is the same file with keys for each segment: id, name, colour, extent, value,
+/// class as terminology, parent. Slicer counts in millimetres and has patients: so lengths are millimetres, and x, y, z
+/// are its right, anterior, superior. A segment has one value: all phases of a pattern get the first scalar of the
+/// label.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -22,6 +27,7 @@ struct NrrdOptions {
     NrrdEncoding encoding = NrrdEncoding::Gzip;
     int threads = 0;                     ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;  ///< stage "nrrd"
+    bool hasSegments = false;            ///< as a segmentation of 3D Slicer
 };
 
 /// Writes the volume as one attached .nrrd, all or nothing. Equal volumes give equal bytes.

@@ -24,7 +24,7 @@ struct SvgOptions {
 };
 
 /// The drawing as SVG text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
-/// \return the text, or BadArgument if the scale is out of range or the drawing is empty
+/// \return the text, or BadArgument if the scale is out of range
 [[nodiscard]] Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing,
                                           const volume::SemanticVolume& volume, const SvgOptions& options = {});
 

@@ -112,7 +112,7 @@ TEST(SvgDrawing, NamesAreEscapedAndClassesPlain) {
     EXPECT_EQ(countOf(svg, "<pattern "), 1u);  // only hatches in use
 }
 
-TEST(SvgDrawing, RefusesScalesAndEmptyDrawings) {
+TEST(SvgDrawing, RefusesScalesAndDrawsNothingAsNothing) {
     const auto volume = roomInWalls();
     for (const double scale : {0.0, -50.0, 1e9, double(NAN)}) {
         SvgOptions options;
@@ -120,7 +120,12 @@ TEST(SvgDrawing, RefusesScalesAndEmptyDrawings) {
         EXPECT_EQ(makeSvg(planOf(volume), volume, options).error().code(), Code::BadArgument);
     }
     const auto empty = *illustrate::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 50}});
-    EXPECT_EQ(makeSvg(empty, volume).error().code(), Code::BadArgument);
+    const auto svg = makeSvg(empty, volume);
+    ASSERT_TRUE(svg);
+    EXPECT_EQ(countOf(*svg, "<path data-"), 0u);
+    EXPECT_EQ(svg->find("nan"), std::string::npos);
+    EXPECT_EQ(svg->find("inf"), std::string::npos);
+    EXPECT_NE(svg->find("viewBox=\"0 0 "), std::string::npos);
 }
 
 TEST(DxfDrawing, IsPairsOfCodesAndValuesWithHandlesUsedOnce) {
@@ -164,7 +169,7 @@ TEST(GeojsonDrawing, IsInTheCoordinatesOfTheModel) {
     const std::string json = makeGeojson(planOf(volume), volume);
     EXPECT_NE(json.find("urn:ogc:def:crs:EPSG::25832"), std::string::npos);
     EXPECT_NE(json.find("[[[[499999.95,5399999.95,101.03],[500003.95,5399999.95,101.03],"), std::string::npos) << json;
-    EXPECT_NE(json.find("\"class\":\"BuildingRoom\",\"name\":\"Küche <1> Ł\",\"area\":6}"), std::string::npos);
+    EXPECT_NE(json.find("\"class\":\"BuildingRoom\",\"name\":\"Küche <1> Ł\",\"area\":6,"), std::string::npos);
     auto unknown = volume;
     unknown.crsName = "local";
     EXPECT_EQ(makeGeojson(planOf(unknown), unknown).find("\"crs\""), std::string::npos);
@@ -177,11 +182,11 @@ TEST(SectionTable, CsvQuotesAndSumsUp) {
     std::vector<std::string> lines;
     for (std::string line; std::getline(in, line);) lines.push_back(line);
     ASSERT_EQ(lines.size(), 6u);
-    EXPECT_EQ(lines[0], "kind,id,class,name,polygons,area_m2,area_bound_m2\r");
+    EXPECT_EQ(lines[0], "kind,id,class,name,polygons,area_m2,area_bound_m2,exact,line_length_m\r");
     EXPECT_EQ(lines[1].rfind("component,\"wall,1\",Wall Surface,\"Außenwand \"\"Nord\"\"", 0), 0u) << lines[1];
-    EXPECT_EQ(lines[3], "class,,BuildingRoom,,,6,\r");
-    EXPECT_EQ(lines[4], "class,,Wall Surface,,,6,\r");
-    EXPECT_EQ(lines[5], "total,,,,2,12,\r");
+    EXPECT_EQ(lines[3], "class,,BuildingRoom,,,6,,,\r");
+    EXPECT_EQ(lines[4], "class,,Wall Surface,,,6,,,\r");
+    EXPECT_EQ(lines[5], "total,,,,2,12,,,\r");
 }
 
 }  // namespace

@@ -67,6 +67,11 @@ public:
                     low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
                     high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
                 }
+        for (const auto& line : drawing.lines)
+            for (const PlanePoint p : line.points) {
+                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+            }
         if (drawing.components.empty()) low_ = high_ = {};
     }
 
@@ -168,8 +173,9 @@ private:
         endTable();
         table("UCS", "6", 0);
         endTable();
-        table("APPID", "7", 1);
+        table("APPID", "7", 2);
         record("APPID", "28", "7", "AcDbRegAppTableRecord", "ACAD");
+        record("APPID", "2E", "7", "AcDbRegAppTableRecord", "SVT");
         endTable();
         table("DIMSTYLE", "8", 1);
         tag(100, "AcDbDimStyleTable");
@@ -299,13 +305,35 @@ private:
         tag(8, layer);
     }
 
-    void ring(const illustrate::Ring& points, std::string_view layer) {
+    void polyline(const std::vector<PlanePoint>& points, bool isClosed, std::string_view layer,
+                  const illustrate::SectionComponent& component) {
         entity("LWPOLYLINE", layer);
         tag(100, "AcDbPolyline");
         tag(90, static_cast<int>(points.size()));
-        tag(70, 1);  // closed
+        tag(70, isClosed ? 1 : 0);
         number(43, 0);
         for (const PlanePoint p : points) point(10, p);
+        extendedData(component);
+    }
+
+    // Id, area and its bound (m2), and whether it is exact (1) or drawn by voxels (0).
+    void extendedData(const illustrate::SectionComponent& component) {
+        constexpr std::size_t kMostCharacters = 255;
+        tag(1001, "SVT");
+        tag(1000, dxfText(volume_.labels.labels[component.label].id).substr(0, kMostCharacters));
+        number(1040, component.area);
+        number(1040, component.areaBound);
+        tag(1070, component.isExact ? 1 : 0);
+    }
+
+    void lines(const illustrate::SectionComponent& component, std::string_view layer) {
+        for (const illustrate::SectionLine& line : drawing_.lines) {
+            if (line.label != component.label) continue;
+            const bool isClosed = line.points.size() > 3 && line.points.front() == line.points.back();
+            std::vector<PlanePoint> points = line.points;
+            if (isClosed) points.pop_back();
+            polyline(points, isClosed, layer, component);
+        }
     }
 
     void text(PlanePoint at, double height, std::string_view content) {
@@ -333,9 +361,11 @@ private:
             const volume::Label& label = volume_.labels.labels[component.label];
             const std::string layer = plainName(label.className);
             for (const illustrate::SectionPolygon& polygon : component.polygons) {
-                ring(polygon.outer, layer);
-                for (const illustrate::Ring& hole : polygon.holes) ring(hole, layer);
+                polyline(polygon.outer, true, layer, component);
+                for (const illustrate::Ring& hole : polygon.holes) polyline(hole, true, layer, component);
             }
+            if (component.lineLength > 0) lines(component, layer);
+            if (component.polygons.empty()) continue;
             if (model::isSpace(label.className)) name(component, shownName(label));
         }
         endSection();

@@ -27,6 +27,50 @@ void appendRing(std::string& json, const illustrate::Ring& ring, const illustrat
     json += ']';
 }
 
+void appendPolygons(std::string& json, const illustrate::SectionComponent& component,
+                    const illustrate::PlaneAxes& axes) {
+    json += "{\"type\":\"MultiPolygon\",\"coordinates\":[";
+    for (const illustrate::SectionPolygon& polygon : component.polygons) {
+        json += &polygon == &component.polygons.front() ? "[" : ",[";
+        appendRing(json, polygon.outer, axes);
+        for (const illustrate::Ring& hole : polygon.holes) {
+            json += ',';
+            appendRing(json, hole, axes);
+        }
+        json += ']';
+    }
+    json += "]}";
+}
+
+void appendLines(std::string& json, std::uint32_t label, const illustrate::SectionDrawing& drawing) {
+    json += "{\"type\":\"MultiLineString\",\"coordinates\":[";
+    bool isFirst = true;
+    for (const illustrate::SectionLine& line : drawing.lines) {
+        if (line.label != label) continue;
+        json += isFirst ? "[" : ",[";
+        isFirst = false;
+        for (std::size_t n = 0; n < line.points.size(); ++n) {
+            if (n != 0) json += ',';
+            appendVector(json, drawing.axes.worldFromPlane(line.points[n]), 6);
+        }
+        json += ']';
+    }
+    json += "]}";
+}
+
+// Polygons, lines, or a collection of both.
+void appendGeometry(std::string& json, const illustrate::SectionComponent& component,
+                    const illustrate::SectionDrawing& drawing) {
+    const bool hasLines = component.lineLength > 0;
+    if (!hasLines) return appendPolygons(json, component, drawing.axes);
+    if (component.polygons.empty()) return appendLines(json, component.label, drawing);
+    json += "{\"type\":\"GeometryCollection\",\"geometries\":[";
+    appendPolygons(json, component, drawing.axes);
+    json += ',';
+    appendLines(json, component.label, drawing);
+    json += "]}";
+}
+
 }  // namespace
 
 std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
@@ -56,18 +100,11 @@ std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume:
         appendMember(json, "class", label.className);
         json += ',';
         appendMember(json, "name", label.name);
-        json += fmt::format(",\"area\":{}}},\"geometry\":{{\"type\":\"MultiPolygon\",\"coordinates\":[",
-                            shortNumber(component.area, 6));
-        for (const illustrate::SectionPolygon& polygon : component.polygons) {
-            json += &polygon == &component.polygons.front() ? "[" : ",[";
-            appendRing(json, polygon.outer, axes);
-            for (const illustrate::Ring& hole : polygon.holes) {
-                json += ',';
-                appendRing(json, hole, axes);
-            }
-            json += ']';
-        }
-        json += "]}}";
+        json +=
+            fmt::format(",\"area\":{},\"areaBound\":{},\"exact\":{}}},\"geometry\":", shortNumber(component.area, 6),
+                        shortNumber(component.areaBound, 6), component.isExact);
+        appendGeometry(json, component, drawing);
+        json += '}';
     }
     return json + "\n]}\n";
 }

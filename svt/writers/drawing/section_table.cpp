@@ -33,15 +33,19 @@ std::string csvText(std::string_view text) {
 std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
-        "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}}},\n  \"components\": [",
-        jsonVector(axes.origin, 6), jsonVector(axes.u, 15), jsonVector(axes.v, 15), jsonVector(axes.normal, 15));
+        "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}, \"edgesInPlane\": {}, \"shift\": "
+        "{}}},\n"
+        "  \"components\": [",
+        jsonVector(axes.origin, 6), jsonVector(axes.u, 15), jsonVector(axes.v, 15), jsonVector(axes.normal, 15),
+        drawing.edgesInPlane, shortNumber(drawing.planeShift, 6));
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         json += fmt::format(
-            "{}\n    {{\"id\": {}, \"class\": {}, \"name\": {}, \"polygons\": {}, \"area\": {}, \"areaBound\": {}}}",
+            "{}\n    {{\"id\": {}, \"class\": {}, \"name\": {}, \"polygons\": {}, \"area\": {}, \"areaBound\": {}, "
+            "\"exact\": {}, \"lineLength\": {}}}",
             &component == &drawing.components.front() ? "" : ",", jsonText(label.id), jsonText(label.className),
             jsonText(label.name), component.polygons.size(), shortNumber(component.area, 6),
-            shortNumber(component.areaBound, 6));
+            shortNumber(component.areaBound, 6), component.isExact, shortNumber(component.lineLength, 6));
     }
     json += "\n  ],\n  \"classes\": [";
     for (const illustrate::ClassArea& total : drawing.classes)
@@ -52,18 +56,19 @@ std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const vol
 }
 
 std::string makeSectionCsv(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    std::string csv = "kind,id,class,name,polygons,area_m2,area_bound_m2\r\n";
+    std::string csv = "kind,id,class,name,polygons,area_m2,area_bound_m2,exact,line_length_m\r\n";
     std::size_t polygons = 0;
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         polygons += component.polygons.size();
-        csv += fmt::format("component,{},{},{},{},{},{}\r\n", csvText(label.id), csvText(label.className),
+        csv += fmt::format("component,{},{},{},{},{},{},{},{}\r\n", csvText(label.id), csvText(label.className),
                            csvText(label.name), component.polygons.size(), shortNumber(component.area, 6),
-                           shortNumber(component.areaBound, 6));
+                           shortNumber(component.areaBound, 6), component.isExact ? "yes" : "no",
+                           shortNumber(component.lineLength, 6));
     }
     for (const illustrate::ClassArea& total : drawing.classes)
-        csv += fmt::format("class,,{},,,{},\r\n", csvText(total.className), shortNumber(total.area, 6));
-    return csv + fmt::format("total,,,,{},{},\r\n", polygons, shortNumber(drawing.area, 6));
+        csv += fmt::format("class,,{},,,{},,,\r\n", csvText(total.className), shortNumber(total.area, 6));
+    return csv + fmt::format("total,,,,{},{},,,\r\n", polygons, shortNumber(drawing.area, 6));
 }
 
 }  // namespace svt::writers

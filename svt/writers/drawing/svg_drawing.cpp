@@ -55,28 +55,6 @@ constexpr HatchStyle kHatches[] = {
     {Hatch::General, "width=\"2.8\" height=\"2.8\"", "rotate(-45)", "#f2f2f2", "M0 1.4H2.8", ""},
 };
 
-// Text for XML 1.0: markup escaped, forbidden characters replaced.
-std::string xmlText(std::string_view text) {
-    std::string safe;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto [c, size] = firstCharacter(text.substr(at));
-        if (size == 0 || c == 0xFFFE || c == 0xFFFF || (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F) {
-            safe += size != 0 && (c < 0x20 || c == 0x7F) ? " " : "\xEF\xBF\xBD";
-            at += std::max<std::size_t>(size, 1);
-            continue;
-        }
-        switch (c) {
-            case '&': safe += "&amp;"; break;
-            case '<': safe += "&lt;"; break;
-            case '>': safe += "&gt;"; break;
-            case '"': safe += "&quot;"; break;
-            default: safe.append(text, at, size);
-        }
-        at += size;
-    }
-    return safe;
-}
-
 class SvgWriter {
 public:
     SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, double scale)
@@ -93,6 +71,12 @@ public:
                     low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
                     high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
                 }
+        for (const illustrate::SectionLine& line : drawing.lines)
+            for (const PlanePoint p : line.points) {
+                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+            }
+        if (drawing.components.empty() && drawing.lines.empty()) low_ = high_ = {};
         drawnWidth_ = (high_.u - low_.u) * millimetres_;
         drawnHeight_ = (high_.v - low_.v) * millimetres_;
         width_ = std::max(drawnWidth_, kMinWidth) + 2 * kMargin;
@@ -104,6 +88,7 @@ public:
         begin();
         addComponents();
         addBorders();
+        addLines();
         addNames();
         addTitle();
         svg_ += "</svg>\n";
@@ -134,7 +119,7 @@ private:
     }
 
     [[nodiscard]] bool isSlim(const SectionComponent& component) const {
-        if (isSheet(component.label)) return false;
+        if (isSheet(component.label) || component.polygons.empty()) return false;
         double length = 0;
         const auto add = [&](const illustrate::Ring& ring) {
             for (std::size_t n = 0; n < ring.size(); ++n) {
@@ -164,13 +149,14 @@ private:
         svg_ += fmt::format(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
             width, height);
-        svg_ += fmt::format("<title>{}, {}</title>\n", xmlText(modelName()), planeText(drawing_, volume_.grid));
+        svg_ += fmt::format("<title>{}, {}</title>\n", xmlAttribute(modelName()), planeText(drawing_, volume_.grid));
         svg_ +=
             "<style>\n"
             "text { font-family: 'Liberation Sans', Arial, Helvetica, sans-serif; fill: #000 }\n"
             ".thin, .bold { fill: none; stroke: #000; stroke-linecap: round; stroke-linejoin: round }\n"
             ".thin { stroke-width: 0.13 }\n"
             ".bold { stroke-width: 0.5 }\n"
+            ".dashed { stroke-dasharray: 1.5 1 }\n"
             ".names { text-anchor: middle }\n"
             "</style>\n<defs>\n";
         for (const HatchStyle& style : kHatches) {
@@ -204,8 +190,8 @@ private:
     void addComponents() {
         for (const illustrate::ClassArea& group : drawing_.classes) {
             const std::string name = plainName(group.className);
-            svg_ += fmt::format("<g class=\"{}\" data-class=\"{}\" data-area=\"{}\">\n", name, xmlText(group.className),
-                                shortNumber(group.area, 4));
+            svg_ += fmt::format("<g class=\"{}\" data-class=\"{}\" data-area=\"{}\">\n", name,
+                                xmlAttribute(group.className), shortNumber(group.area, 4));
             for (const SectionComponent& component : drawing_.components)
                 if (labelOf(component.label).className == group.className) addComponent(component, name);
             svg_ += "</g>\n";
@@ -214,8 +200,12 @@ private:
 
     void addComponent(const SectionComponent& component, const std::string& className) {
         const volume::Label& label = labelOf(component.label);
-        svg_ += fmt::format("<path class=\"{}\" data-id=\"{}\" data-area=\"{}\" fill=\"{}\" fill-rule=\"evenodd\" d=\"",
-                            className, xmlText(label.id), shortNumber(component.area, 4), fillOf(component.label));
+        if (component.polygons.empty()) return;
+        svg_ += fmt::format(
+            "<path class=\"{}\" data-id=\"{}\" data-area=\"{}\" data-area-bound=\"{}\" data-exact=\"{}\" fill=\"{}\" "
+            "fill-rule=\"evenodd\" d=\"",
+            className, xmlAttribute(label.id), shortNumber(component.area, 4), shortNumber(component.areaBound, 4),
+            component.isExact ? "yes" : "no", fillOf(component.label));
         for (const auto& polygon : component.polygons) {
             addLine(polygon.outer);
             svg_ += "Z";
@@ -224,8 +214,8 @@ private:
                 svg_ += "Z";
             }
         }
-        svg_ += fmt::format("\"><title>{}{}{}</title></path>\n", xmlText(label.id), label.name.empty() ? "" : ": ",
-                            xmlText(label.name));
+        svg_ += fmt::format("\"><title>{}{}{}</title></path>\n", xmlAttribute(label.id), label.name.empty() ? "" : ": ",
+                            xmlAttribute(label.name));
     }
 
     void addBorders() {
@@ -244,10 +234,36 @@ private:
         }
     }
 
+    // Objects without inside: as bold as what they stand for, once on top of all borders.
+    void addLines() {
+        if (drawing_.lines.empty()) return;
+        svg_ += "<g class=\"lines\">\n";
+        for (const illustrate::SectionLine& line : drawing_.lines) {
+            const volume::Label& label = labelOf(line.label);
+            const bool isVirtual = label.className == "ClosureSurface";
+            svg_ +=
+                fmt::format("<path class=\"{} {}\" data-id=\"{}\" data-length=\"{}\" d=\"",
+                            isVirtual            ? "thin dashed"
+                            : isBold(line.label) ? "bold"
+                                                 : "thin",
+                            plainName(label.className), xmlAttribute(label.id), shortNumber(lengthOf(line.points), 4));
+            addLine(line.points);
+            svg_ += "\"/>\n";
+        }
+        svg_ += "</g>\n";
+    }
+
+    static double lengthOf(const std::vector<PlanePoint>& points) {
+        double length = 0;
+        for (std::size_t n = 0; n + 1 < points.size(); ++n)
+            length += std::hypot(points[n + 1].u - points[n].u, points[n + 1].v - points[n].v);
+        return length;
+    }
+
     void addNames() {
         svg_ += "<g class=\"names\">\n";
         for (const SectionComponent& component : drawing_.components) {
-            if (!isSpace(component.label)) continue;
+            if (!isSpace(component.label) || component.polygons.empty()) continue;
             const auto& largest = *std::ranges::max_element(component.polygons, {}, &illustrate::SectionPolygon::area);
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
@@ -268,7 +284,7 @@ private:
 
     void addText(double x, double y, double size, std::string_view text, const char* extra = "") {
         svg_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}>{}</text>\n", shortNumber(x, 3),
-                            shortNumber(y, 3), shortNumber(size, 2), extra, xmlText(text));
+                            shortNumber(y, 3), shortNumber(size, 2), extra, xmlAttribute(text));
     }
 
     void addTitle() {
@@ -310,7 +326,6 @@ Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const vol
     if (!(options.scale >= 0.01 && options.scale <= 1e7))
         return Error(Code::BadArgument,
                      fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
-    if (drawing.components.empty()) return Error(Code::BadArgument, "the drawing is empty: the plane cuts nothing");
     return SvgWriter(drawing, volume, options.scale).write();
 }
 

@@ -1,9 +1,8 @@
 #include <svt/writers/glb_writer.hpp>
 
 #include <svt/core/file.hpp>
-#include <svt/core/parallel.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
-#include <svt/writers/gltf/slope_vertices.hpp>
+#include <svt/writers/gltf/surface_positions.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,33 +33,6 @@ bool isShort(const LabelSurface& surface) { return surface.vertices.size() <= 65
 std::uint64_t indexBytes(const LabelSurface& surface) {
     const std::uint64_t bytes = std::uint64_t(surface.triangles.size()) * 3 * (isShort(surface) ? 2 : 4);
     return (bytes + 3) / 4 * 4;
-}
-
-using Positions = std::vector<Vec3f>;
-
-// Metres from the grid's lower corner along its axes.
-Positions positionsOf(const LabelSurface& surface, Vec3d spacing, const SlopeVertices* slopes) {
-    std::vector<Vec3d> places;
-    places.reserve(surface.vertices.size());
-    for (const Vec3i vertex : surface.vertices) places.push_back({0.5 * vertex.x, 0.5 * vertex.y, 0.5 * vertex.z});
-    if (slopes != nullptr) {
-        for (std::uint32_t c = 0; c < surface.cornerCount; ++c) {
-            const Vec3i vertex = surface.vertices[c];
-            places[c] = slopes->place({vertex.x / 2, vertex.y / 2, vertex.z / 2});
-        }
-        for (std::size_t m = 0; m < surface.middles.size(); ++m) {
-            Vec3d sum{};
-            for (const std::uint32_t corner : surface.middles[m]) sum = sum + places[corner];
-            places[surface.cornerCount + m] = sum * 0.25;
-        }
-    }
-    Positions positions;
-    positions.reserve(places.size());
-    for (const Vec3d place : places) {
-        const Vec3d metres = scaled(place, spacing);
-        positions.push_back({static_cast<float>(metres.x), static_cast<float>(metres.y), static_cast<float>(metres.z)});
-    }
-    return positions;
 }
 
 // sRGB to linear, rounded to four digits, so that math libraries that differ in the last bit give the same file.
@@ -214,33 +185,6 @@ Result<void> writeIndices(AtomicFile& file, const LabelSurface& surface) {
     return file.write(std::as_bytes(std::span(indices)));
 }
 
-// Positions of all surfaces.
-Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volume,
-                                             std::span<const LabelSurface> surfaces, const GlbOptions& options) {
-    const volume::SemanticVolume& source = options.planesOf != nullptr ? *options.planesOf : volume;
-    const std::vector<std::uint32_t> labelOfScalar = source.labels.labelOfScalar();
-    volume::BrickVolume bricks;
-    std::optional<SlopeVertices> slopes;
-    if (options.faces == GlbFaces::Planes) {
-        auto made =
-            volume::BrickVolume::fromColumns(source.columns, {.planes = source.planes, .threads = options.threads});
-        if (!made) return made.error();
-        bricks = std::move(*made);
-        slopes.emplace(bricks, labelOfScalar);
-    }
-    std::vector<Positions> positions(surfaces.size());
-    std::uint64_t count = 0;
-    for (const LabelSurface& surface : surfaces) count += surface.vertices.size();
-    ProgressCounter progress(options.progress, "vertices", count);
-    parallelFor(surfaces.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t m = begin; m < end; ++m) {
-            positions[m] = positionsOf(surfaces[m], volume.grid.spacing(), slopes ? &*slopes : nullptr);
-            progress.add(surfaces[m].vertices.size());
-        }
-    });
-    return positions;
-}
-
 Result<void> checkDimension(Vec3i expected, Vec3i found) {
     if (expected == found) return {};
     return Error(Code::BadArgument, fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}",
@@ -261,7 +205,8 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
 
     Progress::tell(options.progress, "vertices", 0);
-    const auto positions = placeVertices(volume, *surfaces, options);
+    const auto positions =
+        placeVertices(volume, *surfaces, options.faces, options.planesOf, options.threads, options.progress);
     if (!positions) return positions.error();
 
     GlbReport report;

@@ -1,7 +1,7 @@
 #include <svt/core/check.hpp>
 #include <svt/core/deflate.hpp>
 #include <svt/core/parallel.hpp>
-#include <svt/writers/nrrd/gzip_writer.hpp>
+#include <svt/writers/dense/gzip_writer.hpp>
 
 #include <zlib.h>
 

@@ -1,0 +1,194 @@
+#include <svt/core/text.hpp>
+#include <svt/volume/volume_json.hpp>
+#include <svt/writers/ade/ade_writer.hpp>
+#include <svt/writers/ade/model_document.hpp>
+#include <svt/writers/nrrd_writer.hpp>
+#include <svt/writers/x3d/texture_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+/// Scalars of a label and of all below it: what encloses the ranges of its parts.
+struct ScalarRange {
+    volume::Scalar first = 0, last = 0;  // 0: none
+};
+
+std::vector<ScalarRange> subtreeRanges(const volume::LabelTable& table) {
+    std::vector<ScalarRange> ranges(table.labels.size());
+    for (std::size_t l = table.labels.size(); l-- > 0;) {
+        const volume::Label& label = table.labels[l];
+        const auto add = [&](ScalarRange range) {
+            if (range.first == 0) return;
+            ranges[l].first = ranges[l].first == 0 ? range.first : std::min(ranges[l].first, range.first);
+            ranges[l].last = std::max(ranges[l].last, range.last);
+        };
+        if (label.count > 0) add({label.first, label.first + label.count - 1});
+        for (std::size_t child = l + 1; child < label.subtreeEnd; child = table.labels[child].subtreeEnd)
+            add(ranges[child]);
+    }
+    return ranges;
+}
+
+std::string targets(const volume::LabelTable& table, const ModelDocument& document, bool isPlain) {
+    const auto ranges = subtreeRanges(table);
+    const auto reference = [&](std::size_t number) {
+        return referenceTo(isPlain ? gmlId(table.labels[number].id, number) : table.labels[number].id);
+    };
+    std::string text;
+    for (std::size_t l = 0; l < table.labels.size(); ++l) {
+        if (ranges[l].first == 0) continue;
+        const std::string range =
+            fmt::format("<svt:scalarRange>{} {}</svt:scalarRange>", ranges[l].first, ranges[l].last);
+        const std::uint32_t parent = table.labels[l].parent;
+        const std::string up =
+            parent == volume::kNoLabel ? "" : fmt::format("<svt:parent>{}</svt:parent>", reference(parent));
+        text += document.version() == CityGmlVersion::V2
+                    ? fmt::format("<svt:target uri=\"{}\">{}{}</svt:target>\n", reference(l), range, up)
+                    : fmt::format(
+                          "<svt:volumeAssociation><svt:VolumeAssociation><svt:target>{}</svt:target>{}{}"
+                          "</svt:VolumeAssociation></svt:volumeAssociation>\n",
+                          reference(l), range, up);
+    }
+    return text;
+}
+
+std::string_view textureName(TextureKind kind) {
+    return kind == TextureKind::Pixel   ? "PixelTexture3D"
+           : kind == TextureKind::Image ? "ImageTexture3D"
+                                        : "ComposedTexture3D";
+}
+
+/// From the member of the model to what all kinds of texture have.
+std::string beginningOfTexture(const volume::SemanticVolume& volume, int bits, const ModelDocument& document,
+                               TextureKind kind) {
+    const volume::Grid& grid = volume.grid;
+    const Vec3i dimension = grid.dimension();
+    const Vec3d least = grid.origin(), most = grid.worldFromIndex(toDouble(dimension - Vec3i{1, 1, 1}));
+    const bool isThird = document.version() == CityGmlVersion::V3;
+    std::string text = fmt::format(
+        "<{0}:appearanceMember xmlns:core=\"http://www.opengis.net/citygml/{1}\" "
+        "xmlns:app=\"http://www.opengis.net/citygml/appearance/{1}\" xmlns:gml=\"http://www.opengis.net/gml{2}\" "
+        "xmlns:svt=\"{3}\">",
+        isThird ? "core" : "app", isThird ? "3.0" : "2.0", isThird ? "/3.2" : "", adeNamespace(document.version()));
+    text += isThird ? "<app:Appearance gml:id=\"svt-appearance\"><app:theme>SVT</app:theme><app:adeOfAppearance>"
+                      "<svt:AppearanceVolumeProperties><svt:volumeData>\n"
+                    : "<app:Appearance><app:theme>SVT</app:theme><svt:volumeDataMember>\n";
+    text += fmt::format("<svt:{} gml:id=\"svt-volume\">\n", textureName(kind));
+    for (const std::string& json : {volume::writeHeaderJson(volume), volume::writeLabelsJson(volume.labels)})
+        text +=
+            fmt::format("<gml:metaDataProperty><gml:GenericMetaData>{}</gml:GenericMetaData></gml:metaDataProperty>\n",
+                        xmlContent(json));
+    const std::string crs = volume.crsName.empty() ? "" : fmt::format(" srsName=\"{}\"", xmlAttribute(volume.crsName));
+    text += fmt::format("<svt:scalarType>uint{}</svt:scalarType>\n<svt:dimension>{} {} {}</svt:dimension>\n", bits,
+                        dimension.x, dimension.y, dimension.z);
+    text += fmt::format("<svt:spacing>{} {} {}</svt:spacing>\n", grid.spacing().x, grid.spacing().y, grid.spacing().z);
+    text += fmt::format(
+        "<svt:envelope{} srsDimension=\"3\"><gml:lowerCorner>{} {} {}</gml:lowerCorner>"
+        "<gml:upperCorner>{} {} {}</gml:upperCorner></svt:envelope>\n",
+        crs, least.x, least.y, least.z, most.x, most.y, most.z);
+    return text + "<svt:sampleLocation>node</svt:sampleLocation>\n<svt:backgroundValue>0</svt:backgroundValue>\n";
+}
+
+std::string endOfTexture(const ModelDocument& document, TextureKind kind) {
+    const std::string end = fmt::format("</svt:{}>\n", textureName(kind));
+    return document.version() == CityGmlVersion::V2
+               ? end + "</svt:volumeDataMember></app:Appearance></app:appearanceMember>\n"
+               : end +
+                     "</svt:volumeData></svt:AppearanceVolumeProperties></app:adeOfAppearance></app:Appearance>"
+                     "</core:appearanceMember>\n";
+}
+
+/// Writes what stands beside the document; returns the elements that name it.
+Result<std::string> writeBeside(const volume::SemanticVolume& volume, int bits, const std::filesystem::path& path,
+                                const VolumeWriteOptions& options) {
+    const std::string stem = stemOf(path);
+    if (options.texture == TextureKind::Image) {
+        const std::string name = stem + ".labels.nrrd";
+        if (auto checked = checkSibling(path.parent_path() / name, "NRRD000"); !checked) return checked.error();
+        const auto encoding = options.isCompressed ? NrrdEncoding::Gzip : NrrdEncoding::Raw;
+        const auto bytes =
+            writeNrrd(volume, path.parent_path() / name, {encoding, options.threads, options.progress, false});
+        if (!bytes) return bytes.error();
+        return fmt::format("<svt:imageURI>{}</svt:imageURI>\n<svt:mimeType>application/x-nrrd</svt:mimeType>\n",
+                           referenceTo(name).substr(1));
+    }
+    const auto files =
+        writeSlices(volume, bits, SliceKind::Gray16, {}, path, {"write", options.threads, options.progress});
+    if (!files) return files.error();
+    std::string text;
+    for (const std::string& file : *files) {
+        const std::size_t slash = file.find('/');
+        text += fmt::format("<svt:sliceURI>{}/{}</svt:sliceURI>\n", referenceTo(file.substr(0, slash)).substr(1),
+                            file.substr(slash + 1));
+    }
+    return text + "<svt:mimeType>image/png</svt:mimeType>\n";
+}
+
+Result<void> writePixelImage(const volume::SemanticVolume& volume, int bits, const VolumeWriteOptions& options,
+                             AtomicFile& file) {
+    const Vec3i dimension = volume.grid.dimension();
+    if (auto done = file.write(fmt::format("<svt:image>1 {} {} {}", dimension.x, dimension.y, dimension.z)); !done)
+        return done;
+    if (auto done = writePixelNumbers(volume, bits, {}, {"write", options.threads, options.progress}, file); !done)
+        return done;
+    return file.write("</svt:image>\n");
+}
+
+Result<ModelDocument> documentFor(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
+    if (options.model.empty())
+        return ModelDocument::plain(volume, options.cityGmlVersion == 2 ? CityGmlVersion::V2 : CityGmlVersion::V3);
+    auto document = ModelDocument::open(options.model);
+    if (!document) return document;
+    const int version = document->version() == CityGmlVersion::V2 ? 2 : 3;
+    if (options.cityGmlVersion != 0 && options.cityGmlVersion != version)
+        return Error(
+            Code::BadArgument,
+            fmt::format("--citygml {}.0: the model is CityGML {}.0, and it is kept as it is; leave --citygml out",
+                        options.cityGmlVersion, version),
+            Place{options.model.string(), 0, 0, {}});
+    return document;
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                               const VolumeWriteOptions& options) {
+    const auto bits = checkedSampleBits(volume);
+    if (!bits) return bits.error();
+    if (!volume.grid.isAxisParallel())
+        return Error(
+            Code::BadArgument,
+            "the grid is turned, and the extension of CityGML has no place for its axes; build the volume with "
+            "--axes world");
+    if (options.texture == TextureKind::Pixel)
+        if (auto checked = checkPixelCount(volume.grid.dimension(), options.maxVoxels); !checked)
+            return checked.error();
+    const auto document = documentFor(volume, options);
+    if (!document) return document.error();
+    std::string beside;
+    if (options.texture != TextureKind::Pixel) {
+        auto written = writeBeside(volume, *bits, path, options);
+        if (!written) return written.error();
+        beside = std::move(*written);
+    }
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    if (auto done = document->writeBegin(*file); !done) return done.error();
+    if (auto done = file->write(beginningOfTexture(volume, *bits, *document, options.texture)); !done)
+        return done.error();
+    if (auto done = file->write(targets(volume.labels, *document, options.model.empty())); !done) return done.error();
+    const auto done =
+        options.texture == TextureKind::Pixel ? writePixelImage(volume, *bits, options, *file) : file->write(beside);
+    if (!done) return done.error();
+    if (auto ended = file->write(endOfTexture(*document, options.texture)); !ended) return ended.error();
+    if (auto ended = document->writeEnd(*file); !ended) return ended.error();
+    return file->commit();
+}
+
+}  // namespace svt::writers

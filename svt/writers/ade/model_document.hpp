@@ -1,0 +1,49 @@
+#pragma once
+/// \file
+/// The document around a volume: that of a model, in which a place is found for the volume, or a plain one.
+
+#include <svt/core/file.hpp>
+#include <svt/core/result.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace svt::writers {
+
+enum class CityGmlVersion : std::uint8_t { V2, V3 };
+
+/// The namespace of the extension.
+[[nodiscard]] std::string_view adeNamespace(CityGmlVersion version) noexcept;
+
+/// A document in two halves, between which the appearance is written.
+class ModelDocument {
+public:
+    /// The document of a model. \return it, or CannotOpen, UnknownFormat, BadArgument (it has a volume already)
+    [[nodiscard]] static Result<ModelDocument> open(const std::filesystem::path& path);
+    /// Features as buildings and generic objects, without geometry.
+    [[nodiscard]] static ModelDocument plain(const volume::SemanticVolume& volume, CityGmlVersion version);
+
+    [[nodiscard]] CityGmlVersion version() const noexcept { return version_; }
+    [[nodiscard]] Result<void> writeBegin(AtomicFile& file) const;
+    [[nodiscard]] Result<void> writeEnd(AtomicFile& file) const;
+
+private:
+    [[nodiscard]] Result<void> write(std::string_view text, AtomicFile& file) const;
+
+    std::optional<MappedFile> mapped_;
+    std::string begin_, end_;  // of a plain document
+    std::size_t cut_ = 0;      // of a mapped one
+    CityGmlVersion version_ = CityGmlVersion::V3;
+    bool isFirstVersion_ = false;  // CityGML 1.0, of which namespaces are replaced
+};
+
+/// "#id" as a reference, with what a URI has no place for as %XX.
+[[nodiscard]] std::string referenceTo(std::string_view id);
+
+/// A gml:id for the id of a label: itself if XML allows it, else "label-NUMBER".
+[[nodiscard]] std::string gmlId(std::string_view id, std::size_t number);
+
+}  // namespace svt::writers

@@ -1,0 +1,142 @@
+#include <svt/core/parallel.hpp>
+#include <svt/writers/dense/sample_stream.hpp>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <new>
+#include <utility>
+
+namespace svt::writers {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "samples are written as they stand in memory");
+
+constexpr std::uint64_t kSlabBytes = std::uint64_t{16} << 20;
+constexpr std::uint64_t kKeptBytes = std::uint64_t{64} << 20;
+constexpr int kBlockLevel = 5;
+
+template <class T>
+Result<void> streamAs(const volume::ColumnVolume& columns, const StreamOptions& options, const SampleSink& sink) {
+    const Vec3i dimension = columns.dimension();
+    const std::uint64_t rowBytes = std::uint64_t(dimension.x) * sizeof(T);
+    const std::uint64_t sliceBytes = rowBytes * std::uint64_t(dimension.y);
+    // Several slices at once; if one slice is too large, bands of whole tiles of one slice.
+    const auto slices = static_cast<std::int32_t>(
+        std::clamp<std::uint64_t>(kSlabBytes / sliceBytes, 1, static_cast<std::uint64_t>(dimension.z)));
+    constexpr std::int32_t kTile = volume::ColumnVolume::kTileSize;
+    const auto bandTiles = std::max<std::uint64_t>(1, kSlabBytes / (rowBytes * kTile));
+    const auto rows = sliceBytes <= kSlabBytes ? dimension.y
+                                               : static_cast<std::int32_t>(std::min<std::uint64_t>(
+                                                     bandTiles * kTile, static_cast<std::uint64_t>(dimension.y)));
+    std::vector<T> slab;
+    for (std::int32_t k = 0; k < dimension.z; k += slices) {
+        for (std::int32_t j = 0; j < dimension.y; j += rows) {
+            if (Progress::isCancelled(options.progress))
+                return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+            const volume::DenseBox box{j, std::min(j + rows, dimension.y), k, std::min(k + slices, dimension.z)};
+            slab.resize(std::size_t(dimension.x) * std::size_t(box.jEnd - box.jBegin) *
+                        std::size_t(box.kEnd - box.kBegin));
+            volume::copyBox<T>(columns, box, slab, options.threads);
+            if (auto done = sink(std::as_bytes(std::span(slab))); !done) return done;
+        }
+        const double share = double(std::min(k + slices, dimension.z)) / dimension.z;
+        Progress::tell(options.progress, options.stage, options.begin + (options.end - options.begin) * share);
+    }
+    return {};
+}
+
+std::vector<std::byte> zlibBytes(std::span<const std::byte> bytes) {
+    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+    std::vector<std::byte> compressed(size);
+    const int status =
+        compress2(reinterpret_cast<Bytef*>(compressed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                  static_cast<uLong>(bytes.size()), kBlockLevel);
+    if (status != Z_OK) throw std::bad_alloc();  // the buffer is large enough, so only memory can be missing
+    compressed.resize(size);
+    return compressed;
+}
+
+}  // namespace
+
+Result<int> checkedSampleBits(const volume::SemanticVolume& volume) {
+    const Vec3i dimension = volume.grid.dimension();
+    const Vec3i columns = volume.columns.dimension();
+    if (dimension != columns)
+        return Error(Code::BadArgument,
+                     fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}", dimension.x,
+                                 dimension.y, dimension.z, columns.x, columns.y, columns.z));
+    const volume::Scalar largest = volume::largestScalar(volume.columns);
+    if (largest >= volume.labels.scalarCount())
+        return Error(Code::BadArgument, fmt::format("scalar {} belongs to no label", largest));
+    return volume.labels.scalarBits();
+}
+
+std::uint64_t sampleBytes(Vec3i dimension, int bits) noexcept {
+    return std::uint64_t(dimension.x) * std::uint64_t(dimension.y) * std::uint64_t(dimension.z) *
+           static_cast<std::uint64_t>(bits / 8);
+}
+
+Result<void> streamSamples(const volume::ColumnVolume& columns, int bits, const StreamOptions& options,
+                           const SampleSink& sink) {
+    return bits == 8    ? streamAs<std::uint8_t>(columns, options, sink)
+           : bits == 16 ? streamAs<std::uint16_t>(columns, options, sink)
+                        : streamAs<std::uint32_t>(columns, options, sink);
+}
+
+std::uint64_t ZlibBlocks::Layout::sizeOf(std::uint64_t block) const noexcept {
+    return std::min(blockBytes, groupBytes - block % blocksOfGroup() * blockBytes);
+}
+
+Result<void> ZlibBlocks::forEach(const StreamOptions& options, const BlockSink& sink) const {
+    std::uint64_t next = 0;  // the block that begins next
+    std::vector<std::byte> pending;
+    return streamSamples(columns_, bits_, options, [&](std::span<const std::byte> bytes) -> Result<void> {
+        pending.insert(pending.end(), bytes.begin(), bytes.end());
+        std::vector<std::span<const std::byte>> whole;
+        std::size_t at = 0;
+        for (std::uint64_t size = layout_.sizeOf(next); at + size <= pending.size() && size > 0;
+             size = layout_.sizeOf(++next)) {
+            whole.push_back(std::span(pending).subspan(at, size));
+            at += size;
+        }
+        std::vector<std::vector<std::byte>> compressed(whole.size());
+        parallelFor(whole.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t b = begin; b < end; ++b) compressed[b] = zlibBytes(whole[b]);
+        });
+        for (std::vector<std::byte>& block : compressed)
+            if (auto done = sink(std::move(block)); !done) return done;
+        pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(at));
+        return {};
+    });
+}
+
+Result<void> ZlibBlocks::compress() {
+    StreamOptions options = options_;
+    options.end = (options_.begin + options_.end) / 2;
+    return forEach(options, [&](std::vector<std::byte> block) -> Result<void> {
+        sizes_.push_back(block.size());
+        keptBytes_ += block.size();
+        areAllKept_ = areAllKept_ && keptBytes_ <= kKeptBytes;
+        if (areAllKept_)
+            kept_.push_back(std::move(block));
+        else
+            kept_ = {};
+        return {};
+    });
+}
+
+Result<void> ZlibBlocks::write(AtomicFile& file) {
+    if (areAllKept_) {
+        for (const std::vector<std::byte>& block : kept_)
+            if (auto done = file.write(block); !done) return done;
+        return {};
+    }
+    StreamOptions options = options_;
+    options.begin = (options_.begin + options_.end) / 2;
+    return forEach(options, [&](const std::vector<std::byte>& block) { return file.write(block); });
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,156 @@
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/writers/ade/ade_writer.hpp>
+#include <svt/writers/hulls/hull_writer.hpp>
+#include <svt/writers/nifti/nifti_writer.hpp>
+#include <svt/writers/nrrd_writer.hpp>
+#include <svt/writers/precomputed/precomputed_writer.hpp>
+#include <svt/writers/tables/table_writer.hpp>
+#include <svt/writers/tiff/tiff_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
+#include <svt/writers/vtk/vti_writer.hpp>
+#include <svt/writers/x3d/x3d_writer.hpp>
+#include <svt/writers/zarr/zarr_writer.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace svt::writers {
+namespace {
+
+using volume::SemanticVolume;
+using Path = std::filesystem::path;
+using Written = Result<std::uint64_t>;
+
+Written writeAnyNrrd(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options,
+                     bool hasSegments) {
+    return writeNrrd(volume, path,
+                     {options.isCompressed ? NrrdEncoding::Gzip : NrrdEncoding::Raw, options.threads, options.progress,
+                      hasSegments});
+}
+
+DenseOptions denseOptions(const VolumeWriteOptions& options) {
+    return {options.isCompressed, options.threads, options.progress};
+}
+
+Written asNrrd(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeAnyNrrd(volume, path, options, false);
+}
+Written asSegNrrd(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeAnyNrrd(volume, path, options, true);
+}
+Written asGlb(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    GlbOptions glb;
+    glb.faces = options.faces;
+    glb.threads = options.threads;
+    glb.progress = options.progress;
+    const auto report = writeGlb(volume, path, glb);
+    if (!report) return report.error();
+    return report->bytes;
+}
+Written asVti(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeVti(volume, path, denseOptions(options));
+}
+Written asNifti(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeNifti(volume, path, denseOptions(options));
+}
+Written asTiff(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeTiff(volume, path, TiffMetadata::ImageJ, denseOptions(options));
+}
+Written asOmeTiff(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeTiff(volume, path, TiffMetadata::Ome, denseOptions(options));
+}
+Written asX3d(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeX3d(volume, path, options.texture, options.maxVoxels, denseOptions(options));
+}
+Written asAde(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeAde(volume, path, options);
+}
+Written asZarr(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeZarr(volume, path, options.zarrVersion, denseOptions(options));
+}
+Written asPrecomputed(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writePrecomputed(volume, path, denseOptions(options));
+}
+Written asObj(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeHulls(volume, path, HullFormat::Obj, options);
+}
+Written asPly(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeHulls(volume, path, HullFormat::Ply, options);
+}
+Written asStl(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeHulls(volume, path, HullFormat::Stl, options);
+}
+Written asObjects(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeFileAtomically(path, makeObjectTable(volume, options.threads));
+}
+Written asContacts(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeFileAtomically(path, makeContactTable(volume, options.threads));
+}
+
+constexpr VolumeFormat kVolumeFormats[] = {
+    {"nrrd", ".nrrd", "NRRD: samples, with the table of labels as keys", "VTK, ITK, 3D Slicer, teem, MATLAB, pynrrd",
+     true},
+    {"glb", ".glb", "binary glTF 2.0: the surface of each label as triangles", "Blender, Windows, three.js, Cesium"},
+    {"segnrrd", ".seg.nrrd", "NRRD as a segmentation: a segment per label, with name, colour, class", "3D Slicer",
+     true},
+    {"vti", ".vti", "VTK image data: a cell per voxel, the table of labels as field data", "ParaView, VTK, PyVista",
+     true},
+    {"nifti", ".nii", "NIfTI-1, or NIfTI-2 where coordinates need it", "nibabel, ITK, 3D Slicer, FSL, SPM", true},
+    {"niftigz", ".nii.gz", "the same, compressed", "nibabel, ITK, 3D Slicer, FSL, SPM", true},
+    {"tiff", ".tif|.tiff", "TIFF stack: a page per slice, with ImageJ's metadata",
+     "Fiji/ImageJ, tifffile, napari, GDAL", true},
+    {"ometiff", ".ome.tif|.ome.tiff", "TIFF stack with OME-XML", "Bio-Formats, tifffile, napari, QuPath", true},
+    {"zarr", ".zarr", "Zarr v2 or v3 with OME-NGFF: a folder with all levels, colours and names",
+     "zarr-python, zarrita, napari, neuroglancer, vizarr", true},
+    {"precomputed", ".precomputed",
+     "neuroglancer's precomputed segmentation: a folder with all levels, names and colours",
+     "neuroglancer, CloudVolume", true},
+    {"x3d", ".x3d", "X3D 4.0: a 3D texture as SegmentedVolumeData, with transfer function and features",
+     "X_ITE, Castle, InstantReality", true},
+    {"ade", ".ade.gml", "CityGML 2.0 or 3.0: the model with the volume in it, by an application domain extension",
+     "svt build; any CityGML reader sees the model", true},
+    {"obj", ".obj", "Wavefront OBJ: an object per label, colours in an .mtl beside it", "Blender, MeshLab, CAD, VTK"},
+    {"ply", ".ply", "PLY, binary: triangles with label and colour", "MeshLab, CloudCompare, Open3D, VTK"},
+    {"stl", ".stl", "STL, binary: triangles alone", "printers, CAD, simulation"},
+    {"objects", ".csv", "a line per object: class, name, parent, volume, surface, box, attributes",
+     "spreadsheets, pandas, databases"},
+    {"contacts", ".contacts.csv", "a line per pair of objects that touch: area, faces",
+     "spreadsheets, pandas, databases"},
+};
+
+using Write = Written (*)(const SemanticVolume&, const Path&, const VolumeWriteOptions&);
+constexpr Write kWriters[] = {asNrrd,        asGlb, asSegNrrd, asVti, asNifti, asNifti, asTiff,    asOmeTiff, asZarr,
+                              asPrecomputed, asX3d, asAde,     asObj, asPly,   asStl,   asObjects, asContacts};
+static_assert(std::size(kWriters) == std::size(kVolumeFormats));
+
+}  // namespace
+
+std::span<const VolumeFormat> volumeFormats() noexcept { return kVolumeFormats; }
+
+const VolumeFormat* volumeFormatOf(const Path& path) {
+    const std::string name = lowerAscii(path.filename().string());
+    const VolumeFormat* found = nullptr;
+    std::size_t longest = 0;
+    for (const VolumeFormat& format : kVolumeFormats)
+        for (std::string_view rest = format.endings; !rest.empty();) {
+            const std::string_view ending = rest.substr(0, rest.find('|'));
+            rest.remove_prefix(std::min(rest.size(), ending.size() + 1));
+            if (ending.size() <= longest || name.size() <= ending.size() || !name.ends_with(ending)) continue;
+            longest = ending.size();
+            found = &format;
+        }
+    return found;
+}
+
+Written writeVolume(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    const VolumeFormat* format = volumeFormatOf(path);
+    if (format == nullptr)
+        return Error(Code::BadArgument, fmt::format("'{}' ends as none of the formats that a volume can be written in",
+                                                    path.filename().string()));
+    return kWriters[format - kVolumeFormats](volume, path, options);
+}
+
+}  // namespace svt::writers

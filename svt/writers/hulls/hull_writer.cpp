@@ -1,0 +1,202 @@
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/writers/gltf/surface_positions.hpp>
+#include <svt/writers/hulls/hull_writer.hpp>
+#include <svt/writers/x3d/texture_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+using volume::Label;
+
+struct Hulls {
+    std::vector<LabelSurface> surfaces;
+    std::vector<Positions> positions;
+    const volume::SemanticVolume* volume = nullptr;
+
+    /// World directions, from the lower corner of the grid.
+    [[nodiscard]] Vec3d fromCorner(std::size_t surface, std::size_t vertex) const {
+        const auto& [x, y, z] = volume->grid.axes();
+        const Vec3d p = toDouble(positions[surface][vertex]);
+        return x * p.x + y * p.y + z * p.z;
+    }
+    [[nodiscard]] Vec3d corner() const { return volume->grid.worldFromIndex({-0.5, -0.5, -0.5}); }
+    [[nodiscard]] const Label& label(std::size_t surface) const {
+        return volume->labels.labels[surfaces[surface].label];
+    }
+};
+
+/// A text on one line without blanks at its ends.
+std::string lineText(std::string_view text, bool hasBlanks) {
+    std::string line;
+    for (const char c : text) {
+        const bool isControl = static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+        line += isControl || (c == ' ' && !hasBlanks) ? (hasBlanks ? ' ' : '_') : c;
+    }
+    return line.empty() ? "_" : line;
+}
+
+int colorByte(float channel) { return static_cast<int>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f); }
+
+template <class T>
+void appendBytes(std::string& out, T value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    out.append(bytes, sizeof bytes);
+}
+
+/// Text or bytes that go to the file in pieces of a megabyte.
+class PieceWriter {
+public:
+    explicit PieceWriter(AtomicFile& file) : file_(file) {}
+    std::string text;
+    Result<void> flush(bool isLast = false) {
+        if (text.size() < (std::size_t{1} << 20) && !isLast) return {};
+        auto done = file_.write(text);
+        text.clear();
+        return done;
+    }
+
+private:
+    AtomicFile& file_;
+};
+
+Result<void> writeMaterials(const Hulls& hulls, const std::filesystem::path& path) {
+    if (auto checked = checkSibling(path, "# Semantic volume"); !checked) return checked;
+    std::string text = "# Semantic volume texture: colours of labels\n";
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
+        const Label& label = hulls.label(s);
+        text += fmt::format("newmtl label_{}\nKd {} {} {}\nd {}\n", hulls.surfaces[s].label, label.color.x,
+                            label.color.y, label.color.z, label.opacity);
+    }
+    auto bytes = writeFileAtomically(path, text);
+    return bytes ? Result<void>() : Result<void>(bytes.error());
+}
+
+Result<void> writeObj(const Hulls& hulls, const std::string& materials, PieceWriter& out) {
+    out.text = fmt::format("# Semantic volume texture; metres, {}\nmtllib {}\n", lineText(hulls.volume->crsName, true),
+                           lineText(materials, true));
+    const Vec3d corner = hulls.corner();
+    std::uint64_t first = 1;
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
+        const Label& label = hulls.label(s);
+        out.text += fmt::format("o {}\ng {}\nusemtl label_{}\n", lineText(label.id, false),
+                                lineText(label.className, false), hulls.surfaces[s].label);
+        for (std::size_t v = 0; v < hulls.positions[s].size(); ++v) {
+            const Vec3d p = corner + hulls.fromCorner(s, v);
+            fmt::format_to(std::back_inserter(out.text), "v {:.6f} {:.6f} {:.6f}\n", p.x, p.y, p.z);
+            if (auto done = out.flush(); !done) return done;
+        }
+        for (const auto& [a, b, c] : hulls.surfaces[s].triangles) {
+            fmt::format_to(std::back_inserter(out.text), "f {} {} {}\n", first + a, first + b, first + c);
+            if (auto done = out.flush(); !done) return done;
+        }
+        first += hulls.positions[s].size();
+    }
+    return out.flush(true);
+}
+
+Result<void> writePly(const Hulls& hulls, PieceWriter& out) {
+    std::uint64_t vertices = 0, faces = 0;
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
+        vertices += hulls.positions[s].size();
+        faces += hulls.surfaces[s].triangles.size();
+    }
+    out.text = "ply\nformat binary_little_endian 1.0\n";
+    out.text += fmt::format("comment Semantic volume texture; metres, {}\n", lineText(hulls.volume->crsName, true));
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
+        const Label& label = hulls.label(s);
+        out.text +=
+            fmt::format("comment label {} id {} class {} name {}\n", hulls.surfaces[s].label, lineText(label.id, false),
+                        lineText(label.className, false), lineText(label.name, true));
+    }
+    out.text += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices);
+    out.text += fmt::format(
+        "element face {}\nproperty list uchar int vertex_indices\nproperty int label\nproperty uchar red\n"
+        "property uchar green\nproperty uchar blue\nend_header\n",
+        faces);
+    const Vec3d corner = hulls.corner();
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s)
+        for (std::size_t v = 0; v < hulls.positions[s].size(); ++v) {
+            const Vec3d p = corner + hulls.fromCorner(s, v);
+            for (int axis = 0; axis < 3; ++axis) appendBytes(out.text, p[axis]);
+            if (auto done = out.flush(); !done) return done;
+        }
+    std::uint32_t first = 0;
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
+        const Vec3f color = hulls.label(s).color;
+        for (const auto& triangle : hulls.surfaces[s].triangles) {
+            appendBytes(out.text, std::uint8_t{3});
+            for (const std::uint32_t vertex : triangle)
+                appendBytes(out.text, static_cast<std::int32_t>(first + vertex));
+            appendBytes(out.text, static_cast<std::int32_t>(hulls.surfaces[s].label));
+            for (int axis = 0; axis < 3; ++axis)
+                appendBytes(out.text, static_cast<std::uint8_t>(colorByte(color[axis])));
+            if (auto done = out.flush(); !done) return done;
+        }
+        first += static_cast<std::uint32_t>(hulls.positions[s].size());
+    }
+    return out.flush(true);
+}
+
+Result<void> writeStl(const Hulls& hulls, PieceWriter& out) {
+    const Vec3d corner = hulls.corner();
+    // Readers take a file for text if it begins with "solid".
+    std::string head = fmt::format("SVT, metres from {:.4f} {:.4f} {:.4f}", corner.x, corner.y, corner.z);
+    head.resize(80, ' ');
+    out.text = head;
+    std::uint64_t faces = 0;
+    for (const LabelSurface& surface : hulls.surfaces) faces += surface.triangles.size();
+    appendBytes(out.text, static_cast<std::uint32_t>(faces));
+    for (std::size_t s = 0; s < hulls.surfaces.size(); ++s)
+        for (const auto& [a, b, c] : hulls.surfaces[s].triangles) {
+            const std::array<Vec3d, 3> points{hulls.fromCorner(s, a), hulls.fromCorner(s, b), hulls.fromCorner(s, c)};
+            const Vec3d normal = normalized(cross(points[1] - points[0], points[2] - points[0]));
+            for (const Vec3d v : {normal, points[0], points[1], points[2]})
+                for (int axis = 0; axis < 3; ++axis) appendBytes(out.text, static_cast<float>(v[axis]));
+            appendBytes(out.text, std::uint16_t{0});
+            if (auto done = out.flush(); !done) return done;
+        }
+    return out.flush(true);
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                                 HullFormat format, const VolumeWriteOptions& options) {
+    auto surfaces = labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
+                                  {std::uint64_t{1} << 27, options.threads, options.progress});
+    if (!surfaces) return surfaces.error();
+    if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
+    auto positions = placeVertices(volume, *surfaces, options.faces, nullptr, options.threads, options.progress);
+    if (!positions) return positions.error();
+    std::uint64_t vertices = 0;
+    for (const Positions& of : *positions) vertices += of.size();
+    if (vertices > 0x7FFFFFFF)
+        return Error(Code::GridTooLarge,
+                     fmt::format("{} vertices are more than the format can number; use --level", vertices));
+    const Hulls hulls{std::move(*surfaces), std::move(*positions), &volume};
+    const std::filesystem::path materials = std::filesystem::path(path).replace_extension(".mtl");
+    if (format == HullFormat::Obj)
+        if (auto done = writeMaterials(hulls, materials); !done) return done.error();
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    PieceWriter out(*file);
+    const auto done = format == HullFormat::Obj   ? writeObj(hulls, materials.filename().string(), out)
+                      : format == HullFormat::Ply ? writePly(hulls, out)
+                                                  : writeStl(hulls, out);
+    if (!done) return done.error();
+    return file->commit();
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Writes a semantic volume as a segmentation for neuroglancer (precomputed format): a folder that any web server can give
+/// out, with all levels.
+///
+///     info                      sizes, resolution in nanometres, levels
+///     LEVEL/x0-x1_y0-y1_z0-z1   chunks of 64 x 64 x 64 voxels, compressed_segmentation of 32 bits in blocks of 8 x 8 x 8
+///     properties/info           name, class, id and volume of each scalar
+///     state.json                a layer with our colours, and the matrix that leads to world coordinates in metres; put the
+///                               address of the folder into its `source`
+///
+/// Voxel (0, 0, 0) begins at the origin: neuroglancer's voxels are whole numbers from there. Axes are those of the grid.
+
+#include <svt/core/result.hpp>
+#include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/dense/format_options.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace svt::writers {
+
+/// The words of one chunk of one channel: headers of blocks, packed indices, tables of values; equal tables are shared.
+/// \param values  x fastest, then y, then z
+[[nodiscard]] std::vector<std::uint32_t> compressSegmentation(std::span<const std::uint32_t> values, Vec3i size);
+
+/// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
+/// bytes. Memory: besides the volume and its levels, 4096 nx samples of 32 bits.
+/// \return bytes of all files, or WouldDestroy, CannotWrite, DiskFull, Cancelled; BadArgument as checkedSampleBits()
+[[nodiscard]] Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume,
+                                                     const std::filesystem::path& path,
+                                                     const DenseOptions& options = {});
+
+}  // namespace svt::writers

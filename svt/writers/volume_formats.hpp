@@ -1,0 +1,61 @@
+#pragma once
+/// \file
+/// The formats that a volume can be written in: the one table that `svt convert`, its help, the completions of shells and
+/// the manual are made from, and the call that writes any of them.
+
+#include <svt/core/progress.hpp>
+#include <svt/core/result.hpp>
+#include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/glb_writer.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace svt::writers {
+
+/// A row of the table.
+struct VolumeFormat {
+    std::string_view name;  ///< of the option, such as "nrrd"; unique
+    std::string_view
+        endings;  ///< of files, "|" between them: ".nii|.nii.gz"; the longest that fits a name tells its format
+    std::string_view holds;    ///< what is written, as the manual says it
+    std::string_view readers;  ///< who reads it
+    bool isDense = false;      ///< every sample is written
+};
+
+/// All formats, in the order of the manual.
+[[nodiscard]] std::span<const VolumeFormat> volumeFormats() noexcept;
+
+/// The format that the name of `path` tells by its ending, in any case; null: none of them.
+[[nodiscard]] const VolumeFormat* volumeFormatOf(const std::filesystem::path& path);
+
+/// Where a format that is a document (X3D, CityGML) has the samples.
+enum class TextureKind : std::uint8_t {
+    Pixel,    ///< PixelTexture3D: numbers in the document
+    Image,    ///< ImageTexture3D: an NRRD beside the document
+    Composed  ///< ComposedTexture3D: a folder of PNG slices beside the document
+};
+
+struct VolumeWriteOptions {
+    bool isCompressed = true;           ///< of dense formats that leave the choice: gzip, zlib; else raw
+    GlbFaces faces = GlbFaces::Planes;  ///< of triangles
+    TextureKind texture = TextureKind::Pixel;
+    std::uint64_t maxVoxels = std::uint64_t{1} << 24;  ///< of samples as numbers in a document
+    std::filesystem::path model;  ///< of CityGML: the model that the volume was built from, which is kept; empty: none
+    int cityGmlVersion = 0;       ///< 2 or 3; 0: that of the model, 3 without one
+    int zarrVersion = 2;          ///< 2 (OME-NGFF 0.4) or 3 (0.5)
+    int threads = 0;              ///< maximum; 0: all cores. The bytes do not depend on it.
+    const Progress* progress = nullptr;  ///< stages by format
+};
+
+/// Writes the volume in the format that the file's name tells, all or nothing; equal volumes give equal bytes.
+/// Memory of dense formats: below 256 MB besides volume and label table, whatever the dense size.
+/// \return bytes written, or BadArgument (no such format, or a volume that the format cannot hold, with the reason),
+///         CannotWrite, DiskFull, Cancelled, NothingSelected; more with writeGlb()
+[[nodiscard]] Result<std::uint64_t> writeVolume(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                                                const VolumeWriteOptions& options = {});
+
+}  // namespace svt::writers

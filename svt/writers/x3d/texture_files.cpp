@@ -1,0 +1,140 @@
+#include <svt/core/text.hpp>
+#include <svt/image/png.hpp>
+#include <svt/writers/x3d/texture_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace svt::writers {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint32_t sampleAt(std::span<const std::byte> bytes, std::size_t index, int bits) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + index * std::size_t(bits / 8), std::size_t(bits / 8));
+    return value;
+}
+
+template <class Pixel, class PixelOf>
+Result<void> writeSlice(std::span<const std::byte> bytes, Vec3i dimension, int bits, const fs::path& file,
+                        PixelOf pixelOf) {
+    image::Image<Pixel> slice(dimension.x, dimension.y);
+    for (std::int32_t j = 0; j < dimension.y; ++j)
+        for (std::int32_t i = 0; i < dimension.x; ++i)
+            slice.at(i, dimension.y - 1 - j) =
+                pixelOf(sampleAt(bytes, std::size_t(i) + std::size_t(dimension.x) * std::size_t(j), bits));
+    return image::writePng(file, slice);
+}
+
+}  // namespace
+
+std::string stemOf(const fs::path& document) {
+    std::string name = document.filename().string();
+    for (const std::string_view ending : {".ade.gml", ".x3d"})
+        if (lowerAscii(name).ends_with(ending)) name.resize(name.size() - ending.size());
+    return name;
+}
+
+Result<void> checkPixelCount(Vec3i dimension, std::uint64_t maxVoxels) {
+    const auto countOf = [&](int level) {
+        std::uint64_t count = 1;
+        for (int axis = 0; axis < 3; ++axis) count *= (std::uint64_t(dimension[axis]) + (1u << level) - 1) >> level;
+        return count;
+    };
+    if (countOf(0) <= maxVoxels) return {};
+    int level = 1;
+    while (level < 6 && countOf(level) > maxVoxels) ++level;
+    return Error(Code::BadArgument,
+                 fmt::format("{} x {} x {} samples are {} voxels, and the document is to hold {} at most; write them "
+                             "beside it by --texture image, or coarser by --level {}, or give --max-voxels",
+                             dimension.x, dimension.y, dimension.z, countOf(0), maxVoxels, level));
+}
+
+Result<void> checkSibling(const fs::path& file, std::string_view begin) {
+    std::error_code ignored;
+    if (!fs::exists(file, ignored) || (fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) == 0))
+        return {};
+    std::string head(begin.size(), '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    if (stream && head == begin) return {};
+    return Error(Code::WouldDestroy,
+                 "the file is to hold the samples beside the document, and what is there is something else; give the "
+                 "document another name, or remove the file",
+                 Place{file.string(), 0, 0, {}});
+}
+
+Result<void> writePixelNumbers(const volume::SemanticVolume& volume, int bits, const std::vector<std::uint32_t>& codeOf,
+                               const StreamOptions& options, AtomicFile& file) {
+    const auto width = static_cast<std::size_t>(volume.grid.dimension().x);
+    std::string text;
+    return streamSamples(volume.columns, bits, options, [&](std::span<const std::byte> bytes) {
+        // Of some MB at a time: a number takes up to eleven characters.
+        const std::size_t count = bytes.size() / std::size_t(bits / 8);
+        for (std::size_t begin = 0; begin < count; begin += width) {
+            text += '\n';
+            for (std::size_t s = begin; s < begin + width; ++s) {
+                const std::uint32_t scalar = sampleAt(bytes, s, bits);
+                if (s != begin) text += ' ';
+                fmt::format_to(std::back_inserter(text), "{}", codeOf.empty() ? scalar : codeOf[scalar]);
+            }
+            if (text.size() < std::size_t{1} << 20 && begin + width < count) continue;
+            if (auto done = file.write(text); !done) return done;
+            text.clear();
+        }
+        return Result<void>();
+    });
+}
+
+Result<std::vector<std::string>> writeSlices(const volume::SemanticVolume& volume, int bits, SliceKind kind,
+                                             const std::vector<std::uint32_t>& codeOf, const fs::path& document,
+                                             const StreamOptions& options) {
+    const Vec3i dimension = volume.grid.dimension();
+    if (kind == SliceKind::Gray16 && volume.labels.scalarCount() > 65536)
+        return Error(Code::BadArgument,
+                     fmt::format("{} scalars do not fit into pictures of 16 bits; use --texture image",
+                                 volume.labels.scalarCount()));
+    const std::string name = stemOf(document) + "_slices";
+    const fs::path folder = document.parent_path() / name;
+    std::error_code failed;
+    fs::create_directory(folder, failed);
+    if (failed)
+        return Error(Code::CannotWrite, "the folder of the slices cannot be made: " + failed.message(),
+                     Place{folder.string(), 0, 0, {}});
+    std::vector<std::string> files;
+    const std::uint64_t sliceBytes = sampleBytes({dimension.x, dimension.y, 1}, bits);
+    std::vector<std::byte> pending;
+    const auto writeOne = [&](std::span<const std::byte> bytes) -> Result<void> {
+        const std::string file = fmt::format("{:04}.png", files.size());
+        if (auto checked = checkSibling(folder / file, "\x89PNG"); !checked) return checked;
+        files.push_back(name + "/" + file);
+        if (kind == SliceKind::Gray16)
+            return writeSlice<std::uint16_t>(bytes, dimension, bits, folder / file,
+                                             [](std::uint32_t s) { return static_cast<std::uint16_t>(s); });
+        return writeSlice<image::Rgba8>(bytes, dimension, bits, folder / file, [&](std::uint32_t s) {
+            const std::uint32_t code = codeOf[s];
+            return image::Rgba8{std::uint8_t(code >> 16 & 0xFF), std::uint8_t(code >> 8 & 0xFF),
+                                std::uint8_t(code & 0xFF), 255};
+        });
+    };
+    const auto done =
+        streamSamples(volume.columns, bits, options, [&](std::span<const std::byte> bytes) -> Result<void> {
+            pending.insert(pending.end(), bytes.begin(), bytes.end());
+            std::size_t at = 0;
+            for (; at + sliceBytes <= pending.size(); at += sliceBytes)
+                if (auto written = writeOne(std::span(pending).subspan(at, sliceBytes)); !written) return written;
+            pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(at));
+            return {};
+        });
+    if (!done) return done.error();
+    return files;
+}
+
+}  // namespace svt::writers
