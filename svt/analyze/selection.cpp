@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace svt::analyze {
 
 std::vector<model::QueryRow> queryRows(const volume::LabelTable& table) {
@@ -18,14 +20,20 @@ std::span<const model::QueryRow> LabelRows::get() const {
     return rows_;
 }
 
+Result<std::vector<std::uint32_t>> LabelRows::selectNothing(const std::string& message) const {
+    if (nothing_ == nullptr) return Error(Code::NothingSelected, message);
+    if (std::find(nothing_->begin(), nothing_->end(), message) == nothing_->end()) nothing_->push_back(message);
+    return std::vector<std::uint32_t>{};
+}
+
 Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text) {
     const auto query = model::Query::parse(text);
     if (!query) return query.error();
     std::vector<std::uint32_t> selected = query->select(rows.get());
     if (!selected.empty()) return selected;
     const std::string reason = query->unknownValue(rows.get());
-    return Error(Code::NothingSelected,
-                 fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
+    return rows.selectNothing(
+        fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
 }
 
 Result<SampleBox> boxAround(const std::vector<std::uint32_t>& labels, const volume::SemanticVolume& volume,

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,18 +22,25 @@ namespace svt::analyze {
 class LabelRows {
 public:
     /// Implicit, so that a single query can name the table itself.
-    /// \param labels  must outlive the rows, unchanged
-    LabelRows(const volume::LabelTable& labels) noexcept : labels_(labels) {}
+    /// \param labels   must outlive the rows, unchanged
+    /// \param nothing  if given, queries that select nothing are no error: what NothingSelected would say is added here,
+    ///                 once, and the selection is empty
+    LabelRows(const volume::LabelTable& labels, std::vector<std::string>* nothing = nullptr) noexcept
+        : labels_(labels), nothing_(nothing) {}
 
     [[nodiscard]] std::span<const model::QueryRow> get() const;
 
+    /// The end of a query that selects nothing: an empty selection, or NothingSelected with this message.
+    [[nodiscard]] Result<std::vector<std::uint32_t>> selectNothing(const std::string& message) const;
+
 private:
     const volume::LabelTable& labels_;
+    std::vector<std::string>* nothing_;
     mutable std::vector<model::QueryRow> rows_;  // empty: not made yet
 };
 
 /// Labels that the query `text` selects.
-/// \return the labels, or BadQuery, or NothingSelected; the latter names the nearest existing value
+/// \return the labels, or BadQuery, or NothingSelected (see LabelRows); the latter names the nearest existing value
 /// Cost: that of queryRows(), once for all queries on the same rows, and of Query::select().
 [[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/shell_groups.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -18,11 +19,18 @@
 
 namespace svt::illustrate {
 
+/// What a named view is fitted to.
+enum class Fit : std::uint8_t {
+    Visible,  ///< what the passes draw: not what is hidden or cut away
+    All       ///< the whole volume, so that pictures of several scenes have one camera
+};
+
 /// The camera of a scene: a named view, and members that override it. Points are in metres from the grid's lower
 /// corner, along world axes.
 struct SceneCamera {
     std::string preset = "iso";  ///< see render::cameraPresetNames()
-    std::string around;          ///< query: the view is fitted to what it selects; empty: to all
+    std::string around;          ///< query: the view is fitted to what it selects; empty: as `fit` says
+    Fit fit = Fit::Visible;      ///< All where eye or target is given
     bool isParallel = false;
     double fieldOfView = 30;  ///< degrees, vertical, perspective only
     double zoom = 1;          ///< > 0; above 1 is nearer
@@ -92,6 +100,10 @@ struct Scene {
     std::optional<double> hatchSpacing;  ///< metres; unset: the largest 1, 2 or 5 * 10^n m within 11 pixels (4.4 to 11)
     std::optional<float> ambientOcclusion;
     std::vector<std::string> names;  ///< queries: labels with name tags beside the picture, see name_tags.hpp
+    std::string colorBy;             ///< see color_by.hpp; with a legend. Empty: colours by style
+    std::string title;               ///< written into the picture; empty: none
+    bool hasScaleBar = false;        ///< parallel cameras only
+    bool hasNorthArrow = false;
     std::vector<ScenePass> passes{ScenePass{}};
 
     friend bool operator==(const Scene&, const Scene&) = default;
@@ -119,11 +131,12 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 [[nodiscard]] std::vector<VolumeForm> volumeForms(const Scene& scene);
 /// The frame that shows `scene` on `volume`. Pass::volume is an index into volumeForms(scene).
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
-///         BadArgument if lines or meshes are requested and the volume was built without them
+///         BadArgument if lines or meshes are requested and the volume was built without them, or for colorBy()
 [[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume);
 /// The same with existing rows, which must be those of volume.labels.
+/// \param scale  set to what the colours mean, if the scene has colorBy
 [[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume,
-                                                      const analyze::LabelRows& rows);
+                                                      const analyze::LabelRows& rows, ColorScale* scale = nullptr);
 
 /// Reads the JSON form.
 /// \param name  of the file, for messages

@@ -8,18 +8,27 @@
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/lod_pyramid.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace svt::illustrate {
 
 /// A drawn scene, and the frame description that it was drawn from.
 struct Painting {
+    /// What became of the names that Scene::names asks for.
+    struct Names {
+        std::size_t drawn = 0;
+        std::size_t hidden = 0;       ///< of what is not seen: not drawn
+        std::size_t withoutRoom = 0;  ///< not drawn either
+    };
     render::Frame frame;
     render::FrameSpec spec;
+    Names names{};
 };
 
 /// Not thread-safe.
@@ -30,6 +39,13 @@ public:
     explicit ScenePainter(const volume::SemanticVolume& volume, int threads = 0);
     ~ScenePainter();
     ScenePainter(ScenePainter&&) noexcept;
+
+    /// From now on a query that selects nothing is no error: it is told in `nothing`, and the picture is drawn as if the
+    /// query were one that nothing in the model answers. nullptr: an error again.
+    void tolerateNothing(std::vector<std::string>* nothing) noexcept { nothing_ = nothing; }
+
+    /// From now on `progress` is told of the stage "prepare" while a form of the volume is made; may be null.
+    void reportTo(const Progress* progress) noexcept { progress_ = progress; }
 
     /// Draws `scene`, with its name tags.
     /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
@@ -54,11 +70,14 @@ private:
     // The volume or a shell of it, with its bricks and levels of detail.
     struct Forms;
     Result<Forms*> findForms(std::optional<ShellLevel> shell);
-    [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, render::FrameSpec spec,
-                                          std::span<const render::DrawnVolume> drawn, const Draw& draw) const;
+    [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,
+                                          render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
+                                          const Draw& draw) const;
 
     const volume::SemanticVolume& volume_;
     int threads_;
+    std::vector<std::string>* nothing_ = nullptr;
+    const Progress* progress_ = nullptr;
     std::vector<std::unique_ptr<Forms>> forms_;
 };
 

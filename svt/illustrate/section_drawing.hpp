@@ -2,11 +2,16 @@
 /// \file
 /// The section of a volume by a plane, as closed polygons: the drawing of a plan or a section.
 ///
-/// The section of each brick is cut into convex pieces of one label: a brick of one label is one piece, a coded brick
+/// Where the volume keeps its meshes, they are cut: the borders of all closed objects are laid over each other in one
+/// arrangement of edges, and each region has the label that voxels there would have. Objects without inside are lines,
+/// and open shells are drawn by their voxels.
+///
+/// Without meshes voxels are cut. The section of each brick is cut into convex pieces of one label: a brick of one label is one piece, a coded brick
 /// is split by its cuts and planes, a brick of voxels by its voxels. Pieces have the same corners where they meet, in
 /// integers (multiples of a drawing unit). When edges between equal labels are removed, borders remain that both
 /// neighbours share point by point. A border is straightened once, for both.
 
+#include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -58,10 +63,20 @@ struct SectionComponent {
     std::uint32_t label = 0;  ///< index into LabelTable::labels
     std::vector<SectionPolygon> polygons;
     double area = 0;  ///< m2
-    /// Error bound of `area`, m2: each edge of a border is within half a voxel, measured across the edge, plus the
-    /// tolerance, of the object's surface. For surfaces that meet the plane at an angle t, divide by sin t. In coded
-    /// bricks the actual error is far smaller. Space that the object lost to finer components is not included.
+    /// Error bound of `area`, m2. Of an exact component: each edge of a border is within a few tolerances of the object's
+    /// mesh (for a body within half a millimetre of where surfaces are equally near). Of others: each edge is within
+    /// half a voxel, measured across the edge, plus the tolerance, of the object's surface; in coded bricks the actual
+    /// error is far smaller. For surfaces that meet the plane at an angle t, divide by sin t. Space that the object lost
+    /// to finer components is not included.
     double areaBound = 0;
+    bool isExact = false;   ///< cut from the mesh, not from voxels
+    double lineLength = 0;  ///< of its lines, metres
+};
+
+/// The section of an object without inside, where nothing of a higher rank covers it.
+struct SectionLine {
+    std::vector<PlanePoint> points;  ///< a closed one repeats the first at the end
+    std::uint32_t label = 0;
 };
 
 /// A polyline between two labels, each drawn once.
@@ -83,10 +98,18 @@ struct SectionDrawing {
     PlaneAxes axes;
     std::vector<SectionComponent> components;  ///< by label, ascending; only those that the plane cuts
     std::vector<SectionBorder> borders;
+    std::vector<SectionLine> lines;  ///< by label
     std::vector<ClassArea> classes;  ///< by name
     double area = 0;                 ///< of all components, m2
     double drawingUnit = 0;          ///< all coordinates are integer multiples of it, metres
     double tolerance = 0;            ///< the one used, metres
+    /// Edges of the meshes that lie in the plane as asked for (to 0.2 mm). What is drawn is what stands just before it,
+    /// on the kept side.
+    std::size_t edgesInPlane = 0;
+    bool isFromMeshes = false;  ///< meshes were cut; else all is drawn from voxels
+    /// Meshes were to be cut, but their edges did not settle in whole numbers (see exact/arrangement.hpp).
+    bool isUnsettled = false;
+    double planeShift = 0;  ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
 };
 
 struct SectionOptions {
@@ -94,13 +117,17 @@ struct SectionOptions {
     std::vector<std::string> hide;  ///< queries; what one of them selects is left out
     bool spaces = true;             ///< also rooms, units and storeys
     double smallestArea = 0;        ///< m2; smaller polygons are left out
-    /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing.
+    /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing, or, where meshes
+    /// are cut, four micrometres.
     double tolerance = -1;
-    int threads = 0;  ///< 0: all cores; the result does not depend on it
+    bool useMeshes = true;  ///< cut the meshes that the volume keeps; false: always the voxels
+    int threads = 0;        ///< 0: all cores; the result does not depend on it
+    /// If given, queries of show and hide that select nothing are no error, but are told here.
+    std::vector<std::string>* nothing = nullptr;
 };
 
 /// Cuts `volume` with `plane`. Labels that are left out become gaps, like background. Where the plane coincides with
-/// faces of voxels, the voxels on the kept side are cut.
+/// faces of voxels, the voxels on the kept side are cut; likewise where it lies in faces of meshes.
 ///
 /// All coordinates are integer multiples of `drawingUnit`, a power of two, at most 2^-28 of the largest coordinate that
 /// the grid can have. All phases of an object's pattern are one label. A drawing without components is no error.
@@ -109,7 +136,8 @@ struct SectionOptions {
 ///         - BadQuery, NothingSelected  of show and hide
 ///         - BadArgument              smallestArea or tolerance is not finite
 ///         - GridTooLarge             see BrickVolume::fromColumns
-/// Cost: that of BrickVolume::fromColumns(), and 1 to 2 us per brick that the plane meets, 50 us if it has voxels only.
+/// Cost: with meshes O(triangles + n log n) in the segments that the plane cuts, about 2 us each; else that of
+/// BrickVolume::fromColumns(), and 1 to 2 us per brick that the plane meets, 50 us if it has voxels only.
 [[nodiscard]] Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                                  const SectionOptions& options = {});
 
@@ -117,6 +145,10 @@ struct SectionOptions {
 [[nodiscard]] Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume,
                                                  const volume::BrickVolume& bricks, const SectionPlane& plane,
                                                  const SectionOptions& options = {});
+
+/// Tells what a reader of the drawing should know: areas with a bound that is larger than they are (a warning, all
+/// together), a plane in faces, and objects that are drawn by their voxels though others are exact (notes).
+void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& volume, Diagnostics& log);
 
 /// A rectangle inside a polygon, for a text.
 struct TextPlace {

@@ -7,6 +7,7 @@
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/grid.hpp>
 
+#include <array>
 #include <span>
 #include <string_view>
 
@@ -14,9 +15,10 @@ namespace svt::render {
 
 struct PresetOptions {
     double aspect = 16.0 / 9;  ///< width / height of the picture, > 0
-    double margin = 0.06;      ///< free margin on each side, as a share of the picture's width and height, 0 to 0.45
+    double margin = 0.04;      ///< free margin on each side, as a share of the picture's width and height, 0 to 0.45
     Camera::Projection projection = Camera::Projection::Perspective;
     double verticalFovDegrees = 30;  ///< perspective
+    double sideMargin = 0;  ///< at least so much is free at the left and the right, as a share of the width, 0 to 0.45
 };
 
 /// All names: "iso" (from the south-east, above), "iso-se" (the same), "iso-sw", "iso-ne", "iso-nw", "front" (from
@@ -33,6 +35,12 @@ struct PresetOptions {
 /// The same for a grid: sides are those of the grid's own axes, so a rotated building is seen face on.
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid,
                                           const PresetOptions& options = {});
+
+/// The same for points, in the sides of `axes`: all of them are shown, and the outermost touch the margin.
+/// \param points  world space; BadCamera if there are none, or all are one
+/// \param axes    unit vectors at right angles, as those of a grid
+[[nodiscard]] Result<Camera> cameraPreset(std::string_view name, std::span<const Vec3d> points,
+                                          const std::array<Vec3d, 3>& axes, const PresetOptions& options = {});
 
 /// A camera that shows all of `bounds`, looking along `view`.
 /// \param view  world space, any length but zero

@@ -350,6 +350,9 @@ private:
         return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});
     }
 
+    // A region without points, beside the grid: there is nothing to be around.
+    [[nodiscard]] Parts nowhere() const { return boxOf({-1, -1, -1}, {-1, -1, -1}); }
+
     // Labels that a query selects, and the margin in metres after the last semicolon.
     Result<std::pair<std::vector<std::uint32_t>, double>> selectionOf(std::string_view name,
                                                                       const std::string& text) const {
@@ -370,6 +373,7 @@ private:
     Result<Parts> makeAround(const std::string& text) const {
         const auto selection = selectionOf("around", text);
         if (!selection) return selection.error();
+        if (selection->first.empty()) return nowhere();
         const auto box = analyze::boxAround(selection->first, context_.volume, "what around() selects");
         if (!box) return box.error();
         Vec3d low, high;
@@ -390,6 +394,7 @@ private:
     Result<Parts> makeCutaway(const std::string& text) const {
         const auto selection = selectionOf("cutaway", text);
         if (!selection) return selection.error();
+        if (selection->first.empty()) return nowhere();
         const auto box = analyze::boxAround(selection->first, context_.volume, "what cutaway() selects");
         if (!box) return box.error();
         return Parts{{{}, {cutawayBody(context_.camera, grid(), *box, selection->second)}}};
@@ -404,6 +409,11 @@ private:
 
 Result<std::vector<ConvexPart>> parseRegion(std::string_view text, const RegionContext& context) {
     return RegionParser(text, context).parse();
+}
+
+bool dependsOnView(std::string_view region) {
+    const std::string text = lowerAscii(region);
+    return text.find("view") != std::string::npos || text.find("cutaway") != std::string::npos;
 }
 
 }  // namespace svt::illustrate

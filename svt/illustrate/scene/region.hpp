@@ -48,4 +48,7 @@ struct RegionContext {
 ///         - BadQuery, NothingSelected  of a query in it
 [[nodiscard]] Result<std::vector<render::ConvexPart>> parseRegion(std::string_view text, const RegionContext& context);
 
+/// Whether a region may have parts that depend on the camera. Cost: O(length of the text).
+[[nodiscard]] bool dependsOnView(std::string_view region);
+
 }  // namespace svt::illustrate

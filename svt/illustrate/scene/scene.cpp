@@ -1,9 +1,12 @@
 #include <svt/core/rounding.hpp>
 #include <svt/illustrate/scene.hpp>
 
+#include <svt/illustrate/annotate/legend.hpp>
+#include <svt/illustrate/annotate/name_tags.hpp>
 #include <svt/illustrate/hatches.hpp>
 #include <svt/illustrate/scene/region.hpp>
 #include <svt/illustrate/scene/vector_shapes.hpp>
+#include <svt/illustrate/scene/visible_points.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/render/camera_presets.hpp>
 
@@ -22,6 +25,9 @@ using volume::LabelTable;
 
 constexpr std::array<std::string_view, 4> kLookNames{"plain", "paper", "blueprint", "dark"};
 constexpr float kGhostOpacity = 0.22f;
+constexpr float kGhostGray = 0.7f;  // how much of a ghost's colour is lost
+// What stops less light per metre is air, such as a room.
+constexpr float kSolidOpacity = 0.5f;
 // Share of light that a shell of glass stops, seen face on.
 constexpr double kShellGhost = 0.10;
 
@@ -31,6 +37,8 @@ struct LabelLook {
     float opacity;
     render::Hatch hatch;
     bool isRecolored = false;
+    bool hasOwnOpacity = false;  // given by the scene
+    bool isGhost = false;
 };
 
 Vec3f mix(Vec3f a, Vec3f b, float share) { return a * (1 - share) + b * share; }
@@ -91,8 +99,24 @@ volume::Grid gridOf(const analyze::SampleBox& box, const volume::Grid& grid) {
     return part ? *part : grid;
 }
 
-Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume& volume,
-                                const analyze::LabelRows& rows) {
+// What a named view is fitted to: the corners of a grid, or points.
+struct ToShow {
+    volume::Grid grid;
+    std::vector<Vec3d> points;  ///< empty: the grid
+};
+
+Result<ToShow> wholeOrAround(const SceneCamera& wanted, const volume::SemanticVolume& volume,
+                             const analyze::LabelRows& rows) {
+    if (wanted.around.empty()) return ToShow{volume.grid, {}};
+    const auto selected = analyze::selectLabels(rows, wanted.around);
+    if (!selected) return selected.error();
+    if (selected->empty()) return ToShow{volume.grid, {}};
+    const auto box = analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around));
+    if (!box) return box.error();
+    return ToShow{gridOf(*box, volume.grid), {}};
+}
+
+Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, const ToShow& toShow) {
     const SceneCamera& wanted = scene.camera;
     if (!(wanted.zoom > 0 && std::isfinite(wanted.zoom)))
         return Error(Code::BadCamera,
@@ -107,19 +131,14 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::SemanticVolume
     options.projection =
         wanted.isParallel ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
     options.verticalFovDegrees = wanted.fieldOfView;
-    volume::Grid seen = volume.grid;
-    if (!wanted.around.empty()) {
-        const auto selected = analyze::selectLabels(rows, wanted.around);
-        if (!selected) return selected.error();
-        const auto box =
-            analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around));
-        if (!box) return box.error();
-        seen = gridOf(*box, volume.grid);
-    }
-    auto camera = render::cameraPreset(wanted.preset, seen, options);
+    if (!scene.names.empty()) options.sideMargin = nameMargin(scene.width, scene.height);
+    if (!scene.colorBy.empty())
+        options.sideMargin = std::max(options.sideMargin, legendMargin(scene.width, scene.height));
+    auto camera = toShow.points.empty() ? render::cameraPreset(wanted.preset, toShow.grid, options)
+                                        : render::cameraPreset(wanted.preset, toShow.points, grid.axes(), options);
     if (!camera) return camera;
-    if (wanted.eye) camera->eye = volume.grid.origin() + *wanted.eye;
-    if (wanted.target) camera->target = volume.grid.origin() + *wanted.target;
+    if (wanted.eye) camera->eye = grid.origin() + *wanted.eye;
+    if (wanted.target) camera->target = grid.origin() + *wanted.target;
     camera->eye = camera->target + (camera->eye - camera->target) / wanted.zoom;
     camera->orthographicHeight /= wanted.zoom;
     return camera;
@@ -150,35 +169,55 @@ float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
     return static_cast<float>(std::min(0.9999, 1 - std::pow(1 - kShellGhost, 1 / thickness)));
 }
 
-Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass, const RegionContext& context) {
-    const LabelTable& table = context.volume.labels;
-    const float ghost = ghostOpacity(pass, context.volume.grid);
+// Rooms and other air that are shown alone are drawn solid: their shape is wanted, and there is nothing to see in them.
+void makeSolidIfAlone(const LabelTable& table, std::vector<LabelLook>& looks) {
+    for (std::size_t l = 0; l < looks.size(); ++l)
+        if (looks[l].opacity >= kSolidOpacity && table.labels[l].count > 0) return;
+    for (LabelLook& look : looks)
+        if (look.opacity > 0 && !look.hasOwnOpacity) look.opacity = 1;
+}
+
+Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass, const volume::SemanticVolume& volume,
+                                       const analyze::LabelRows& rows) {
+    const LabelTable& table = volume.labels;
+    const float ghost = ghostOpacity(pass, volume.grid);
     std::vector<LabelLook> looks;
     const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
-    if (hasHatches) hatches = labelHatches(context.rows);
+    if (hasHatches) hatches = labelHatches(rows);
     for (std::size_t l = 0; l < table.labels.size(); ++l)
         looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
                          table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});
     std::vector<bool> isShown(table.labels.size(), pass.show.empty()), isHidden(table.labels.size(), false);
-    if (auto done = select(context.rows, pass.show, isShown); !done) return done.error();
-    if (auto done = select(context.rows, pass.hide, isHidden); !done) return done.error();
+    if (auto done = select(rows, pass.show, isShown); !done) return done.error();
+    if (auto done = select(rows, pass.hide, isHidden); !done) return done.error();
     for (const SceneStyle& style : pass.styles) {
-        const auto selected = analyze::selectLabels(context.rows, style.select);
+        const auto selected = analyze::selectLabels(rows, style.select);
         if (!selected) return selected.error();
         for (const std::uint32_t l : *selected) {
             LabelLook& look = looks[l];
-            if (style.isGhost) look.opacity = look.opacity >= 0.5f ? ghost : 0;
+            if (style.isGhost) {
+                // Gray, so that what is lit in a ghost is the only thing in colour.
+                const float gray = brightnessOf(look.color);
+                look.color = mix(look.color, {gray, gray, gray}, kGhostGray);
+                look.isGhost = true;
+                look.opacity = look.opacity >= kSolidOpacity ? ghost : 0;
+                look.hasOwnOpacity = true;
+            }
             if (style.color) {
                 look.color = *style.color;
                 look.isRecolored = true;
             }
-            if (style.opacity) look.opacity = *style.opacity;
+            if (style.opacity) {
+                look.opacity = *style.opacity;
+                look.hasOwnOpacity = true;
+            }
             if (style.hatch) look.hatch = *style.hatch;
         }
     }
     for (std::size_t l = 0; l < looks.size(); ++l)
         if (!isShown[l] || isHidden[l]) looks[l].opacity = 0;
+    if (!pass.show.empty()) makeSolidIfAlone(table, looks);
     return looks;
 }
 
@@ -199,11 +238,43 @@ std::vector<render::Style> stylesOf(const LabelTable& table, const std::vector<L
     return styles;
 }
 
-Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const RegionContext& context) {
+using PassLooks = std::vector<std::vector<LabelLook>>;  // by pass, by label
+
+// The looks of all passes, with the colours of Scene::colorBy.
+Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
+                            ColorScale* scale) {
+    PassLooks all;
+    for (const ScenePass& pass : scene.passes) {
+        auto looks = looksOf(scene, pass, volume, rows);
+        if (!looks) return looks.error();
+        all.push_back(std::move(*looks));
+    }
+    if (scene.colorBy.empty()) return all;
+    // What is seen through counts only where nothing else does.
+    const auto& labels = volume.labels.labels;
+    std::vector<std::uint8_t> isShown(labels.size(), 0);
+    for (const float least : {kSolidOpacity, 0.0f}) {
+        for (const auto& looks : all)
+            for (std::size_t l = 0; l < labels.size(); ++l)
+                if (labels[l].count > 0 && looks[l].opacity > least && !looks[l].isGhost) isShown[l] = 1;
+        if (std::count(isShown.begin(), isShown.end(), 1) != 0) break;
+    }
+    auto coloring = colorBy(scene.colorBy, rows.get(), isShown);
+    if (!coloring) return coloring.error();
+    for (auto& looks : all)
+        for (std::size_t l = 0; l < labels.size(); ++l)
+            if (!looks[l].isRecolored && !looks[l].isGhost) {
+                looks[l].color = coloring->colors[l];
+                looks[l].isRecolored = true;
+            }
+    if (scale != nullptr) *scale = std::move(coloring->scale);
+    return all;
+}
+
+Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const std::vector<LabelLook>& looks,
+                            const RegionContext& context) {
     render::Pass pass;
-    const auto looks = looksOf(scene, wanted, context);
-    if (!looks) return looks.error();
-    pass.styles = stylesOf(context.volume.labels, *looks, scene.look);
+    pass.styles = stylesOf(context.volume.labels, looks, scene.look);
     pass.join = wanted.join;
     const auto addClip = [&](const std::string& region, render::ClipRegion::Mode mode) -> Result<void> {
         if (region.empty()) return {};
@@ -216,6 +287,36 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const R
     if (auto added = addClip(wanted.cut, render::ClipRegion::Mode::CutAway); !added) return added.error();
     if (auto added = addShapes(wanted, context.volume, context.rows, pass); !added) return added.error();
     return pass;
+}
+
+Result<std::vector<render::Pass>> passesOf(const Scene& scene, const PassLooks& looks, const RegionContext& context) {
+    const std::vector<VolumeForm> forms = volumeForms(scene);
+    std::vector<render::Pass> passes;
+    for (std::size_t n = 0; n < scene.passes.size(); ++n) {
+        const ScenePass& wanted = scene.passes[n];
+        auto pass = passOf(scene, wanted, looks[n], context);
+        if (!pass) return pass.error();
+        pass->volume = static_cast<std::uint32_t>(std::ranges::find(forms, wanted.form) - forms.begin());
+        passes.push_back(std::move(*pass));
+    }
+    return passes;
+}
+
+// Fits the named view of a frame, so far of the whole volume, to what its passes draw.
+Result<void> fitToVisible(const Scene& scene, const PassLooks& looks, const volume::SemanticVolume& volume,
+                          const analyze::LabelRows& rows, render::FrameSpec& spec) {
+    // Before anything is clipped: whether there are more parts than a ray has room for.
+    if (auto checked = checkFrameSpec(spec); !checked) return checked;
+    const auto camera = cameraOf(scene, volume.grid, {volume.grid, visiblePoints(spec.passes, volume)});
+    if (!camera) return camera.error();
+    spec.camera = *camera;
+    const bool isOfView = std::ranges::any_of(
+        scene.passes, [](const ScenePass& pass) { return dependsOnView(pass.cut) || dependsOnView(pass.keep); });
+    if (!isOfView) return {};
+    auto passes = passesOf(scene, looks, {volume, rows, *camera, double(scene.width) / scene.height});
+    if (!passes) return passes.error();
+    spec.passes = std::move(*passes);
+    return {};
 }
 
 // The union of two regions, each of which may be empty.
@@ -293,7 +394,7 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
 }
 
 Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume,
-                                        const analyze::LabelRows& rows) {
+                                        const analyze::LabelRows& rows, ColorScale* scale) {
     render::FrameSpec spec;
     spec.width = scene.width;
     spec.height = scene.height;
@@ -302,22 +403,27 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
     if (scene.width < 1 || scene.height < 1)
         return Error(Code::BadFrame, fmt::format("a picture of {} x {} pixels cannot be drawn; 1 to {} are possible",
                                                  scene.width, scene.height, render::FrameSpec::kMaxSize));
+    if (scene.hasScaleBar && !scene.camera.isParallel)
+        return Error(Code::BadCamera,
+                     "a scale bar needs a parallel view (--ortho); in perspective what is near is larger");
     applyLook(scene, spec);
-    const auto camera = cameraOf(scene, volume, rows);
+    const auto toShow = wholeOrAround(scene.camera, volume, rows);
+    if (!toShow) return toShow.error();
+    const auto camera = cameraOf(scene, volume.grid, *toShow);
     if (!camera) return camera.error();
     spec.camera = *camera;
-    spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundDownTo125(11 * pixelOf(spec));
-    const RegionContext context{volume, rows, *camera, double(scene.width) / scene.height};
-    const std::vector<VolumeForm> forms = volumeForms(scene);
-    for (const ScenePass& wanted : scene.passes) {
-        auto pass = passOf(scene, wanted, context);
-        if (!pass) return pass.error();
-        pass->volume = static_cast<std::uint32_t>(std::ranges::find(forms, wanted.form) - forms.begin());
-        spec.passes.push_back(std::move(*pass));
-    }
+    const auto looks = passLooks(scene, volume, rows, scale);
+    if (!looks) return looks.error();
+    auto passes = passesOf(scene, *looks, {volume, rows, *camera, double(scene.width) / scene.height});
+    if (!passes) return passes.error();
+    spec.passes = std::move(*passes);
     // Lines are drawn between objects, not between the phases of one object's pattern.
     spec.objectOfScalar = volume.labels.labelOfScalar();
     for (std::uint32_t& object : spec.objectOfScalar) ++object;
+    const SceneCamera& wanted = scene.camera;
+    if (wanted.fit == Fit::Visible && wanted.around.empty() && !wanted.eye && !wanted.target)
+        if (auto fitted = fitToVisible(scene, *looks, volume, rows, spec); !fitted) return fitted.error();
+    spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundDownTo125(11 * pixelOf(spec));
     if (auto checked = checkFrameSpec(spec); !checked) return checked.error();
     return spec;
 }

@@ -124,6 +124,8 @@ void readCamera(Reader& read, const Json& json, SceneCamera& camera) {
         const std::string at = path + "/" + key;
         if (key == "preset") read.text(value, at, camera.preset);
         if (key == "around") read.text(value, at, camera.around);
+        if (std::string name; key == "fit" && read.choice(value, at, "fit", name))
+            camera.fit = name == "all" ? Fit::All : Fit::Visible;
         if (key == "parallel") read.flag(value, at, camera.isParallel);
         if (key == "fieldOfView") read.number(value, at, camera.fieldOfView);
         if (key == "zoom") read.number(value, at, camera.zoom);
@@ -218,6 +220,10 @@ void readScene(Reader& read, const Json& json, Scene& scene) {
         }
         if (key == "samples") read.number(value, at, scene.samples);
         if (std::string name; key == "look" && read.choice(value, at, "look", name)) scene.look = *lookFromName(name);
+        if (key == "title") read.text(value, at, scene.title);
+        if (key == "scaleBar") read.flag(value, at, scene.hasScaleBar);
+        if (key == "northArrow") read.flag(value, at, scene.hasNorthArrow);
+        if (key == "colorBy") read.text(value, at, scene.colorBy);
         if (key == "camera") readCamera(read, value, scene.camera);
         if (key == "background") read.color(value, at, scene.background);
         if (key == "transparent") read.flag(value, at, scene.isTransparent);
@@ -241,6 +247,7 @@ Json jsonOf(const SceneCamera& camera) {
     Json json = Json::object();
     if (camera.preset != plain.preset) json["preset"] = camera.preset;
     if (!camera.around.empty()) json["around"] = camera.around;
+    if (camera.fit == Fit::All) json["fit"] = "all";
     if (camera.isParallel) json["parallel"] = true;
     if (camera.fieldOfView != plain.fieldOfView) json["fieldOfView"] = camera.fieldOfView;
     if (camera.zoom != plain.zoom) json["zoom"] = camera.zoom;
@@ -305,6 +312,10 @@ std::string writeScene(const Scene& scene) {
     json["size"] = {scene.width, scene.height};
     if (scene.samples != plain.samples) json["samples"] = scene.samples;
     if (scene.look != plain.look) json["look"] = lookName(scene.look);
+    if (!scene.title.empty()) json["title"] = scene.title;
+    if (scene.hasScaleBar) json["scaleBar"] = true;
+    if (scene.hasNorthArrow) json["northArrow"] = true;
+    if (!scene.colorBy.empty()) json["colorBy"] = scene.colorBy;
     if (scene.camera != plain.camera) json["camera"] = jsonOf(scene.camera);
     if (scene.background) json["background"] = image::colorText(*scene.background);
     if (scene.isTransparent) json["transparent"] = true;

@@ -1,6 +1,8 @@
 #include <svt/illustrate/scene_painter.hpp>
 
-#include <svt/illustrate/scene/name_tags.hpp>
+#include <svt/illustrate/annotate/legend.hpp>
+#include <svt/illustrate/annotate/marks.hpp>
+#include <svt/illustrate/annotate/name_tags.hpp>
 #include <svt/illustrate/shell.hpp>
 
 #include <algorithm>
@@ -8,16 +10,25 @@
 namespace svt::illustrate {
 namespace {
 
-Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
-                      Painting& painting) {
-    if (scene.names.empty()) return {};
-    const auto tags = findNameTags(scene.names, volume, rows, painting.spec, painting.frame);
-    if (!tags) return tags.error();
-    const render::Background& background = painting.spec.background;
+// Of texts in a picture: dark on light paper, light on dark.
+struct TextColors {
+    Vec3f text, halo;
+};
+TextColors textColors(const render::Background& background) {
     const Vec3f paper = (background.top + background.bottom) * 0.5f;
     const bool isDark = paper.x + paper.y + paper.z < 1.5f && background.alpha > 0;
     const Vec3f dark{0.05f, 0.05f, 0.06f}, light{1, 1, 1};
-    drawNameTags(*tags, 0, isDark ? light : dark, isDark ? paper : light, painting.frame.color);
+    return isDark ? TextColors{light, paper} : TextColors{dark, light};
+}
+
+Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
+                      Painting& painting) {
+    if (scene.names.empty()) return {};
+    const auto tags = findNameTags(scene.names, volume, rows, painting.frame);
+    if (!tags) return tags.error();
+    const TextColors colors = textColors(painting.spec.background);
+    const std::size_t drawn = drawNameTags(*tags, colors.text, colors.halo, painting.frame.color);
+    painting.names = {drawn, tags->hiddenCount, tags->tags.size() - drawn};
     return {};
 }
 
@@ -65,7 +76,7 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
     const int level = wanted.level.value_or(render::levelForView(spec, volume.grid));
     if (level > 0) {
         if (!forms.levels) {
-            auto levels = volume::buildLodPyramid(volume.columns, volume.grid, 6, threads_);
+            auto levels = volume::buildLodPyramid(volume.columns, volume.grid, 6, threads_, progress_);
             if (!levels) return levels.error();
             forms.levels = std::move(*levels);
         }
@@ -73,7 +84,8 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
             return render::DrawnVolume((*forms.levels)[std::min(forms.levels->size(), std::size_t(level)) - 1]);
     }
     if (!forms.bricks) {
-        auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads_});
+        auto bricks = volume::BrickVolume::fromColumns(
+            volume.columns, {.planes = volume.planes, .threads = threads_, .progress = progress_});
         if (!bricks) return bricks.error();
         forms.bricks = std::move(*bricks);
     }
@@ -85,8 +97,9 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
-    const analyze::LabelRows rows(volume_.labels);
-    auto spec = makeFrameSpec(scene, volume_, rows);
+    const analyze::LabelRows rows(volume_.labels, nothing_);
+    ColorScale scale;
+    auto spec = makeFrameSpec(scene, volume_, rows, &scale);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
     for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
@@ -94,12 +107,13 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
         if (!made) return made.error();
         drawn.push_back(*made);
     }
-    return finish(scene, rows, std::move(*spec), drawn, draw);
+    return finish(scene, rows, scale, std::move(*spec), drawn, draw);
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
-    const analyze::LabelRows rows(volume_.labels);
-    auto spec = makeFrameSpec(scene, volume_, rows);
+    const analyze::LabelRows rows(volume_.labels, nothing_);
+    ColorScale scale;
+    auto spec = makeFrameSpec(scene, volume_, rows, &scale);
     if (!spec) return spec.error();
     std::vector<render::DrawnVolume> drawn;
     std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
@@ -113,14 +127,21 @@ Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::Cast
         drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));
         drawn.emplace_back(*drafts.back(), volume.grid);
     }
-    return finish(scene, rows, std::move(*spec), drawn, byCasting(options));
+    return finish(scene, rows, scale, std::move(*spec), drawn, byCasting(options));
 }
 
-Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRows& rows, render::FrameSpec spec,
-                                      std::span<const render::DrawnVolume> drawn, const Draw& draw) const {
+Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,
+                                      render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
+                                      const Draw& draw) const {
     auto frame = draw(drawn, spec);
     if (!frame) return frame.error();
     Painting painting{std::move(*frame), std::move(spec)};
+    const TextColors colors = textColors(painting.spec.background);
+    auto& image = painting.frame.color;
+    if (!scene.colorBy.empty()) drawLegend(scale, colors.text, colors.halo, image);
+    if (!scene.title.empty()) drawTitle(scene.title, colors.text, colors.halo, image);
+    if (scene.hasScaleBar) drawScaleBar(painting.spec.camera, colors.text, colors.halo, image);
+    if (scene.hasNorthArrow) drawNorthArrow(painting.spec.camera, colors.text, colors.halo, image);
     if (auto named = addNames(scene, volume_, rows, painting); !named) return named.error();
     return painting;
 }

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace svt::illustrate {
 namespace {
@@ -203,14 +205,116 @@ TEST(Scene, TheViewMayShowAPart) {
     EXPECT_LT(spec.camera.orthographicHeight, 6);
 }
 
+TEST(Scene, AirThatIsShownAloneIsSolid) {
+    Scene scene;
+    ScenePass& pass = scene.passes[0];
+    pass.show = {"class=BuildingRoom"};
+    EXPECT_EQ(frame(scene).passes[0].styles[1].opacity, 1);
+    // Not with something solid beside it, nor against the scene's own words.
+    pass.show = {"class=BuildingRoom", "id=beam"};
+    EXPECT_EQ(frame(scene).passes[0].styles[1].opacity, 0.1f);
+    pass.show = {"class=BuildingRoom"};
+    pass.styles = {{"all", {}, 0.2f, {}, false}};
+    EXPECT_EQ(frame(scene).passes[0].styles[1].opacity, 0.2f);
+    // Not where all is shown and the solid is hidden: air that is looked through.
+    pass = {};
+    pass.hide = {"id=wall", "id=beam"};
+    EXPECT_EQ(frame(scene).passes[0].styles[1].opacity, 0.1f);
+}
+
+TEST(Scene, GhostsLoseMostOfTheirColour) {
+    Scene scene;
+    ScenePass& pass = scene.passes[0];
+    pass.styles = {{"id=wall", Vec3f{1, 0, 0}, {}, {}, false}, {"id=wall", {}, {}, {}, true}};
+    const Vec3f color = frame(scene).passes[0].styles[2].color;
+    EXPECT_NEAR(color.x - color.y, 0.3f, 1e-6f);
+    EXPECT_EQ(color.y, color.z);
+}
+
+// Share of a picture's width and height that is not background.
+std::pair<double, double> filledShares(const Scene& scene) {
+    const volume::SemanticVolume volume = house();
+    ScenePainter painter(volume, 1);
+    const auto painting = painter.paint(scene);
+    EXPECT_TRUE(painting) << (painting ? "" : painting.error().toString());
+    if (!painting) return {};
+    const auto& seen = painting->frame.label;
+    std::int32_t left = seen.width(), right = 0, top = seen.height(), bottom = 0;
+    for (std::int32_t y = 0; y < seen.height(); ++y)
+        for (std::int32_t x = 0; x < seen.width(); ++x)
+            if (seen.at(x, y) != 0) {
+                left = std::min(left, x);
+                right = std::max(right, x + 1);
+                top = std::min(top, y);
+                bottom = std::max(bottom, y + 1);
+            }
+    return {double(right - left) / seen.width(), double(bottom - top) / seen.height()};
+}
+
+// The picture is filled up to the margin of 4 % on each side along one axis at least.
+void expectFitted(const Scene& scene, const char* what) {
+    const auto [width, height] = filledShares(scene);
+    EXPECT_NEAR(std::max(width, height), 0.92, 0.02) << what;
+}
+
+TEST(Scene, TheCameraIsFittedToWhatIsVisible) {
+    for (const bool isParallel : {false, true}) {
+        Scene scene;
+        scene.width = 300;
+        scene.height = 200;
+        scene.samples = 1;
+        scene.camera.isParallel = isParallel;
+        for (const char* preset : {"iso", "front", "top", "iso-nw"}) {
+            scene.camera.preset = preset;
+            scene.passes[0] = {};
+            expectFitted(scene, "all");
+            scene.passes[0].show = {"id=beam"};
+            expectFitted(scene, "one object");
+            scene.passes[0] = {};
+            scene.passes[0].cut = "z>1";
+            expectFitted(scene, "a section");
+            scene.passes[0].cut = "not box(6,6,6,8,9,7)";
+            expectFitted(scene, "a corner");
+            scene.passes[0].cut = "not box(6,6,6,6.2,6.3,6.1)";
+            expectFitted(scene, "a part of a voxel");
+            scene.passes[0].cut = "1,0,-1,-5 or -1,0,-1,5 or z>6";
+            expectFitted(scene, "a wedge that stands on its edge");
+            scene.passes[0].cut = "z>9";
+            scene.passes[0].keep = "view(0.5,0.5,0.1)";
+            const auto [width, height] = filledShares(scene);
+            EXPECT_NEAR(height, 0.2, 0.06) << "a region of the picture follows the camera";
+        }
+    }
+}
+
+TEST(Scene, TheCameraStaysWhereItIsPutOrFittedToAll) {
+    Scene scene, hidden;
+    scene.camera.fit = hidden.camera.fit = Fit::All;
+    hidden.passes[0].show = {"id=beam"};
+    EXPECT_EQ(frame(hidden).camera, frame(scene).camera);
+    scene.camera.fit = hidden.camera.fit = Fit::Visible;
+    EXPECT_NE(frame(hidden).camera, frame(scene).camera);
+    scene.camera.eye = hidden.camera.eye = Vec3d{-20, -30, 40};
+    EXPECT_EQ(frame(hidden).camera, frame(scene).camera);
+    // What shows nothing has the camera of all.
+    Scene nothing;
+    nothing.passes[0].hide = {"all"};
+    scene = {};
+    scene.camera.fit = Fit::All;
+    EXPECT_EQ(frame(nothing).camera, frame(scene).camera);
+}
+
 Scene everything() {
     Scene scene;
     scene.width = 640;
     scene.height = 480;
     scene.samples = 9;
     scene.look = Look::Blueprint;
-    scene.camera = {"front", "id=beam", true, 40, 1.5, Vec3d{1, -2.5, 3}, Vec3d{0.1, 0, 0}};
+    scene.camera = {"front", "id=beam", Fit::All, true, 40, 1.5, Vec3d{1, -2.5, 3}, Vec3d{0.1, 0, 0}};
     scene.background = Vec3f{1, 0, 0.2f};
+    scene.colorBy = "volume";
+    scene.title = "Plan";
+    scene.hasScaleBar = scene.hasNorthArrow = true;
     scene.isTransparent = true;
     scene.lineStrength = 0.4f;
     scene.lineWidth = 1.5f;

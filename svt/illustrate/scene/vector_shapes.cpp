@@ -42,7 +42,7 @@ Result<std::vector<std::uint32_t>> selectMeshes(const std::string& text, const v
                      fmt::format("meshes '{}': expected a length in metres, such as size<0.3", text));
     auto small = labelsSmallerThan(metres, volume);
     if (small.empty())
-        return Error(Code::NothingSelected, fmt::format("meshes '{}': nothing is smaller than {} m", text, metres));
+        return rows.selectNothing(fmt::format("meshes '{}': nothing is smaller than {} m", text, metres));
     return small;
 }
 

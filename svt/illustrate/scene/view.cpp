@@ -15,6 +15,7 @@ Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, con
                                    const analyze::LabelRows& rows) {
     Scene scene;
     scene.camera = camera;
+    scene.camera.fit = Fit::All;  // what is visible is not known here, and must not move the camera
     scene.height = 1000;
     scene.width = static_cast<std::int32_t>(std::lround(scene.height * aspect));
     const auto frame = makeFrameSpec(scene, volume, rows);

@@ -1,6 +1,8 @@
 #include <svt/illustrate/section_drawing.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/illustrate/exact/body_cells.hpp>
+#include <svt/illustrate/section/exact_section.hpp>
 #include <svt/illustrate/section/section_rings.hpp>
 #include <svt/model/classes.hpp>
 
@@ -9,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace svt::illustrate {
@@ -16,9 +19,9 @@ namespace {
 
 using volume::kNoLabel;
 
-// Entry per scalar: its label, or kNoLabel for what is left out.
-Result<std::vector<std::uint32_t>> drawnLabels(const volume::LabelTable& table, const SectionOptions& options) {
-    const analyze::LabelRows rows(table);
+// Entry per label: 1 for what is drawn.
+Result<std::vector<std::uint8_t>> drawnLabels(const volume::LabelTable& table, const SectionOptions& options) {
+    const analyze::LabelRows rows(table, options.nothing);
     std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
     for (const bool isShown : {true, false})
         for (const std::string& query : isShown ? options.show : options.hide) {
@@ -29,6 +32,12 @@ Result<std::vector<std::uint32_t>> drawnLabels(const volume::LabelTable& table, 
     if (!options.spaces)
         for (std::size_t l = 0; l < isDrawn.size(); ++l)
             if (model::isSpace(table.labels[l].className)) isDrawn[l] = 0;
+    return isDrawn;
+}
+
+// Entry per scalar: its label, or kNoLabel for what is left out.
+std::vector<std::uint32_t> drawnLabelOfScalar(const volume::LabelTable& table,
+                                              const std::vector<std::uint8_t>& isDrawn) {
     std::vector<std::uint32_t> labels = table.labelOfScalar();
     for (std::uint32_t& label : labels)
         if (label != kNoLabel && isDrawn[label] == 0) label = kNoLabel;
@@ -37,8 +46,27 @@ Result<std::vector<std::uint32_t>> drawnLabels(const volume::LabelTable& table, 
 
 class DrawingMaker {
 public:
-    DrawingMaker(const volume::SemanticVolume& volume, SectionDrawing drawing, double smallestArea)
-        : volume_(volume), drawing_(std::move(drawing)), smallestArea_(smallestArea) {}
+    /// \param isExact  by label; empty: none
+    /// \param reach    metres that borders of exact labels may be off, beside the tolerance
+    DrawingMaker(const volume::SemanticVolume& volume, SectionDrawing drawing, double smallestArea,
+                 std::vector<std::uint8_t> isExact, double reach)
+        : volume_(volume),
+          drawing_(std::move(drawing)),
+          smallestArea_(smallestArea),
+          isExact_(std::move(isExact)),
+          reach_(reach) {
+        isExact_.resize(volume.labels.labels.size(), 0);
+    }
+
+    void addLines(const std::vector<DrawingBorder>& lines) {
+        for (const DrawingBorder& line : lines) {
+            SectionLine added;
+            added.label = line.left != kNoLabel ? line.left : line.right;
+            for (const DrawingPoint p : line.points) added.points.push_back(placed(p));
+            drawing_.lines.push_back(std::move(added));
+        }
+        std::ranges::stable_sort(drawing_.lines, {}, &SectionLine::label);
+    }
 
     SectionDrawing make(const std::vector<DrawingBorder>& borders) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> shown;  // label and border
@@ -52,6 +80,7 @@ public:
             for (const DrawingPoint p : borders[b].points) border.points.push_back(placed(p));
             drawing_.borders.push_back(std::move(border));
         }
+        addLineLengths();
         addTotals();
         return std::move(drawing_);
     }
@@ -68,17 +97,45 @@ private:
             added.area += 0.5 * twiceSignedArea(ring) * drawing_.drawingUnit * drawing_.drawingUnit;
             Ring& points = &ring == &polygon.rings.front() ? added.outer : added.holes.emplace_back();
             for (const RingPoint& p : ring) points.push_back(placed(p.point));
-            bound += boundOf(points);
+            bound += isExact_[polygon.label] != 0 ? exactBoundOf(points, polygon.label) : boundOf(points);
         }
         if (!(added.area > 0) || added.area < smallestArea_) return;
         for (const auto& ring : polygon.rings)
             for (const RingPoint& p : ring) shown.emplace(polygon.label, p.border);
         if (drawing_.components.empty() || drawing_.components.back().label != polygon.label)
-            drawing_.components.push_back({polygon.label, {}, 0, 0});
+            drawing_.components.push_back({polygon.label, {}, 0, 0, isExact_[polygon.label] != 0, 0});
         SectionComponent& component = drawing_.components.back();
         component.area += added.area;
         component.areaBound += bound;
         component.polygons.push_back(std::move(added));
+    }
+
+    // Error bound of a ring's area by how far a border may be off.
+    [[nodiscard]] double exactBoundOf(const Ring& ring, std::uint32_t label) const noexcept {
+        double length = 0;
+        for (std::size_t n = 0; n < ring.size(); ++n) {
+            const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
+            length += std::hypot(b.u - a.u, b.v - a.v);
+        }
+        const bool isBody = volume_.labels.labels[label].filling == volume::Filling::Body;
+        return length * (reach_ + drawing_.tolerance + drawing_.drawingUnit + (isBody ? kBodyTolerance : 0));
+    }
+
+    // Lengths of lines; labels that have nothing else become components.
+    void addLineLengths() {
+        std::vector<SectionComponent>& components = drawing_.components;
+        const std::size_t areas = components.size();
+        for (const SectionLine& line : drawing_.lines) {
+            auto found = std::ranges::find(components, line.label, &SectionComponent::label);
+            if (found == components.end()) {
+                components.push_back({line.label, {}, 0, 0, true, 0});
+                found = std::prev(components.end());
+            }
+            for (std::size_t n = 0; n + 1 < line.points.size(); ++n)
+                found->lineLength +=
+                    std::hypot(line.points[n + 1].u - line.points[n].u, line.points[n + 1].v - line.points[n].v);
+        }
+        if (components.size() != areas) std::ranges::sort(components, {}, &SectionComponent::label);
     }
 
     // Error bound of a ring's area: the sum of each edge's length times half the extent of a voxel across it.
@@ -112,6 +169,8 @@ private:
     const volume::SemanticVolume& volume_;
     SectionDrawing drawing_;
     double smallestArea_;
+    std::vector<std::uint8_t> isExact_;  // by label
+    double reach_;
 };
 
 // Intervals of the line v = at inside a polygon: start and end, alternating.
@@ -144,6 +203,80 @@ bool narrow(const std::vector<double>& level, double& from, double& to) {
     return to > from;
 }
 
+SectionDrawing drawVoxels(const volume::SemanticVolume& volume, const volume::BrickVolume& bricks,
+                          const SectionPlane& plane, const std::vector<std::uint8_t>& isDrawn,
+                          const SectionOptions& options) {
+    SectionDrawing drawing;
+    drawing.plane = {normalized(plane.normal), plane.point};
+    drawing.axes = makePlaneAxes(plane, volume.grid);
+    const CutPlane cut(drawing.plane, drawing.axes, volume.grid);
+    const Vec3d spacing = volume.grid.spacing();
+    drawing.drawingUnit = cut.drawingUnit();
+    drawing.tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * std::min({spacing.x, spacing.y, spacing.z});
+    std::vector<DrawingBorder> borders = joinEdges(cutPieces(bricks, cut, drawnLabelOfScalar(volume.labels, isDrawn)));
+    // At least 1.5 drawing units: rounded points may be off their line by a drawing unit.
+    straighten(borders, std::max(drawing.tolerance / drawing.drawingUnit, 1.5));
+    return DrawingMaker(volume, std::move(drawing), options.smallestArea, {}, 0).make(borders);
+}
+
+Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& volume,
+                                                 const volume::BrickVolume* bricks, const SectionPlane& plane,
+                                                 const std::vector<std::uint8_t>& isDrawn,
+                                                 const SectionOptions& options) {
+    SectionDrawing drawing;
+    drawing.plane = {normalized(plane.normal), plane.point};
+    drawing.axes = makePlaneAxes(plane, volume.grid);
+    auto cut = cutExactly(volume, bricks, drawing.plane, drawing.axes, isDrawn, options.threads);
+    if (!cut) return cut.error();
+    if (!*cut) return std::optional<SectionDrawing>{};
+    ExactSection& section = **cut;
+    drawing.isFromMeshes = true;
+    drawing.edgesInPlane = section.edgesInPlane;
+    drawing.planeShift = section.planeShift;
+    drawing.plane.point = drawing.plane.point - drawing.plane.normal * section.planeShift;
+    drawing.axes = makePlaneAxes(drawing.plane, volume.grid);
+    drawing.drawingUnit = section.drawingUnit;
+    const double meeting = section.tolerance * section.drawingUnit;
+    drawing.tolerance = options.tolerance >= 0 ? options.tolerance : meeting / 2;
+    const double tolerance = std::max(drawing.tolerance / drawing.drawingUnit, 1.5);
+    std::vector<DrawingBorder> borders = joinEdges(std::move(section.edges)),
+                               lines = joinEdges(std::move(section.lines));
+    straighten(borders, tolerance);
+    straighten(lines, tolerance);
+    const double reach = 1.5 * meeting + volume.vectors.unit;
+    DrawingMaker maker(volume, std::move(drawing), options.smallestArea, std::move(section.isExact), reach);
+    maker.addLines(lines);
+    return std::optional<SectionDrawing>(maker.make(borders));
+}
+
+Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
+                                     const SectionPlane& plane, const SectionOptions& options) {
+    if (!isFinite(plane.normal) || !isFinite(plane.point) || !(length(plane.normal) > 0))
+        return Error(Code::BadSection, "the plane of a section needs a finite point, and a normal that is not zero");
+    if (!std::isfinite(options.smallestArea) || !std::isfinite(options.tolerance))
+        return Error(Code::BadArgument,
+                     fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
+                                 options.smallestArea, options.tolerance));
+    const auto isDrawn = drawnLabels(volume.labels, options);
+    if (!isDrawn) return isDrawn.error();
+    const bool isCut = options.useMeshes && hasMeshes(volume);
+    if (isCut) {
+        auto drawing = drawMeshes(volume, bricks, plane, *isDrawn, options);
+        if (!drawing) return drawing.error();
+        if (*drawing) return std::move(**drawing);
+    }
+    std::optional<volume::BrickVolume> own;
+    if (bricks == nullptr) {
+        auto made =
+            volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = options.threads});
+        if (!made) return made.error();
+        own.emplace(std::move(*made));
+    }
+    SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, *isDrawn, options);
+    drawing.isUnsettled = isCut;
+    return drawing;
+}
+
 }  // namespace
 
 PlaneAxes makePlaneAxes(const SectionPlane& plane, const volume::Grid& grid) {
@@ -165,33 +298,12 @@ PlaneAxes makePlaneAxes(const SectionPlane& plane, const volume::Grid& grid) {
 
 Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                    const SectionOptions& options) {
-    const auto bricks =
-        volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = options.threads});
-    if (!bricks) return bricks.error();
-    return drawSection(volume, *bricks, plane, options);
+    return drawSectionOf(volume, nullptr, plane, options);
 }
 
 Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const volume::BrickVolume& bricks,
                                    const SectionPlane& plane, const SectionOptions& options) {
-    if (!isFinite(plane.normal) || !isFinite(plane.point) || !(length(plane.normal) > 0))
-        return Error(Code::BadSection, "the plane of a section needs a finite point, and a normal that is not zero");
-    if (!std::isfinite(options.smallestArea) || !std::isfinite(options.tolerance))
-        return Error(Code::BadArgument,
-                     fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
-                                 options.smallestArea, options.tolerance));
-    const auto labels = drawnLabels(volume.labels, options);
-    if (!labels) return labels.error();
-    SectionDrawing drawing;
-    drawing.plane = {normalized(plane.normal), plane.point};
-    drawing.axes = makePlaneAxes(plane, volume.grid);
-    const CutPlane cut(drawing.plane, drawing.axes, volume.grid);
-    const Vec3d spacing = volume.grid.spacing();
-    drawing.drawingUnit = cut.drawingUnit();
-    drawing.tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * std::min({spacing.x, spacing.y, spacing.z});
-    std::vector<DrawingBorder> borders = joinEdges(cutPieces(bricks, cut, *labels));
-    // At least 1.5 drawing units: rounded points may be off their line by a drawing unit.
-    straighten(borders, std::max(drawing.tolerance / drawing.drawingUnit, 1.5));
-    return DrawingMaker(volume, std::move(drawing), options.smallestArea).make(borders);
+    return drawSectionOf(volume, &bricks, plane, options);
 }
 
 TextPlace findTextPlace(const SectionPolygon& polygon) {

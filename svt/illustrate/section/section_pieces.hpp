@@ -2,6 +2,7 @@
 /// \file
 /// Cuts the bricks of a volume with a plane, brick by brick, into convex pieces.
 
+#include <svt/illustrate/exact/plane_points.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 
 #include <cstdint>
@@ -9,13 +10,6 @@
 #include <vector>
 
 namespace svt::illustrate {
-
-/// A point of the drawing in drawing units. Coordinates are at most 2^29 in magnitude, so that products of differences
-/// fit 64 bits.
-struct DrawingPoint {
-    std::int32_t u = 0, v = 0;
-    friend auto operator<=>(const DrawingPoint&, const DrawingPoint&) = default;
-};
 
 /// The plane in voxel space, and the transform from voxel space to the drawing.
 ///
@@ -44,12 +38,6 @@ private:
     Vec3d uOfVoxel_, vOfVoxel_;  // affine: u = dot(uOfVoxel_, voxel) + uOffset_
     double uOffset_ = 0, vOffset_ = 0;
     double drawingUnit_ = 1;
-};
-
-/// A directed edge of a piece; `label` is on its left.
-struct PieceEdge {
-    DrawingPoint from, to;
-    std::uint32_t label = 0;
 };
 
 /// Edges of all pieces that have a label. Where pieces meet, their edges have the same end points: each edge between

@@ -13,13 +13,6 @@ namespace {
 
 using volume::kNoLabel;
 
-struct Step {
-    std::int64_t u = 0, v = 0;
-};
-Step operator-(DrawingPoint a, DrawingPoint b) noexcept { return {std::int64_t{a.u} - b.u, std::int64_t{a.v} - b.v}; }
-std::int64_t cross(Step a, Step b) noexcept { return a.u * b.v - a.v * b.u; }
-std::int64_t dot(Step a, Step b) noexcept { return a.u * b.u + a.v * b.v; }
-
 // An edge between two labels; from < to.
 struct BorderEdge {
     DrawingPoint from, to;

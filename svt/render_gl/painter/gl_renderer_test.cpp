@@ -118,7 +118,7 @@ FrameSpec frameOf(const Model& model, const char* view = "iso") {
     FrameSpec spec;
     spec.width = 320;
     spec.height = 180;
-    spec.camera = *render::cameraPreset(view, model.grid);
+    spec.camera = *render::cameraPreset(view, model.grid, {.margin = 0.06});
     spec.passes.push_back({styles(model), {}, Pass::Join::Over});
     return spec;
 }

@@ -1,0 +1,197 @@
+#include <svt/illustrate/color_by.hpp>
+
+#include <svt/core/text.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <variant>
+
+namespace svt::illustrate {
+namespace {
+
+constexpr Vec3f rgb(unsigned value) {
+    return {static_cast<float>((value >> 16U) & 255U) / 255, static_cast<float>((value >> 8U) & 255U) / 255,
+            static_cast<float>(value & 255U) / 255};
+}
+
+// viridis at nine equal steps.
+constexpr std::array kViridis{rgb(0x440154), rgb(0x472d7b), rgb(0x3b528b), rgb(0x2c728e), rgb(0x21918c),
+                              rgb(0x28ae80), rgb(0x5ec962), rgb(0xaddc30), rgb(0xfde725)};
+constexpr std::array kMuted{rgb(0x88ccee), rgb(0xcc6677), rgb(0xddcc77), rgb(0x117733), rgb(0x332288),
+                            rgb(0xaa4499), rgb(0x44aa99), rgb(0x999933), rgb(0x882255)};
+constexpr Vec3f kGray = rgb(0xd5d5d5);
+constexpr std::size_t kMostEntries = 2 * kMuted.size();
+
+Vec3f paletteColor(std::size_t n) {
+    if (n < kMuted.size()) return kMuted[n];
+    return kMuted[n - kMuted.size()] * 0.5f + Vec3f{0.5f, 0.5f, 0.5f};
+}
+
+// A value of a row; `unit` of an attribute. Nothing: the row has none.
+struct Value {
+    std::string text, unit;
+    bool isWord = false;  // text in the model, even if it reads like a number: a code
+};
+
+class ValueFinder {
+public:
+    ValueFinder(std::string_view key, std::span<const model::QueryRow> rows) : key_(key), rows_(rows) {}
+
+    [[nodiscard]] std::optional<Value> of(std::uint32_t row) const {
+        const model::QueryRow& own = rows_[row];
+        if (equalsIgnoringCase(key_, "class")) return textOf(model::canonicalClassName(own.className));
+        if (equalsIgnoringCase(key_, "id")) return textOf(own.id);
+        if (equalsIgnoringCase(key_, "name")) return own.name.empty() ? std::optional<Value>() : textOf(own.name);
+        if (equalsIgnoringCase(key_, "volume")) return Value{fmt::format("{}", own.volume), "m3", false};
+        if (equalsIgnoringCase(key_, "voxels")) return Value{fmt::format("{}", own.voxels), "", false};
+        const bool isStorey = equalsIgnoringCase(key_, "storey");
+        return firstAbove(row, [&](const model::QueryRow& above) -> std::optional<Value> {
+            if (!isStorey) return attributeOf(above);
+            if (!model::query::isStorey(above)) return std::nullopt;
+            return textOf(above.name.empty() ? above.id : above.name);
+        });
+    }
+
+private:
+    static Value textOf(std::string_view text) { return {std::string(text), "", true}; }
+
+    [[nodiscard]] std::optional<Value> attributeOf(const model::QueryRow& row) const {
+        for (const Attribute& attribute : row.attributes)
+            if (equalsIgnoringCase(attribute.name, key_))
+                return Value{toText(attribute.value), attribute.unit,
+                             std::holds_alternative<std::string>(attribute.value)};
+        return std::nullopt;
+    }
+
+    // What `find` finds in the row, the features above it, and their groups; the nearest first.
+    template <class Find>
+    [[nodiscard]] std::optional<Value> firstAbove(std::uint32_t row, const Find& find) const {
+        std::vector<std::uint32_t> found{row};
+        for (std::size_t n = 0; n < found.size() && n < kMostAbove; ++n) {
+            const model::QueryRow& at = rows_[found[n]];
+            if (auto value = find(at)) return value;
+            const auto add = [&](std::uint32_t above) {
+                if (above < rows_.size() && std::find(found.begin(), found.end(), above) == found.end())
+                    found.push_back(above);
+            };
+            add(at.parent);
+            for (const std::uint32_t group : at.groups) add(group);
+        }
+        return std::nullopt;
+    }
+
+    static constexpr std::size_t kMostAbove = 64;  // hostile models: groups in groups
+    std::string_view key_;
+    std::span<const model::QueryRow> rows_;
+};
+
+std::optional<double> numberOf(const std::string& text) {
+    if (text.empty() || text.find_first_of("0123456789") == std::string::npos) return std::nullopt;
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    if (*end != '\0' || !(number > -1e300 && number < 1e300)) return std::nullopt;
+    return number;
+}
+
+Error nothingToColor(std::string_view key, std::span<const model::QueryRow> rows,
+                     std::span<const std::uint8_t> isShown) {
+    std::set<std::string> names;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        if (isShown[row] != 0)
+            for (const Attribute& attribute : rows[row].attributes)
+                if (!equalsIgnoringCase(attribute.name, "class")) names.insert(attribute.name);
+    std::vector<std::string> some(names.begin(), names.end());
+    if (some.size() > 12) some.resize(12);
+    return {Code::BadArgument,
+            fmt::format("nothing that is visible has '{}' to be coloured by; possible are class, name, storey, "
+                        "volume, voxels{}{}{}",
+                        key, some.empty() ? "" : ", ", fmt::join(some, ", "), names.size() > 12 ? ", ..." : "")};
+}
+
+void colorByRamp(const std::vector<std::optional<Value>>& values, Coloring& coloring) {
+    ColorScale& scale = coloring.scale;
+    scale.isRamp = true;
+    bool isFirst = true;
+    for (const auto& value : values) {
+        if (!value) continue;
+        const double number = *numberOf(value->text);
+        scale.low = isFirst ? number : std::min(scale.low, number);
+        scale.high = isFirst ? number : std::max(scale.high, number);
+        isFirst = false;
+    }
+    for (std::size_t row = 0; row < values.size(); ++row)
+        if (values[row]) coloring.colors[row] = rampColor(scale, *numberOf(values[row]->text));
+}
+
+void colorByPalette(const std::vector<std::optional<Value>>& values, const std::map<std::string, std::size_t>& counts,
+                    Coloring& coloring) {
+    std::vector<ColorScale::Entry>& entries = coloring.scale.entries;
+    for (const auto& [text, count] : counts) entries.push_back({text, kGray, count});
+    if (entries.size() > kMostEntries)
+        std::stable_sort(entries.begin(), entries.end(),
+                         [](const auto& a, const auto& b) { return a.count > b.count; });
+    std::map<std::string_view, Vec3f> colors;
+    for (std::size_t n = 0; n < entries.size(); ++n) {
+        if (n < kMostEntries) entries[n].color = paletteColor(n);
+        colors[entries[n].text] = entries[n].color;
+    }
+    for (std::size_t row = 0; row < values.size(); ++row)
+        if (values[row]) coloring.colors[row] = colors[values[row]->text];
+    if (entries.size() <= kMostEntries) return;
+    ColorScale::Entry others{fmt::format("{} others", entries.size() - kMostEntries), kGray, 0};
+    for (std::size_t n = kMostEntries; n < entries.size(); ++n) others.count += entries[n].count;
+    entries.resize(kMostEntries);
+    entries.push_back(std::move(others));
+}
+
+}  // namespace
+
+Vec3f missingColor() noexcept { return kGray; }
+
+Vec3f rampColor(const ColorScale& scale, double value) {
+    const double share =
+        scale.high > scale.low ? std::clamp((value - scale.low) / (scale.high - scale.low), 0.0, 1.0) : 0.5;
+    const double at = share * (kViridis.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
+    const auto rest = static_cast<float>(at - static_cast<double>(below));
+    return kViridis[below] * (1 - rest) + kViridis[below + 1] * rest;
+}
+
+Result<Coloring> colorBy(std::string_view key, std::span<const model::QueryRow> rows,
+                         std::span<const std::uint8_t> isShown) {
+    const ValueFinder finder(key, rows);
+    std::vector<std::optional<Value>> values(rows.size());
+    Coloring coloring;
+    coloring.colors.assign(rows.size(), kGray);
+    bool isNumeric = true, isWord = false;
+    std::string unit;
+    std::map<std::string, std::size_t> counts;
+    for (std::uint32_t row = 0; row < rows.size(); ++row) {
+        if (isShown[row] == 0) continue;
+        values[row] = finder.of(row);
+        if (!values[row]) {
+            ++coloring.scale.missing;
+            continue;
+        }
+        ++counts[values[row]->text];
+        isNumeric = isNumeric && numberOf(values[row]->text).has_value();
+        isWord = isWord || values[row]->isWord;
+        if (unit.empty()) unit = values[row]->unit;
+    }
+    if (counts.empty()) return nothingToColor(key, rows, isShown);
+    coloring.scale.title = unit.empty() ? std::string(key) : fmt::format("{} ({})", key, unit);
+    // Text that reads like numbers is codes where it is a few, and measures where it is many.
+    if (isNumeric && (!isWord || counts.size() > kMostEntries))
+        colorByRamp(values, coloring);
+    else
+        colorByPalette(values, counts, coloring);
+    return coloring;
+}
+
+}  // namespace svt::illustrate

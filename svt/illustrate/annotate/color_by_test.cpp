@@ -1,0 +1,120 @@
+#include <svt/illustrate/color_by.hpp>
+
+#include <svt/illustrate/annotate/legend.hpp>
+#include <svt/illustrate/scene_painter.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+namespace svt::illustrate {
+namespace {
+
+using model::kNoRow;
+using model::QueryRow;
+
+// A building (0) with two storeys (1, 2), and rooms below them; the last room is on no storey.
+class ColorByTest : public ::testing::Test {
+protected:
+    ColorByTest() {
+        building_ = {{"year", std::int64_t{1985}, ""}, {"function", std::string("1000"), ""}};
+        heightA_ = {{"height", 2.5, "m"}};
+        heightB_ = {{"height", 3.5, "m"}, {"year", std::int64_t{1990}, ""}};
+        rows_ = {{"b", "Building", "", kNoRow, building_, {}, 0, 0},
+                 {"eg", "Storey", "EG", 0, {}, {}, 0, 0},
+                 {"og", "Storey", "", 0, {}, {}, 0, 0},
+                 {"r1", "Room", "Kitchen", 1, heightA_, {}, 10, 100},
+                 {"r2", "Room", "Bath", 2, heightB_, {}, 30, 300},
+                 {"r3", "Room", "", kNoRow, {}, {}, 20, 200}};
+        isShown_ = {0, 0, 0, 1, 1, 1};
+    }
+    [[nodiscard]] Coloring by(std::string_view key) const {
+        auto coloring = colorBy(key, rows_, isShown_);
+        EXPECT_TRUE(coloring) << key << ": " << (coloring ? "" : coloring.error().toString());
+        return coloring ? *coloring : Coloring{std::vector<Vec3f>(rows_.size()), {}};
+    }
+    std::vector<Attribute> building_, heightA_, heightB_;
+    std::vector<QueryRow> rows_;
+    std::vector<std::uint8_t> isShown_;
+};
+
+TEST_F(ColorByTest, NumbersGetARamp) {
+    const Coloring coloring = by("volume");
+    EXPECT_TRUE(coloring.scale.isRamp);
+    EXPECT_EQ(coloring.scale.title, "volume (m3)");
+    EXPECT_EQ(coloring.scale.low, 10);
+    EXPECT_EQ(coloring.scale.high, 30);
+    EXPECT_EQ(coloring.colors[3], rampColor(coloring.scale, 10));
+    EXPECT_EQ(coloring.colors[5], rampColor(coloring.scale, 20));
+    // From dark to light, as viridis does.
+    const auto sum = [](Vec3f c) { return c.x + c.y + c.z; };
+    EXPECT_LT(sum(coloring.colors[3]), sum(coloring.colors[5]));
+    EXPECT_LT(sum(coloring.colors[5]), sum(coloring.colors[4]));
+}
+
+TEST_F(ColorByTest, AttributesComeFromTheNearestAbove) {
+    const Coloring year = by("YEAR");
+    EXPECT_EQ(year.scale.low, 1985) << "of the building";
+    EXPECT_EQ(year.scale.high, 1990) << "the room's own";
+    EXPECT_EQ(year.scale.missing, 1u);
+    EXPECT_EQ(year.colors[5], missingColor());
+    EXPECT_EQ(by("height").scale.title, "height (m)");
+}
+
+TEST_F(ColorByTest, WordsGetAPalette) {
+    const Coloring storey = by("storey");
+    EXPECT_FALSE(storey.scale.isRamp);
+    ASSERT_EQ(storey.scale.entries.size(), 2u);
+    EXPECT_EQ(storey.scale.entries[0].text, "EG");
+    EXPECT_EQ(storey.scale.entries[1].text, "og") << "by its id where it has no name";
+    EXPECT_EQ(storey.colors[3], storey.scale.entries[0].color);
+    EXPECT_EQ(storey.colors[4], storey.scale.entries[1].color);
+    EXPECT_NE(storey.colors[3], storey.colors[4]);
+    EXPECT_EQ(by("class").scale.entries.at(0).text, "BuildingRoom");
+    EXPECT_FALSE(by("function").scale.isRamp) << "a code is no measure";
+}
+
+TEST_F(ColorByTest, ManyWordsLeaveSomeGray) {
+    std::vector<std::string> names;
+    for (int n = 0; n < 30; ++n) names.push_back("name " + std::to_string(n));
+    rows_.clear();
+    for (const std::string& name : names) rows_.push_back({name, "Room", name, kNoRow, {}, {}, 1, 1});
+    rows_.push_back({"again", "Room", "name 29", kNoRow, {}, {}, 1, 1});
+    isShown_.assign(rows_.size(), 1);
+    const Coloring coloring = by("name");
+    ASSERT_EQ(coloring.scale.entries.size(), 19u);
+    EXPECT_EQ(coloring.scale.entries[0].text, "name 29") << "the most frequent";
+    EXPECT_EQ(coloring.scale.entries[18].text, "12 others");
+    EXPECT_EQ(coloring.scale.entries[18].count, 12u);
+    std::set<std::tuple<float, float, float>> colors;
+    for (const Vec3f c : coloring.colors) colors.insert({c.x, c.y, c.z});
+    EXPECT_EQ(colors.size(), 19u);
+}
+
+TEST_F(ColorByTest, UnknownKeysNameTheKnown) {
+    const auto coloring = colorBy("colour", rows_, isShown_);
+    ASSERT_FALSE(coloring);
+    EXPECT_EQ(coloring.error().code(), Code::BadArgument);
+    EXPECT_NE(coloring.error().message().find("height"), std::string::npos);
+}
+
+TEST_F(ColorByTest, HostileTreesEnd) {
+    rows_[0].parent = 2;  // a circle
+    EXPECT_EQ(by("height").scale.missing, 1u);
+}
+
+TEST_F(ColorByTest, LegendsOfAnySizeStayInThePicture) {
+    Coloring coloring = by("volume");
+    for (const int size : {1, 20, 300}) {
+        image::Image<image::Rgba8> image(size, size);
+        drawLegend(coloring.scale, {0, 0, 0}, {1, 1, 1}, image);
+        ColorScale words = by("name").scale;
+        for (int n = 0; n < 100; ++n) words.entries.push_back({"a rather long name of a room", {1, 0, 0}, 1});
+        drawLegend(words, {0, 0, 0}, {1, 1, 1}, image);
+    }
+}
+
+}  // namespace
+}  // namespace svt::illustrate

@@ -1,0 +1,162 @@
+#include <svt/illustrate/annotate/name_tags.hpp>
+
+#include <svt/illustrate/scene.hpp>
+#include <svt/image/text.hpp>
+#include <svt/volume/brick_volume.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace svt::illustrate {
+namespace {
+
+// A big block and a small one on its east side, and one inside of the big.
+volume::SemanticVolume blocks() {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({40, 20, 20}, {0.5, 0.5, 0.5}, {10, 20, 30},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    for (const char* id : {"big", "small", "inner", "none"}) {
+        volume::Label label;
+        label.id = id;
+        label.className = "BuildingConstructiveElement";
+        label.name = std::string(id) == "small" ? "Kleiner Block" : "";
+        label.count = std::string(id) == "none" ? 0 : 1;
+        label.first = label.count == 0 ? 0 : volume.labels.scalarCount();
+        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
+        volume.labels.labels.push_back(label);
+    }
+    std::vector<volume::Scalar> dense(40 * 20 * 20, 0);
+    const auto fill = [&](Vec3i low, Vec3i high, volume::Scalar scalar) {
+        for (int k = low.z; k < high.z; ++k)
+            for (int j = low.y; j < high.y; ++j)
+                for (int i = low.x; i < high.x; ++i) dense[static_cast<std::size_t>(i + 40 * (j + 20 * k))] = scalar;
+    };
+    fill({0, 0, 0}, {20, 20, 20}, 1);
+    fill({30, 5, 5}, {40, 15, 15}, 2);
+    fill({5, 5, 5}, {10, 10, 10}, 3);
+    volume.columns = volume::ColumnVolume::fromDense({40, 20, 20}, dense);
+    return volume;
+}
+
+class NameTagsTest : public ::testing::Test {
+protected:
+    NameTagsTest() {
+        Scene scene;
+        scene.width = 400;
+        scene.height = 300;
+        scene.camera.preset = "front";
+        scene.camera.isParallel = true;
+        spec_ = *makeFrameSpec(scene, volume_);
+        frame_ = *render::castRays(*volume::BrickVolume::fromColumns(volume_.columns), volume_.grid, spec_);
+    }
+    const volume::SemanticVolume volume_ = blocks();
+    render::FrameSpec spec_;
+    render::Frame frame_;
+};
+
+TEST_F(NameTagsTest, StandInWhatTheyName) {
+    const auto found = findNameTags({"all"}, volume_, volume_.labels, frame_);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->tags.size(), 2u);
+    EXPECT_EQ(found->hiddenCount, 1u) << "the inner block is not seen, the last has no voxels";
+    EXPECT_EQ(found->tags[0].text, "big");
+    EXPECT_EQ(found->tags[1].text, "Kleiner Block");
+    for (std::uint32_t n = 0; n < 2; ++n) {
+        const NameTag& tag = found->tags[n];
+        EXPECT_TRUE(tag.isInside);
+        // All that the text covers.
+        const auto half = static_cast<std::int32_t>(image::textWidth(tag.text, found->textHeight) / 2);
+        for (const std::int32_t dx : {-half, 0, half})
+            for (const std::int32_t dy : {-5, 5})
+                EXPECT_EQ(frame_.label.at(static_cast<std::int32_t>(tag.x) + dx, static_cast<std::int32_t>(tag.y) + dy),
+                          n + 1);
+    }
+}
+
+TEST_F(NameTagsTest, ALeaderEndsAtTheInnermostPixel) {
+    volume::SemanticVolume named = volume_;
+    // A little wider than the block, for which there is room in the picture, but not in the block.
+    const auto seen = findNameTags({"id=small"}, volume_, volume_.labels, frame_);
+    ASSERT_TRUE(seen);
+    std::string& name = named.labels.labels[1].name = "";
+    while (image::textWidth(name, seen->textHeight) < (seen->right - seen->left) / 4 - 3) name += 'i';
+    const auto found = findNameTags({"id=small"}, named, named.labels, frame_);
+    ASSERT_TRUE(found);
+    const NameTag& tag = found->tags.at(0);
+    EXPECT_FALSE(tag.isInside);
+    // The middle of the small block's face.
+    const double metre = (found->right - found->left) / 20;
+    EXPECT_NEAR(tag.x, found->left + 17.5 * metre, 2);
+    EXPECT_NEAR(tag.clearance, 2.5 * metre, 2);
+}
+
+NameTags manyTags(std::size_t count) {
+    NameTags tags;
+    tags.left = 150;
+    tags.right = 450;
+    tags.textHeight = 11;
+    std::uint32_t state = 7;
+    const auto next = [&](double most) {
+        state = state * 1664525U + 1013904223U;
+        return static_cast<double>(state >> 8U) / (1 << 24) * most;
+    };
+    for (std::size_t n = 0; n < count; ++n) tags.tags.push_back({"name", 150 + next(300), next(400), false, next(20)});
+    return tags;
+}
+
+// Whether two segments, as drawn by `leaders`, have a point in common inside both.
+bool cross(const Leader& a, const Leader& b) {
+    const auto side = [](const Leader& line, double x, double y) {
+        return (line.x1 - line.x0) * (y - line.y0) - (line.y1 - line.y0) * (x - line.x0);
+    };
+    return side(a, b.x0, b.y0) * side(a, b.x1, b.y1) < 0 && side(b, a.x0, a.y0) * side(b, a.x1, a.y1) < 0;
+}
+
+TEST_F(NameTagsTest, LeadersDoNotCross) {
+    for (const std::size_t count : {2u, 9u, 25u, 50u}) {
+        const std::vector<Leader> leaders = layOutLeaders(manyTags(count), 600, 400);
+        EXPECT_EQ(leaders.size(), std::min<std::size_t>(count, leaders.size()));
+        EXPECT_GE(leaders.size(), std::min<std::size_t>(count, 9));
+        for (std::size_t a = 0; a < leaders.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b)
+                EXPECT_FALSE(cross(leaders[a], leaders[b])) << count << " tags: " << a << " and " << b;
+    }
+}
+
+TEST_F(NameTagsTest, WhatHasNoRoomIsLeftOutTheSmallestFirst) {
+    const NameTags tags = manyTags(200);
+    const std::vector<Leader> leaders = layOutLeaders(tags, 600, 400);
+    ASSERT_LT(leaders.size(), 60u);
+    ASSERT_GT(leaders.size(), 40u);
+    double most = 0, least = 100;  // clearance of what is left out, and of what is drawn, on the left
+    for (const NameTag& tag : tags.tags) {
+        if (tag.x >= 300) continue;
+        const bool isDrawn = std::any_of(leaders.begin(), leaders.end(), [&](const Leader& leader) {
+            return leader.x1 == tag.x && leader.y1 == tag.y;
+        });
+        (isDrawn ? least : most) = isDrawn ? std::min(least, tag.clearance) : std::max(most, tag.clearance);
+    }
+    EXPECT_GE(least, most);
+}
+
+TEST_F(NameTagsTest, AreDrawn) {
+    const auto found = findNameTags({"all"}, volume_, volume_.labels, frame_);
+    ASSERT_TRUE(found);
+    auto image = frame_.color;
+    EXPECT_EQ(drawNameTags(*found, {0, 0, 0}, {1, 1, 1}, image), 2u);
+    EXPECT_NE(image, frame_.color);
+    image::Image<image::Rgba8> tiny(1, 1);
+    drawNameTags(manyTags(100), {0, 0, 0}, {1, 1, 1}, tiny);
+}
+
+TEST_F(NameTagsTest, QueriesMustSelectSomething) {
+    const auto found = findNameTags({"id=bgi"}, volume_, volume_.labels, frame_);
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code(), Code::NothingSelected);
+}
+
+}  // namespace
+}  // namespace svt::illustrate

@@ -1,0 +1,312 @@
+#include <svt/illustrate/exact/arrangement.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <unordered_map>
+
+namespace svt::illustrate {
+namespace {
+
+constexpr std::uint32_t kNoNode = 0xFFFFFFFFu;
+
+// Nodes, and which is near to a point.
+class NodeSet {
+public:
+    explicit NodeSet(std::int32_t tolerance) : tolerance_(tolerance) {}
+
+    // The nearest node within the tolerance, or a new one.
+    std::uint32_t nodeAt(DrawingPoint p) {
+        const std::int64_t cellU = cellOf(p.u), cellV = cellOf(p.v);
+        const std::int64_t reach = std::int64_t{tolerance_} * tolerance_;
+        std::uint32_t best = kNoNode;
+        std::int64_t bestDistance = reach + 1;
+        for (std::int64_t v = cellV - 1; v <= cellV + 1; ++v)
+            for (std::int64_t u = cellU - 1; u <= cellU + 1; ++u) {
+                const auto found = first_.find(keyOf(u, v));
+                if (found == first_.end()) continue;
+                for (std::uint32_t n = found->second; n != kNoNode; n = next_[n]) {
+                    const Step step = p - points_[n];
+                    const std::int64_t distance = dot(step, step);
+                    if (distance > reach || distance > bestDistance || (distance == bestDistance && n > best)) continue;
+                    best = n;
+                    bestDistance = distance;
+                }
+            }
+        if (best != kNoNode) return best;
+        const auto added = static_cast<std::uint32_t>(points_.size());
+        points_.push_back(p);
+        const auto [place, isNew] = first_.try_emplace(keyOf(cellU, cellV), kNoNode);
+        next_.push_back(place->second);
+        place->second = added;
+        return added;
+    }
+
+    [[nodiscard]] const std::vector<DrawingPoint>& points() const noexcept { return points_; }
+
+private:
+    [[nodiscard]] std::int64_t cellOf(std::int32_t at) const noexcept {
+        return at >= 0 ? at / tolerance_ : -1 - (-1 - std::int64_t{at}) / tolerance_;
+    }
+    static std::uint64_t keyOf(std::int64_t u, std::int64_t v) noexcept {
+        return (static_cast<std::uint64_t>(u) << 32) ^ (static_cast<std::uint64_t>(v) & 0xFFFFFFFFu);
+    }
+
+    std::int32_t tolerance_;
+    std::vector<DrawingPoint> points_;
+    std::vector<std::uint32_t> next_;  // of the same cell
+    std::unordered_map<std::uint64_t, std::uint32_t> first_;
+};
+
+// A piece of a segment between two nodes; from < to as points.
+struct NodePair {
+    std::uint32_t from = 0, to = 0;
+    std::uint32_t claim = 0;
+    std::int32_t winding = 0;
+    bool isLine = false;
+};
+
+// Equal squares over all nodes: which edges and nodes are in a square.
+class SquareGrid {
+public:
+    SquareGrid(std::span<const DrawingPoint> points, std::size_t edges, double least) {
+        low_ = high_ = points.front();
+        for (const DrawingPoint p : points) {
+            low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+            high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+        }
+        const double width = double(high_.u) - low_.u + 1, height = double(high_.v) - low_.v + 1;
+        // About two squares an edge; long and narrow drawings get fewer rows.
+        const double wanted = std::clamp(2.0 * double(edges), 1.0, double(1 << 22));
+        side_ = std::max({std::sqrt(width * height / wanted), std::max(width, height) / 65536, least});
+        columns_ = static_cast<std::int64_t>(width / side_) + 1;
+        rows_ = static_cast<std::int64_t>(height / side_) + 1;
+    }
+
+    [[nodiscard]] std::size_t count() const noexcept { return static_cast<std::size_t>(columns_ * rows_); }
+    [[nodiscard]] std::size_t squareOf(DrawingPoint p) const noexcept {
+        return static_cast<std::size_t>(columnOf(p.u) + columns_ * rowOf(p.v));
+    }
+
+    // Calls `add(square)` for each square that comes within `reach` of the segment.
+    template <class Add>
+    void visit(DrawingPoint a, DrawingPoint b, double reach, Add&& add) const {
+        const auto [left, right] = std::minmax(a, b);
+        const std::int64_t first = columnOf(left.u - reach), last = columnOf(right.u + reach);
+        const double du = double(right.u) - left.u, dv = double(right.v) - left.v;
+        for (std::int64_t column = first; column <= last; ++column) {
+            double from = left.v, to = right.v;
+            if (du > 0) {
+                const double begin = low_.u + double(column) * side_ - reach, end = begin + side_ + 2 * reach;
+                from = left.v + dv * std::clamp((begin - left.u) / du, 0.0, 1.0);
+                to = left.v + dv * std::clamp((end - left.u) / du, 0.0, 1.0);
+            }
+            const std::int64_t bottom = rowOf(std::min(from, to) - reach - 1),
+                               top = rowOf(std::max(from, to) + reach + 1);
+            for (std::int64_t row = bottom; row <= top; ++row) add(static_cast<std::size_t>(column + columns_ * row));
+        }
+    }
+
+private:
+    [[nodiscard]] std::int64_t columnOf(double u) const noexcept {
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((u - low_.u) / side_)), 0, columns_ - 1);
+    }
+    [[nodiscard]] std::int64_t rowOf(double v) const noexcept {
+        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((v - low_.v) / side_)), 0, rows_ - 1);
+    }
+
+    DrawingPoint low_, high_;
+    double side_ = 1;
+    std::int64_t columns_ = 1, rows_ = 1;
+};
+
+// Numbers by square, stored square after square.
+class SquareLists {
+public:
+    void add(std::size_t square, std::uint32_t number) { entries_.push_back({square, number}); }
+    void finish(std::size_t squares) {
+        first_.assign(squares + 1, 0);
+        for (const auto& [square, number] : entries_) ++first_[square + 1];
+        for (std::size_t n = 0; n < squares; ++n) first_[n + 1] += first_[n];
+        numbers_.resize(entries_.size());
+        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+        for (const auto& [square, number] : entries_) numbers_[next[square]++] = number;
+        entries_ = {};
+    }
+    [[nodiscard]] std::span<const std::uint32_t> of(std::size_t square) const noexcept {
+        return std::span(numbers_).subspan(first_[square], first_[square + 1] - first_[square]);
+    }
+
+private:
+    std::vector<std::pair<std::size_t, std::uint32_t>> entries_;
+    std::vector<std::size_t> first_;
+    std::vector<std::uint32_t> numbers_;
+};
+
+class SegmentArranger {
+public:
+    SegmentArranger(std::span<const ClaimSegment> segments, std::int32_t tolerance)
+        : reach_(tolerance / 2), nodes_(tolerance) {
+        pairs_.reserve(segments.size());
+        for (const ClaimSegment& s : segments)
+            addPair(nodes_.nodeAt(s.from), nodes_.nodeAt(s.to), s.claim, s.winding, s.winding == 0);
+        merge();
+    }
+
+    bool run() {
+        constexpr int kMostSteps = 40;
+        for (int step = 0; step < kMostSteps; ++step)
+            if (!split()) return true;
+        return false;
+    }
+
+    [[nodiscard]] Arrangement result() const {
+        Arrangement all;
+        std::vector<std::uint32_t> order(pairs_.size());
+        for (std::uint32_t n = 0; n < order.size(); ++n) order[n] = n;
+        const auto& points = nodes_.points();
+        const auto key = [&](std::uint32_t n) {
+            return std::tuple(points[pairs_[n].from], points[pairs_[n].to], pairs_[n].claim, pairs_[n].isLine);
+        };
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        for (const std::uint32_t n : order) {
+            const NodePair& pair = pairs_[n];
+            const DrawingPoint from = points[pair.from], to = points[pair.to];
+            const auto mark = static_cast<std::uint32_t>(all.marks.size());
+            if (all.edges.empty() || all.edges.back().from != from || all.edges.back().to != to)
+                all.edges.push_back({from, to, mark, mark});
+            all.marks.push_back({pair.claim, pair.isLine ? 0 : pair.winding});
+            all.edges.back().endMark = mark + 1;
+        }
+        return all;
+    }
+
+private:
+    // An edge that is led through a node.
+    struct Split {
+        std::uint32_t pair = 0, node = 0;
+        std::int64_t along = 0;
+    };
+
+    [[nodiscard]] DrawingPoint pointOf(std::uint32_t node) const noexcept { return nodes_.points()[node]; }
+
+    void addPair(std::uint32_t from, std::uint32_t to, std::uint32_t claim, std::int32_t winding, bool isLine) {
+        if (from == to) return;
+        if (pointOf(to) < pointOf(from)) {
+            std::swap(from, to);
+            winding = -winding;
+        }
+        pairs_.push_back({from, to, claim, winding, isLine});
+    }
+
+    // Joins what lies on each other; borders of a claim that cancel are gone.
+    void merge() {
+        const auto key = [](const NodePair& p) { return std::tuple(p.from, p.to, p.claim, p.isLine); };
+        std::sort(pairs_.begin(), pairs_.end(), [&](const NodePair& a, const NodePair& b) { return key(a) < key(b); });
+        std::size_t kept = 0;
+        for (std::size_t begin = 0, end = 0; begin < pairs_.size(); begin = end) {
+            NodePair sum = pairs_[begin];
+            for (end = begin + 1; end < pairs_.size() && key(pairs_[end]) == key(sum); ++end)
+                sum.winding += pairs_[end].winding;
+            if (sum.isLine || sum.winding != 0) pairs_[kept++] = sum;
+        }
+        pairs_.resize(kept);
+    }
+
+    // One step: all edges are cut at the nodes that they pass, and where they cross. False if there was nothing to do.
+    bool split() {
+        if (pairs_.empty()) return false;
+        splits_.clear();
+        const SquareGrid grid(nodes_.points(), pairs_.size(), 8.0 * reach_);
+        SquareLists pairsIn, nodesIn;
+        for (std::uint32_t n = 0; n < pairs_.size(); ++n)
+            grid.visit(pointOf(pairs_[n].from), pointOf(pairs_[n].to), reach_,
+                       [&](std::size_t square) { pairsIn.add(square, n); });
+        for (std::uint32_t n = 0; n < nodes_.points().size(); ++n) nodesIn.add(grid.squareOf(pointOf(n)), n);
+        pairsIn.finish(grid.count());
+        nodesIn.finish(grid.count());
+        for (std::size_t square = 0; square < grid.count(); ++square) {
+            const auto near = pairsIn.of(square);
+            for (const std::uint32_t node : nodesIn.of(square))
+                for (const std::uint32_t pair : near) meetNode(pair, node);
+            for (std::size_t i = 0; i < near.size(); ++i)
+                for (std::size_t j = i + 1; j < near.size(); ++j) meetPair(near[i], near[j]);
+        }
+        if (splits_.empty()) return false;
+        applySplits();
+        return true;
+    }
+
+    void addSplit(std::uint32_t pair, std::uint32_t node) {
+        const NodePair& p = pairs_[pair];
+        if (node == p.from || node == p.to) return;
+        splits_.push_back({pair, node, dot(pointOf(p.to) - pointOf(p.from), pointOf(node) - pointOf(p.from))});
+    }
+
+    void meetNode(std::uint32_t pair, std::uint32_t node) {
+        const NodePair& p = pairs_[pair];
+        if (node == p.from || node == p.to) return;
+        const Step along = pointOf(p.to) - pointOf(p.from), to = pointOf(node) - pointOf(p.from);
+        const std::int64_t at = dot(along, to), whole = dot(along, along);
+        if (at <= 0 || at >= whole) return;
+        const double off = static_cast<double>(cross(along, to));
+        if (off * off <= double(reach_) * double(reach_) * static_cast<double>(whole)) addSplit(pair, node);
+    }
+
+    void meetPair(std::uint32_t first, std::uint32_t second) {
+        const NodePair &p = pairs_[first], &q = pairs_[second];
+        if (p.from == q.from || p.from == q.to || p.to == q.from || p.to == q.to) return;
+        const DrawingPoint a = pointOf(p.from), b = pointOf(p.to), c = pointOf(q.from), d = pointOf(q.to);
+        const Step along = b - a, other = d - c;
+        const std::int64_t sideC = cross(along, c - a), sideD = cross(along, d - a);
+        if ((sideC > 0) == (sideD > 0) || sideC == 0 || sideD == 0) return;
+        const std::int64_t sideA = cross(other, a - c), sideB = cross(other, b - c);
+        if ((sideA > 0) == (sideB > 0) || sideA == 0 || sideB == 0) return;
+        const double t = static_cast<double>(sideA) / (static_cast<double>(sideA) - static_cast<double>(sideB));
+        const auto whole = [](double x) { return static_cast<std::int32_t>(std::floor(x + 0.5)); };
+        const DrawingPoint at{whole(a.u + t * static_cast<double>(along.u)),
+                              whole(a.v + t * static_cast<double>(along.v))};
+        const std::uint32_t node = nodes_.nodeAt(at);
+        addSplit(first, node);
+        addSplit(second, node);
+    }
+
+    void applySplits() {
+        const auto key = [](const Split& s) { return std::tuple(s.pair, s.along, s.node); };
+        std::sort(splits_.begin(), splits_.end(), [&](const Split& a, const Split& b) { return key(a) < key(b); });
+        splits_.erase(std::unique(splits_.begin(), splits_.end(),
+                                  [&](const Split& a, const Split& b) { return key(a) == key(b); }),
+                      splits_.end());
+        std::vector<NodePair> before = std::move(pairs_);
+        pairs_.clear();
+        std::size_t next = 0;
+        for (std::uint32_t n = 0; n < before.size(); ++n) {
+            std::uint32_t from = before[n].from;
+            for (; next < splits_.size() && splits_[next].pair == n; ++next) {
+                addPair(from, splits_[next].node, before[n].claim, before[n].winding, before[n].isLine);
+                from = splits_[next].node;
+            }
+            addPair(from, before[n].to, before[n].claim, before[n].winding, before[n].isLine);
+        }
+        merge();
+    }
+
+    // Half of the distance that nodes keep from each other: where a node is led through, the corner is then so blunt that
+    // the new edges do not come near to each other's ends, and the steps come to an end.
+    std::int32_t reach_;
+    NodeSet nodes_;
+    std::vector<NodePair> pairs_;
+    std::vector<Split> splits_;
+};
+
+}  // namespace
+
+std::optional<Arrangement> arrangeSegments(std::span<const ClaimSegment> segments, std::int32_t tolerance) {
+    if (segments.empty()) return Arrangement{};
+    SegmentArranger arranger(segments, tolerance);
+    if (!arranger.run()) return std::nullopt;
+    return arranger.result();
+}
+
+}  // namespace svt::illustrate
