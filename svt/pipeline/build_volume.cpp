@@ -163,6 +163,7 @@ Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshS
 struct Prepared {
     mesh::MeshSet meshes;
     volume::Grid grid;
+    std::optional<SpacingChoice> choice;  // of its spacing, where none was asked for
     LabelledObjects labelled;
 };
 
@@ -173,7 +174,8 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     meshOptions.progress = options.progress;
     auto meshes = mesh::buildMeshes(model, meshOptions, log);
     if (!meshes) return meshes.error();
-    const auto grid = chooseGrid(*meshes, options);
+    std::optional<SpacingChoice> choice;
+    const auto grid = chooseGrid(*meshes, options, &choice);
     if (!grid) return grid.error();
     if (options.grid)
         if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
@@ -182,7 +184,7 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     if (options.style != nullptr) sheets.push_back(options.style);
     auto labelled = makeLabels(model, *meshes, sheets);
     if (!labelled) return labelled.error();
-    return Prepared{std::move(*meshes), *grid, std::move(*labelled)};
+    return Prepared{std::move(*meshes), *grid, std::move(choice), std::move(*labelled)};
 }
 
 // Voxelizes all objects, then thematic bodies, then patterns.
@@ -193,12 +195,12 @@ Result<voxelize::VoxelizeResult> makeVoxels(const Prepared& prepared, const std:
     voxelizeOptions.keepThinParts = options.keepThinParts;
     voxelizeOptions.threads = options.threads;
     voxelizeOptions.progress = options.progress;
-    const auto& [meshes, grid, labelled] = prepared;
+    const auto& [meshes, grid, choice, labelled] = prepared;
     auto voxels = voxelize::voxelize(meshes, grid, labelled.claims, voxelizeOptions);
     if (!voxels) return voxels;
-    Progress::tell(options.progress, "bodies", 0);
     if (!groups.empty())
-        voxels->columns = voxelize::assignThematicBodies(voxels->columns, grid, meshes, groups, options.threads);
+        voxels->columns =
+            voxelize::assignThematicBodies(voxels->columns, grid, meshes, groups, options.threads, options.progress);
     Progress::tell(options.progress, "patterns", 0);
     if (!labelled.patterns.empty())
         voxels->columns =
@@ -249,7 +251,7 @@ std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, s
 void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, const voxelize::VoxelizeResult& voxels,
                   Diagnostics& log) {
     constexpr double kPart = 0.02;
-    const auto& [meshes, grid, labelled] = prepared;
+    const auto& [meshes, grid, choice, labelled] = prepared;
     const Vec3d spacing = grid.spacing();
     const double halfVoxel = std::max({spacing.x, spacing.y, spacing.z}) / 2;
     std::vector<std::uint64_t> lost(meshes.objects.size(), 0);
@@ -303,7 +305,8 @@ Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> f
     return all;
 }
 
-Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options) {
+Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,
+                                std::optional<SpacingChoice>* choice) {
     if (options.grid) return *options.grid;
     Box3d box;
     std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
@@ -327,9 +330,11 @@ Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions&
     }
     Vec3d spacing = options.spacing.value_or(Vec3d{});
     if (!options.dimension && !options.spacing) {
-        const Vec3d size = box.size();
-        const double step = std::max({size.x, size.y, size.z, 1e-3}) / (BuildOptions::kDefaultSamples - 1);
-        spacing = {step, step, step};
+        double area = 0;
+        for (const mesh::ObjectMesh& object : meshes.objects) area += object.area;
+        SpacingChoice chosen = chooseSpacing(box.size(), area, options.memoryBytes);
+        spacing = {chosen.spacing, chosen.spacing, chosen.spacing};
+        if (choice != nullptr) *choice = std::move(chosen);
     }
     auto grid = options.dimension ? volume::Grid::fromDimension(box, *options.dimension)
                                   : volume::Grid::fromSpacing(box, spacing);
@@ -343,7 +348,7 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     auto start = Clock::now();
     auto prepared = prepare(model, options, log);
     if (!prepared) return prepared.error();
-    const auto& [meshes, grid, labelled] = *prepared;
+    const auto& [meshes, grid, choice, labelled] = *prepared;
     report.seconds.mesh = secondsSince(start);
 
     start = Clock::now();
@@ -356,13 +361,18 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     start = Clock::now();
     Progress::tell(options.progress, "pack", 0);
     fillLabels(*voxels, groups, *prepared);
+    Progress::tell(options.progress, "pack", 0.3);
     if (log != nullptr) checkVolumes(model, *prepared, *voxels, *log);
     countObjects(meshes, report);
+    report.spacing = choice;
     for (const std::uint64_t count : voxels->uncertainVoxels) report.uncertainVoxels += count;
+    Progress::tell(options.progress, "pack", 0.5);
     auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors, options.threads);
     if (!vectors) return vectors.error();
     output.volume.vectors = std::move(*vectors);
+    Progress::tell(options.progress, "pack", 0.7);
     output.volume.planes = voxelize::findFacePlanes(meshes, grid);
+    Progress::tell(options.progress, "pack", 1);
     output.volume.grid = grid;
     output.volume.labels = std::move(prepared->labelled.table);
     output.volume.columns = std::move(voxels->columns);

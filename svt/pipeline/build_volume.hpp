@@ -7,6 +7,7 @@
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/model/building_model.hpp>
+#include <svt/pipeline/default_spacing.hpp>
 #include <svt/pipeline/style_sheet.hpp>
 #include <svt/pipeline/vector_parts.hpp>
 #include <svt/readers/read_options.hpp>
@@ -28,8 +29,8 @@ enum class AxesKind : std::uint8_t {
 
 struct BuildOptions {
     std::optional<Vec3i> dimension;  ///< samples along x, y, z; overrides spacing
-    std::optional<Vec3d> spacing;    ///< metres; without dimension and spacing the longest side gets kDefaultSamples
-    static constexpr int kDefaultSamples = 400;
+    std::optional<Vec3d> spacing;    ///< metres; without dimension and spacing see chooseSpacing()
+    std::uint64_t memoryBytes = SpacingChoice::kMemoryBytes;  ///< at most, of a spacing that nobody asked for
     AxesKind axes = AxesKind::World;
     std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and axes are then ignored
     model::LodChoice lod;
@@ -53,6 +54,7 @@ struct BuildReport {
     std::size_t tJunctions = 0;  ///< closed objects with edges that match only up to T-junctions
     std::array<std::size_t, 6> closures{};  ///< objects per mesh::Closure: how they were closed
     std::uint64_t uncertainVoxels = 0;      ///< of all open shells: voxels with a winding number between 0.25 and 0.75
+    std::optional<SpacingChoice> spacing;   ///< where none was asked for: the one that was chosen
     struct Seconds {
         double read = 0, mesh = 0, voxelize = 0, pack = 0, write = 0, total = 0;
     } seconds;  ///< voxelize: meshes in memory to the finished canonical volume; pack: labels, counts, checks
@@ -78,6 +80,8 @@ struct BuildOutput {
                                                       readers::ReadOptions options, Diagnostics* log);
 
 /// The grid requested by `options` for the meshes.
-[[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options);
+/// \param choice  receives the spacing where none was requested; may be null
+[[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,
+                                              std::optional<SpacingChoice>* choice = nullptr);
 
 }  // namespace svt::pipeline

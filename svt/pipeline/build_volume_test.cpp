@@ -103,8 +103,8 @@ TEST(BuildVolume, BoxHasItsVoxelsAndFigures) {
     addBoxFeature(model, "Building", "house", {0, 0, 0}, {4, 3, 2});
     const BuildOutput output = build(model, withSpacing(0.1));
     const Label& house = labelOf(output, "house");
-    EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{41, 31, 21}));
-    // First and last samples of each axis lie on the envelope: only one of the two belongs to the box.
+    // First and last samples of each axis lie half a voxel outside of the box.
+    EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{42, 32, 22}));
     EXPECT_EQ(house.voxels, 40u * 30 * 20);
     EXPECT_NEAR(double(house.voxels) * output.volume.grid.voxelVolume(), house.volume, 1e-9);
     EXPECT_EQ(output.report.objects, 1u);
@@ -175,14 +175,28 @@ TEST(BuildVolume, OverlapsTellNestedFromConflicting) {
                                [](const auto& p, const auto& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); }));
 }
 
-TEST(BuildVolume, GridByDimensionSpacingOrLongestSide) {
+TEST(BuildVolume, GridByDimensionSpacingOrContent) {
     model::BuildingModel model;
     addBoxFeature(model, "Building", "house", {100, 200, 10}, {108, 204, 12});
     BuildOptions options;
-    EXPECT_EQ(build(model, options).volume.grid.dimension().x, BuildOptions::kDefaultSamples);
-    EXPECT_NEAR(build(model, options).volume.grid.spacing().y, 8.0 / 399, 1e-12);
+    const BuildOutput unasked = build(model, options);
+    EXPECT_EQ(unasked.volume.grid.spacing(), (Vec3d{0.05, 0.05, 0.05}));
+    EXPECT_EQ(unasked.volume.grid.dimension(), (Vec3i{162, 82, 42}));
+    ASSERT_TRUE(unasked.report.spacing);
+    EXPECT_EQ(unasked.report.spacing->reason, "the usual 0.05 m");
+    EXPECT_NEAR(unasked.report.spacing->forecast.surfaceVoxels, 2 * (32 + 16 + 8) / 0.0025, 1e-6);
+    options.memoryBytes = 100'000;  // two faces of 32 m2, two of 16, two of 8
+    const BuildOutput small = build(model, options);
+    EXPECT_EQ(small.volume.grid.spacing(), (Vec3d{0.2, 0.2, 0.2}));
+    EXPECT_LE(small.report.spacing->forecast.bytes, 100'000);
+    EXPECT_NE(small.report.spacing->reason.find("0.2 m, since by 0.1 m it would take about"), std::string::npos)
+        << small.report.spacing->reason;
+    options.memoryBytes = SpacingChoice::kMemoryBytes;
     options.spacing = Vec3d{0.5, 0.25, 0.125};
-    EXPECT_EQ(build(model, options).volume.grid.dimension(), (Vec3i{17, 17, 17}));
+    const BuildOutput asked = build(model, options);
+    EXPECT_EQ(asked.volume.grid.dimension(), (Vec3i{18, 18, 18}));
+    EXPECT_EQ(asked.volume.grid.origin(), (Vec3d{99.75, 199.875, 9.9375}));
+    EXPECT_FALSE(asked.report.spacing);
     options.dimension = Vec3i{5, 6, 7};  // takes precedence over spacing
     const BuildOutput output = build(model, options);
     EXPECT_EQ(output.volume.grid.dimension(), (Vec3i{5, 6, 7}));
@@ -206,15 +220,15 @@ TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
     EXPECT_TRUE(straight.volume.grid.isAxisParallel());
     EXPECT_FALSE(turned.volume.grid.isAxisParallel());
     const Vec3i n = turned.volume.grid.dimension();
-    EXPECT_EQ(std::max(n.x, n.y), 81);
-    EXPECT_EQ(std::min(n.x, n.y), 41);
+    EXPECT_EQ(std::max(n.x, n.y), 82);
+    EXPECT_EQ(std::min(n.x, n.y), 42);
     EXPECT_EQ(labelOf(turned, "house").voxels, 80u * 40 * 20);
     EXPECT_NEAR(double(labelOf(straight, "house").voxels), 80.0 * 40 * 20, 640);
     EXPECT_LT(turned.volume.grid.sampleCount(), straight.volume.grid.sampleCount());
 }
 
 TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
-    BuildOptions options = withSpacing(0.037);  // no layer of samples at the centre of a wall
+    BuildOptions options = withSpacing(0.04);  // no layer of samples at the centre of a wall
     const BuildOutput given = build(thematicHouse(), options);
     options.assignThematicBodies = false;
     const BuildOutput kept = build(thematicHouse(), options);
@@ -239,7 +253,7 @@ TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
         EXPECT_GT(body.voxels, sheet.voxels);
     }
     // The outer half of the ground slab, mitred at the walls: the integral of (6 - 2 d) (5 - 2 d) over d = 0 .. 0.2.
-    EXPECT_NEAR(labelOf(given, "outer-0").volume, 5.5707, 30 * 0.037 / 2);
+    EXPECT_NEAR(labelOf(given, "outer-0").volume, 5.5707, 30 * 0.04 / 2);
 }
 
 TEST(BuildVolume, PatternsSplitScalarsAndKeepTheVoxels) {
@@ -379,10 +393,8 @@ TEST(BuildVolume, AGivenGridIsTaken) {
     Diagnostics log;
     const BuildOutput output = build(parcels, options, &log);
     EXPECT_EQ(output.volume.grid, house.volume.grid);
-    // 12 of 25 samples along x: those at 0, 0.25, ... 2.75 m, and the one at 3 m depending on the half-open rule.
-    const std::uint64_t layer = 21 * 13;
-    EXPECT_GE(labelOf(output, "parcel").voxels, 12 * layer);
-    EXPECT_LE(labelOf(output, "parcel").voxels, 13 * layer);
+    // 13 of 26 samples along x: those at -0.125, 0.125, ... 2.875 m.
+    EXPECT_EQ(labelOf(output, "parcel").voxels, 13u * 22 * 14);
     EXPECT_EQ(labelOf(output, "elsewhere").voxels, 0u);
     ASSERT_EQ(log.count(Severity::Warning), 1u);
     EXPECT_EQ(log.items().back().where.id, "elsewhere");

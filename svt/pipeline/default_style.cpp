@@ -2,7 +2,8 @@
 
 namespace svt::pipeline {
 
-// Later rules win. Rooms and other spaces are thin coloured air, so that their contents are visible.
+// Later rules win: by class, then by the names of construction elements, then by IFC type and material. Rooms and other
+// spaces are thin coloured air, so that their contents are visible; whatever their names are.
 const char* const kDefaultStyleJson = R"json({
   "rules": [
     {"select": "all", "color": "#c9c4ba", "opacity": 1},
@@ -28,14 +29,19 @@ const char* const kDefaultStyleJson = R"json({
     {"select": "class~Water", "color": "#5b8fb9", "opacity": 0.9},
     {"select": "class~Traffic or class=Road or class=Track or class=Square", "color": "#8c8c8c"},
 
-    {"select": "ifcType~Slab or name~'[Ss]lab' or name~'[Dd]ecke' or name~'[Bb]odenplatte'", "color": "#a9a59c"},
+    {"select": "class=BuildingConstructiveElement and name~'[Ss]lab|[Dd]ecke|[Bb]odenplatte'", "color": "#a9a59c"},
+    {"select": "class=BuildingConstructiveElement and name~'[Bb]eam|Unterzug'", "color": "#7c6f64"},
+    {"select": "class=BuildingConstructiveElement and name~'[Rr]after|Sparren'", "color": "#b98a52"},
+    {"select": "class=BuildingConstructiveElement and name~'[Rr]oof|Dach'", "color": "#a8483a"},
+
+    {"select": "ifcType~Slab", "color": "#a9a59c"},
     {"select": "ifcType~Wall", "color": "#dcc9a6"},
-    {"select": "ifcType~Beam or name~'[Bb]eam' or name~'Unterzug'", "color": "#7c6f64"},
-    {"select": "ifcType~Member or name~'[Rr]after' or name~'Sparren'", "color": "#b98a52"},
+    {"select": "ifcType~Beam", "color": "#7c6f64"},
+    {"select": "ifcType~Member", "color": "#b98a52"},
     {"select": "ifcType~Window", "color": "#7fa9c4"},
     {"select": "ifcType~Door", "color": "#8a5a33"},
     {"select": "ifcType~Stair or ifcType~Railing", "color": "#8f9aa3"},
-    {"select": "ifcType~Roof or name~'[Rr]oof' or name~'Dach'", "color": "#a8483a"},
+    {"select": "ifcType~Roof or ifcType=IfcSlab and name~'[Rr]oof|Dach'", "color": "#a8483a"},
     {"select": "material=brick", "color": "#c88d6b"},
     {"select": "material=concrete", "color": "#aaa69e"},
     {"select": "material=timber or material=wood", "color": "#b98a52"},

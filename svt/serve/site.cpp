@@ -275,8 +275,8 @@ Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> model
 }
 
 std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
-    static const std::set<std::string, std::less<>> kExtensions{".svt",  ".gml",   ".xml", ".citygml",
-                                                                ".json", ".jsonl", ".gz",  ".city"};
+    static const std::set<std::string, std::less<>> kExtensions{".svt",   ".gml", ".xml",  ".citygml", ".json",
+                                                                ".jsonl", ".gz",  ".city", ".ifc"};
     std::vector<std::string> names;
     std::set<std::string> taken;  // in lower case: some file systems ignore case
     for (const fs::path& file : files) {
