@@ -21,7 +21,7 @@ Result<volume::SemanticVolume> load(std::span<const std::byte> bytes, const std:
     auto model = readers::readModel(bytes, name, reading, &findings);
     if (!model) return model.error();
     pipeline::BuildOptions building;
-    building.vectors.edges = true;
+    building.vectors = {.edges = true, .meshes = true, .isRequired = false};
     building.progress = progress;
     auto output = pipeline::buildVolume(*model, building, &findings);
     if (!output) return output.error();

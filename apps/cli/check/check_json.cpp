@@ -1,4 +1,5 @@
 #include <apps/cli/check/check_reports.hpp>
+#include <apps/cli/check/other_findings.hpp>
 #include <apps/cli/output/version.hpp>
 
 #include <fmt/chrono.h>
@@ -48,11 +49,6 @@ Json countsJson(const std::map<std::string, validate::ValidCount>& counts) {
     return json;
 }
 
-// Findings of readers that are of geometry all the same: rings that were left out or closed.
-bool isOfGeometry(const Diagnostic& item) {
-    return item.code == Code::TooFewPoints || item.code == Code::RingNotClosed;
-}
-
 std::string val3dityPlace(const model::BuildingModel& model, const Finding& finding) {
     std::string id = "geom=" + std::to_string(std::max(finding.geometry, 0));
     if (finding.solid >= 0) id += fmt::format("|solid={}", finding.solid);
@@ -61,19 +57,29 @@ std::string val3dityPlace(const model::BuildingModel& model, const Finding& find
     return id;
 }
 
-model::FeatureIndex rootOf(const model::BuildingModel& model, model::FeatureIndex feature) {
-    while (model.features[feature].parent != model::kNoFeature) feature = model.features[feature].parent;
-    return feature;
-}
-
 // Findings of readers by root feature; those of no known feature are of the data set.
 struct ErrorsByRoot {
     std::map<model::FeatureIndex, Json> errors;
     Json ofDataset = Json::array();
+    Json others = Json::array();  // those that val3dity does not look for
+    std::map<std::string, std::size_t> otherCounts;
     std::set<int> all;
 };
 
-ErrorsByRoot collectErrors(const Checked& checked, const Diagnostics& diagnostics) {
+Json otherJson(const model::BuildingModel& model, const OtherFinding& other) {
+    const Diagnostic& item = *other.item;
+    Json json{{"code", codeTag(item.code)},
+              {"name", codeName(item.code)},
+              {"severity", severityName(item.severity)},
+              {"id", item.where.id},
+              {"message", item.message}};
+    if (other.feature != model::kNoFeature) json["feature"] = model.features[rootOf(model, other.feature)].id;
+    if (!item.where.file.empty()) json["file"] = item.where.file;
+    if (item.where.line != 0) json["line"] = item.where.line;
+    return json;
+}
+
+ErrorsByRoot collectErrors(const Checked& checked) {
     ErrorsByRoot collected;
     const model::BuildingModel& model = checked.model;
     const auto add = [&](model::FeatureIndex root, int number, std::string id, std::string info) {
@@ -84,19 +90,16 @@ ErrorsByRoot collectErrors(const Checked& checked, const Diagnostics& diagnostic
                                  {"id", std::move(id)},
                                  {"info", std::move(info)}});
     };
-    std::map<std::string, model::FeatureIndex> byId;
-    for (model::FeatureIndex f = 0; f < model.features.size(); ++f) {
-        byId.emplace(model.features[f].id, f);
-        for (const model::Geometry& geometry : model.features[f].geometries)
-            for (const model::SurfaceUse& use : geometry.surfaces) byId.emplace(model.polygons[use.polygon].id, f);
-    }
-    for (const Diagnostic& item : diagnostics.items()) {
-        if (!isOfGeometry(item)) continue;
-        const auto known = byId.find(item.where.id);
-        if (known != byId.end() && !item.where.id.empty())
-            add(rootOf(model, known->second), validate::val3dityCode(item.code), item.where.id, item.message);
-        else
+    for (const OtherFinding& other : otherFindings(model, checked.others)) {
+        const Diagnostic& item = *other.item;
+        if (!isOfGeometry(item)) {
+            collected.others.push_back(otherJson(model, other));
+            ++collected.otherCounts[codeTag(item.code)];
+        } else if (other.feature != model::kNoFeature) {
+            add(rootOf(model, other.feature), validate::val3dityCode(item.code), item.where.id, item.message);
+        } else {
             collected.ofDataset.push_back(validate::val3dityCode(item.code));
+        }
     }
     for (const Finding& finding : checked.report.findings)
         add(rootOf(model, finding.feature), validate::val3dityCode(finding.code), val3dityPlace(model, finding),
@@ -113,10 +116,10 @@ std::string polygonName(const model::BuildingModel& model, const Finding& findin
     return id.empty() ? std::to_string(finding.polygon) : id;
 }
 
-void addValidationJson(Json& json, const Checked& checked, const Diagnostics& diagnostics) {
+void addValidationJson(Json& json, const Checked& checked) {
     Json findings = Json::array(), counts = Json::object();
     std::map<Code, std::size_t> all = checked.report.counts;
-    for (const Diagnostic& item : diagnostics.items()) {
+    for (const Diagnostic& item : checked.others.items()) {
         if (!isOfGeometry(item)) continue;
         if (all.count(item.code) == 0 || checked.report.counts.count(item.code) == 0) ++all[item.code];
     }
@@ -130,9 +133,9 @@ void addValidationJson(Json& json, const Checked& checked, const Diagnostics& di
     json["polygons"] = checked.report.polygonCount;
 }
 
-Json val3dityJson(const Checked& checked, const Diagnostics& diagnostics, const std::string& inputFile) {
+Json val3dityJson(const Checked& checked, const std::string& inputFile) {
     const model::BuildingModel& model = checked.model;
-    const ErrorsByRoot collected = collectErrors(checked, diagnostics);
+    const ErrorsByRoot collected = collectErrors(checked);
     std::vector<bool> hasGeometry(model.features.size());
     for (model::FeatureIndex f = 0; f < model.features.size(); ++f)
         if (!model.features[f].geometries.empty()) hasGeometry[rootOf(model, f)] = true;
@@ -169,7 +172,9 @@ Json val3dityJson(const Checked& checked, const Diagnostics& diagnostics, const 
             {"dataset_errors", std::move(datasetErrors)},
             {"features_overview", countsJson(overview)},
             {"primitives_overview", countsJson(checked.report.primitives)},
-            {"features", std::move(features)}};
+            {"features", std::move(features)},
+            {"other_findings", collected.others},
+            {"other_counts", collected.otherCounts}};
 }
 
 void addFindings(Diagnostics& diagnostics, const Checked& checked) {

@@ -1,9 +1,13 @@
 #include <apps/cli/check/check_reports.hpp>
+#include <apps/cli/check/other_findings.hpp>
+
+#include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace svt::cli {
 namespace {
@@ -24,23 +28,6 @@ using FlatLine = std::array<FlatPoint, 2>;
 FlatPoint flat(Vec3d p) {
     constexpr double kCos = 0.8660254037844386, kSin = 0.5;
     return {(p.x - p.y) * kCos, (p.x + p.y) * -kSin * 0.6 - p.z};
-}
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result;
 }
 
 void addEdges(const model::BuildingModel& model, const model::SurfaceUse& use, Vec3d origin,
@@ -68,12 +55,9 @@ std::vector<FlatLine> edgesOf(const model::BuildingModel& model, const model::Ge
 
 // Edges of all features of the same level of detail below the topmost one that holds `feature`, such as the building
 // of a wall; empty if there are too many.
-std::vector<FlatLine> edgesAround(const model::BuildingModel& model, const Finding& finding, Vec3d origin) {
-    const double lod = model.features[finding.feature].geometries[static_cast<std::size_t>(finding.geometry)].lod;
-    model::FeatureIndex root = finding.feature;
-    while (model.features[root].parent != model::kNoFeature) root = model.features[root].parent;
+std::vector<FlatLine> edgesAround(const model::BuildingModel& model, const Finding& finding, double lod, Vec3d origin) {
     std::vector<FlatLine> lines;
-    std::vector<model::FeatureIndex> open{root};
+    std::vector<model::FeatureIndex> open{rootOf(model, finding.feature)};
     while (!open.empty()) {
         const model::Feature& feature = model.features[open.back()];
         open.pop_back();
@@ -120,7 +104,7 @@ public:
         return fmt::format(
             "<svg viewBox=\"0 0 {0:.0f} {0:.0f}\" width=\"{0:.0f}\" height=\"{0:.0f}\" "
             "role=\"img\"><title>{1}</title>{2}</svg>",
-            kSide, escaped(title), text_);
+            kSide, xmlAttribute(title), text_);
     }
 
 private:
@@ -132,14 +116,14 @@ private:
     std::string text_;
 };
 
-// The defect in its building, and from near.
-std::string picturesOf(const model::BuildingModel& model, const Finding& finding) {
+// The defect in its building, and from near. Without a geometry the building alone is drawn.
+std::string picturesOf(const model::BuildingModel& model, const Finding& finding, double lod) {
     const model::Feature& feature = model.features[finding.feature];
-    if (finding.geometry < 0) return {};
     const Vec3d origin{std::floor(finding.at.x), std::floor(finding.at.y), std::floor(finding.at.z)};
     const std::vector<FlatLine> edges =
-        edgesOf(model, feature.geometries[static_cast<std::size_t>(finding.geometry)], origin);
-    const std::vector<FlatLine> around = edgesAround(model, finding, origin);
+        finding.geometry < 0 ? std::vector<FlatLine>()
+                             : edgesOf(model, feature.geometries[static_cast<std::size_t>(finding.geometry)], origin);
+    const std::vector<FlatLine> around = edgesAround(model, finding, lod, origin);
     std::vector<FlatLine> marks;
     Window whole, near;
     const FlatPoint at = flat(finding.at - origin);
@@ -189,65 +173,167 @@ svg{border:1px solid #d5dae0;background:#fbfcfd}figure{margin:0}figcaption{color
 std::string countsTable(std::string_view title, const std::map<std::string, validate::ValidCount>& counts) {
     std::string text = fmt::format("<table><tr><th>{}</th><th>tested</th><th>valid</th></tr>", title);
     for (const auto& [name, count] : counts)
-        text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", escaped(name),
+        text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", xmlAttribute(name),
                             count.total, count.valid);
     return text + "</table>\n";
 }
 
 std::string findingSection(const model::BuildingModel& model, const Finding& finding, bool hasPicture) {
     const model::Feature& feature = model.features[finding.feature];
-    std::string text = fmt::format("<section><p><b>{}</b></p><p>{} <code>{}</code>", escaped(finding.message),
-                                   escaped(feature.className), escaped(feature.id));
+    std::string text = fmt::format("<section><p><b>{}</b></p><p>{} <code>{}</code>", xmlAttribute(finding.message),
+                                   xmlAttribute(feature.className), xmlAttribute(feature.id));
     if (finding.polygon != validate::kNoPolygon)
-        text += fmt::format(", polygon <code>{}</code>", escaped(polygonName(model, finding)));
+        text += fmt::format(", polygon <code>{}</code>", xmlAttribute(polygonName(model, finding)));
     text += fmt::format(", at {:.3f} {:.3f} {:.3f}</p>", finding.at.x, finding.at.y, finding.at.z);
-    if (hasPicture) text += "<div class=\"p\">" + picturesOf(model, finding) + "</div>";
+    if (hasPicture && finding.geometry >= 0)
+        text += "<div class=\"p\">" +
+                picturesOf(model, finding, feature.geometries[static_cast<std::size_t>(finding.geometry)].lod) +
+                "</div>";
     return text + "</section>\n";
+}
+
+// Where a shell leaks, and what closes it; empty where the finding is of no mesh, or of one without leaks.
+std::string pictureOfLeak(const Checked& checked, const OtherFinding& other) {
+    const Code code = other.item->code;
+    if (code != Code::ShellCapped && code != Code::WindingFilled && code != Code::FacesComplemented) return {};
+    const auto& objects = checked.meshes.objects;
+    const auto object = std::find_if(objects.begin(), objects.end(),
+                                     [&](const mesh::ObjectMesh& mesh) { return mesh.feature == other.feature; });
+    if (object == objects.end() || object->leaks.empty()) return {};
+    Finding shown;
+    shown.feature = other.feature;
+    shown.at = object->leaks.front() + checked.meshes.origin;
+    const auto& geometries = checked.model.features[other.feature].geometries;
+    for (std::size_t g = 0; g < geometries.size(); ++g)
+        if (geometries[g].lod == object->lod && !object->isAssembled) shown.geometry = static_cast<int>(g);
+    for (const mesh::Cap& cap : object->caps)
+        for (std::size_t i = 0; i < cap.ring.size(); ++i)
+            shown.marks.push_back(
+                {cap.ring[i] + checked.meshes.origin, cap.ring[(i + 1) % cap.ring.size()] + checked.meshes.origin});
+    return "<div class=\"p\">" + picturesOf(checked.model, shown, object->lod) + "</div>";
+}
+
+std::string otherSection(const Checked& checked, const OtherFinding& other, bool hasPicture) {
+    const Place& where = other.item->where;
+    std::string text = fmt::format("<section><p><b>{}</b></p><p>", xmlAttribute(other.item->message));
+    if (other.feature != model::kNoFeature) text += xmlAttribute(checked.model.features[other.feature].className) + " ";
+    if (!where.id.empty()) text += fmt::format("<code>{}</code>, ", xmlAttribute(where.id));
+    text +=
+        where.line == 0 ? xmlAttribute(where.file) : fmt::format("{}, line {}", xmlAttribute(where.file), where.line);
+    text += "</p>";
+    if (hasPicture && other.feature != model::kNoFeature) text += pictureOfLeak(checked, other);
+    return text + "</section>\n";
+}
+
+// All findings of one code: those of the tests, and those of readers and of closing.
+struct Kind {
+    std::size_t tested = 0;
+    std::vector<OtherFinding> others;
+    std::size_t otherCount = 0;  // with those that are only counted
+};
+
+std::map<Code, Kind> kindsOf(const Checked& checked, const std::vector<OtherFinding>& others) {
+    std::map<Code, Kind> kinds;
+    for (const auto& [code, count] : checked.report.counts) kinds[code].tested = count;
+    for (const OtherFinding& other : others) kinds[other.item->code].others.push_back(other);
+    for (auto& [code, kind] : kinds) {
+        kind.otherCount = kind.others.size();
+        if (kind.otherCount >= Diagnostics::kKeptPerCode) kind.otherCount = checked.others.count(code);
+    }
+    return kinds;
+}
+
+std::string kindsTable(const std::map<Code, Kind>& kinds) {
+    std::string text =
+        "<h2>By kind</h2><table><tr><th>code</th><th>name</th><th>val3dity</th><th>ISO 19107</th><th>tests</th>"
+        "<th>reading, closing</th></tr>";
+    for (const auto& [code, kind] : kinds) {
+        const int number = validate::val3dityCode(code);
+        text += fmt::format(
+            "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td><td class=\"n\">{4}</td><td "
+            "class=\"n\">{5}</td></tr>",
+            codeTag(code), codeName(code), number == 0 ? std::string() : std::to_string(number),
+            xmlAttribute(validate::isoTerm(code)), kind.tested, kind.otherCount);
+    }
+    return text + "</table>\n";
+}
+
+// How many findings each building has, most first.
+std::string placesTable(const Checked& checked, const std::vector<OtherFinding>& others) {
+    constexpr std::size_t kMostPlaces = 100;
+    std::map<model::FeatureIndex, std::map<Code, std::size_t>> places;
+    for (const Finding& finding : checked.report.findings)
+        ++places[rootOf(checked.model, finding.feature)][finding.code];
+    for (const OtherFinding& other : others)
+        ++places[other.feature == model::kNoFeature ? model::kNoFeature : rootOf(checked.model, other.feature)]
+                [other.item->code];
+    struct Row {
+        std::size_t count;
+        model::FeatureIndex feature;
+        std::string codes;
+    };
+    std::vector<Row> rows;
+    for (const auto& [feature, counts] : places) {
+        Row row{0, feature, {}};
+        for (const auto& [code, count] : counts) {
+            row.count += count;
+            row.codes += fmt::format("{}{} {}", row.codes.empty() ? "" : ", ", count, codeTag(code));
+        }
+        rows.push_back(std::move(row));
+    }
+    std::stable_sort(rows.begin(), rows.end(), [](const Row& p, const Row& q) { return p.count > q.count; });
+    std::string text = "<h2>By place</h2><table><tr><th>feature</th><th>id</th><th>count</th><th>codes</th></tr>";
+    for (std::size_t r = 0; r < std::min(rows.size(), kMostPlaces); ++r) {
+        const bool isKnown = rows[r].feature != model::kNoFeature;
+        text += fmt::format(
+            "<tr><td>{}</td><td><code>{}</code></td><td class=\"n\">{}</td><td>{}</td></tr>",
+            isKnown ? xmlAttribute(checked.model.features[rows[r].feature].className) : "the file as a whole",
+            isKnown ? xmlAttribute(checked.model.features[rows[r].feature].id) : "", rows[r].count, rows[r].codes);
+    }
+    text += "</table>\n";
+    if (rows.size() > kMostPlaces) text += fmt::format("<p>{} more have fewer.</p>\n", rows.size() - kMostPlaces);
+    return text;
+}
+
+// A chapter for each kind. The pictures are shared out among the kinds, so that a frequent one does not take them all.
+std::string chapters(const Checked& checked, const std::map<Code, Kind>& kinds) {
+    const std::size_t each = kinds.empty() ? 0 : std::max<std::size_t>(1, kMaxPictures / kinds.size());
+    std::string text;
+    std::size_t pictures = 0;
+    for (const auto& [code, kind] : kinds) {
+        text += fmt::format("<h2 id=\"{0}\">{0} {1}</h2>\n", codeTag(code), codeName(code));
+        std::size_t ofKind = 0;
+        const auto takesPicture = [&] {
+            const bool takes = ofKind++ < each && pictures < kMaxPictures;
+            pictures += takes;
+            return takes;
+        };
+        for (const Finding& finding : checked.report.findings)
+            if (finding.code == code) text += findingSection(checked.model, finding, takesPicture());
+        for (const OtherFinding& other : kind.others) text += otherSection(checked, other, takesPicture());
+        const std::size_t all = kind.tested + kind.otherCount;
+        if (ofKind < all) text += fmt::format("<p>{} more are only counted.</p>\n", all - ofKind);
+    }
+    return text;
 }
 
 }  // namespace
 
-std::string htmlReport(const Checked& checked, const Diagnostics& diagnostics, const std::string& inputFile) {
+std::string htmlReport(const Checked& checked, const std::string& inputFile) {
     const validate::ValidationReport& report = checked.report;
+    const std::vector<OtherFinding> others = otherFindings(checked.model, checked.others);
+    const std::map<Code, Kind> kinds = kindsOf(checked, others);
+    const bool isValid = report.counts.empty();
     std::string text(kHead);
-    text += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", escaped(inputFile),
-                        report.counts.empty() ? "<b class=\"ok\">Every geometry is valid.</b>"
-                                              : "<b class=\"bad\">Some geometries are not valid.</b>");
+    text += fmt::format("<h1>{}</h1>\n<p>{}{}</p>\n", xmlAttribute(inputFile),
+                        isValid ? "<b class=\"ok\">Every geometry is valid.</b>"
+                                : "<b class=\"bad\">Some geometries are not valid.</b>",
+                        others.empty() ? "" : " <b class=\"bad\">Reading or closing found defects.</b>");
     text += fmt::format(
         "<p>{} polygons tested; points closer than {} m are one, polygons may deviate by {} m and {} degrees.</p>\n",
         report.polygonCount, checked.options.snap, checked.options.planarity, checked.options.normalsDegrees);
     text += countsTable("features", report.features) + countsTable("geometries", report.primitives);
-    if (!report.counts.empty()) {
-        text +=
-            "<h2>By kind</h2><table><tr><th>code</th><th>name</th><th>val3dity</th><th>ISO "
-            "19107</th><th>count</th></tr>";
-        for (const auto& [code, count] : report.counts)
-            text += fmt::format(
-                "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td><td "
-                "class=\"n\">{4}</td></tr>",
-                codeTag(code), codeName(code), validate::val3dityCode(code), escaped(validate::isoTerm(code)), count);
-        text += "</table>\n";
-    }
-    // The pictures are shared out among the kinds, so that a frequent one does not take them all.
-    const std::size_t each = report.counts.empty() ? 0 : std::max<std::size_t>(1, kMaxPictures / report.counts.size());
-    std::size_t pictures = 0;
-    for (const auto& [code, count] : report.counts) {
-        text += fmt::format("<h2 id=\"{0}\">{0} {1}</h2>\n", codeTag(code), codeName(code));
-        std::size_t ofKind = 0;
-        for (const Finding& finding : report.findings) {
-            if (finding.code != code) continue;
-            const bool hasPicture = ofKind < each && pictures < kMaxPictures;
-            text += findingSection(checked.model, finding, hasPicture);
-            pictures += hasPicture;
-            ++ofKind;
-        }
-        if (ofKind < count) text += fmt::format("<p>{} more are only counted.</p>\n", count - ofKind);
-    }
-    std::string others;
-    for (const Diagnostic& item : diagnostics.items())
-        if (item.severity != Severity::Note && report.counts.count(item.code) == 0)
-            others += "<li>" + escaped(item.toString()) + "</li>\n";
-    if (!others.empty()) text += "<h2>Other findings</h2><ul>\n" + others + "</ul>\n";
+    if (!kinds.empty()) text += kindsTable(kinds) + placesTable(checked, others) + chapters(checked, kinds);
     return text + "</body></html>\n";
 }
 

@@ -6,10 +6,14 @@
 
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/svt_file.hpp>
+#include <svt/volume_readers/read_label_volume.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
+#include <string_view>
 
 namespace svt::cli {
 namespace {
@@ -18,7 +22,7 @@ namespace {
 struct BuildCommandArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
-    std::filesystem::path gridOf;
+    std::filesystem::path gridOf, labels;
     BuildArguments build;
     bool json = false, verbose = false, strict = false;
 };
@@ -29,6 +33,17 @@ void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, c
     fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n",
                arguments.output.string(), built.report.objects, dimension.x, dimension.y, dimension.z, spacing.x,
                spacing.y, spacing.z, double(fileBytes) / 1000, built.report.seconds.total);
+    if (const auto& choice = built.report.spacing)
+        fmt::print("spacing: {}; --spacing or --dimension gives another\n", choice->reason);
+}
+
+// Null where the grid was asked for.
+Json chosenSpacingJson(const std::optional<pipeline::SpacingChoice>& choice) {
+    if (!choice) return nullptr;
+    return {{"spacing", choice->spacing},
+            {"reason", choice->reason},
+            {"surfaceVoxels", choice->forecast.surfaceVoxels},
+            {"bytes", choice->forecast.bytes}};
 }
 
 Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const BuildArguments& build) {
@@ -38,6 +53,56 @@ Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const Build
     const auto volume = volume::readSvt(path);
     if (!volume) return volume.error();
     return volume->grid;
+}
+
+std::string ifcTypeOf(const volume::Label& label) {
+    for (const Attribute& attribute : label.attributes)
+        if (attribute.name == "ifcType") return toText(attribute.value);
+    return {};
+}
+
+// Which products of IFC files were read, in part or not; null for models of other formats.
+Json productsJson(const volume::LabelTable& table, const Diagnostics& diagnostics) {
+    std::map<std::string, std::string> typeOf;
+    std::size_t withShape = 0;
+    for (const volume::Label& label : table.labels)
+        if (std::string type = ifcTypeOf(label); !type.empty()) {
+            withShape += label.filling == volume::Filling::None ? 0 : 1;
+            typeOf.emplace(label.id, std::move(type));
+        }
+    if (typeOf.empty()) return nullptr;
+    Json partial = Json::array(), skipped = Json::array();
+    for (const Diagnostic& finding : diagnostics.items()) {
+        if (finding.code != Code::ReadInPart && finding.code != Code::ShapeNotRead) continue;
+        (finding.code == Code::ReadInPart ? partial : skipped)
+            .push_back({{"id", finding.where.id}, {"class", typeOf[finding.where.id]}, {"reason", finding.message}});
+    }
+    return {{"read", withShape}, {"partial", std::move(partial)}, {"skipped", std::move(skipped)}};
+}
+
+// A label volume of another program becomes a volume as it is; models are voxelized.
+Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, const pipeline::BuildOptions& options,
+                                      Diagnostics& diagnostics) {
+    const bool isVolume =
+        arguments.inputs.size() == 1 && volume_readers::looksLikeLabelVolume(arguments.inputs.front());
+    if (!isVolume && !arguments.labels.empty())
+        return Error(
+            Code::BadArgument,
+            "--labels names the values of one label volume (NRRD, VTI, NIfTI, TIFF), and the input is none; leave "
+            "it out");
+    if (!isVolume) return pipeline::buildVolume(arguments.inputs, options, &diagnostics);
+    const BuildArguments& build = arguments.build;
+    if (!build.dimension.empty() || !build.spacing.empty() || !arguments.gridOf.empty() || build.axes != "world")
+        return Error(Code::BadArgument,
+                     "the input is a label volume, which has its grid; leave out --dimension, --spacing, --axes and "
+                     "--grid-of, or make it coarser by svt convert --level");
+    const auto start = std::chrono::steady_clock::now();
+    auto read = volume_readers::readLabelVolume(arguments.inputs.front(), {arguments.labels, 0, options.progress});
+    if (!read) return read.error();
+    pipeline::BuildOutput output{std::move(*read), {}};
+    for (const volume::Label& label : output.volume.labels.labels) output.report.objects += label.count > 0 ? 1 : 0;
+    output.report.seconds.read = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return output;
 }
 
 int runBuild(const BuildCommandArguments& arguments) {
@@ -53,7 +118,7 @@ int runBuild(const BuildCommandArguments& arguments) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<TerminalProgress> progress(std::in_place);
     options->progress = progress->get();
-    Result<pipeline::BuildOutput> built = pipeline::buildVolume(arguments.inputs, *options, &diagnostics);
+    Result<pipeline::BuildOutput> built = builtOf(arguments, *options, diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!built) return fail(built.error());
     const auto writeStart = std::chrono::steady_clock::now();
@@ -81,7 +146,10 @@ int runBuild(const BuildCommandArguments& arguments) {
         json["bytes"] = {{"memory", built->volume.columns.sizeBytes()}, {"file", *bytes}};
         json["dimension"] = toJson(built->volume.grid.dimension());
         json["spacing"] = toJson(built->volume.grid.spacing());
+        json["chosenSpacing"] = chosenSpacingJson(report.spacing);
         json["overlaps"] = overlapsJson(built->volume.labels);
+        if (Json products = productsJson(built->volume.labels, diagnostics); !products.is_null())
+            json["products"] = std::move(products);
         json["warnings"] = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
         print(json);
     } else if (!isQuiet()) {
@@ -102,12 +170,13 @@ Action connectBuild(Command& command) {
     command.set("input", arguments->inputs);
     command.set("--output", arguments->output);
     arguments->build.connect(command);
+    // Kept where they can be, unless asked for or against.
+    arguments->build.vectors = {.meshes = true, .isRequired = false};
     command.set("--grid-of", arguments->gridOf);
+    command.set("--labels", arguments->labels);
     command.take("--vectors", [arguments](const std::vector<std::string>& kinds) {
-        for (const std::string& kind : kinds) {
-            if (kind == "edges") arguments->build.vectors.edges = true;
-            if (kind == "meshes") arguments->build.vectors.meshes = true;
-        }
+        const auto has = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
+        arguments->build.vectors = {.edges = has("edges"), .meshes = has("meshes") || !has("none")};
     });
     command.set("--json", arguments->json);
     command.set("--strict", arguments->strict);

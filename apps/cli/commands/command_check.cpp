@@ -113,7 +113,7 @@ void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnos
     json["solids"] = solids;
     json["leaking"] = leaking;
     json["tJunctions"] = tight;
-    addValidationJson(json, checked, diagnostics);
+    addValidationJson(json, checked);
     json["diagnostics"] = diagnosticsJson(diagnostics);
     print(json);
 }
@@ -165,15 +165,16 @@ int runCheck(const CheckArguments& arguments) {
     const auto scene = mesh::buildMeshes(*model, options, &diagnostics);
     if (!scene) return stop(scene.error());
     progress.reset();
-    const Checked checked{*model, *report, validation};
+    const Diagnostics others = diagnostics;
+    const Checked checked{*model, *report, validation, *scene, others};
     addFindings(diagnostics, checked);
     const std::string inputFile = arguments.inputs.front().string();
     if (!arguments.report.empty()) {
-        const auto written = writeFileAtomically(arguments.report, htmlReport(checked, diagnostics, inputFile));
+        const auto written = writeFileAtomically(arguments.report, htmlReport(checked, inputFile));
         if (!written) return stop(written.error());
     }
     if (arguments.format == "val3dity")
-        print(val3dityJson(checked, diagnostics, inputFile));
+        print(val3dityJson(checked, inputFile));
     else if (arguments.json || arguments.format == "json")
         printJson(checked, *scene, diagnostics);
     else

@@ -1,46 +1,74 @@
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/file_content.hpp>
 #include <apps/cli/output/messages.hpp>
-#include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/analyze/selection.hpp>
 #include <svt/volume/svt_file.hpp>
-#include <svt/writers/glb_writer.hpp>
-#include <svt/writers/nrrd_writer.hpp>
+#include <svt/volume/volume_part.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
+
+#include <vector>
 
 namespace svt::cli {
 namespace {
 
 struct ConvertArguments {
     std::filesystem::path input, output;
-    std::string encoding, faces;
+    std::string encoding, faces, select, texture, cityGml, zarr;
+    std::filesystem::path model;
+    double maxVoxels = 0;
+    std::vector<double> box;
+    int level = 0;
     BuildArguments build;
 };
+
+// What of the volume is written: a box of it, some of its labels, a level.
+Result<volume::SemanticVolume> partOf(volume::SemanticVolume volume, const ConvertArguments& arguments) {
+    if (const auto& box = arguments.box; !box.empty()) {
+        const auto samples = volume::samplesIn(volume.grid, {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
+        if (!samples) return samples.error();
+        auto cropped = volume::croppedVolume(volume, *samples);
+        if (!cropped) return cropped;
+        volume = std::move(*cropped);
+    }
+    if (!arguments.select.empty()) {
+        const auto labels = analyze::selectLabels(volume.labels, arguments.select);
+        if (!labels) return labels.error();
+        auto selected = volume::selectedVolume(volume, *labels);
+        if (!selected) return selected;
+        volume = std::move(*selected);
+    }
+    return volume::coarseVolume(volume, arguments.level, arguments.build.threads);
+}
 
 int runConvert(const ConvertArguments& arguments) {
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
+    volume = partOf(std::move(*volume), arguments);
+    if (!volume) return fail(volume.error());
     Progress::tell(progress.get(), "write", 0);
-    if (endingOf(arguments.output) == ".glb") {
-        writers::GlbOptions options;
-        options.faces = arguments.faces == "voxels" ? writers::GlbFaces::Voxels : writers::GlbFaces::Planes;
-        options.threads = arguments.build.threads;
-        options.progress = progress.get();
-        const auto report = writers::writeGlb(*volume, arguments.output, options);
-        return report ? static_cast<int>(kDone) : fail(report.error());
-    }
-    writers::NrrdOptions options;
-    options.encoding = arguments.encoding == "raw" ? writers::NrrdEncoding::Raw : writers::NrrdEncoding::Gzip;
+    writers::VolumeWriteOptions options;
+    options.isCompressed = arguments.encoding == "gzip";
+    options.faces = arguments.faces == "voxels" ? writers::GlbFaces::Voxels : writers::GlbFaces::Planes;
+    options.texture = arguments.texture == "image"      ? writers::TextureKind::Image
+                      : arguments.texture == "composed" ? writers::TextureKind::Composed
+                                                        : writers::TextureKind::Pixel;
+    options.maxVoxels = static_cast<std::uint64_t>(arguments.maxVoxels);
+    options.model = arguments.model;
+    if (options.model.empty() && contentOf(arguments.input) == FileContent::CityGml) options.model = arguments.input;
+    options.cityGmlVersion = arguments.cityGml.empty() ? 0 : arguments.cityGml.front() - '0';
+    options.zarrVersion = arguments.zarr == "3" ? 3 : 2;
     options.threads = arguments.build.threads;
     options.progress = progress.get();
-    const auto bytes = writers::writeNrrd(*volume, arguments.output, options);
-    if (!bytes) return fail(bytes.error());
-    return kDone;
+    const auto bytes = writers::writeVolume(*volume, arguments.output, options);
+    return bytes ? static_cast<int>(kDone) : fail(bytes.error());
 }
 
 }  // namespace
@@ -49,8 +77,16 @@ Action connectConvert(Command& command) {
     auto arguments = std::make_shared<ConvertArguments>();
     command.set("input", arguments->input);
     command.set("output", arguments->output);
+    command.set("--select", arguments->select);
+    command.set("--box", arguments->box);
+    command.set("--level", arguments->level);
     command.set("--encoding", arguments->encoding);
     command.set("--faces", arguments->faces);
+    command.set("--texture", arguments->texture);
+    command.set("--model", arguments->model);
+    command.set("--zarr", arguments->zarr);
+    command.set("--citygml", arguments->cityGml);
+    command.set("--max-voxels", arguments->maxVoxels);
     arguments->build.connect(command);
     return [arguments] { return runConvert(*arguments); };
 }

@@ -7,6 +7,7 @@
 #include <apps/cli/output/version.hpp>
 
 #include <svt/illustrate/scene_members.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -55,6 +56,11 @@ Json describedJson() {
         json["commands"].push_back(std::move(described));
     }
     for (const Option& member : illustrate::sceneMembers()) json["sceneMembers"].push_back(optionJson(member));
+    for (const writers::VolumeFormat& format : writers::volumeFormats())
+        json["volumeFormats"].push_back({{"name", format.name},
+                                         {"endings", splitChoices(format.endings)},
+                                         {"holds", format.holds},
+                                         {"readers", format.readers}});
     return json;
 }
 

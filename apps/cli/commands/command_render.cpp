@@ -99,6 +99,14 @@ BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene)
     return build;
 }
 
+// Tells which names are missing in a picture, and why.
+void noteNames(const illustrate::Painting::Names& names) {
+    if (names.hidden != 0) note(fmt::format("names: {} of what is not seen are left out", names.hidden));
+    if (names.withoutRoom != 0)
+        note(fmt::format("names: {} found no place; a larger --size or a narrower --names makes room",
+                         names.withoutRoom));
+}
+
 int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     const auto first = arguments.scene.toScene(0, arguments.frames);
@@ -113,8 +121,11 @@ int runRender(const RenderArguments& arguments) {
     options.threads = arguments.build.threads;
     options.progress = progress.get();
     options.isAdaptive = true;
-    Progress::tell(progress.get(), "prepare", 0);
     illustrate::ScenePainter painter(*volume, arguments.build.threads);
+    // An answer, not an error, as for `svt query`: the query is well formed, and there is no such feature.
+    std::vector<std::string> nothing;
+    painter.tolerateNothing(&nothing);
+    painter.reportTo(progress.get());
     GlDrawer gl(arguments.build.threads);
     const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
         return gl.draw(volumes, spec);
@@ -128,12 +139,14 @@ int runRender(const RenderArguments& arguments) {
         const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
         if (!painting) return fail(painting.error());
         empty += isEmpty(painting->frame);
+        if (frame == 0) noteNames(painting->names);
         if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
     }
     if (!arguments.sceneOutput.empty()) {
         const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
         if (!written) return fail(written.error());
     }
+    for (const std::string& message : nothing) note(message);
     if (empty != 0)
         note(fmt::format("nothing is visible{}: all is hidden, cut away, fully transparent or outside of the view",
                          arguments.frames == 1 ? "" : fmt::format(" in {} of {} pictures", empty, arguments.frames)));

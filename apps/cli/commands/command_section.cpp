@@ -57,7 +57,9 @@ int runSection(const SectionArguments& arguments) {
     if (!scale) return fail(scale.error());
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    const auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    BuildArguments build = arguments.build;
+    build.vectors.meshes = true;
+    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
     const auto plane = arguments.plane.empty() ? illustrate::defaultSectionPlane(*volume)
@@ -69,10 +71,17 @@ int runSection(const SectionArguments& arguments) {
     options.spaces = !arguments.noRooms;
     options.smallestArea = arguments.minArea;
     options.threads = arguments.build.threads;
+    std::vector<std::string> nothing;
+    options.nothing = &nothing;
     Progress::tell(progress.get(), "section", 0);
     const auto drawing = illustrate::drawSection(*volume, *plane, options);
     if (!drawing) return fail(drawing.error());
-    if (drawing->components.empty())
+    Diagnostics findings;
+    illustrate::reportSection(*drawing, *volume, findings);
+    printDiagnostics(findings, true);
+    for (const std::string& message : nothing) note(message);
+    if (drawing->components.empty() && !nothing.empty()) note("nothing is drawn");
+    if (drawing->components.empty() && nothing.empty())
         return fail(Error(Code::BadSection,
                           fmt::format("the plane '{}' cuts nothing that is shown; move it, or see --show, --hide, "
                                       "--no-rooms and --min-area",

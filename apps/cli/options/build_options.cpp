@@ -1,10 +1,15 @@
 #include <apps/cli/options/build_options.hpp>
 
+#include <apps/cli/output/messages.hpp>
+
+#include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
 #include <svt/volume/svt_file.hpp>
+#include <svt/volume_readers/read_label_volume.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -95,6 +100,10 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
                                 spacing, metres));
         options.spacing = *triple;
     }
+    // Half of what was granted: reading and meshing come before. What the machine has does not count, so that the same
+    // command gives the same volume everywhere.
+    if (const MemoryFigures memory = memoryFigures(); memory.limitedBy == "--memory" && memory.limitBytes)
+        options.memoryBytes = std::min(options.memoryBytes, *memory.limitBytes / 2);
     options.axes = axes == "building" ? pipeline::AxesKind::Building : pipeline::AxesKind::World;
     options.lod.lod = lod;
     options.assignThematicBodies = !noBodies;
@@ -124,6 +133,7 @@ Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, co
     stream.read(head.data(), head.size());
     const auto bytes = std::as_bytes(std::span(head).first(static_cast<std::size_t>(stream.gcount())));
     if (volume::looksLikeSvt(bytes)) return volume::readSvt(input);
+    if (volume_readers::looksLikeLabelVolume(input)) return volume_readers::readLabelVolume(input, {{}, 0, progress});
     std::optional<pipeline::StyleSheet> sheet;
     auto options = arguments.options(sheet);
     if (!options) return options.error();
@@ -131,6 +141,8 @@ Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, co
     if (grid != nullptr) options->grid = *grid;
     auto output = pipeline::buildVolume(std::span(&input, 1), *options, &diagnostics);
     if (!output) return output.error();
+    if (const auto& choice = output->report.spacing; choice && choice->spacing != pipeline::SpacingChoice::kUsual)
+        note("spacing: " + choice->reason);
     return std::move(output->volume);
 }
 

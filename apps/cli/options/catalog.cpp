@@ -1,6 +1,7 @@
 #include <apps/cli/options/catalog.hpp>
 
 #include <svt/illustrate/scene_members.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ constexpr Option kGrid[] = {
      .isForModels = true},
     {.name = "--spacing",
      .value = "M",
-     .otherwise = "400 samples along the longest side",
+     .otherwise = "0.05; coarser for large models, finer for small ones",
      .help = "distance of samples in metres, one number or three",
      .group = "Grid",
      .isForModels = true},
@@ -171,7 +172,8 @@ constexpr Option kSample[] = {
 constexpr Option kBuild[] = {
     {.name = "input",
      .value = "FILE",
-     .help = "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq",
+     .help = "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3; or one label "
+             "volume: NRRD, VTI, NIfTI, TIFF, CityGML with a volume in it",
      .isRequired = true,
      .mayRepeat = true,
      .file = FileUse::Model},
@@ -183,6 +185,11 @@ constexpr Option kBuild[] = {
      .formats = "svt"},
 };
 constexpr Option kGridOf[] = {
+    {.name = "--labels",
+     .value = "FILE",
+     .otherwise = "what the file tells, else a label per value",
+     .help = "of a label volume: a table (JSON) that says which label each value is",
+     .file = FileUse::OtherInput},
     {.name = "--grid-of",
      .value = "F.svt",
      .help = "samples where this volume has them, so that the two can be compared voxel by voxel",
@@ -191,8 +198,11 @@ constexpr Option kGridOf[] = {
 };
 constexpr Option kBuildOutput[] = {
     {.name = "--vectors",
-     .choices = "edges|meshes",
-     .help = "also keep edges, or meshes, or both (edges,meshes), to be drawn inside the volume",
+     .choices = "edges|meshes|none",
+     .byDefault = "meshes",
+     .help =
+         "edges: keep the feature edges beside the meshes, to be drawn inside the volume; none: no meshes either, so "
+         "that sections are cut from voxels",
      .group = "Output",
      .count = 2},
     {.name = "--json", .kind = Flag, .help = "print figures as JSON on stdout", .group = "Output"},
@@ -261,6 +271,7 @@ constexpr Option kRender[] = {
      .numberedBy = "--frames"},
     {.name = "--camera", .help = "where the picture is taken from", .group = "View", .member = "/camera/preset"},
     {.name = "--around", .group = "View", .member = "/camera/around"},
+    {.name = "--fit", .group = "View", .member = "/camera/fit"},
     {.name = "--ortho", .kind = Flag, .group = "View", .member = "/camera/parallel"},
     {.name = "--eye", .value = "X,Y,Z", .group = "View", .member = "/camera/eye"},
     {.name = "--target", .value = "X,Y,Z", .group = "View", .member = "/camera/target"},
@@ -315,6 +326,10 @@ constexpr Option kRender[] = {
      .member = "/passes/*/level"},
     {.name = "--shell", .group = "Illustrate", .member = "/passes/*/shell"},
     {.name = "--names", .group = "Illustrate", .member = "/names"},
+    {.name = "--color-by", .group = "Illustrate", .member = "/colorBy"},
+    {.name = "--title", .group = "Illustrate", .member = "/title"},
+    {.name = "--scale-bar", .kind = Flag, .group = "Illustrate", .member = "/scaleBar"},
+    {.name = "--north-arrow", .kind = Flag, .group = "Illustrate", .member = "/northArrow"},
     {.name = "--wireframe",
      .value = "QUERY",
      .help =
@@ -480,6 +495,9 @@ constexpr Option kQuery[] = {
 
 // shell, convert
 
+// Stands for the table writers::volumeFormats(), from which names and help are made.
+constexpr std::string_view kVolumeFormats = "volume formats";
+
 constexpr Option kFaces = {
     .name = "--faces",
     .choices = "planes|voxels",
@@ -525,14 +543,63 @@ constexpr Option kConvert[] = {
     kModelInput[0],
     {.name = "output",
      .value = "FILE",
-     .help = "file to write; the extension selects the format: .nrrd or .glb",
+     .help = kVolumeFormats,
      .isRequired = true,
      .file = FileUse::Output,
-     .formats = "nrrd|glb"},
+     .formats = kVolumeFormats},
+    {.name = "--select",
+     .value = "QUERY",
+     .help = "only the voxels of what the query selects; the rest becomes background",
+     .group = "Part"},
+    {.name = "--box",
+     .kind = Number,
+     .value = "X0,Y0,Z0,X1,Y1,Z1",
+     .unit = "metres",
+     .help = "only the samples in this box of world coordinates",
+     .group = "Part",
+     .count = 6,
+     .leastCount = 6},
+    {.name = "--level",
+     .kind = Whole,
+     .least = 0,
+     .most = 6,
+     .byDefault = "0",
+     .help = "coarser by 2^level along each axis: a cell has the label that fills most of it",
+     .group = "Part"},
     {.name = "--encoding",
      .choices = "gzip|raw",
      .byDefault = "gzip",
-     .help = "NRRD samples: gzip or raw",
+     .help = "samples of NRRD, VTI and TIFF: compressed or raw",
+     .group = "Output"},
+    {.name = "--texture",
+     .choices = "pixel|image|composed",
+     .byDefault = "pixel",
+     .help =
+         "samples of X3D and of CityGML: pixel (numbers in the document), image (an NRRD beside it) or composed (PNG "
+         "slices beside it)",
+     .group = "Output"},
+    {.name = "--model",
+     .value = "FILE",
+     .otherwise = "the input, where that is CityGML",
+     .help = "of an .ade.gml: the CityGML that the volume was built from, which is kept as it is",
+     .group = "Output",
+     .file = FileUse::OtherInput},
+    {.name = "--citygml",
+     .choices = "2.0|3.0",
+     .otherwise = "that of the model; 3.0 without one",
+     .help = "of an .ade.gml: the version of CityGML",
+     .group = "Output"},
+    {.name = "--zarr",
+     .choices = "2|3",
+     .byDefault = "2",
+     .help = "of a .zarr: 2 (OME-NGFF 0.4) or 3 (OME-NGFF 0.5, sharded)",
+     .group = "Output"},
+    {.name = "--max-voxels",
+     .kind = Whole,
+     .least = 1,
+     .most = 1e12,
+     .byDefault = "16777216",
+     .help = "most samples that a document is to hold as numbers",
      .group = "Output"},
     kFaces,
 };
@@ -622,6 +689,27 @@ constexpr Option kDescribe[] = {
     {.name = "command", .otherwise = "the page of svt itself", .help = "with man: the command whose page is printed"},
 };
 
+// "nrrd|glb|..."; kept for the time of the program, as options refer to it.
+std::string_view volumeFormatNames() {
+    static const std::string kNames = [] {
+        std::string names;
+        for (const writers::VolumeFormat& format : writers::volumeFormats())
+            names += fmt::format("{}{}", names.empty() ? "" : "|", format.name);
+        return names;
+    }();
+    return kNames;
+}
+
+std::string_view volumeFormatHelp() {
+    static const std::string kHelp = [] {
+        std::vector<std::string_view> endings;
+        for (const writers::VolumeFormat& format : writers::volumeFormats())
+            for (const std::string_view ending : splitChoices(format.endings)) endings.push_back(ending);
+        return fmt::format("file to write; the extension selects the format: {}", fmt::join(endings, ", "));
+    }();
+    return kHelp;
+}
+
 }  // namespace
 
 std::span<const CommandText> commandTexts() {
@@ -683,6 +771,10 @@ std::vector<Option> optionsOf(const CommandText& command) {
                 option.count = member.count;
                 option.leastCount = member.leastCount;
                 option.mayRepeat = member.mayRepeat;
+            }
+            if (option.formats == kVolumeFormats) {
+                option.formats = volumeFormatNames();
+                option.help = volumeFormatHelp();
             }
             options.push_back(option);
         }

@@ -192,6 +192,9 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (look) scene.look = *illustrate::lookFromName(*look);
     if (camera) scene.camera.preset = *camera;
     if (!around.empty()) scene.camera.around = around;
+    if (fit) scene.camera.fit = *fit == "all" ? illustrate::Fit::All : illustrate::Fit::Visible;
+    // A series is seen by one camera, whatever each of its pictures shows.
+    if (!fit && frames > 1) scene.camera.fit = illustrate::Fit::All;
     if (isParallel) scene.camera.isParallel = true;
     if (fov) scene.camera.fieldOfView = *fov;
     if (zoom) scene.camera.zoom = *zoom;
@@ -209,6 +212,10 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (cutWidth) scene.cutWidth = narrow(*cutWidth);
     if (hasHatches) scene.hasHatches = true;
     if (hatchSpacing) scene.hatchSpacing = hatchSpacing;
+    if (!title.empty()) scene.title = title;
+    if (hasScaleBar) scene.hasScaleBar = true;
+    if (hasNorthArrow) scene.hasNorthArrow = true;
+    if (!colorBy.empty()) scene.colorBy = colorBy;
     scene.names.insert(scene.names.end(), names.begin(), names.end());
     if (auto added = addPass(*this, frame, frames, scene); !added) return added.error();
     return scene;
@@ -218,6 +225,7 @@ void SceneArguments::connect(Command& command) {
     dpiByDefault = std::atoi(std::string(command.byDefault("--dpi")).c_str());
     command.set("--camera", camera);
     command.set("--around", around);
+    command.set("--fit", fit);
     command.set("--ortho", isParallel);
     command.set("--eye", eye);
     command.set("--target", target);
@@ -236,6 +244,10 @@ void SceneArguments::connect(Command& command) {
     command.set("--context-level", contextLevel);
     command.set("--shell", shell);
     command.set("--names", names);
+    command.set("--color-by", colorBy);
+    command.set("--title", title);
+    command.set("--scale-bar", hasScaleBar);
+    command.set("--north-arrow", hasNorthArrow);
     command.set("--wireframe", wireframe);
     command.set("--hidden-lines", hiddenLines);
     command.set("--wire-width", wireWidth);

@@ -16,10 +16,11 @@ namespace svt::cli {
 /// Options not given are taken from the scene file, or else from the scene's defaults.
 struct SceneArguments {
     std::filesystem::path sceneFile;
-    std::optional<std::string> camera, size, background, look;
+    std::optional<std::string> camera, fit, size, background, look;
     std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes;
     std::optional<std::string> wireframe, wireColor;
-    std::string hiddenLines;
+    std::string hiddenLines, colorBy, title;
+    bool hasScaleBar = false, hasNorthArrow = false;
     std::optional<double> wireWidth;
     std::string cut, keep, lens, cutaway, around, context, shell;
     std::vector<double> eye, target;

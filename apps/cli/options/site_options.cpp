@@ -127,7 +127,7 @@ Result<fs::path> SiteArguments::viewerFolder() const { return findViewerFolder(v
 
 Result<std::vector<serve::SiteModel>> SiteArguments::load(const std::vector<fs::path>& inputs) const {
     BuildArguments withEdges = build;
-    withEdges.vectors.edges = true;
+    withEdges.vectors = {.edges = true, .meshes = true, .isRequired = false};
     const std::vector<std::string> names = serve::uniqueNames(inputs);
     std::vector<serve::SiteModel> models;
     for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -1,12 +1,16 @@
 #include <apps/cli/output/file_content.hpp>
 
+#include <svt/core/check.hpp>
 #include <svt/volume/svt_file.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace svt::cli {
 namespace {
@@ -16,8 +20,6 @@ constexpr std::size_t kHeadBytes = 4096;
 constexpr FileFormat kFormats[] = {
     {"png", ".png", FileContent::Png},
     {"svt", ".svt", FileContent::Volume},
-    {"glb", ".glb", FileContent::Gltf},
-    {"nrrd", ".nrrd", FileContent::Nrrd},
     {"svg", ".svg", FileContent::Svg},
     {"dxf", ".dxf", FileContent::Dxf},
     {"geojson", ".geojson", FileContent::GeoJson},
@@ -30,11 +32,37 @@ constexpr FileFormat kFormats[] = {
     {"cityjsonseq", ".jsonl", FileContent::CityJson},
 };
 
+// What the formats of volumes take the place of: writers::volumeFormats() has their names and endings.
+constexpr std::pair<std::string_view, FileContent> kVolumeContents[] = {
+    {"nrrd", FileContent::Nrrd},    {"glb", FileContent::Gltf},
+    {"segnrrd", FileContent::Nrrd}, {"vti", FileContent::Vtk},
+    {"nifti", FileContent::Nifti},  {"niftigz", FileContent::Gzip},
+    {"tiff", FileContent::Tiff},    {"ometiff", FileContent::Tiff},
+    {"objects", FileContent::Text}, {"contacts", FileContent::Text},
+    {"x3d", FileContent::X3d},      {"ade", FileContent::CityGml},
+    {"zarr", FileContent::Nothing}, {"precomputed", FileContent::Nothing},
+    {"obj", FileContent::Text},     {"ply", FileContent::Ply},
+    {"stl", FileContent::Unknown},
+};
+
+std::vector<FileFormat> volumeFileFormats() {
+    std::vector<FileFormat> formats;
+    for (const writers::VolumeFormat& format : writers::volumeFormats()) {
+        const auto* content = std::find_if(std::begin(kVolumeContents), std::end(kVolumeContents),
+                                           [&](const auto& known) { return known.first == format.name; });
+        SVT_CHECK(content != std::end(kVolumeContents));
+        formats.push_back({format.name, format.endings, content->second});
+    }
+    return formats;
+}
+
 bool has(std::string_view text, std::string_view word) { return text.find(word) != std::string_view::npos; }
 
 FileContent contentOfXml(std::string_view text) {
     if (has(text, "<html") || has(text, "<!DOCTYPE html")) return FileContent::Html;
     if (has(text, "<svg") || has(text, ":svg")) return FileContent::Svg;
+    if (has(text, "<VTKFile")) return FileContent::Vtk;
+    if (has(text, "<X3D")) return FileContent::X3d;
     return has(text, "CityModel") ? FileContent::CityGml : FileContent::Xml;
 }
 
@@ -71,6 +99,10 @@ FileContent contentOf(std::string_view head) {
     if (head.starts_with("\x1f\x8b"sv)) return FileContent::Gzip;
     if (head.starts_with("glTF"sv)) return FileContent::Gltf;
     if (head.starts_with("NRRD000"sv)) return FileContent::Nrrd;
+    if (head.starts_with("ply\n"sv)) return FileContent::Ply;
+    if (head.starts_with("II*\0"sv) || head.starts_with("II+\0"sv) || head.starts_with("MM\0"sv))
+        return FileContent::Tiff;
+    if (head.starts_with("\x5c\1\0\0"sv) || head.starts_with("\x1c\2\0\0n+2"sv)) return FileContent::Nifti;
     std::string plain;
     if (head.starts_with("\xff\xfe"sv) || head.starts_with("\xfe\xff"sv)) {
         // UTF-16: what is looked for is ASCII.
@@ -103,6 +135,11 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Gzip: return "a gzip file";
         case FileContent::Gltf: return "a glTF (.glb)";
         case FileContent::Nrrd: return "an NRRD";
+        case FileContent::Vtk: return "a file of VTK";
+        case FileContent::X3d: return "an X3D scene";
+        case FileContent::Ply: return "a PLY";
+        case FileContent::Nifti: return "a NIfTI";
+        case FileContent::Tiff: return "a TIFF";
         case FileContent::Svg: return "an SVG drawing";
         case FileContent::Html: return "an HTML page";
         case FileContent::CityGml: return "a CityGML model";
@@ -118,7 +155,10 @@ std::string_view contentName(FileContent content) noexcept {
     return "of another kind";
 }
 
-const FileFormat* formatOfName(std::string_view name) noexcept {
+const FileFormat* formatOfName(std::string_view name) {
+    static const std::vector<FileFormat> kOfVolumes = volumeFileFormats();
+    if (const auto volume = std::ranges::find(kOfVolumes, name, &FileFormat::name); volume != kOfVolumes.end())
+        return &*volume;
     const auto* found = std::ranges::find(kFormats, name, &FileFormat::name);
     return found == std::end(kFormats) ? nullptr : found;
 }

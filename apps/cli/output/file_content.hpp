@@ -17,6 +17,11 @@ enum class FileContent : std::uint8_t {
     Gzip,
     Gltf,
     Nrrd,
+    Vtk,  ///< XML of VTK
+    X3d,
+    Ply,
+    Nifti,
+    Tiff,
     Svg,
     Html,
     CityGml,
@@ -47,6 +52,6 @@ struct FileFormat {
 };
 
 /// The format of that name; null: there is none.
-[[nodiscard]] const FileFormat* formatOfName(std::string_view name) noexcept;
+[[nodiscard]] const FileFormat* formatOfName(std::string_view name);
 
 }  // namespace svt::cli

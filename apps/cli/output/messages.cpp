@@ -69,13 +69,15 @@ void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose) {
     TerminalProgress::hide();
     for (const Diagnostic& item : diagnostics.items()) {
         if (isQuiet() && item.severity != Severity::Error) continue;
-        if (!isVerbose && (item.severity == Severity::Note || shown == kShown)) continue;
-        ++shown;
+        // How much of a model was read is told in any case.
+        const bool isSummary = item.code == Code::ProductsRead;
+        if (!isVerbose && !isSummary && (item.severity == Severity::Note || shown == kShown)) continue;
+        if (!isSummary) ++shown;
         fmt::print(stderr, "svt: {}\n", item.toString());
     }
     if (isQuiet()) return;
     const std::size_t serious = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
-    const std::size_t notes = diagnostics.count(Severity::Note);
+    const std::size_t notes = diagnostics.count(Severity::Note) - diagnostics.count(Code::ProductsRead);
     if (!isVerbose && serious > std::size_t(shown))
         fmt::print(stderr, "svt: {} more warnings; --verbose shows them\n", serious - std::size_t(shown));
     if (!isVerbose && notes != 0) fmt::print(stderr, "svt: {} notes; --verbose shows them\n", notes);

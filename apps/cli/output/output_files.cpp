@@ -102,12 +102,18 @@ bool isInside(const fs::path& path, const fs::path& folder) {
            std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first == root.end();
 }
 
-Result<void> checkEnding(const OutputFile& output, bool mayChooseFormat) {
-    if (output.formats.empty()) return {};
+// The endings of all formats of an output.
+std::vector<std::string_view> endingsOf(const OutputFile& output) {
     std::vector<std::string_view> endings;
     for (const FileFormat* format : output.formats)
         for (const std::string_view ending : splitChoices(format->endings)) endings.push_back(ending);
-    const std::string ending = endingOf(output.path);
+    return endings;
+}
+
+Result<void> checkEnding(const OutputFile& output, bool mayChooseFormat) {
+    if (output.formats.empty()) return {};
+    const std::vector<std::string_view> endings = endingsOf(output);
+    const std::string ending = endingOf(output.path, endings);
     // A single format needs no ending to tell it.
     if (std::ranges::find(endings, ending) != endings.end() || (ending.empty() && output.formats.size() == 1))
         return {};
@@ -151,7 +157,7 @@ Result<void> checkMeetings(const std::vector<Input>& inputs, const std::vector<O
 Result<void> checkContent(const OutputFile& output) {
     if (!isRegular(output.path)) return {};
     const FileContent content = contentOf(output.path);
-    const std::string ending = endingOf(output.path);
+    const std::string ending = endingOf(output.path, endingsOf(output));
     if (content == FileContent::Nothing || output.formats.empty()) return {};
     std::string_view wanted;
     for (const FileFormat* format : output.formats) {
@@ -197,6 +203,14 @@ Result<void> checkMeaning(std::span<const GivenOption> given, const std::vector<
 }  // namespace
 
 std::string endingOf(const fs::path& file) { return lowerAscii(file.extension().string()); }
+
+std::string endingOf(const fs::path& file, std::span<const std::string_view> endings) {
+    const std::string name = lowerAscii(file.filename().string());
+    std::string_view longest;
+    for (const std::string_view ending : endings)
+        if (ending.size() > longest.size() && name.size() > ending.size() && name.ends_with(ending)) longest = ending;
+    return longest.empty() ? endingOf(file) : std::string(longest);
+}
 
 fs::path numberedFile(const fs::path& file, int number, int count) {
     if (count == 1 || file.empty()) return file;

@@ -34,6 +34,10 @@ struct GivenOption {
 /// The ending of a file's name in lower case, with its dot: ".png"; empty if it has none.
 [[nodiscard]] std::string endingOf(const std::filesystem::path& file);
 
+/// The longest of `endings` that the file's name has behind some other character, in any case: ".nii.gz"; where there is
+/// none, endingOf() of the file alone.
+[[nodiscard]] std::string endingOf(const std::filesystem::path& file, std::span<const std::string_view> endings);
+
 /// Number `number` of `count` files: P.png -> P_0007.png; the file itself if there is one, or `file` is empty.
 [[nodiscard]] std::filesystem::path numberedFile(const std::filesystem::path& file, int number, int count);
 

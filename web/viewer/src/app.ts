@@ -134,7 +134,7 @@ export class App extends Part {
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
       </main>
       <div class="visually-hidden" role="status" aria-live="polite" id="said">${this.spoken}</div>
-      <input type="file" id="file" hidden accept=".svt,.gml,.xml,.json,.citygml,.cityjson" aria-label=${t("openHint")} @change=${this.chosen} />
+      <input type="file" id="file" hidden accept=".svt,.gml,.xml,.json,.citygml,.cityjson,.ifc" aria-label=${t("openHint")} @change=${this.chosen} />
       <svt-help .session=${session}></svt-help>
     `;
   }

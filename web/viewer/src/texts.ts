@@ -11,8 +11,8 @@ const kTexts = {
   model: ["Model", "Modell"],
   dropTitle: ["Drop a building here", "Ein Gebäude hierher ziehen"],
   dropText: [
-    "A volume (.svt), CityGML (.gml) or CityJSON (.json). It stays on this computer.",
-    "Ein Volumen (.svt), CityGML (.gml) oder CityJSON (.json). Es bleibt auf diesem Rechner.",
+    "A volume (.svt), CityGML (.gml), CityJSON (.json) or IFC (.ifc). It stays on this computer.",
+    "Ein Volumen (.svt), CityGML (.gml), CityJSON (.json) oder IFC (.ifc). Es bleibt auf diesem Rechner.",
   ],
   dropNow: ["Drop to open", "Loslassen zum Öffnen"],
   choose: ["Choose a file", "Datei wählen"],
@@ -273,7 +273,8 @@ export const kGermanHelp = {
   "parallel projection": "Parallelprojektion",
   "vertical field of view": "senkrechter Blickwinkel",
   "hatch what is cut, by material or class": "schraffiert, was geschnitten ist, nach Material oder Klasse",
-  "name the selected at the sides of the picture, with leader lines": "benennt die Auswahl an den Seiten des Bildes, mit Hinweislinien",
+  "name what is seen of the selected: inside it where the text fits, else at the sides of the picture, with leader lines":
+    "benennt, was von der Auswahl zu sehen ist: darin, wo der Text passt, sonst an den Seiten des Bildes, mit Hinweislinien",
   "#rrggbb, #rgb or a colour name": "#rrggbb, #rgb oder ein englischer Farbname",
   "share of light stopped by 1 m; 1: solid, 0: hidden": "Anteil des Lichts, den 1 m aufhält; 1: undurchsichtig, 0: verborgen",
   "draw only the hulls of components, rooms, units, storeys or the building":
