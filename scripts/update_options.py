@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
-docs/formats/scene.schema.json, and web/viewer/src/generated/scene_members.ts, from which the viewer page has the
+the table of formats in docs/user/convert.md, docs/formats/scene.schema.json, and web/viewer/src/generated/scene_members.ts, from which the viewer page has the
 ranges, choices, defaults and help of its controls.
 
     scripts/update_options.py [--svt build/release/bin/svt] [--check]
@@ -17,6 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BEGIN, END = "<!-- BEGIN options -->", "<!-- END options -->"
+FORMATS_BEGIN, FORMATS_END = "<!-- BEGIN formats -->", "<!-- END formats -->"
 PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
 PAGE_MEMBERS_BEGIN = """\
 /**
@@ -83,11 +84,19 @@ def options_table(command: dict) -> str:
     return "\n".join(lines[1:])
 
 
-def page_with(page: str, table: str, name: str) -> str:
-    begin, end = page.find(BEGIN), page.find(END)
+def formats_table(formats: list[dict]) -> str:
+    lines = ["| extension | format | who reads it |", "|---|---|---|"]
+    for row in formats:
+        endings = ", ".join(f"`{ending}`" for ending in row["endings"])
+        lines.append(f"| {endings} | {row['holds']} | {row['readers']} |")
+    return "\n".join(lines)
+
+
+def page_with(page: str, table: str, name: str, first: str = BEGIN, last: str = END) -> str:
+    begin, end = page.find(first), page.find(last)
     if begin < 0 or end < begin:
-        sys.exit(f"{name}: needs the lines '{BEGIN}' and '{END}'")
-    return page[: begin + len(BEGIN)] + "\n" + table + "\n" + page[end:]
+        sys.exit(f"{name}: needs the lines '{first}' and '{last}'")
+    return page[: begin + len(first)] + "\n" + table + "\n" + page[end:]
 
 
 def plain_number(value: float):
@@ -201,6 +210,9 @@ def main() -> int:
             print(f"{path.relative_to(ROOT)}: missing, the page of svt {command['name']}", file=sys.stderr)
             return 1
         wanted[path] = page_with(path.read_text(encoding="utf-8"), options_table(command), path.name)
+        if command["name"] == "convert":
+            formats = formats_table(described["volumeFormats"])
+            wanted[path] = page_with(wanted[path], formats, path.name, FORMATS_BEGIN, FORMATS_END)
     stale = 0
     for path, new in wanted.items():
         old = path.read_text(encoding="utf-8") if path.exists() else ""

@@ -34,8 +34,8 @@ protected:
 
 TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
     const json built = build();
-    EXPECT_EQ(keysOf(built), (Keys{"bytes", "closures", "dimension", "objects", "open", "overlaps", "seconds",
-                                   "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
+    EXPECT_EQ(keysOf(built), (Keys{"bytes", "chosenSpacing", "closures", "dimension", "objects", "open", "overlaps",
+                                   "seconds", "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
     EXPECT_EQ(keysOf(built["seconds"]), (Keys{"mesh", "pack", "read", "total", "voxelize", "write"}));
     EXPECT_EQ(keysOf(built["bytes"]), (Keys{"file", "memory"}));
     EXPECT_EQ(built["objects"], 2);

@@ -94,8 +94,8 @@ TEST_F(Check, ReportsAsVal3dityDoes) {
     const json report = result.json();
     EXPECT_EQ(keysOf(report),
               (std::vector<std::string>{"all_errors", "dataset_errors", "features", "features_overview", "input_file",
-                                        "input_file_type", "parameters", "primitives_overview", "time", "type",
-                                        "val3dity_version", "validity"}));
+                                        "input_file_type", "other_counts", "other_findings", "parameters",
+                                        "primitives_overview", "time", "type", "val3dity_version", "validity"}));
     EXPECT_EQ(report["type"], "val3dity_report");
     EXPECT_EQ(report["input_file_type"], "CityJSON");
     EXPECT_EQ(report["validity"], false);
@@ -140,6 +140,43 @@ TEST_F(Check, ThePageShowsEachDefectAndLoadsNothing) {
     EXPECT_EQ(pictures, 4u) << "two of each defect: the whole, and from near";
     for (const char* foreign : {"http:", "https:", "src=", "<script", "@import", "url("})
         EXPECT_EQ(page.find(foreign), std::string::npos) << foreign;
+}
+
+// A box without its top, twice with one id, and a child that is not there.
+json openAndDangling() {
+    json shell = boxShell(0);
+    shell.erase(shell.begin() + 1);
+    json model = cityJson("Solid", json::array({shell}), {corners(0, 0, 0, 9)});
+    model["CityObjects"]["b"]["children"] = {"missing"};
+    return model;
+}
+
+TEST_F(Check, ThePageHasWhatReadingAndClosingFoundByKindAndPlace) {
+    const CommandResult result = check(openAndDangling(), {"--report", "r.html"});
+    EXPECT_EQ(result.exitCode, 4) << result.toString();
+    const std::string page = readText(folder / "r.html");
+    for (const char* expected :
+         {"<td><a href=\"#E110\">E110</a></td><td>DanglingReference</td>", "<h2 id=\"E110\">",
+          "<td><a href=\"#E209\">E209</a></td><td>ShellCapped</td>", "<h2 id=\"E209\">", "<h2 id=\"E207\">",
+          "closed with 1 planar caps", "<td>Building</td><td><code>b</code></td>", "Reading or closing found defects"})
+        EXPECT_NE(page.find(expected), std::string::npos) << expected;
+    // What stderr lists stands in the page.
+    for (const char* code : {"E110", "E207", "E209"})
+        EXPECT_NE(result.err.find(code), std::string::npos) << code << "\n" << result.err;
+    std::size_t pictures = 0;
+    for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++pictures;
+    EXPECT_EQ(pictures, 4u) << "of the shell that is open, and of the cap that closes it";
+}
+
+TEST_F(Check, Val3ditysReportHasWhatReadingAndClosingFoundBesideIt) {
+    const json report = check(openAndDangling(), {"--format", "val3dity"}).json();
+    EXPECT_EQ(report["all_errors"], json::parse("[302]"));
+    EXPECT_EQ(report["other_counts"], json::parse(R"({"E110":1,"E209":1})"));
+    ASSERT_EQ(report["other_findings"].size(), 2u);
+    EXPECT_EQ(report["other_findings"][0]["name"], "DanglingReference");
+    EXPECT_EQ(report["other_findings"][1]["code"], "E209");
+    EXPECT_EQ(report["other_findings"][1]["feature"], "b");
+    EXPECT_EQ(report["other_findings"][1]["severity"], "warning");
 }
 
 TEST_F(Check, APageThatCannotBeWrittenIsAnError) {

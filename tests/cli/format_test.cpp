@@ -58,7 +58,7 @@ protected:
         // Parts thinner than a voxel compete by id, and ids of surfaces differ between formats. No coordinate of the
         // house is a multiple of the spacing: a sample exactly on a face may fall to either side of furniture that the
         // formats place differently.
-        return readDense(folder, build(folder, file, "0.0973", {"--no-thin"}));
+        return readDense(folder, build(folder, file, "0.0967", {"--no-thin"}));
     }
     TemporaryFolder folder;
 };

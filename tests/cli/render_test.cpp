@@ -217,6 +217,7 @@ TEST_F(SmallHouse, LinesAndMeshesOfTheModelAreThoseOfItsVolume) {
 }
 
 TEST_F(SmallHouse, WithoutLinesAndMeshesTheRemedyIsNamed) {
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "none"});
     for (const auto& [option, query, what] : {std::tuple("--wireframe", "all", "--vectors edges"),
                                               std::tuple("--vectors", "size<0.5", "--vectors meshes")}) {
         const CommandResult result = runSvt(folder.path(), {"render", "house.svt", "-o", "p.png", option, query});

@@ -1,0 +1,331 @@
+// `svt convert`: what other programs read of it, parts of volumes, wrong names.
+#include "run_command.hpp"
+#include "small_model.hpp"
+
+#include <svt/writers/volume_formats.hpp>
+
+#include <cstdlib>
+
+namespace svt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Three boxes of which no turn or mirror image looks like the whole, with names that are hard to write:
+///
+///     z |   c           a  along x, 7 x 2 x 1 m
+///       |   c           b  along y at its far end, 2 x 3 x 1 m
+///       | a a a a b     c  upwards at its near end, 1 x 2 x 4 m
+///       +-----------
+std::string unlikeBoxes() {
+    const auto box = [](double x0, double y0, double z0, double x1, double y1, double z1) {
+        return solid(boxFaces(500000 + x0, 5400000 + y0, 100 + z0, 500000 + x1, 5400000 + y1, 100 + z1));
+    };
+    return cityModel(building("a", box(0, 0, 0, 7, 2, 1), "<gml:name>K\u00fcche &amp; \"Bad\"</gml:name>") +
+                     building("b", box(5, 2, 0, 7, 5, 1)) + building("c", box(0, 0, 1, 1, 2, 5)));
+}
+
+class Convert : public ::testing::Test {
+protected:
+    void SetUp() override {
+        writeText(folder / "boxes.gml", unlikeBoxes());
+        runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "boxes.svt", "--spacing", "0.11,0.13,0.17"});
+        runSvtWell(folder.path(), {"convert", "boxes.svt", "reference.nrrd", "--encoding", "raw"});
+    }
+
+    /// Runs tests/scripts/read_volume.py; false where the reader is not installed.
+    bool isSameFor(const std::string& reader, const std::string& file, const std::string& reference = "reference.nrrd",
+                   const std::string& scale = "1") {
+        // The system's own interpreter: the readers are packages of the system.
+        const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+        const std::string command = "cd '" + folder.path().string() + "' && " + python +
+                                    " " SVT_SOURCE_DIR "/tests/scripts/read_volume.py " + reader + " " + file + " " +
+                                    reference + " " + scale + " > output.txt 2>&1";
+        const int status = std::system(command.c_str());
+        said = readText(folder / "output.txt");
+        if (WEXITSTATUS(status) == 77) return false;
+        EXPECT_EQ(status, 0) << file << ":\n" << said;
+        return true;
+    }
+
+    /// Writes `file` compressed and raw, each read by `reader` with equal samples at equal places.
+    void expectRead(const std::string& reader, const std::string& file, const std::string& scale = "1") {
+        for (const char* encoding : {"gzip", "raw"}) {
+            runSvtWell(folder.path(), {"convert", "boxes.svt", file, "--encoding", encoding});
+            if (!isSameFor(reader, file, "reference.nrrd", scale)) GTEST_SKIP() << said;
+        }
+    }
+
+    TemporaryFolder folder;
+    std::string said;
+};
+
+TEST_F(Convert, SegmentationHasTheSamplesInMillimetres) { expectRead("nrrd", "boxes.seg.nrrd", "1000"); }
+
+TEST_F(Convert, SegmentationHasTheKeysOfSlicer) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.seg.nrrd"});
+    const std::string text = readText(folder / "boxes.seg.nrrd");
+    const std::string header = text.substr(0, text.find("\n\n"));
+    for (const char* line :
+         {"\nspace: right-anterior-superior\n", "\nSegment0_ID:=a\n", "\nSegment0_Name:=K\u00fcche & \"Bad\"\n",
+          "\nSegment0_LabelValue:=1\n", "\nSegment1_ID:=b\n", "\nSegment2_LabelValue:=3\n", "\nSegment0_Layer:=0\n",
+          "\nSegment0_SVT_Class:=Building\n", "\nSegmentation_SourceRepresentation:=Binary labelmap\n"})
+        EXPECT_NE(header.find(line), std::string::npos) << line << header.substr(0, 2000);
+    EXPECT_EQ(header.find("\nSegment3_"), std::string::npos);
+    // Box c: i from 0 to 9 or so (1 m by 0.11), above a.
+    const std::size_t extent = header.find("\nSegment2_Extent:=");
+    ASSERT_NE(extent, std::string::npos);
+    int box[6] = {};
+    ASSERT_EQ(std::sscanf(header.c_str() + extent + 18, "%d %d %d %d %d %d", box, box + 1, box + 2, box + 3, box + 4,
+                          box + 5),
+              6);
+    EXPECT_NEAR(box[1] - box[0], 1 / 0.11, 1.5);
+    EXPECT_NEAR(box[3] - box[2], 2 / 0.13, 1.5);
+    EXPECT_NEAR(box[5] - box[4], 4 / 0.17, 2.5);
+}
+
+TEST_F(Convert, VtkReadsImageData) {
+    expectRead("vti", "boxes.vti");
+    if (IsSkipped()) return;
+    EXPECT_NE(said.find("label_id ['a', 'b', 'c']"), std::string::npos) << said;
+    EXPECT_NE(said.find("label_name ['K\u00fcche & \"Bad\"', '', '']"), std::string::npos) << said;
+    EXPECT_NE(said.find("label_first [1, 2, 3]"), std::string::npos) << said;
+}
+
+TEST_F(Convert, VtkReadsNrrd) {
+    if (!isSameFor("vtknrrd", "reference.nrrd")) GTEST_SKIP() << said;
+}
+
+TEST_F(Convert, NibabelReadsNifti) {
+    expectRead("nifti", "boxes.nii");
+    if (IsSkipped()) return;
+    EXPECT_NE(said.find("Nifti2Image"), std::string::npos) << "coordinates of millions of metres: " << said;
+    expectRead("nifti", "boxes.nii.gz");
+}
+
+TEST_F(Convert, NearTheOriginNiftiIsVersion1) {
+    std::string model = unlikeBoxes();
+    for (const auto& [far, near] :
+         {std::pair<std::string, std::string>{"50000", "0"}, {"540000", "1"}, {"10000", "10"}})
+        for (std::size_t at = 0; (at = model.find(far, at)) != std::string::npos;) model.replace(at, far.size(), near);
+    writeText(folder / "near.gml", model);
+    runSvtWell(folder.path(), {"build", "near.gml", "-o", "near.svt", "--spacing", "0.11,0.13,0.17"});
+    runSvtWell(folder.path(), {"convert", "near.svt", "near.nrrd", "--encoding", "raw"});
+    runSvtWell(folder.path(), {"convert", "near.svt", "near.nii"});
+    EXPECT_EQ(readText(folder / "near.nii").substr(344, 4), std::string("n+1\0", 4));
+    if (!isSameFor("nifti", "near.nii", "near.nrrd")) GTEST_SKIP() << said;
+    EXPECT_NE(said.find("Nifti1Image"), std::string::npos) << said;
+}
+
+TEST_F(Convert, TifffileReadsStacks) {
+    expectRead("tiff", "boxes.tif");
+    expectRead("tiff", "boxes.ome.tif");
+}
+
+TEST_F(Convert, ZarrPythonReadsVersion2) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.zarr"});
+    if (!isSameFor("zarr", "boxes.zarr")) GTEST_SKIP() << said;
+    EXPECT_NE(said.find("['a', 'b', 'c']"), std::string::npos) << said;
+}
+
+TEST_F(Convert, VtkReadsTriangles) {
+    for (const char* file : {"boxes.ply", "boxes.stl", "boxes.obj"}) {
+        runSvtWell(folder.path(), {"convert", "boxes.svt", file, "--faces", "voxels"});
+        if (!isSameFor("mesh", file)) GTEST_SKIP() << said;
+    }
+    const std::string obj = readText(folder / "boxes.obj");
+    EXPECT_NE(obj.find("\nmtllib boxes.mtl\no a\ng Building\nusemtl label_0\nv "), std::string::npos);
+    EXPECT_NE(readText(folder / "boxes.mtl").find("newmtl label_2\n"), std::string::npos);
+    // One of them alone.
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "c.obj", "--select", "id=c"});
+    EXPECT_EQ(readText(folder / "c.obj").find("\no a\n"), std::string::npos);
+    writeText(folder / "d.mtl", "a letter");
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "d.obj"}).exitCode, 5);
+    EXPECT_EQ(readText(folder / "d.mtl"), "a letter");
+}
+
+TEST_F(Convert, GdalReadsStacks) { expectRead("gdal", "boxes.tif"); }
+
+TEST_F(Convert, TurnedGridsKeepTheirPlace) {
+    // The sample model turned by 30 degrees, on axes along its walls.
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml", "--turn", "30"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "boxes.svt", "--spacing", "0.31,0.26,0.2", "--axes",
+                               "building", "--patterns"});
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "reference.nrrd", "--encoding", "raw"});
+    for (const auto& [reader, file] : {std::pair{"vti", "boxes.vti"}, {"nifti", "boxes.nii"}, {"tiff", "boxes.tif"}}) {
+        runSvtWell(folder.path(), {"convert", "boxes.svt", file});
+        isSameFor(reader, file);
+    }
+}
+
+TEST_F(Convert, PartsOfAVolumeAreWrittenAlone) {
+    // Box c alone, by query and by its place.
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "c.nrrd", "--encoding", "raw", "--select", "id=c"});
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "top.nrrd", "--encoding", "raw", "--box",
+                               "499999,5399999,101.2,500009,5400009,110"});
+    const std::string all = readText(folder / "reference.nrrd"), c = readText(folder / "c.nrrd"),
+                      top = readText(folder / "top.nrrd");
+    const auto countOf = [](const std::string& text, char scalar) {
+        return std::count(text.begin() + static_cast<std::ptrdiff_t>(text.find("\n\n") + 2), text.end(), scalar);
+    };
+    EXPECT_GT(countOf(all, 1), 0);
+    EXPECT_EQ(countOf(c, 1), 0);
+    EXPECT_EQ(countOf(c, 3), countOf(all, 3));
+    EXPECT_EQ(countOf(top, 1) + countOf(top, 2), 0);
+    EXPECT_GT(countOf(top, 3), countOf(all, 3) / 2);
+    EXPECT_LT(top.size(), all.size());
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "coarse.nrrd", "--encoding", "raw", "--level", "1"});
+    EXPECT_NEAR(double(countOf(readText(folder / "coarse.nrrd"), 1)) * 8, double(countOf(all, 1)),
+                0.5 * double(countOf(all, 1)));
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "x.nrrd", "--box", "0,0,0,1,1,1"}).exitCode, 2)
+        << "no sample lies there";
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "x.nrrd", "--level", "9"}).exitCode, 2);
+    EXPECT_FALSE(fs::exists(folder / "x.nrrd"));
+}
+
+TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
+    for (const writers::VolumeFormat& format : writers::volumeFormats()) {
+        const std::string ending(format.endings.substr(0, format.endings.find('|')));
+        runSvtWell(folder.path(), {"convert", "boxes.svt", "one" + ending, "--threads", "1"});
+        runSvtWell(folder.path(), {"convert", "boxes.svt", "two" + ending, "--threads", "3"});
+        if (fs::is_directory(folder / ("one" + ending))) {
+            for (const auto& file : fs::recursive_directory_iterator(folder / ("one" + ending))) {
+                if (!file.is_regular_file()) continue;
+                const fs::path other = folder / ("two" + ending) / fs::relative(file.path(), folder / ("one" + ending));
+                EXPECT_TRUE(readText(file.path()) == readText(other)) << other;
+            }
+            EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "one" + ending}).exitCode, 5) << "never replaced";
+            continue;
+        }
+        std::string two = readText(folder / ("two" + ending));
+        // An OBJ names the file of its colours.
+        if (const std::size_t name = two.find("two.mtl"); name != std::string::npos) two.replace(name, 3, "one");
+        EXPECT_TRUE(readText(folder / ("one" + ending)) == two) << format.name;
+        EXPECT_FALSE(readText(folder / ("one" + ending)).empty()) << format.name;
+        // What is there is replaced by its like alone.
+        runSvtWell(folder.path(), {"convert", "boxes.svt", "one" + ending});
+        writeText(folder / ("other" + ending), "\x89PNG\r\n\x1a\n");
+        EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "other" + ending}).exitCode, 5) << format.name;
+    }
+}
+
+/// The schemas of the extension with the imports that they need in `data`, and a driver of all modules of CityGML.
+bool writeSchemas(const fs::path& folder, const fs::path& data, const std::string& version) {
+    const fs::path schemas = data / "schemas";
+    if (!fs::exists(schemas / "all_citygml.xsd")) return false;
+    std::string ade = readText(fs::path(SVT_SOURCE_DIR) / ("docs/formats/citygml/svt-ade-" + version + ".xsd"));
+    std::string all = readText(schemas / "all_citygml.xsd");
+    const auto replace = [](std::string& text, const std::string& from, const std::string& to) {
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+    };
+    const std::string ogc = "http://schemas.opengis.net/", here = schemas.string() + "/";
+    replace(ade, ogc + "gml/3.1.1/base/", here + "gml/3.1/base/");
+    replace(ade, ogc + "gml/3.2.1/", here + "gml/3.2/");
+    replace(ade, ogc + "citygml/appearance/2.0/", here + "citygml/2.0/");
+    replace(ade, ogc + "citygml/", here + "citygml/");
+    replace(all, "schemaLocation=\"", "schemaLocation=\"" + here);
+    replace(all, "</xs:schema>",
+            "<xs:import namespace=\"urn:svt:citygml:ade:" + version + "\" schemaLocation=\"ade.xsd\"/></xs:schema>");
+    writeText(folder / "ade.xsd", ade);
+    writeText(folder / "all.xsd", all);
+    return true;
+}
+
+fs::path dataFolder() {
+    const char* told = std::getenv("SVT_DATA_DIR");
+    return told != nullptr ? fs::path(told) : fs::path(SVT_SOURCE_DIR) / "../shared/data";
+}
+
+TEST_F(Convert, CityGmlIsValidAndComesBackBitForBit) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house3.gml"});
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house2.gml", "--format", "citygml2"});
+    const bool hasSchemas = std::system("xmllint --version > /dev/null 2>&1") == 0;
+    for (const std::string version : {"2.0", "3.0"}) {
+        const std::string model = "house" + version.substr(0, 1) + ".gml", volume = "v" + version + ".svt";
+        runSvtWell(folder.path(), {"build", model, "-o", volume, "--spacing", "0.5"});
+        runSvtWell(folder.path(), {"convert", volume, "expected" + version + ".nrrd", "--encoding", "raw"});
+        const bool isChecked = hasSchemas && writeSchemas(folder.path(), dataFolder(), version);
+        for (const std::string texture : {"pixel", "image", "composed"})
+            for (const bool hasModel : {true, false}) {
+                if (!hasModel && texture != "pixel") continue;
+                const std::string name = texture + version + (hasModel ? "m" : "p"), gml = name + ".ade.gml";
+                std::vector<std::string> arguments{"convert", volume, gml, "--texture", texture, "--citygml", version};
+                if (hasModel) arguments.insert(arguments.end(), {"--model", model});
+                runSvtWell(folder.path(), arguments);
+                if (isChecked) {
+                    const std::string command = "cd '" + folder.path().string() +
+                                                "' && xmllint --nonet --noout --schema all.xsd " + gml +
+                                                " > output.txt 2>&1";
+                    EXPECT_EQ(std::system(command.c_str()), 0) << gml << ":\n"
+                                                               << readText(folder / "output.txt").substr(0, 2000);
+                }
+                runSvtWell(folder.path(), {"build", gml, "-o", name + ".svt"});
+                runSvtWell(folder.path(), {"convert", name + ".svt", name + ".nrrd", "--encoding", "raw"});
+                EXPECT_TRUE(readText(folder / (name + ".nrrd")) == readText(folder / ("expected" + version + ".nrrd")))
+                    << name;
+            }
+    }
+    // The model is kept: a reader of CityGML sees it, with all its features.
+    const std::string kept = readText(folder / "pixel3.0m.ade.gml"), whole = readText(folder / "house3.gml");
+    const std::size_t end = whole.rfind("</");
+    EXPECT_TRUE(kept.compare(0, end, whole, 0, end) == 0);
+    EXPECT_TRUE(kept.ends_with(whole.substr(end)));
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "v3.0.svt", "x.ade.gml", "--model", "house3.gml", "--citygml", "2.0"})
+                  .exitCode,
+              2);
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "v3.0.svt", "x.ade.gml", "--max-voxels", "100"}).exitCode, 2);
+    EXPECT_EQ(runSvt(folder.path(), {"build", "house3.gml", "-o", "x.svt", "--labels", "house2.gml"}).exitCode, 2);
+    EXPECT_EQ(runSvt(folder.path(), {"build", "pixel3.0m.ade.gml", "-o", "x.svt", "--spacing", "1"}).exitCode, 2);
+    EXPECT_FALSE(fs::exists(folder / "x.ade.gml") || fs::exists(folder / "x.svt"));
+}
+
+TEST_F(Convert, X3dIsWellFormedInAllThreeKinds) {
+    for (const std::string texture : {"pixel", "image", "composed"}) {
+        runSvtWell(folder.path(), {"convert", "boxes.svt", texture + ".x3d", "--texture", texture});
+        if (std::system("xmllint --version > /dev/null 2>&1") == 0) {
+            EXPECT_EQ(std::system(("cd '" + folder.path().string() + "' && xmllint --nonet --noout " + texture +
+                                   ".x3d 2>/dev/null")
+                                      .c_str()),
+                      0);
+        }
+    }
+    const std::string pixel = readText(folder / "pixel.x3d");
+    const std::size_t sizes = pixel.find("<PixelTexture3D containerField='voxels' image='3 ");
+    ASSERT_NE(sizes, std::string::npos);
+    // The numbers are the samples of the NRRD, in its order.
+    const std::string nrrd = readText(folder / "reference.nrrd");
+    const std::size_t data = nrrd.find("\n\n") + 2;
+    const char* at = pixel.c_str() + sizes + std::string_view("<PixelTexture3D containerField='voxels' image='").size();
+    char* after = nullptr;
+    std::size_t count = 1;
+    for (int n = 0; n < 4; ++n, at = after)
+        count *= n == 0 ? (std::strtoul(at, &after, 10), 1) : std::strtoul(at, &after, 10);
+    ASSERT_EQ(count, nrrd.size() - data);
+    for (std::size_t s = 0; s < count; ++s, at = after) {
+        const long code = std::strtol(at, &after, 10);
+        ASSERT_EQ(code >> 8 & 255, nrrd[data + s]) << s;
+        ASSERT_EQ(code >> 16 == 0, nrrd[data + s] == 0) << s;
+    }
+    EXPECT_TRUE(fs::exists(folder / "image.labels.nrrd"));
+    EXPECT_TRUE(fs::exists(folder / "composed_slices/0000.png"));
+    // What is beside a document is not destroyed, either.
+    writeText(folder / "other.labels.nrrd", "a letter");
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "other.x3d", "--texture", "image"}).exitCode, 5);
+    EXPECT_EQ(readText(folder / "other.labels.nrrd"), "a letter");
+    EXPECT_FALSE(fs::exists(folder / "other.x3d"));
+}
+
+TEST_F(Convert, TablesHaveALineForEachObjectAndContact) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "o.csv"});
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "o.contacts.csv"});
+    const std::string objects = readText(folder / "o.csv"), contacts = readText(folder / "o.contacts.csv");
+    EXPECT_EQ(objects.find("label,id,class,name,parent,first,count,voxels,volume,"), 0u);
+    EXPECT_NE(objects.find("\r\n0,a,Building,\"K\u00fcche & \"\"Bad\"\"\",,1,1,"), std::string::npos) << objects;
+    EXPECT_NE(contacts.find("\r\na,Building,\"K\u00fcche & \"\"Bad\"\"\",b,Building,,"), std::string::npos) << contacts;
+    EXPECT_NE(contacts.find("\r\nc,Building,,,,,"), std::string::npos) << "background: " << contacts;
+    EXPECT_EQ(contacts.find(",b,Building,,c,"), std::string::npos) << "b and c do not touch";
+}
+
+}  // namespace
+}  // namespace svt::test
