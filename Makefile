@@ -10,7 +10,7 @@
 #   make asan     all tests with the address and undefined-behaviour sanitizers
 #   make tsan     the thread sanitizer on what is parallel
 #   make tidy     clang-tidy over all sources
-#   make fuzz     each fuzz target for a minute (SECONDS=600 for longer)
+#   make fuzz     each fuzz target for a minute (SECONDS=600 for longer; RUNS=3000 for the same inputs each time)
 #   make mutants  changes in the sources that tests do not notice (FOLDERS="volume voxelize", COUNT=30)
 #   make install  the command with manual and viewer, the libraries: PREFIX=/usr/local DESTDIR=
 #   make package  .deb files for Debian 12: build/package
@@ -67,7 +67,7 @@ tidy:
 
 fuzz:
 	@scripts/setup.sh checks
-	@scripts/fuzz.sh $(SECONDS)
+	@scripts/fuzz.sh $(if $(RUNS),$(RUNS)runs,$(SECONDS))
 
 mutants: setup
 	@scripts/mutants.py $(FOLDERS) --count $(COUNT)
