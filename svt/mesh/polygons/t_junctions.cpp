@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -44,47 +45,84 @@ bool isNearEdge(const Box3d& box, Vec3d a, Vec3d b, double distance) {
     return low <= high;
 }
 
-// Finds ends of open edges that lie on other open edges. Nothing, where edges overlap so often that there are more than
-// `maxCuts`.
-std::optional<std::vector<EdgeCut>> findCuts(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& open,
-                                             double distance, std::size_t maxCuts) {
-    std::vector<std::uint32_t> points;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
-    for (const OpenEdge& edge : open) {
-        points.push_back(edge.from);
-        points.push_back(edge.to);
-        keys.push_back(std::minmax(edge.from, edge.to));
+// Finds ends of open edges that lie on other open edges, round by round: what was found to be apart in one round is not
+// asked again in the next.
+class CutFinder {
+public:
+    CutFinder(const std::vector<Vec3d>& vertices, double distance) : vertices_(vertices), distance_(distance) {}
+
+    // Nothing, where edges overlap so often that there are more than `maxCuts`.
+    std::optional<std::vector<EdgeCut>> find(const std::vector<OpenEdge>& open, std::size_t maxCuts) {
+        std::vector<std::uint32_t> points;
+        std::vector<Key> keys;
+        for (const OpenEdge& edge : open) {
+            points.push_back(edge.from);
+            points.push_back(edge.to);
+            keys.push_back(std::minmax(edge.from, edge.to));
+        }
+        makeUnique(points);
+        makeUnique(keys);
+        std::vector<std::uint32_t> newPoints;
+        std::set_difference(points.begin(), points.end(), points_.begin(), points_.end(),
+                            std::back_inserter(newPoints));
+        std::vector<Key> newKeys, oldKeys;
+        for (const Key& key : keys)
+            (std::binary_search(uncut_.begin(), uncut_.end(), key) ? oldKeys : newKeys).push_back(key);
+
+        std::vector<EdgeCut> cuts;
+        if (!addCuts(newKeys, points, maxCuts, cuts) || !addCuts(oldKeys, newPoints, maxCuts, cuts))
+            return std::nullopt;
+        std::sort(cuts.begin(), cuts.end(), [](const EdgeCut& p, const EdgeCut& q) {
+            return std::tie(p.from, p.to, p.fraction, p.point) < std::tie(q.from, q.to, q.fraction, q.point);
+        });
+        uncut_.clear();
+        for (const Key& key : keys) {
+            const auto at = std::lower_bound(cuts.begin(), cuts.end(), key, [](const EdgeCut& cut, const Key& wanted) {
+                return Key{cut.from, cut.to} < wanted;
+            });
+            if (at == cuts.end() || Key{at->from, at->to} != key) uncut_.push_back(key);
+        }
+        points_ = std::move(points);
+        return cuts;
     }
-    const auto makeUnique = [](auto& values) {
+
+private:
+    using Key = std::pair<std::uint32_t, std::uint32_t>;  // of an edge: the lower vertex, the higher
+
+    template <class Values>
+    static void makeUnique(Values& values) {
         std::sort(values.begin(), values.end());
         values.erase(std::unique(values.begin(), values.end()), values.end());
-    };
-    makeUnique(points);
-    makeUnique(keys);
-    std::vector<Box3d> boxes;
-    for (const std::uint32_t point : points) boxes.push_back({vertices[point], vertices[point]});
-    const BoxTree tree(std::move(boxes));
-
-    std::vector<EdgeCut> cuts;
-    for (const auto& key : keys) {
-        const std::uint32_t from = key.first, to = key.second;
-        const Vec3d a = vertices[from], b = vertices[to];
-        const bool isTooMany = tree.visit(
-            // Twice the distance, so that rounding leaves nothing out.
-            [&](const Box3d& box) { return isNearEdge(box, a, b, 2 * distance); },
-            [&](std::uint32_t i) {
-                if (points[i] == from || points[i] == to) return false;
-                const double fraction = fractionOnEdge(vertices[points[i]], a, b, distance);
-                if (fraction > 0) cuts.push_back({from, to, points[i], fraction});
-                return cuts.size() > maxCuts;
-            });
-        if (isTooMany) return std::nullopt;
     }
-    std::sort(cuts.begin(), cuts.end(), [](const EdgeCut& p, const EdgeCut& q) {
-        return std::tie(p.from, p.to, p.fraction, p.point) < std::tie(q.from, q.to, q.fraction, q.point);
-    });
-    return cuts;
-}
+
+    bool addCuts(const std::vector<Key>& keys, const std::vector<std::uint32_t>& points, std::size_t maxCuts,
+                 std::vector<EdgeCut>& cuts) const {
+        if (keys.empty() || points.empty()) return true;
+        std::vector<Box3d> boxes;
+        for (const std::uint32_t point : points) boxes.push_back({vertices_[point], vertices_[point]});
+        const BoxTree tree(std::move(boxes));
+        for (const auto& [from, to] : keys) {
+            const Key key{from, to};
+            const Vec3d a = vertices_[from], b = vertices_[to];
+            const bool isTooMany = tree.visit(
+                // Twice the distance, so that rounding leaves nothing out.
+                [&](const Box3d& box) { return isNearEdge(box, a, b, 2 * distance_); },
+                [&](std::uint32_t i) {
+                    if (points[i] == key.first || points[i] == key.second) return false;
+                    const double fraction = fractionOnEdge(vertices_[points[i]], a, b, distance_);
+                    if (fraction > 0) cuts.push_back({key.first, key.second, points[i], fraction});
+                    return cuts.size() > maxCuts;
+                });
+            if (isTooMany) return false;
+        }
+        return true;
+    }
+
+    const std::vector<Vec3d>& vertices_;
+    double distance_;
+    std::vector<std::uint32_t> points_;  // of the round before
+    std::vector<Key> uncut_;             // edges of the round before on which no point lay
+};
 
 // A point on the border of a triangle, and a mask of the edges that it lies on (bit 0: from corner 0 to 1, ...).
 struct BorderPoint {
@@ -204,10 +242,11 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
     constexpr std::size_t kLeastMaxCuts = 1 << 20, kMaxCutsPerEdge = 16;
     std::uint32_t count = 0;
     if (isUnfinished != nullptr) *isUnfinished = false;
+    CutFinder finder(vertices, distance);
     for (int round = 0;; ++round) {
         const std::vector<OpenEdge> open = findOpenEdges(triangles);
         if (open.empty()) break;
-        const auto cuts = findCuts(vertices, open, distance, std::max(kLeastMaxCuts, kMaxCutsPerEdge * open.size()));
+        const auto cuts = finder.find(open, std::max(kLeastMaxCuts, kMaxCutsPerEdge * open.size()));
         if (cuts && cuts->empty()) break;
         if (!cuts || round == kMaxRounds) {
             if (isUnfinished != nullptr) *isUnfinished = true;

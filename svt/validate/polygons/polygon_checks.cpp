@@ -2,6 +2,7 @@
 
 #include <svt/validate/exact/snapper.hpp>
 #include <svt/validate/polygons/plane_fit.hpp>
+#include <svt/validate/polygons/sweep_edges.hpp>
 #include <svt/validate/polygons/triangulate.hpp>
 
 #include <fmt/format.h>
@@ -182,9 +183,21 @@ private:
         std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.low < b.low; });
     }
 
-    // Calls visit(edge, edge, meeting) for all edges that have a point in common; stops where it returns false.
+    // Most polygons are simple. Of those with many edges it is asked first, since long edges side by side have common ranges.
+    [[nodiscard]] bool isSimple() {
+        constexpr std::size_t kFew = 64;
+        if (isSimple_ || edges_.size() < kFew) return isSimple_;
+        std::vector<FlatEdge> edges;
+        edges.reserve(edges_.size());
+        for (const Edge& edge : edges_) edges.push_back({edge.a, edge.b});
+        return isSimple_ = !meetBeyondEnds(edges);
+    }
+
+    // Calls visit(edge, edge, meeting) for all edges that have a point in common, unless those are neighbours alone; stops
+    // where it returns false.
     template <class Visit>
-    bool forEachMeeting(const Visit& visit) const {
+    bool forEachMeeting(const Visit& visit) {
+        if (isSimple()) return true;
         for (std::size_t i = 0; i < edges_.size(); ++i)
             for (std::size_t j = i + 1; j < edges_.size() && edges_[j].low <= edges_[i].high; ++j) {
                 if (edges_[j].lowV > edges_[i].highV || edges_[j].highV < edges_[i].lowV) continue;
@@ -258,6 +271,7 @@ private:
                      rings_[alike->second]);
             return false;
         }
+        if (rings_.size() == 1) return true;
         return forEachMeeting([&](const Edge& e, const Edge& f, Meeting meeting) {
             if (e.ring == f.ring) return true;
             if (!isCrossing(e, f, meeting) && !overlapAlongLine(e, f)) {
@@ -485,6 +499,7 @@ private:
     std::vector<std::uint32_t> firstAt_;  // snapped point -> the first of Polygon::points there
     std::vector<Ring> rings_;
     std::vector<Edge> edges_;                                  // by `low`
+    bool isSimple_ = false;                                    // true: proven; false: not asked, or not so
     std::vector<int> turns_;                                   // of each ring, as projected
     std::set<std::pair<std::size_t, std::uint32_t>> touches_;  // ring, snapped point
     std::vector<Vec3d> points_;

@@ -155,9 +155,14 @@ std::vector<IntegerBox> boxesOf(std::span<const Corners> triangles, const PointS
 void checkIntersections(const Shell& shell, const PointSet& points, std::vector<Defect>& defects) {
     TriangleTree tree;
     tree.build(boxesOf(shell.triangles, points));
+    std::vector<RoundTriangle> triangles;
+    triangles.reserve(shell.triangles.size());
+    for (const Corners& t : shell.triangles)
+        triangles.push_back({points.units(t[0]), points.units(t[1]), points.units(t[2])});
+    tree.addSlabs(triangles);
     std::vector<MeetingFaces> found;
     for (std::uint32_t t = 0; t < shell.triangles.size() && found.size() < kLargestDefectCount; ++t)
-        tree.forEach(tree.boxes()[t], [&](std::uint32_t s) {
+        tree.forEachBeside(tree.boxes()[t], triangles[t], [&](std::uint32_t s) {
             if (s >= t || shell.faceOf[s] == shell.faceOf[t]) return;
             if (!meetBeyondCorners(shell.triangles[s], shell.triangles[t], points)) return;
             const Triangle a = points.corners(shell.triangles[s]), b = points.corners(shell.triangles[t]);

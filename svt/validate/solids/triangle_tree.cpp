@@ -9,6 +9,7 @@ void TriangleTree::build(std::vector<IntegerBox> boxes) {
     order_.resize(boxes_.size());
     std::iota(order_.begin(), order_.end(), 0u);
     nodes_.clear();
+    slabs_.clear();
     if (!boxes_.empty()) split(0, static_cast<std::uint32_t>(boxes_.size()));
 }
 
@@ -35,6 +36,39 @@ void TriangleTree::split(std::uint32_t begin, std::uint32_t end) {
     split(begin, middle);
     nodes_[index].right = static_cast<std::uint32_t>(nodes_.size());
     split(middle, end);
+}
+
+TriangleTree::Slab TriangleTree::slabOf(const Node& node, Vec3d normal,
+                                        const std::vector<RoundTriangle>& triangles) const {
+    Slab slab{normal, kInfinity, -kInfinity};
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+        for (const Vec3d& corner : triangles[order_[i]]) {
+            const double at = dot(normal, corner);
+            slab.low = std::min(slab.low, at);
+            slab.high = std::max(slab.high, at);
+        }
+    // A step on both sides is more than rounding does: coordinates have up to 40 bits.
+    slab.low -= 1;
+    slab.high += 1;
+    return slab;
+}
+
+void TriangleTree::addSlabs(const std::vector<RoundTriangle>& triangles) {
+    constexpr std::uint32_t kTried = 4;
+    slabs_.clear();
+    slabs_.reserve(nodes_.size());
+    for (const Node& node : nodes_) {
+        // Without a triangle to take the normal from: a slab that all reach.
+        Slab thinnest{{}, 0, 0};
+        for (std::uint32_t i = 0; i < kTried; ++i) {
+            const RoundTriangle& t = triangles[order_[node.begin + (node.end - node.begin) * i / kTried]];
+            const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+            if (!(length(normal) > 0)) continue;
+            const Slab slab = slabOf(node, normalized(normal), triangles);
+            if (thinnest.normal == Vec3d{} || slab.high - slab.low < thinnest.high - thinnest.low) thinnest = slab;
+        }
+        slabs_.push_back(thinnest);
+    }
 }
 
 }  // namespace svt::validate
