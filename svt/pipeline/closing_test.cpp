@@ -1,10 +1,13 @@
 /// Damaged models against the undamaged ones, through meshes and voxels: how far closing and filling undo the damage.
-/// With SVT_CLOSING_TABLE=FILE the last test writes the table of docs/dev/closing.md.
+/// With SVT_CLOSING_TABLE=FILE the last test writes the table of docs/dev/closing.md, with SVT_CLOSING_VOLUMES=FOLDER the
+/// volumes of its pictures beside it.
 
 #include <svt/core/test_data_test.hpp>
+#include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/damage_test.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
+#include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -99,6 +102,18 @@ public:
         return test::compareSolids(truth_, *filled);
     }
 
+    // Writes the volume that `svt build` makes of the damaged model; of the model as it is without damage.
+    void writeVolume(const DamageCase* damage, const std::filesystem::path& file) const {
+        BuildingModel model = model_;
+        if (damage != nullptr) damage->apply(model);
+        BuildOptions options;
+        options.spacing = Vec3d{spacing_, spacing_, spacing_} / 2.0;
+        options.vectors.meshes = true;
+        const auto built = buildVolume(model, options);
+        ASSERT_TRUE(built);
+        EXPECT_TRUE(volume::writeSvt(built->volume, file));
+    }
+
 private:
     BuildingModel model_;
     double spacing_;
@@ -156,6 +171,7 @@ TEST(ClosingTable, IsWrittenWhereItIsWanted) {
     const char* const file = std::getenv("SVT_CLOSING_TABLE");
     if (file == nullptr) GTEST_SKIP() << "set SVT_CLOSING_TABLE to the file for the table";
     const char* const only = std::getenv("SVT_CLOSING_ONLY");  // part of the name of a case
+    const char* const volumes = std::getenv("SVT_CLOSING_VOLUMES");
     const bool isVerbose = std::getenv("SVT_CLOSING_VERBOSE") != nullptr;
     struct Data {
         std::string name;
@@ -180,8 +196,12 @@ TEST(ClosingTable, IsWrittenWhereItIsWanted) {
         if (const char* const set = std::getenv("SVT_CLOSING_SET"); set != nullptr && data.name.find(set) != 0)
             continue;
         DamageBench bench(data.make(), data.spacing);
+        if (volumes != nullptr) bench.writeVolume(nullptr, std::filesystem::path(volumes) / (data.name + ".svt"));
         for (const DamageCase& damage : damageCases(data.classes)) {
             if (only != nullptr && damage.name.find(only) == std::string::npos) continue;
+            if (volumes != nullptr)
+                bench.writeVolume(&damage,
+                                  std::filesystem::path(volumes) / fmt::format("{}, {}.svt", data.name, damage.name));
             double seconds = 0;
             const test::DamageFigures f = bench.run(damage, &seconds);
             table << fmt::format(
