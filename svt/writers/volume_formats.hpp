@@ -8,11 +8,13 @@
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/glb_writer.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace svt::writers {
 
@@ -39,6 +41,9 @@ enum class TextureKind : std::uint8_t {
     Composed  ///< ComposedTexture3D: a folder of PNG slices beside the document
 };
 
+/// Which voxels of components become boxes together.
+enum class MergeBy : std::uint8_t { Label, Class, Material };
+
 struct VolumeWriteOptions {
     bool isCompressed = true;           ///< of dense formats that leave the choice: gzip, zlib; else raw
     GlbFaces faces = GlbFaces::Planes;  ///< of triangles
@@ -47,8 +52,11 @@ struct VolumeWriteOptions {
     std::filesystem::path model;  ///< of CityGML: the model that the volume was built from, which is kept; empty: none
     int cityGmlVersion = 0;       ///< 2 or 3; 0: that of the model, 3 without one
     int zarrVersion = 2;          ///< 2 (OME-NGFF 0.4) or 3 (0.5)
-    int threads = 0;              ///< maximum; 0: all cores. The bytes do not depend on it.
-    const Progress* progress = nullptr;  ///< stages by format
+    MergeBy mergeBy = MergeBy::Label;         ///< of boxes (FDS, lists of boxes)
+    std::size_t maxBoxes = 1'000'000;         ///< of boxes: more are refused
+    std::vector<std::uint32_t> holes, vents;  ///< of FDS: labels that are open, and that have vents on both sides
+    int threads = 0;                          ///< maximum; 0: all cores. The bytes do not depend on it.
+    const Progress* progress = nullptr;       ///< stages by format
 };
 
 /// Writes the volume in the format that the file's name tells, all or nothing; equal volumes give equal bytes.

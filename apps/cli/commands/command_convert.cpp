@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 namespace svt::cli {
@@ -18,9 +19,9 @@ namespace {
 
 struct ConvertArguments {
     std::filesystem::path input, output;
-    std::string encoding, faces, select, texture, cityGml, zarr;
+    std::string encoding, faces, select, texture, cityGml, zarr, merge, holes, vents;
     std::filesystem::path model;
-    double maxVoxels = 0;
+    double maxVoxels = 0, maxBoxes = 0;
     std::vector<double> box;
     int level = 0;
     BuildArguments build;
@@ -65,6 +66,17 @@ int runConvert(const ConvertArguments& arguments) {
     if (options.model.empty() && contentOf(arguments.input) == FileContent::CityGml) options.model = arguments.input;
     options.cityGmlVersion = arguments.cityGml.empty() ? 0 : arguments.cityGml.front() - '0';
     options.zarrVersion = arguments.zarr == "3" ? 3 : 2;
+    options.mergeBy = arguments.merge == "class"      ? writers::MergeBy::Class
+                      : arguments.merge == "material" ? writers::MergeBy::Material
+                                                      : writers::MergeBy::Label;
+    options.maxBoxes = static_cast<std::size_t>(arguments.maxBoxes);
+    for (const auto& [query, labels] :
+         {std::pair{&arguments.holes, &options.holes}, std::pair{&arguments.vents, &options.vents}}) {
+        if (query->empty()) continue;
+        auto selected = analyze::selectLabels(volume->labels, *query);
+        if (!selected) return fail(selected.error());
+        *labels = std::move(*selected);
+    }
     options.threads = arguments.build.threads;
     options.progress = progress.get();
     const auto bytes = writers::writeVolume(*volume, arguments.output, options);
@@ -87,6 +99,10 @@ Action connectConvert(Command& command) {
     command.set("--zarr", arguments->zarr);
     command.set("--citygml", arguments->cityGml);
     command.set("--max-voxels", arguments->maxVoxels);
+    command.set("--merge", arguments->merge);
+    command.set("--max-boxes", arguments->maxBoxes);
+    command.set("--holes", arguments->holes);
+    command.set("--vents", arguments->vents);
     arguments->build.connect(command);
     return [arguments] { return runConvert(*arguments); };
 }

@@ -42,7 +42,9 @@ constexpr std::pair<std::string_view, FileContent> kVolumeContents[] = {
     {"x3d", FileContent::X3d},      {"ade", FileContent::CityGml},
     {"zarr", FileContent::Nothing}, {"precomputed", FileContent::Nothing},
     {"obj", FileContent::Text},     {"ply", FileContent::Ply},
-    {"stl", FileContent::Unknown},
+    {"stl", FileContent::Unknown},  {"fds", FileContent::Text},
+    {"boxes", FileContent::Text},   {"boxesjson", FileContent::PlainJson},
+    {"graphml", FileContent::Xml},  {"adjacency", FileContent::PlainJson},
 };
 
 std::vector<FileFormat> volumeFileFormats() {

@@ -5,6 +5,9 @@
 #include <svt/writers/nifti/nifti_writer.hpp>
 #include <svt/writers/nrrd_writer.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
+#include <svt/writers/simulation/adjacency_graph.hpp>
+#include <svt/writers/simulation/box_list.hpp>
+#include <svt/writers/simulation/fds_writer.hpp>
 #include <svt/writers/tables/table_writer.hpp>
 #include <svt/writers/tiff/tiff_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -90,6 +93,28 @@ Written asContacts(const SemanticVolume& volume, const Path& path, const VolumeW
     return writeFileAtomically(path, makeContactTable(volume, options.threads));
 }
 
+Written asFds(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    const auto document = makeFds(volume, path.stem().string(), options);
+    if (!document) return document.error();
+    return writeFileAtomically(path, *document);
+}
+Written asBoxTable(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    const auto table = makeBoxTable(volume, options);
+    if (!table) return table.error();
+    return writeFileAtomically(path, *table);
+}
+Written asBoxJson(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    const auto json = makeBoxJson(volume, options);
+    if (!json) return json.error();
+    return writeFileAtomically(path, *json);
+}
+Written asAdjacency(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeFileAtomically(path, makeAdjacencyJson(volume, options.threads));
+}
+Written asGraphMl(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeFileAtomically(path, makeGraphMl(volume, options.threads));
+}
+
 constexpr VolumeFormat kVolumeFormats[] = {
     {"nrrd", ".nrrd", "NRRD: samples, with the table of labels as keys", "VTK, ITK, 3D Slicer, teem, MATLAB, pynrrd",
      true},
@@ -119,11 +144,19 @@ constexpr VolumeFormat kVolumeFormats[] = {
      "spreadsheets, pandas, databases"},
     {"contacts", ".contacts.csv", "a line per pair of objects that touch: area, faces",
      "spreadsheets, pandas, databases"},
+    {"fds", ".fds", "geometry for fire and smoke: components as boxes on a mesh of the voxels",
+     "FDS and Smokeview (NIST), PyroSim"},
+    {"boxes", ".boxes.csv", "the same boxes as a table", "other solvers, spreadsheets"},
+    {"boxesjson", ".boxes.json", "the same as JSON, with the grid's place", "other solvers"},
+    {"adjacency", ".adjacency.json", "what touches what, and what lies between rooms and outside, layer by layer",
+     "energy and acoustic models"},
+    {"graphml", ".graphml", "the same as a graph", "NetworkX, Gephi, yEd"},
 };
 
 using Write = Written (*)(const SemanticVolume&, const Path&, const VolumeWriteOptions&);
-constexpr Write kWriters[] = {asNrrd,        asGlb, asSegNrrd, asVti, asNifti, asNifti, asTiff,    asOmeTiff, asZarr,
-                              asPrecomputed, asX3d, asAde,     asObj, asPly,   asStl,   asObjects, asContacts};
+constexpr Write kWriters[] = {
+    asNrrd, asGlb, asSegNrrd, asVti, asNifti,   asNifti,    asTiff, asOmeTiff,  asZarr,    asPrecomputed, asX3d,
+    asAde,  asObj, asPly,     asStl, asObjects, asContacts, asFds,  asBoxTable, asBoxJson, asAdjacency,   asGraphMl};
 static_assert(std::size(kWriters) == std::size(kVolumeFormats));
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <svt/analyze/label_measures.hpp>
+#include <svt/writers/tables/csv_text.hpp>
 #include <svt/writers/tables/table_writer.hpp>
 
 #include <fmt/format.h>
@@ -10,43 +11,6 @@
 
 namespace svt::writers {
 namespace {
-
-/// Lines of fields, quoted where the format wants it.
-class CsvText {
-public:
-    void field(std::string_view text) {
-        separate();
-        if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
-            text_ += text;
-            return;
-        }
-        text_ += '"';
-        for (const char c : text) {
-            if (c == '"') text_ += '"';
-            text_ += c;
-        }
-        text_ += '"';
-    }
-    template <class T>
-    void number(T value) {
-        separate();
-        text_ += fmt::format("{}", value);
-    }
-    void nothing() { separate(); }
-    void endLine() {
-        text_ += "\r\n";
-        isFirst_ = true;
-    }
-    [[nodiscard]] std::string take() { return std::move(text_); }
-
-private:
-    void separate() {
-        if (!isFirst_) text_ += ',';
-        isFirst_ = false;
-    }
-    std::string text_;
-    bool isFirst_ = true;
-};
 
 /// The attributes of all labels: name to the unit that all have, or none.
 std::map<std::string, std::string> attributesOf(const volume::LabelTable& labels) {

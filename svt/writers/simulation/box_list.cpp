@@ -1,0 +1,75 @@
+#include <svt/volume/volume_json.hpp>
+#include <svt/writers/simulation/box_list.hpp>
+#include <svt/writers/simulation/solid_boxes.hpp>
+#include <svt/writers/tables/csv_text.hpp>
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace svt::writers {
+namespace {
+
+std::string jsonOf(Vec3d v) { return fmt::format("[{},{},{}]", v.x, v.y, v.z); }
+std::string jsonOf(Vec3i v) { return fmt::format("[{},{},{}]", v.x, v.y, v.z); }
+
+}  // namespace
+
+Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
+    const auto solids = solidBoxes(volume, options);
+    if (!solids) return solids.error();
+    CsvText csv;
+    for (const char* key : {"group", "name", "id", "class", "beginX", "beginY", "beginZ", "endX", "endY", "endZ",
+                            "minX", "minY", "minZ", "maxX", "maxY", "maxZ"})
+        csv.field(key);
+    csv.endLine();
+    const bool isOne = options.mergeBy == MergeBy::Label;
+    for (const analyze::GroupBox& box : solids->boxes) {
+        const SolidGroup& group = solids->groups[box.group];
+        const volume::Label& label = volume.labels.labels[group.label];
+        csv.number(box.group);
+        csv.field(group.name);
+        csv.field(isOne ? label.id : std::string());
+        csv.field(options.mergeBy == MergeBy::Material ? std::string() : label.className);
+        for (const Vec3i& corner : {box.box.begin, box.box.end})
+            for (int axis = 0; axis < 3; ++axis) csv.number(corner[axis]);
+        for (const Vec3i& corner : {box.box.begin, box.box.end})
+            for (int axis = 0; axis < 3; ++axis) csv.number(cornerOf(corner, volume.grid)[axis]);
+        csv.endLine();
+    }
+    return csv.take();
+}
+
+Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
+    const auto solids = solidBoxes(volume, options);
+    if (!solids) return solids.error();
+    const volume::Grid& grid = volume.grid;
+    std::string json = fmt::format(
+        "{{\n\"grid\": {{\"dimension\": {}, \"spacing\": {}, \"lowerCorner\": {}, \"axes\": [{}, {}, {}], \"crs\": ",
+        jsonOf(grid.dimension()), jsonOf(grid.spacing()), jsonOf(lowerCorner(grid)), jsonOf(grid.axes()[0]),
+        jsonOf(grid.axes()[1]), jsonOf(grid.axes()[2]));
+    volume::appendJsonString(json, volume.crsName);
+    json += "},\n\"groups\": [";
+    for (std::size_t g = 0; g < solids->groups.size(); ++g) {
+        const volume::Label& label = volume.labels.labels[solids->groups[g].label];
+        json += g == 0 ? "\n{\"name\": " : ",\n{\"name\": ";
+        volume::appendJsonString(json, solids->groups[g].name);
+        if (options.mergeBy == MergeBy::Label) {
+            json += ", \"id\": ";
+            volume::appendJsonString(json, label.id);
+            json += ", \"class\": ";
+            volume::appendJsonString(json, label.className);
+        }
+        json += '}';
+    }
+    json += "\n],\n\"boxes\": [";
+    for (std::size_t b = 0; b < solids->boxes.size(); ++b) {
+        const analyze::GroupBox& box = solids->boxes[b];
+        fmt::format_to(std::back_inserter(json), R"({}{{"group": {}, "begin": {}, "end": {}, "min": {}, "max": {}}})",
+                       b == 0 ? "\n" : ",\n", box.group, jsonOf(box.box.begin), jsonOf(box.box.end),
+                       jsonOf(cornerOf(box.box.begin, grid)), jsonOf(cornerOf(box.box.end, grid)));
+    }
+    return json += "\n]\n}\n";
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,74 @@
+#include <svt/writers/simulation/solid_boxes.hpp>
+
+#include <svt/analyze/space_boundaries.hpp>
+#include <svt/model/classes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace svt::writers {
+namespace {
+
+using volume::Label;
+
+std::string groupName(const Label& label, MergeBy by) {
+    switch (by) {
+        case MergeBy::Class: return label.className;
+        case MergeBy::Material: return materialOf(label);
+        case MergeBy::Label: break;
+    }
+    return label.name.empty() ? label.id : label.name;
+}
+
+// Surfaces of a room are one voxel of it; its furniture is not.
+bool isAir(const Label& label, bool belongsToSpace) {
+    return belongsToSpace && (model::isSpace(label.className) || model::isBoundarySurface(label.className));
+}
+
+}  // namespace
+
+std::string materialOf(const Label& label) {
+    const auto found = std::find_if(label.attributes.begin(), label.attributes.end(),
+                                    [](const Attribute& attribute) { return attribute.name == "material"; });
+    const auto* text = found == label.attributes.end() ? nullptr : std::get_if<std::string>(&found->value);
+    return text != nullptr && !text->empty() ? *text : label.className;
+}
+
+Vec3d cornerOf(Vec3i samples, const volume::Grid& grid) noexcept {
+    const Vec3d spacing = grid.spacing();
+    return {roundedMetres(samples.x * spacing.x), roundedMetres(samples.y * spacing.y),
+            roundedMetres(samples.z * spacing.z)};
+}
+
+double roundedMetres(double metres) noexcept { return std::round(metres * 1e6) / 1e6; }
+
+Vec3d lowerCorner(const volume::Grid& grid) noexcept { return grid.worldFromIndex({-0.5, -0.5, -0.5}); }
+
+Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
+    const auto& labels = volume.labels.labels;
+    const std::vector<std::uint32_t> spaces = analyze::spacesOfLabels(volume.labels);
+    std::vector<bool> isSolid(labels.size());
+    for (std::size_t l = 0; l < labels.size(); ++l)
+        isSolid[l] = labels[l].voxels > 0 && !isAir(labels[l], spaces[l] != volume::kNoLabel);
+    if (std::none_of(isSolid.begin(), isSolid.end(), [](bool is) { return is; }))
+        for (std::size_t l = 0; l < labels.size(); ++l) isSolid[l] = labels[l].voxels > 0;
+
+    SolidBoxes result;
+    std::map<std::string, std::uint32_t> known;
+    std::vector<std::uint32_t> groupOfScalar(volume.labels.scalarCount(), volume::kNoLabel);
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        if (!isSolid[l]) continue;
+        std::string name = groupName(labels[l], options.mergeBy);
+        auto group = static_cast<std::uint32_t>(result.groups.size());
+        if (options.mergeBy != MergeBy::Label) group = known.try_emplace(name, group).first->second;
+        if (group == result.groups.size()) result.groups.push_back({std::move(name), l, labels[l].color});
+        for (volume::Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s) groupOfScalar[s] = group;
+    }
+    auto boxes = analyze::mergeBoxes(volume.columns, groupOfScalar, options.maxBoxes);
+    if (!boxes) return boxes.error();
+    result.boxes = std::move(*boxes);
+    return result;
+}
+
+}  // namespace svt::writers
