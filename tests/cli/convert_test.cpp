@@ -199,7 +199,7 @@ TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
         }
         std::string two = readText(folder / ("two" + ending));
         // An OBJ names the file of its colours, an FDS document is named as its file.
-        for (const char* own : {"two.mtl", "two', TITLE"})
+        for (const char* own : {"two.mtl", "two', TITLE", "two' /"})
             if (const std::size_t name = two.find(own); name != std::string::npos) two.replace(name, 3, "one");
         EXPECT_TRUE(readText(folder / ("one" + ending)) == two) << format.name;
         EXPECT_FALSE(readText(folder / ("one" + ending)).empty()) << format.name;

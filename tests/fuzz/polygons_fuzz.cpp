@@ -75,7 +75,8 @@ std::optional<double> crossingOf(const Edge& a, const Edge& b) {
     const Vec3d along = a[1] - a[0], across = b[1] - b[0], apart = b[0] - a[0];
     const double turn = along.x * across.y - along.y * across.x;
     if (turn == 0) return std::nullopt;
-    const double t = (apart.x * across.y - apart.y * across.x) / turn, u = (apart.x * along.y - apart.y * along.x) / turn;
+    const double t = (apart.x * across.y - apart.y * across.x) / turn,
+                 u = (apart.x * along.y - apart.y * along.x) / turn;
     if (t < 0 || t > 1 || u < 0 || u > 1) return std::nullopt;
     return a[0].x + t * along.x;
 }

@@ -187,7 +187,8 @@ void triangulateRings(std::span<const Vec3d> points, std::span<const std::uint32
             result.hasFailed = result.isSelfTouching = true;
         else
             tessellate(points, ringEnds, normal, result);
-        if (by == TriangulateBy::PointCount && !result.extraPoints.empty()) cutExactly(points, ringEnds, normal, result);
+        if (by == TriangulateBy::PointCount && !result.extraPoints.empty())
+            cutExactly(points, ringEnds, normal, result);
     }
     if (!result.hasFailed) return;
     result.triangles.clear();
