@@ -2,6 +2,7 @@
 # Installs the packages that SVT needs to build and test on Debian 12. Does nothing if all are installed.
 #   scripts/setup.sh          for `make build`, `make test` and `make demo`
 #   scripts/setup.sh peers    also the peers used only by `make bench`
+#   scripts/setup.sh readers  also the programs that read our formats in tests, which are skipped without them
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
@@ -13,12 +14,14 @@ packages=(
   clang-format libgtest-dev libxml2-utils librsvg2-bin gdal-bin unzip python3 ccache
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
+readers=(python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 command -v node >/dev/null || web+=(nodejs)
 command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
+[ "${1:-}" = readers ] && packages+=("${readers[@]}")
 [ "${1:-}" = web ] && packages+=("${web[@]}")
 [ "${1:-}" = checks ] && packages+=("${checks[@]}")
 

@@ -144,6 +144,25 @@ TEST_F(Convert, VtkReadsTriangles) {
     EXPECT_EQ(readText(folder / "d.mtl"), "a letter");
 }
 
+TEST_F(Convert, NetworkxReadsGraphMl) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.graphml"});
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.adjacency.json"});
+    writeText(folder / "read.py",
+              "import json, sys\n"
+              "try: import networkx\n"
+              "except ImportError: sys.exit(77)\n"
+              "graph = networkx.read_graphml('boxes.graphml')\n"
+              "told = json.load(open('boxes.adjacency.json'))\n"
+              "assert [graph.nodes[n]['id'] for n in graph] == [node['id'] for node in told['nodes']]\n"
+              "edges = [e for e in graph.edges(data=True) if e[2]['kind'] == 'contact']\n"
+              "assert len(edges) == len(told['contacts']) > 0\n"
+              "assert abs(sum(e[2]['area'] for e in edges) - sum(c['area'] for c in told['contacts'])) < 1e-6\n");
+    const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+    const int status = std::system(("cd '" + folder.path().string() + "' && " + python + " read.py").c_str());
+    if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "networkx is not installed";
+    EXPECT_EQ(status, 0);
+}
+
 TEST_F(Convert, GdalReadsStacks) { expectRead("gdal", "boxes.tif"); }
 
 TEST_F(Convert, TurnedGridsKeepTheirPlace) {
