@@ -20,7 +20,7 @@ struct CheckArguments {
     validate::ValidateOptions validation;
     double lod = -1;
     std::string crs;
-    bool json = false, verbose = false, keepFarFeatures = false;
+    bool json = false, verbose = false, keepFarFeatures = false, extrudeFootprints = false;
 };
 
 // Why the volume of an object cannot be told although its mesh is closed; Internal: it can. A polygon that is not valid
@@ -152,6 +152,7 @@ int runCheck(const CheckArguments& arguments) {
     reading.progress = progress->get();
     reading.crs = *crs;
     reading.keepFarFeatures = arguments.keepFarFeatures;
+    reading.extrudeFootprints = arguments.extrudeFootprints;
     const auto model = pipeline::readModels(arguments.inputs, reading, &diagnostics);
     if (!model) return stop(model.error());
     validate::ValidateOptions validation = arguments.validation;
@@ -196,6 +197,7 @@ Action connectCheck(Command& command) {
     command.set("--format", arguments->format);
     command.set("--crs", arguments->crs);
     command.set("--keep-far-features", arguments->keepFarFeatures);
+    command.set("--extrude-footprints", arguments->extrudeFootprints);
     command.set("--json", arguments->json);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };

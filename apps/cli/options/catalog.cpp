@@ -70,6 +70,11 @@ constexpr Option kModel[] = {
      .help = "keep features that lie far away from all others",
      .group = "Model",
      .isForModels = true},
+    {.name = "--extrude-footprints",
+     .kind = Flag,
+     .help = "what has a footprint alone, and a height as attribute, becomes a body",
+     .group = "Model",
+     .isForModels = true},
 };
 constexpr Option kMemory[] = {
     {.name = "--memory",
@@ -228,6 +233,7 @@ constexpr Option kCheck[] = {
     kModel[0],
     kModel[2],
     kModel[3],
+    kModel[4],
     {.name = "--planarity",
      .kind = Number,
      .unit = "m",

@@ -270,11 +270,12 @@ private:
     Result<void> checkHeights() {
         if (part_.flatRings == 0) return {};
         const Place first{facts_.fileName, facts_.lineOf(part_.firstFlat), 0, {}};
+        if (options_.extrudeFootprints) return {};
         if (part_.fullRings == 0)
             return Error(Code::NoHeights,
                          fmt::format("all {} rings have points of two numbers (srsDimension=\"2\"), this is the first: "
-                                     "without heights there is no volume; take a model with heights, or give the "
-                                     "footprints theirs before",
+                                     "without heights there is no volume; take a model with heights, or "
+                                     "where the attributes have some --extrude-footprints",
                                      part_.flatRings),
                          first);
         diagnostics_.add(Severity::Warning, Code::NoHeights,

@@ -5,6 +5,7 @@
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_reader.hpp>
 #include <svt/readers/cityjson/cityjson_reader.hpp>
+#include <svt/readers/format/extrude_footprints.hpp>
 #include <svt/readers/format/zip_member.hpp>
 #include <svt/readers/ifc/ifc_reader.hpp>
 #include <svt/readers/read_model.hpp>
@@ -187,6 +188,13 @@ Result<model::BuildingModel> readZip(Bytes bytes, string_view name, const ReadOp
     return fail(Code::CannotOpen, fmt::format("'{}' in the zip archive is damaged", member->name));
 }
 
+// Footprints become bodies where that is wanted.
+Result<model::BuildingModel> withBodies(Result<model::BuildingModel> model, const ReadOptions& options,
+                                        Diagnostics* diagnostics) {
+    if (model && options.extrudeFootprints) extrudeFootprints(*model, diagnostics);
+    return model;
+}
+
 Result<model::BuildingModel> readAny(Bytes bytes, string_view name, const ReadOptions& options,
                                      Diagnostics* diagnostics) {
     if (isZip(bytes)) return readZip(bytes, name, options, diagnostics);
@@ -207,7 +215,7 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
     try {
-        return withStatedClasses(readAny(bytes, name, options, diagnostics));
+        return withBodies(withStatedClasses(readAny(bytes, name, options, diagnostics)), options, diagnostics);
     } catch (const std::bad_alloc&) {
         // Here it is known which file; the memory of its half-made model is free again.
         const auto grant = memoryGrant();
