@@ -184,6 +184,7 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     if (options.style != nullptr) sheets.push_back(options.style);
     auto labelled = makeLabels(model, *meshes, sheets);
     if (!labelled) return labelled.error();
+    for (voxelize::PatternedObject& object : labelled->patterns) voxelize::fitPattern(object, grid->spacing());
     return Prepared{std::move(*meshes), *grid, std::move(choice), std::move(*labelled)};
 }
 

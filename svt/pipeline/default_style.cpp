@@ -58,6 +58,8 @@ const char* const kDefaultPatternsJson = R"json({
      "pattern": {"type": "brick", "colors": ["#b9744f", "#e4ddd0"]}},
     {"select": "class=GroundSurface or class=FloorSurface or ifcType~Slab or material=concrete",
      "pattern": {"type": "concrete", "colors": ["#b3b0a8", "#8f8c85", "#75726c"]}},
+    {"select": "class=RoofSurface or ifcType~Roof or predefinedType=ROOF or material=tiles or (ifcType=IfcSlab or class=BuildingConstructiveElement) and name~'[Rr]oof|Dach'",
+     "pattern": {"type": "stripes", "size": 0.16, "line": 0.03, "colors": ["#a8483a", "#80372d"]}},
     {"select": "ifcType~Member or ifcType~Beam or material=timber or material=wood",
      "pattern": {"type": "wood-grain", "colors": ["#cf9f63", "#8f6232"]}},
     {"select": "material=insulation", "pattern": {"type": "insulation", "colors": ["#f1e6a7", "#a8923a"]}},

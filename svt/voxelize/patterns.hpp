@@ -80,6 +80,7 @@ struct Pattern {
 struct ObjectAxes {
     Vec3d origin{};  ///< local space
     std::array<Vec3d, 3> directions{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
+    Vec3d extent{};  ///< of its envelope along them, metres
 };
 /// Finds the dominant horizontal edge direction: the fullest bin of a length-weighted histogram of one-degree bins,
 /// refined to the mean direction of that bin.
@@ -90,6 +91,14 @@ struct PatternedObject {
     Pattern pattern;
     ObjectAxes axes;
 };
+
+/// Fits brick and block to an object and a grid. Units are stretched or squeezed so that whole ones fill the object's extent
+/// (half units along u and v, since every second course begins
+/// with one): its faces show bricks then, and not the joint within.
+/// Joints that are thinner than a voxel become as wide as one, where a unit has three at least: else samples would meet some
+/// and miss others. Other kinds stay.
+/// \param spacing  of the grid, metres
+void fitPattern(PatternedObject& object, Vec3d spacing) noexcept;
 
 /// Applies the patterns: a voxel with scalar `first` of a patterned object becomes first + phase at its centre.
 /// Cost: O(voxels of patterned objects).

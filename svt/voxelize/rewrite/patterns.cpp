@@ -49,14 +49,26 @@ std::uint32_t hashCell(std::int64_t x, std::int64_t y, std::int64_t z, std::uint
 
 double unit(std::uint32_t bits) noexcept { return bits * (1.0 / 4294967296.0); }
 
-// Running bond: every second course is shifted by half a brick. Returns 1 in a joint, 0 in a brick.
+// Running bond: every second course is shifted by half a brick, also in depth, so that no cut along a wall is all joint. Returns 1 in a joint, 0 in a brick. Each brick begins
+// at its lower corner, with the joints behind it, so that a face at 0 shows bricks.
+//
+//     w   [ ][      ][      ]
+//         [      ][      ][ ]   course 0
+//         0  u
 std::uint32_t bond(Vec3d p, Vec3d size, double joint) noexcept {
     const double course = std::floor(p.z / size.z);
     const bool isShifted = within(course, 2.0) >= 1;
     const double u = within(p.x + (isShifted ? size.x / 2 : 0), size.x);
     const double v = within(p.y + (isShifted ? size.y / 2 : 0), size.y);
     const double w = within(p.z, size.z);
-    return u < joint || v < joint || w < joint ? 1 : 0;
+    return u >= size.x - joint || v >= size.y - joint || w >= size.z - joint ? 1 : 0;
+}
+
+// `unit` stretched or squeezed so that whole ones fill `extent`, the last without its joint. Objects that are smaller than
+// half a unit keep it.
+double fitted(double unit, double joint, double extent) noexcept {
+    const double count = std::floor((extent + joint) / unit + 0.5);
+    return count >= 1 ? (extent + joint) / count : unit;
 }
 
 std::uint32_t hatch(Vec3d p, double period, double line, double angleDegrees) noexcept {
@@ -201,6 +213,21 @@ std::uint32_t Pattern::phaseAt(Vec3d p) const noexcept {
     return 0;
 }
 
+void fitPattern(PatternedObject& object, Vec3d spacing) noexcept {
+    Pattern& pattern = object.pattern;
+    if (pattern.kind != PatternKind::Brick && pattern.kind != PatternKind::Block) return;
+    const double step = std::max({spacing.x, spacing.y, spacing.z});
+    if (3 * step <= std::min({pattern.size.x, pattern.size.y, pattern.size.z}))
+        pattern.line = std::max(pattern.line, step);
+    const Vec3d extent = object.axes.extent;
+    pattern.size.x = 2 * fitted(pattern.size.x / 2, pattern.line, extent.x);
+    pattern.size.y = 2 * fitted(pattern.size.y / 2, pattern.line, extent.y);
+    pattern.size.z = fitted(pattern.size.z, pattern.line, extent.z);
+    // A sheet, of which the material lies on either side, goes through the middle of bricks.
+    if (extent.y < pattern.line)
+        object.axes.origin = object.axes.origin - object.axes.directions[1] * ((pattern.size.y / 2 - pattern.line) / 2);
+}
+
 Result<Pattern> makePattern(Pattern pattern) {
     const Defaults defaults = defaultsOf(pattern.kind);
     constexpr double kSmallest = 1e-4, kLargest = 1e3;
@@ -255,12 +282,13 @@ ObjectAxes dominantAxes(const mesh::ObjectMesh& mesh) noexcept {
         if (std::abs(u.x) < 1e-7) u = {0, 1, 0};
         axes.directions = {u, {-u.y, u.x, 0}, {0, 0, 1}};
     }
-    Vec3d low{1e300, 1e300, 1e300};
+    if (mesh.vertices.empty()) return axes;
+    Box3d box;
     for (const Vec3d& vertex : mesh.vertices)
-        for (int axis = 0; axis < 3; ++axis)
-            low[axis] = std::min(low[axis], dot(vertex, axes.directions[std::size_t(axis)]));
-    if (!mesh.vertices.empty())
-        axes.origin = axes.directions[0] * low.x + axes.directions[1] * low.y + axes.directions[2] * low.z;
+        box.add(
+            Vec3d{dot(vertex, axes.directions[0]), dot(vertex, axes.directions[1]), dot(vertex, axes.directions[2])});
+    axes.origin = axes.directions[0] * box.min.x + axes.directions[1] * box.min.y + axes.directions[2] * box.min.z;
+    axes.extent = box.size();
     return axes;
 }
 

@@ -142,11 +142,56 @@ TEST(Pattern, ShareOfTheLinesIsTheAnalyticOne) {
 TEST(Pattern, EverySecondCourseIsShiftedByHalfABrick) {
     const Pattern pattern = made(PatternKind::Brick, {0.25, 0.125, 0.08}, 0.01);
     // A perpend of the first course stands over the middle of a brick of the next.
-    EXPECT_EQ(pattern.phaseAt({0.255, 0.05, 0.04}), 1u);
-    EXPECT_EQ(pattern.phaseAt({0.255, 0.05, 0.12}), 0u);
-    EXPECT_EQ(pattern.phaseAt({0.13, 0.05, 0.12}), 1u);
-    EXPECT_EQ(pattern.phaseAt({0.13, 0.05, 0.04}), 0u);
-    EXPECT_EQ(pattern.phaseAt({0.2, 0.05, 0.085}), 1u);  // bed joint
+    EXPECT_EQ(pattern.phaseAt({0.245, 0.05, 0.04}), 1u);
+    EXPECT_EQ(pattern.phaseAt({0.245, 0.05, 0.12}), 0u);
+    EXPECT_EQ(pattern.phaseAt({0.12, 0.05, 0.12}), 1u);
+    EXPECT_EQ(pattern.phaseAt({0.12, 0.05, 0.04}), 0u);
+    EXPECT_EQ(pattern.phaseAt({0.2, 0.05, 0.075}), 1u);  // bed joint
+}
+
+TEST(Pattern, FittedBricksShowNoJointOnAnyFaceOfTheirWall) {
+    for (const Vec3d extent :
+         {Vec3d{4.03, 0.365, 2.61}, Vec3d{1.17, 0.24, 2.5}, Vec3d{7.3, 0.1, 0.9}, Vec3d{0.5, 0.5, 3}}) {
+        PatternedObject wall{1, made(PatternKind::Brick), {}};
+        wall.axes.extent = extent;
+        fitPattern(wall, {0.005, 0.005, 0.005});
+        const Pattern& pattern = wall.pattern;
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(pattern.size[axis], made(PatternKind::Brick).size[axis], 0.35 * pattern.size[axis]);
+            // Just within each face: joints of the other directions alone.
+            Vec3d p{0.01, 0.01, 0.01};
+            p[axis] = 1e-6;
+            EXPECT_EQ(pattern.phaseAt(p), 0u) << axis;
+            p[axis] = extent[axis] - 1e-6;
+            if (axis == 0) p.z = 0.5 * pattern.size.z;
+            EXPECT_EQ(pattern.phaseAt(p), 0u) << axis << ' ' << extent.x;
+        }
+    }
+}
+
+TEST(Pattern, EveryJointIsAsWideAsAVoxelWhereBricksAreWider) {
+    PatternedObject wall{1, made(PatternKind::Brick), {}};
+    wall.axes.extent = {3, 0.24, 2.5};
+    fitPattern(wall, {0.02, 0.02, 0.02});
+    EXPECT_EQ(wall.pattern.line, 0.02);
+    // Samples along w meet each bed joint once.
+    int joints = 0;
+    for (double w = 0.0031; w < 2.5; w += 0.02) joints += wall.pattern.phaseAt({0.05, 0.01, w}) == 1 ? 1 : 0;
+    EXPECT_NEAR(joints, std::lround(2.52 / wall.pattern.size.z) - 1, 1);
+    PatternedObject coarse{1, made(PatternKind::Brick), {}};
+    coarse.axes.extent = wall.axes.extent;
+    fitPattern(coarse, {0.05, 0.05, 0.05});
+    EXPECT_EQ(coarse.pattern.line, 0.012);
+}
+
+TEST(Pattern, AFittedSheetLiesWithinBricksOnBothSides) {
+    PatternedObject sheet{1, made(PatternKind::Brick), {}};
+    sheet.axes.extent = {3, 0, 2.5};
+    fitPattern(sheet, {0.005, 0.005, 0.005});
+    for (const double v : {-0.02, -1e-6, 1e-6, 0.02}) {
+        const Vec3d local{0.01 - sheet.axes.origin.x, v - sheet.axes.origin.y, 0.01 - sheet.axes.origin.z};
+        EXPECT_EQ(sheet.pattern.phaseAt(local), 0u) << v;
+    }
 }
 
 TEST(Pattern, HatchLinesRunAtTheirAngle) {
