@@ -501,6 +501,22 @@ describe("tools", () => {
     await page.locator("#legend").uncheck();
   });
 
+  it("colours by storey, with a legend and an arrow to the north", async () => {
+    await page.fill("#color-by", "storey");
+    await page.locator("#color-by").press("Enter");
+    await page.locator("#north-arrow").check();
+    await settled();
+    const scene = await inPage("s.composed([640, 360])");
+    assert.equal(scene.colorBy, "storey");
+    assert.equal(scene.northArrow, true);
+    assert.equal(await inPage("s.message"), null);
+    await page.fill("#color-by", "");
+    await page.locator("#color-by").press("Enter");
+    await page.locator("#north-arrow").uncheck();
+    await settled();
+    assert.equal((await inPage("s.composed([640, 360])")).colorBy, undefined);
+  });
+
   it("measure between picked points", async () => {
     await tool("measure");
     const box = await stage();

@@ -20,6 +20,10 @@ export interface Scene {
   hatches?: { show?: boolean; spacing?: number };
   ambientOcclusion?: number;
   names?: string[];
+  title?: string;
+  scaleBar?: boolean;
+  northArrow?: boolean;
+  colorBy?: string;
   passes?: ScenePass[];
 }
 /** Rays per pixel. */

@@ -179,6 +179,10 @@ const kTexts = {
   wireframe_none: ["Visible only", "Nur sichtbare"],
   noEdges: ["This volume was built without edges (svt build --vectors edges).", "Dieses Volumen wurde ohne Kanten gebaut (svt build --vectors edges)."],
   names: ["Names of the selection", "Namen der Auswahl"],
+  colorBy: ["Colour by", "Farbe nach"],
+  colorByNothing: ["class, storey, volume, an attribute", "class, storey, volume, ein Attribut"],
+  scaleBar: ["Scale bar", "Maßstab"],
+  northArrow: ["North arrow", "Nordpfeil"],
   legend: ["Legend", "Legende"],
 
   measureHint: ["Click points in the picture, best on a cut face.", "Punkte im Bild anklicken, am besten auf einer Schnittfläche."],

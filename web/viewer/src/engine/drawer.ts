@@ -58,9 +58,10 @@ export class Drawer {
     return byGl ?? (await this.drawCpu(scene, width, height, isDraft));
   }
 
-  /** The font is fetched when names are first drawn. */
+  /** The font is fetched when words are first drawn. */
   async prepare(scene: Scene): Promise<void> {
-    if (this.hasFont || !scene.names?.length) return;
+    const hasWords = scene.names?.length || scene.title || scene.colorBy || scene.scaleBar || scene.northArrow;
+    if (this.hasFont || !hasWords) return;
     const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
     if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
     this.svt.call("font", [], new Uint8Array(await response.arrayBuffer()));

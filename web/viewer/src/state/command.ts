@@ -51,6 +51,9 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   const context = effects.lens?.context ?? effects.highlight?.context;
   if (context && context !== "ghost") add("--context", context);
   add("--names", ...(scene.names ?? []));
+  if (scene.colorBy) add("--color-by", scene.colorBy);
+  if (scene.scaleBar) words.push("--scale-bar");
+  if (scene.northArrow) words.push("--north-arrow");
   // Last, since its query is optional.
   if (state.wireframe) {
     if (state.wireframe !== kSceneMembers["/passes/*/lines/*/hidden"].default) add("--hidden-lines", state.wireframe);

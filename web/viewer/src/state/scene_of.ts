@@ -111,6 +111,9 @@ export function sceneOf(state: ViewState, box: Box, size: [number, number], samp
   scene.camera = camera;
   if (state.hatches !== null) scene.hatches = { show: state.hatches };
   if (state.names && state.selection.length) scene.names = state.selection.map(ofId);
+  if (state.colorBy) scene.colorBy = state.colorBy;
+  if (state.scaleBar && camera.parallel) scene.scaleBar = true;
+  if (state.northArrow) scene.northArrow = true;
   scene.passes = [passOf(state)];
   if (state.custom) return { scene: { ...state.custom, ...scene, passes: state.custom.passes ?? [{}] }, effects: {} };
   return { scene, effects: effectsOf(state, box) };

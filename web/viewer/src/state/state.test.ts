@@ -57,6 +57,17 @@ describe("scene of the state", () => {
     expect(sceneOf({ ...selected, effect: "cutaway" }, box, size).effects).toEqual({ cutaway: { query: 'id="a" or id="b"', margin: 0.15 } });
   });
 
+  it("colours by an attribute and draws what a plan needs", () => {
+    const shown = state({ colorBy: "storey", scaleBar: true, northArrow: true });
+    const { scene } = sceneOf(shown, box, size);
+    expect(scene.colorBy).toBe("storey");
+    expect(scene.northArrow).toBe(true);
+    expect(scene.scaleBar, "in perspective there is no one scale").toBeUndefined();
+    const parallel = { ...shown, camera: { eye: [1, 2, 50], target: [1, 2, 0], fieldOfView: 30, parallel: true, height: 10 } } as ViewState;
+    expect(sceneOf(parallel, box, size).scene.scaleBar).toBe(true);
+    expect(commandOf(shown, sceneOf(shown, box, size), "house.svt")).toContain("--color-by storey --north-arrow");
+  });
+
   it("names the selection, draws lines and hulls, hatches or not", () => {
     const { scene } = sceneOf(state({ selection: ["a"], names: true, wireframe: "dashed", shell: "room", hatches: false, look: "paper" }), box, size);
     expect(scene.names).toEqual(['id="a"']);

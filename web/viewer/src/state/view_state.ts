@@ -71,6 +71,11 @@ export interface ViewState {
   wireframe: HiddenLines | null;
   /** Names of selected features beside the picture. */
   names: boolean;
+  /** What colours and a legend in the picture tell: class, storey, volume, an attribute, ...; empty: nothing. */
+  colorBy: string;
+  /** Drawn where the projection is parallel. */
+  scaleBar: boolean;
+  northArrow: boolean;
   /** Ids. */
   selection: string[];
   /** A scene given as JSON: its passes are drawn unchanged, and the tools change only the rest. */
@@ -93,6 +98,9 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     shell: null,
     wireframe: null,
     names: false,
+    colorBy: "",
+    scaleBar: kSceneMembers["/scaleBar"].default,
+    northArrow: kSceneMembers["/northArrow"].default,
     selection: [],
     custom: null,
   };

@@ -1,4 +1,4 @@
-/** Look, edges, names, legend. */
+/** Look, edges, names, legend, colours by attribute, scale bar and north arrow. */
 
 import { css, html, nothing } from "lit";
 import type { HiddenLines } from "../engine";
@@ -9,17 +9,20 @@ import { controls, Part } from "../ui/part";
 const kLooks = kSceneMembers["/look"].choices;
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
 
+/** Suggested; attributes of the model are possible, too. */
+const kColorKeys = ["class", "name", "storey", "volume"] as const;
+
 export class LookTool extends Part {
   static override styles = [controls, css`.segments { display: flex; } h3:first-child { margin-top: 0; }`];
 
   protected override uses() {
     const { state, info, isLegendShown } = this.session;
-    return [state.look, state.wireframe, state.names, info, isLegendShown];
+    return [state.look, state.wireframe, state.names, state.colorBy, state.scaleBar, state.northArrow, info, isLegendShown];
   }
 
   override render() {
     const { session } = this;
-    const { look, wireframe, names } = session.state;
+    const { look, wireframe, names, colorBy, scaleBar, northArrow } = session.state;
     const hasEdges = session.info?.hasEdges ?? false;
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
@@ -37,6 +40,13 @@ export class LookTool extends Part {
           session.isLegendShown = (e.target as HTMLInputElement).checked;
           session.changed();
         }} />${t("legend")}</label>
+      </div>
+      <h3 id="color-by-title">${t("colorBy")}</h3>
+      <input id="color-by" list="color-by-keys" aria-labelledby="color-by-title" title=${help("/colorBy")} placeholder=${t("colorByNothing")} .value=${colorBy} @change=${(e: Event) => session.set({ colorBy: (e.target as HTMLInputElement).value.trim() })} />
+      <datalist id="color-by-keys">${kColorKeys.map((key) => html`<option value=${key}></option>`)}</datalist>
+      <div class="row">
+        <label class="check" title=${help("/scaleBar")}><input type="checkbox" id="scale-bar" .checked=${scaleBar} @change=${(e: Event) => session.set({ scaleBar: (e.target as HTMLInputElement).checked })} />${t("scaleBar")}</label>
+        <label class="check" title=${help("/northArrow")}><input type="checkbox" id="north-arrow" .checked=${northArrow} @change=${(e: Event) => session.set({ northArrow: (e.target as HTMLInputElement).checked })} />${t("northArrow")}</label>
       </div>
     `;
   }
