@@ -33,6 +33,15 @@ bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid)
     return std::abs(dot(drawing.axes.normal, grid.axes()[2])) > 1 - 1e-12;
 }
 
+std::string_view beyondName(illustrate::BeyondKind kind) noexcept {
+    switch (kind) {
+        case illustrate::BeyondKind::Hidden: return "hidden";
+        case illustrate::BeyondKind::Above: return "above";
+        case illustrate::BeyondKind::Visible: break;
+    }
+    return "visible";
+}
+
 std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) {
     const Vec3d normal = drawing.plane.normal;
     const double offset = dot(normal, drawing.plane.point - grid.origin());

@@ -19,6 +19,9 @@ namespace svt::writers {
 /// Display name of a component: its name, else its id.
 [[nodiscard]] const std::string& shownName(const volume::Label& label) noexcept;
 
+/// "visible", "hidden" or "above".
+[[nodiscard]] std::string_view beyondName(illustrate::BeyondKind kind) noexcept;
+
 /// "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the grid's lower corner.
 [[nodiscard]] std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid);
 

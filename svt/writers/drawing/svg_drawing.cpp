@@ -76,7 +76,12 @@ public:
                 low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
                 high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
             }
-        if (drawing.components.empty() && drawing.lines.empty()) low_ = high_ = {};
+        for (const illustrate::BeyondLine& line : drawing.beyond)
+            for (const PlanePoint p : {line.from, line.to}) {
+                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+            }
+        if (drawing.components.empty() && drawing.lines.empty() && drawing.beyond.empty()) low_ = high_ = {};
         drawnWidth_ = (high_.u - low_.u) * millimetres_;
         drawnHeight_ = (high_.v - low_.v) * millimetres_;
         width_ = std::max(drawnWidth_, kMinWidth) + 2 * kMargin;
@@ -87,6 +92,7 @@ public:
     std::string write() {
         begin();
         addComponents();
+        addBeyond();
         addBorders();
         addLines();
         addNames();
@@ -157,8 +163,15 @@ private:
             ".thin { stroke-width: 0.13 }\n"
             ".bold { stroke-width: 0.5 }\n"
             ".dashed { stroke-dasharray: 1.5 1 }\n"
-            ".names { text-anchor: middle }\n"
-            "</style>\n<defs>\n";
+            ".names { text-anchor: middle }\n";
+        // Widths and lengths after ISO 128-2: narrow lines; dashes of 12 widths; long dashes of 24 with two dots.
+        if (!drawing_.beyond.empty())
+            svg_ +=
+                ".beyond { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round }\n"
+                ".hidden { stroke-linecap: butt; stroke-dasharray: 2.16 0.54 }\n"
+                ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n"
+                ".names text { paint-order: stroke; stroke: #fff; stroke-width: 0.6; stroke-linejoin: round }\n";
+        svg_ += "</style>\n<defs>\n";
         for (const HatchStyle& style : kHatches) {
             if (!isUsed(style.hatch)) continue;
             const std::string turn = *style.turn == '\0' ? "" : fmt::format(" patternTransform=\"{}\"", style.turn);
@@ -229,6 +242,24 @@ private:
                 const bool isClosed = border.points.front() == border.points.back();
                 addLine(border.points);
                 svg_ += isClosed ? "Z\"/>\n" : "\"/>\n";
+            }
+            svg_ += "</g>\n";
+        }
+    }
+
+    // What stands behind the plane, and above it: one group per kind, one path per component.
+    void addBeyond() {
+        const std::vector<illustrate::BeyondLine>& lines = drawing_.beyond;
+        for (std::size_t n = 0; n < lines.size();) {
+            const illustrate::BeyondKind kind = lines[n].kind;
+            svg_ += fmt::format("<g class=\"beyond {}\">\n", beyondName(kind));
+            while (n < lines.size() && lines[n].kind == kind) {
+                const std::uint32_t label = lines[n].label;
+                svg_ += fmt::format("<path class=\"{}\" data-id=\"{}\" d=\"", plainName(labelOf(label).className),
+                                    xmlAttribute(labelOf(label).id));
+                for (; n < lines.size() && lines[n].kind == kind && lines[n].label == label; ++n)
+                    addLine({lines[n].from, lines[n].to});
+                svg_ += "\"/>\n";
             }
             svg_ += "</g>\n";
         }
