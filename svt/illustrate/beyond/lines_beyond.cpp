@@ -24,8 +24,8 @@ constexpr double kSameDirection = 0.99999;
 
 // Whether faces of two labels that lie in one plane show no joint.
 struct JointKind {
-    std::uint32_t building = 0;
-    bool isPaper = false;  // a boundary surface that is a sheet: it lies on what it bounds
+    std::uint32_t building = 0;  // or kNoLabel
+    bool isPaper = false;        // a boundary surface that is a sheet: it lies on what it bounds
     bool joins = false;
     render::Hatch hatch{};
     const std::string* className = nullptr;
@@ -37,8 +37,7 @@ std::vector<JointKind> jointKinds(const volume::LabelTable& table) {
     for (std::uint32_t l = 0; l < kinds.size(); ++l) {
         const volume::Label& label = table.labels[l];
         std::uint32_t top = l;
-        while (table.labels[top].parent != volume::kNoLabel &&
-               model::classRank(table.labels[top].className) != model::ClassRank::Building)
+        while (top != volume::kNoLabel && model::classRank(table.labels[top].className) != model::ClassRank::Building)
             top = table.labels[top].parent;
         const auto rank = model::classRank(label.className);
         kinds[l] = {top, model::isBoundarySurface(label.className) && label.filling == volume::Filling::Surface,

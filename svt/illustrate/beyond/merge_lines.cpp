@@ -16,6 +16,7 @@ namespace {
 constexpr double kSameLine = 1e-4;   // metres
 constexpr double kParallel = 0.02;   // sine
 constexpr double kStraight = 1e-3;   // sine: pieces that go on
+constexpr double kSpeck = 3e-3;      // metres: shorter lines that stand alone
 constexpr double kSamePoint = 1e-5;  // metres
 
 double lengthOfLine(const BeyondLine& line) noexcept {
@@ -77,7 +78,9 @@ std::vector<BeyondLine> withoutDoubles(const std::vector<BeyondLine>& lines, std
             covered.clear();
             index.visitNear(line.from, line.to, seen, [&](std::uint32_t item) {
                 LinePart part;
-                if (item < fixed + n && partOn(line, lines[item], part)) covered.push_back(part);
+                if (item >= fixed + n || !partOn(line, lines[item], part)) return true;
+                // A line that begins where the other ends keeps all of its length.
+                if ((part.to - part.from) * lengthOfLine(line) > 2 * kSameLine) covered.push_back(part);
                 return true;
             });
             left[n] = partsLeft({0, 1}, covered, kShortestPiece / lengthOfLine(line));
@@ -104,7 +107,8 @@ struct BeyondEnd {
     [[nodiscard]] auto place() const noexcept { return std::tuple(u, v); }
 };
 
-// Joins lines that go on in the same direction. Each end is joined once at most.
+// Joins lines that go on in the same direction. Each end is joined once at most. Short lines at which no other ends are
+// what is left of steps between faces that should be one; they are left out.
 std::vector<BeyondLine> joined(const std::vector<BeyondLine>& lines) {
     constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     std::vector<BeyondEnd> ends;
@@ -126,9 +130,11 @@ std::vector<BeyondLine> joined(const std::vector<BeyondLine>& lines) {
         return xu * yu + xv * yv > 0 &&
                std::abs(xu * yv - xv * yu) < kStraight * std::hypot(xu, xv) * std::hypot(yu, yv);
     };
+    std::vector<std::uint8_t> isAlone(next.size(), 0);
     for (std::size_t first = 0; first < ends.size();) {
         std::size_t end = first;
         while (end < ends.size() && ends[end].place() == ends[first].place()) ++end;
+        if (end == first + 1) isAlone[2 * ends[first].line + (ends[first].isTo ? 1 : 0)] = 1;
         for (std::size_t a = first; a < end; ++a)
             for (std::size_t b = a + 1; b < end; ++b) {
                 const std::uint32_t x = 2 * ends[a].line + (ends[a].isTo ? 1 : 0),
@@ -150,7 +156,8 @@ std::vector<BeyondLine> joined(const std::vector<BeyondLine>& lines) {
             isDone[next[end] / 2] = 1;
             end = next[end] ^ 1u;
         }
-        result.push_back({pointOf(start), pointOf(end), lines[start / 2].label, lines[start / 2].kind});
+        const BeyondLine line{pointOf(start), pointOf(end), lines[start / 2].label, lines[start / 2].kind};
+        if (isAlone[start] == 0 || isAlone[end] == 0 || lengthOfLine(line) >= kSpeck) result.push_back(line);
     }
     return result;
 }

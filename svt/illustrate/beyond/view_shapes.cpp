@@ -12,8 +12,9 @@ namespace {
 using volume::Filling;
 using volume::kNoLabel;
 
-constexpr double kOnViewPlane = 1e-5;             // metres, as for the cut
+constexpr double kOnViewPlane = 1e-5;         // metres, as for the cut
 constexpr double kCosineOfCrease = 0.939693;  // of 20 degrees: facets of round things are not drawn
+constexpr double kSeen = 1e-3;                // cosine: faces of outlines
 constexpr double kFromTheSide = 1e-7;         // cosine below which a face is seen from the side
 constexpr double kSliver = 5e-6;              // metres: lower triangles have no direction
 
@@ -44,7 +45,8 @@ std::vector<LabelView> viewsOf(const volume::LabelTable& table, std::span<const 
         std::uint32_t building = label.parent;
         while (building != kNoLabel && model::classRank(table.labels[building].className) != model::ClassRank::Building)
             building = table.labels[building].parent;
-        view.isShown = building != kNoLabel && isDrawn[building] != 0 && isClosedFilling(table.labels[building].filling);
+        view.isShown =
+            building != kNoLabel && isDrawn[building] != 0 && isClosedFilling(table.labels[building].filling);
         view.turn = -1;
     }
     return views;
@@ -172,8 +174,9 @@ private:
             farthest = std::max(farthest, normal.z);
         }
         if (count == 0) return;
-        const bool turnsAway = view.isClosed && nearest < -1e-3 && farthest > 1e-3;
-        if (count > 1 && !isCrease && !turnsAway) return;
+        // Where a round surface turns away from the eye: beside a face that is seen there is one that is not.
+        const bool isOutline = view.isClosed ? nearest < -kSeen && farthest > -kSeen : count == 2 && isFold(around);
+        if (count > 1 && !isCrease && !isOutline) return;
         if (view.isClosed && !options_.everyEdge && nearest > kFromTheSide) return;
         Vec3d from = points_[around[0].low], to = points_[around[0].high];
         if (!(from.z > 0) && !(to.z > 0)) return;
@@ -182,6 +185,24 @@ private:
         ViewEdge edge{from, to, label, {}, 0};
         findFace(around, view, edge);
         shapes_.edges.push_back(edge);
+    }
+
+    // Whether the two faces of a sheet lie on one side of their edge, or one is seen from the side.
+    [[nodiscard]] bool isFold(std::span<const HalfEdge> around) const noexcept {
+        int sides = 0;
+        for (const HalfEdge& half : around) {
+            const auto& [normal, t] = normals_[half.triangle];
+            if (std::abs(normal.z) > kSeen) sides += sideOf(half, t);
+        }
+        return sides != 0;
+    }
+    // On which side of an edge a triangle lies in the drawing: 1 for the left from the lower point to the higher one.
+    [[nodiscard]] int sideOf(const HalfEdge& half, std::uint32_t triangle) const noexcept {
+        Vec3d third{};
+        for (const std::uint32_t corner : parts_.triangles[triangle].corners)
+            if (corner != half.low && corner != half.high) third = points_[corner];
+        const Vec3d along = points_[half.high] - points_[half.low], across = third - points_[half.low];
+        return along.x * across.y - along.y * across.x > 0 ? 1 : -1;
     }
 
     // The face that looks to the eye, where it is the only one.
@@ -193,12 +214,7 @@ private:
                 edge.faceSide = 0;
                 return;
             }
-            const auto& corners = parts_.triangles[t].corners;
-            Vec3d third{};
-            for (const std::uint32_t corner : corners)
-                if (corner != half.low && corner != half.high) third = points_[corner];
-            const Vec3d along = points_[half.high] - points_[half.low], across = third - points_[half.low];
-            edge.faceSide = along.x * across.y - along.y * across.x > 0 ? 1 : -1;
+            edge.faceSide = sideOf(half, t);
             edge.normal = normal.z > 0 ? normal : -normal;
         }
     }
