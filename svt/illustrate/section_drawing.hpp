@@ -126,7 +126,8 @@ struct SectionDrawing {
     bool isFromMeshes = false;  ///< meshes were cut; else all is drawn from voxels
     /// Meshes were to be cut, but their edges did not settle in whole numbers (see exact/arrangement.hpp).
     bool isUnsettled = false;
-    double planeShift = 0;  ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
+    bool lacksMeshes = false;  ///< lines beyond the cut were asked for, but the volume keeps no meshes
+    double planeShift = 0;     ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
 };
 
 /// Which lines beside the cut are drawn. They are taken from the meshes that the volume keeps, not from voxels.

@@ -1,5 +1,6 @@
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -12,9 +13,6 @@
 #include <svt/writers/svg_drawing.hpp>
 
 #include <fmt/format.h>
-
-#include <cmath>
-#include <cstdlib>
 
 namespace svt::cli {
 namespace {
@@ -29,17 +27,6 @@ struct SectionArguments {
     bool noRooms = false, json = false, verbose = false;
     BuildArguments build;
 };
-
-// "1:50" or "50".
-Result<double> parseScale(const std::string& text) {
-    const std::string number = text.rfind("1:", 0) == 0 ? text.substr(2) : text;
-    char* rest = nullptr;
-    const double scale = std::strtod(number.c_str(), &rest);
-    if (number.empty() || *rest != '\0' || !(scale >= 0.01 && scale <= 1e7))
-        return Error(Code::BadArgument,
-                     fmt::format("--scale '{}': expected 1:N with N from 0.01 to 10000000, such as 1:50", text));
-    return scale;
-}
 
 Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path, double scale) {

@@ -278,6 +278,7 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
     }
     SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, *isDrawn, options);
     drawing.isUnsettled = isCut;
+    drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
     addLinesBeyond(drawing, volume, *isDrawn, options.beyond, options.threads);
     return drawing;
 }

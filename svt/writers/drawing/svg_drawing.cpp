@@ -4,6 +4,7 @@
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/drawing/name_place.hpp>
 #include <svt/writers/svg_drawing.hpp>
 
 #include <fmt/format.h>
@@ -23,7 +24,6 @@ using volume::kNoLabel;
 
 // Millimetres on paper.
 constexpr double kMargin = 10, kTitleHeight = 24, kMinWidth = 90;
-constexpr double kTextSize = 2.5, kLeastTextSize = 1.2;
 constexpr double kTextWidth = 0.56;  // width of a character relative to the font size, sans serif
 
 class SvgWriter {
@@ -219,18 +219,16 @@ private:
         svg_ += "<g class=\"names\">\n";
         for (const SectionComponent& component : drawing_.components) {
             if (!isSpace(component.label) || component.polygons.empty()) continue;
-            const auto& largest = *std::ranges::max_element(component.polygons, {}, &illustrate::SectionPolygon::area);
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
                 isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
-            const illustrate::TextPlace place = illustrate::findTextPlace(largest);
             const auto longest = static_cast<double>(std::max(characterCount(name), characterCount(area)));
-            const double lines = area.empty() ? 1 : 2.3;
-            const double size = std::min({kTextSize, 0.9 * place.width * millimetres_ / (kTextWidth * longest),
-                                          0.8 * place.height * millimetres_ / lines});
-            if (!(size >= kLeastTextSize)) continue;
-            const double x = left_ + (place.center.u - low_.u) * millimetres_;
-            const double y = kMargin + (high_.v - place.center.v) * millimetres_;
+            const auto place =
+                placeName(component, drawing_, millimetres_, kTextWidth * longest, area.empty() ? 1 : 2.3);
+            if (!place) continue;
+            const double size = place->size;
+            const double x = left_ + (place->center.u - low_.u) * millimetres_;
+            const double y = kMargin + (high_.v - place->center.v) * millimetres_;
             addText(x, y + size * (area.empty() ? 0.35 : -0.25), size, name);
             if (!area.empty()) addText(x, y + size * 1.05, size, area);
         }
