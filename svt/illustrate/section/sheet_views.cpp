@@ -40,8 +40,11 @@ bool isRoom(const volume::Label& label) {
     return model::isSpace(label.className) && model::classRank(label.className) == model::ClassRank::Room;
 }
 
-// Whether a component is a stair by its class, type or name.
+// Whether a component is a stair by its class, type or name; the door of a stairwell is none.
 bool isStair(const volume::Label& label) {
+    const auto rank = model::classRank(label.className);
+    if (rank != model::ClassRank::Installation && rank != model::ClassRank::Element) return false;
+    if (model::isBoundarySurface(label.className)) return false;
     std::string words = label.className + " " + label.name;
     for (const Attribute& attribute : label.attributes)
         if (attribute.name == "ifcType" || attribute.name == "function")
@@ -50,34 +53,34 @@ bool isStair(const volume::Label& label) {
     return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
 }
 
-struct PlaneChoice {
-    double at = 0, score = -1;
-};
-
-// The best of nine planes across an axis, through the middle half of the building; a stair is preferred.
+// Of nine planes across an axis, through the stair or the middle half of the building, the one that cuts most of rooms
+// and least of walls along their length.
 Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const Box3d& all,
                               const std::optional<Box3d>& stair, int threads) {
-    const double low = all.min[axis], size = all.max[axis] - low;
-    PlaneChoice best{low + 0.5 * size};
+    const Box3d& through = stair ? *stair : all;
+    const double low = through.min[axis], size = through.max[axis] - low, spread = stair ? 0.09 : 0.0571;
+    const Vec3d along = volume.grid.axes()[static_cast<std::size_t>(axis)];
     SectionOptions options;
     options.threads = threads;
+    double best = low + 0.5 * size, most = -kInfinity;
     for (int n = 0; n < 9; ++n) {
         // From the middle outwards, beside round parts of the extent, where walls often stand.
-        const double part = 0.487 + (n % 2 == 0 ? 1 : -1) * 0.0571 * ((n + 1) / 2);
-        double at = low + part * size;
-        if (n == 0 && stair) at = 0.5 * (stair->min[axis] + stair->max[axis]);
-        Vec3d normal = volume.grid.axes()[static_cast<std::size_t>(axis)] * (axis == 1 ? -1.0 : 1.0);
-        const auto drawing = drawSection(
-            volume, {normal, volume.grid.origin() + volume.grid.axes()[static_cast<std::size_t>(axis)] * at}, options);
+        const double at = low + (0.487 + (n % 2 == 0 ? 1 : -1) * spread * ((n + 1) / 2)) * size;
+        const auto drawing =
+            drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
         if (!drawing) return drawing.error();
         double score = 0;
-        for (const SectionComponent& component : drawing->components)
-            if (isRoom(volume.labels.labels[component.label])) score += component.area + 2;
-        if (drawing->edgesInPlane > 0) score *= 0.5;
-        if (n == 0 && stair && score > 0) return at;
-        if (score > best.score * 1.02) best = {at, score};
+        for (const SectionComponent& component : drawing->components) {
+            const bool isSpace = model::isSpace(volume.labels.labels[component.label].className);
+            score += isRoom(volume.labels.labels[component.label]) ? component.area + 2 : isSpace ? 0 : -component.area;
+        }
+        if (drawing->edgesInPlane > 0) score -= 1;
+        if (score > most + 0.5) {
+            best = at;
+            most = score;
+        }
     }
-    return best.at;
+    return best;
 }
 
 }  // namespace

@@ -54,13 +54,15 @@ public:
 
     [[nodiscard]] SheetLayout make(double scale) const {
         SheetLayout layout{paper_, scale, {}};
+        std::size_t perRow = 0, endOfKind = 0;
         for (std::size_t first = 0; first < sizes_.size();) {
             const auto kind = kindOf(first);
+            if (first >= endOfKind) perRow = evenRow(first, scale, endOfKind);
             std::vector<SheetRow> rows;
             double height = 0;
             std::size_t next = first;
             while (next < sizes_.size() && kindOf(next) == kind) {
-                const SheetRow row = rowFrom(next, kind, scale);
+                const SheetRow row = rowFrom(next, kind, scale, perRow);
                 if (!rows.empty() && height + row.height > areaHeight()) break;
                 rows.push_back(row);
                 height += row.height;
@@ -81,9 +83,18 @@ private:
         return size.height * 1000 / scale + kAbove + kBelow;
     }
 
-    [[nodiscard]] SheetRow rowFrom(std::size_t first, illustrate::ViewKind kind, double scale) const {
+    // How many views of a kind a row has at most, so that all rows have about as many: 2 and 2 rather than 3 and 1.
+    std::size_t evenRow(std::size_t first, double scale, std::size_t& endOfKind) const {
+        const auto kind = kindOf(first);
+        std::size_t rows = 0;
+        for (endOfKind = first; endOfKind < sizes_.size() && kindOf(endOfKind) == kind; ++rows)
+            endOfKind = rowFrom(endOfKind, kind, scale, sizes_.size()).end;
+        return (endOfKind - first + rows - 1) / rows;
+    }
+
+    [[nodiscard]] SheetRow rowFrom(std::size_t first, illustrate::ViewKind kind, double scale, std::size_t most) const {
         SheetRow row{first, first, 0, 0};
-        for (; row.end < sizes_.size() && kindOf(row.end) == kind; ++row.end) {
+        for (; row.end < sizes_.size() && row.end < first + most && kindOf(row.end) == kind; ++row.end) {
             const double width = outerWidth(sizes_[row.end], scale);
             if (row.end > first && row.width + width > areaWidth()) break;
             row.width += width;
