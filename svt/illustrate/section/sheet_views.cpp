@@ -86,14 +86,6 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
 }  // namespace
 
 std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
-    std::vector<BuildingLevel> levels;
-    for (const StoreyHeights& storey : findStoreys(volume)) {
-        const volume::Label& label = volume.labels.labels[storey.label];
-        // Storeys of several buildings or parts may share a floor.
-        if (!levels.empty() && storey.floor - levels.back().floor < kSameLevel) continue;
-        levels.push_back({label.name.empty() ? label.id : label.name, storey.floor});
-    }
-    if (!levels.empty()) return levels;
     std::vector<double> floors;
     const std::vector<Box3d> boxes = boxesOf(volume);
     for (std::size_t l = 0; l < boxes.size(); ++l) {
@@ -102,6 +94,20 @@ std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
             floors.push_back(boxes[l].min.z);
     }
     std::sort(floors.begin(), floors.end());
+    std::vector<BuildingLevel> levels;
+    for (const StoreyHeights& storey : findStoreys(volume)) {
+        const volume::Label& label = volume.labels.labels[storey.label];
+        // Heights of storeys are those of voxels; the floor of a room within a voxel tells the true one.
+        double floor = storey.floor;
+        const auto nearest = std::min_element(floors.begin(), floors.end(), [&](double a, double b) {
+            return std::abs(a - storey.floor) < std::abs(b - storey.floor);
+        });
+        if (nearest != floors.end() && std::abs(*nearest - floor) <= 1.01 * volume.grid.spacing().z) floor = *nearest;
+        // Storeys of several buildings or parts may share a floor.
+        if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;
+        levels.push_back({label.name.empty() ? label.id : label.name, floor});
+    }
+    if (!levels.empty()) return levels;
     for (const double floor : floors)
         if (levels.empty() || floor - levels.back().floor >= kSameLevel) levels.push_back({"", floor});
     return levels;

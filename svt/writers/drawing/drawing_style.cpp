@@ -1,6 +1,5 @@
 #include <svt/writers/drawing/drawing_style.hpp>
 
-#include <svt/illustrate/hatches.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 /// \file
 /// How a section drawing looks on paper, whatever it is written to: which lines are bold, which hatch fills what.
 
+#include <svt/illustrate/hatches.hpp>
 #include <svt/illustrate/section_drawing.hpp>
-#include <svt/render/hatch.hpp>
 
 #include <cstdint>
 #include <span>
