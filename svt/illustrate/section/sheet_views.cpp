@@ -60,6 +60,9 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
     const Box3d& through = stair ? *stair : all;
     const double low = through.min[axis], size = through.max[axis] - low, spread = stair ? 0.09 : 0.0571;
     const Vec3d along = volume.grid.axes()[static_cast<std::size_t>(axis)];
+    const auto& labels = volume.labels.labels;
+    const bool hasRooms = std::any_of(labels.begin(), labels.end(),
+                                      [](const volume::Label& label) { return label.count > 0 && isRoom(label); });
     SectionOptions options;
     options.threads = threads;
     double best = low + 0.5 * size, most = -kInfinity;
@@ -69,10 +72,14 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
         const auto drawing =
             drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
         if (!drawing) return drawing.error();
+        // Without rooms, what cuts most of the buildings.
         double score = 0;
         for (const SectionComponent& component : drawing->components) {
-            const bool isSpace = model::isSpace(volume.labels.labels[component.label].className);
-            score += isRoom(volume.labels.labels[component.label]) ? component.area + 2 : isSpace ? 0 : -component.area;
+            const volume::Label& label = volume.labels.labels[component.label];
+            if (isRoom(label))
+                score += component.area + 2;
+            else if (!model::isSpace(label.className))
+                score += hasRooms ? -component.area : component.area + component.lineLength;
         }
         if (drawing->edgesInPlane > 0) score -= 1;
         if (score > most + 0.5) {
