@@ -93,7 +93,7 @@ enum class BeyondKind : std::uint8_t {
     Above     ///< on the side that is cut away (in a plan above the cut), and seen from the plane
 };
 
-/// A straight line of what is not cut: an edge of an object, projected onto the plane. Lines do not lie on each other,
+/// A straight line of what is not cut: an edge of an object, or where two pierce each other, projected onto the plane. Lines do not lie on each other,
 /// nor on borders and lines of the cut; where they would, the first kind of the enumeration stays.
 struct BeyondLine {
     PlanePoint from, to;

@@ -166,6 +166,24 @@ TEST(LinesBeyond, ALineEndsWhereItPiercesAFace) {
     EXPECT_TRUE(lines.contains({4000, 3000, 4500, 3000}));
 }
 
+// A slab that reaches into a wall meets it in the corner; one that only touches it gives no line of its own.
+TEST(LinesBeyond, ALineIsDrawnWhereShellsPierceEachOther) {
+    Boxes boxes;
+    boxes.addBox("wall", "WallSurface", {0, 4, 0}, {6, 4.4, 3});
+    boxes.addBox("beam", "BuildingInstallation", {1, 1, 1}, {2, 4.2, 1.5});
+    // Seen from the south-west at an angle, the beam's west side and the wall's front cross upright.
+    const SectionDrawing drawing = drawBeyond(boxes, {-0.6, -0.8, 0}, {-3, -3, 0});
+    const double u = dot(Vec3d{1, 4, 0} - (drawing.axes.origin - boxes.volume.grid.origin()), drawing.axes.u);
+    std::size_t found = 0;
+    for (const BeyondLine& line : drawing.beyond)
+        if (std::abs(line.from.u - u) < 1e-5 && std::abs(line.to.u - u) < 1e-5) {
+            ++found;
+            EXPECT_NEAR(std::min(line.from.v, line.to.v), 1, 1e-5);
+            EXPECT_NEAR(std::max(line.from.v, line.to.v), 1.5, 1e-5);
+        }
+    EXPECT_EQ(found, 1u);
+}
+
 // Facets of round things are no edges; their outline is.
 TEST(LinesBeyond, ARoundColumnShowsItsOutline) {
     Boxes boxes;

@@ -3,6 +3,7 @@
 #include <svt/core/parallel.hpp>
 #include <svt/illustrate/beyond/cut_region.hpp>
 #include <svt/illustrate/beyond/merge_lines.hpp>
+#include <svt/illustrate/beyond/piercing.hpp>
 #include <svt/illustrate/beyond/view_shapes.hpp>
 #include <svt/illustrate/hatches.hpp>
 #include <svt/model/classes.hpp>
@@ -90,10 +91,12 @@ public:
         scratch.covered.insert(scratch.covered.end(), scratch.joints.begin(), scratch.joints.end());
         const std::vector<LinePart> visible = partsLeft({0, 1}, scratch.covered, least);
         add(visible, kind);
-        if (!wantsHidden_) return;
+        if (!wantsHidden_ || edge.isPiercing) return;
         scratch.joints.insert(scratch.joints.end(), visible.begin(), visible.end());
         add(partsLeft({0, 1}, scratch.joints, least), BeyondKind::Hidden);
     }
+
+    [[nodiscard]] const PlaneIndex& index() const noexcept { return index_; }
 
 private:
     static PlaneIndex indexOf(const ViewShapes& shapes) {
@@ -167,15 +170,15 @@ private:
     PlaneIndex index_;
 };
 
-void clipEdges(const ViewShapes& shapes, const LineClipper& clipper, BeyondKind kind, int threads,
+void clipEdges(const std::vector<ViewEdge>& edges, const LineClipper& clipper, BeyondKind kind, int threads,
                std::vector<BeyondLine>& lines) {
     constexpr std::size_t kBatch = 64;
-    std::vector<std::vector<BeyondLine>> ofBatch((shapes.edges.size() + kBatch - 1) / kBatch);
+    std::vector<std::vector<BeyondLine>> ofBatch((edges.size() + kBatch - 1) / kBatch);
     parallelFor(ofBatch.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         ClipScratch scratch;
         for (std::size_t batch = begin; batch < end; ++batch)
-            for (std::size_t e = batch * kBatch; e < std::min((batch + 1) * kBatch, shapes.edges.size()); ++e)
-                clipper.clip(shapes.edges[e], kind, scratch, ofBatch[batch]);
+            for (std::size_t e = batch * kBatch; e < std::min((batch + 1) * kBatch, edges.size()); ++e)
+                clipper.clip(edges[e], kind, scratch, ofBatch[batch]);
     });
     for (const std::vector<BeyondLine>& batch : ofBatch) lines.insert(lines.end(), batch.begin(), batch.end());
 }
@@ -194,7 +197,9 @@ void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volum
         const ViewShapes shapes =
             projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, {looksAtCut, wantsHidden});
         const LineClipper clipper(shapes, cut, kinds, wantsHidden);
-        clipEdges(shapes, clipper, looksAtCut ? BeyondKind::Above : BeyondKind::Visible, threads, lines);
+        const BeyondKind kind = looksAtCut ? BeyondKind::Above : BeyondKind::Visible;
+        clipEdges(shapes.edges, clipper, kind, threads, lines);
+        clipEdges(findPiercingLines(shapes.faces, clipper.index()), clipper, kind, threads, lines);
     }
     drawing.beyond = mergeLines(std::move(lines), drawing, volume.labels, threads);
     if (!options.visible)

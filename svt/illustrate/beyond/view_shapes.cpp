@@ -182,7 +182,7 @@ private:
         if (!(from.z > 0) && !(to.z > 0)) return;
         if (from.z < 0) from = onPlane(from, to);
         if (to.z < 0) to = onPlane(from, to);
-        ViewEdge edge{from, to, label, {}, 0};
+        ViewEdge edge{from, to, label, {}, 0, false};
         findFace(around, view, edge);
         shapes_.edges.push_back(edge);
     }

@@ -36,6 +36,7 @@ struct ViewEdge {
     /// the edge where it lies, 1 for the left. 0: any other edge.
     Vec3d normal;
     int faceSide = 0;
+    bool isPiercing = false;  ///< no edge of a mesh, but where two of them cross, see piercing.hpp
 };
 
 struct ViewShapes {
