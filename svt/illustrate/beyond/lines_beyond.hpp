@@ -25,7 +25,7 @@ namespace svt::illustrate {
 /// class and hatch whose faces lie in one plane are not drawn. Pieces below 0.5 mm are left out.
 /// \param isDrawn  by label; others neither show nor hide
 /// \param threads  0: all cores; the result does not depend on it
-/// Cost: O(faces + edges * faces that a grid cell along them meets). FZK-Haus, 21,740 triangles: 20 to 60 ms of one core.
+/// Cost: O(faces + edges * faces that a grid cell along them meets). FZK-Haus, 21,740 triangles: 20 to 60 ms.
 void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volume,
                     std::span<const std::uint8_t> isDrawn, const BeyondOptions& options, int threads);
 
