@@ -11,6 +11,10 @@ foreach(property IN ITEMS IMPORTED_SONAME_NONE IMPORTED_SONAME_RELEASE IMPORTED_
   endif()
 endforeach()
 
+# Not linked either: svt/writers loads it for PDF.
+find_path(CAIRO_INCLUDE_DIR cairo/cairo-pdf.h REQUIRED)
+set(SVT_CAIRO_LIBRARY libcairo.so.2)
+
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu
   /usr/share/fonts/dejavu-sans-fonts REQUIRED)
 

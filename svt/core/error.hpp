@@ -106,6 +106,8 @@ enum class Code : std::uint16_t {
     UncertainArea = 506,  ///< the bound of a cut area is larger than the area
     PlaneInFaces = 507,   ///< a section plane lies in faces of the model
     DrawnByVoxels = 508,  ///< a cut object that is drawn by its voxels beside exact ones
+    NoMeshes = 509,       ///< lines beyond a cut were asked of a volume that keeps no meshes
+    NoCairo = 510,        ///< no cairo library, so no PDF
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

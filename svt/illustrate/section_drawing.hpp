@@ -86,6 +86,22 @@ struct SectionBorder {
     std::uint32_t right = 0;
 };
 
+/// How a line beside the cut is drawn.
+enum class BeyondKind : std::uint8_t {
+    Visible,  ///< behind the plane, and seen from it
+    Hidden,   ///< behind the plane, and behind something else or what is cut
+    Above     ///< on the side that is cut away (in a plan above the cut), and seen from the plane
+};
+
+/// A straight line of what is not cut: an edge of an object, or where two pierce each other, projected onto the plane. Lines do not lie on each other,
+/// nor on borders and lines of the cut; where they would, the first kind of the enumeration stays.
+struct BeyondLine {
+    PlanePoint from, to;
+    std::uint32_t label = 0;
+    BeyondKind kind = BeyondKind::Visible;
+    friend bool operator==(const BeyondLine&, const BeyondLine&) = default;
+};
+
 /// Total of one class.
 struct ClassArea {
     std::string className;
@@ -99,6 +115,7 @@ struct SectionDrawing {
     std::vector<SectionComponent> components;  ///< by label, ascending; only those that the plane cuts
     std::vector<SectionBorder> borders;
     std::vector<SectionLine> lines;  ///< by label
+    std::vector<BeyondLine> beyond;  ///< by kind, then label
     std::vector<ClassArea> classes;  ///< by name
     double area = 0;                 ///< of all components, m2
     double drawingUnit = 0;          ///< all coordinates are integer multiples of it, metres
@@ -109,7 +126,16 @@ struct SectionDrawing {
     bool isFromMeshes = false;  ///< meshes were cut; else all is drawn from voxels
     /// Meshes were to be cut, but their edges did not settle in whole numbers (see exact/arrangement.hpp).
     bool isUnsettled = false;
-    double planeShift = 0;  ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
+    bool lacksMeshes = false;  ///< lines beyond the cut were asked for, but the volume keeps no meshes
+    double planeShift = 0;     ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
+};
+
+/// Which lines beside the cut are drawn. They are taken from the meshes that the volume keeps, not from voxels.
+struct BeyondOptions {
+    bool visible = false;
+    bool hidden = false;
+    bool above = false;
+    [[nodiscard]] bool isAny() const noexcept { return visible || hidden || above; }
 };
 
 struct SectionOptions {
@@ -120,6 +146,7 @@ struct SectionOptions {
     /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing, or, where meshes
     /// are cut, four micrometres.
     double tolerance = -1;
+    BeyondOptions beyond;   ///< what stands behind the plane, and above it
     bool useMeshes = true;  ///< cut the meshes that the volume keeps; false: always the voxels
     int threads = 0;        ///< 0: all cores; the result does not depend on it
     /// If given, queries of show and hide that select nothing are no error, but are told here.
@@ -137,7 +164,8 @@ struct SectionOptions {
 ///         - BadArgument              smallestArea or tolerance is not finite
 ///         - GridTooLarge             see BrickVolume::fromColumns
 /// Cost: with meshes O(triangles + n log n) in the segments that the plane cuts, about 2 us each; else that of
-/// BrickVolume::fromColumns(), and 1 to 2 us per brick that the plane meets, 50 us if it has voxels only.
+/// BrickVolume::fromColumns(), and 1 to 2 us per brick that the plane meets, 50 us if it has voxels only. Lines beyond
+/// the cut: see addLinesBeyond() in beyond/lines_beyond.hpp.
 [[nodiscard]] Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                                  const SectionOptions& options = {});
 

@@ -59,6 +59,12 @@ struct StoreyHeights {
 /// no storey with voxels, or the volume ends below that.
 [[nodiscard]] SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume);
 
+/// The plane of an elevation: upright before the model, 10 mm from its meshes or voxels. It faces `side`, or, in a turned
+/// grid, that side of the grid which is nearest to it.
+/// \param side  "north", "east", "south" or "west": where the eye is; y of world space points north
+/// \return the plane, or BadSection if the side is none of these
+[[nodiscard]] Result<SectionPlane> elevationPlane(std::string_view side, const volume::SemanticVolume& volume);
+
 /// Whether the plane intersects the voxels of `grid`.
 [[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);
 

@@ -123,6 +123,8 @@ Coverage cover(double x, double y, std::string_view text, double height) {
 
 }  // namespace
 
+std::span<const std::byte> embeddedFont() noexcept { return std::as_bytes(std::span(svt_font, svt_font_size)); }
+
 double textWidth(std::string_view text, double height) {
     const Font font(height);
     double width = 0;

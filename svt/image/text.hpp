@@ -5,6 +5,8 @@
 #include <svt/core/vec.hpp>
 #include <svt/image/image.hpp>
 
+#include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace svt::image {
@@ -16,6 +18,9 @@ struct TextStyle {
     Vec3f halo{1, 1, 1};   ///< sRGB, 0..1; an outline of the letters, for legibility on any background
     double haloWidth = 2;  ///< pixels; 0: none
 };
+
+/// DejaVu Sans, as a TrueType file.
+[[nodiscard]] std::span<const std::byte> embeddedFont() noexcept;
 
 /// Width of `text` (UTF-8), pixels. Characters that are missing in the font count as a box.
 [[nodiscard]] double textWidth(std::string_view text, double height);

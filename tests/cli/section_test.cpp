@@ -258,6 +258,59 @@ TEST(Section, DxfIsReadByOgr) {
     for (const auto& [name, area] : expected) EXPECT_NEAR(found[name], area, 1e-3) << name;
 }
 
+// The boxes of 4 x 6 x 3 m stand side by side along x.
+TEST(Section, ElevationsShowTheOutsideAndSectionsWhatIsBeyond) {
+    const TemporaryFolder folder;
+    buildBoxes(folder.path());
+    runSvtWell(folder.path(), {"section", "boxes.svt", "-o", "n.geojson", "-o", "n.svg", "--elevation", "south"});
+    const auto outside = nlohmann::json::parse(readText(folder / "n.geojson"));
+    EXPECT_EQ(outside["name"], "Elevation from the south");
+    EXPECT_NE(readText(folder / "n.svg").find("Elevation from the south, 1:100"), std::string::npos);
+    double length = 0;
+    for (const auto& feature : outside["features"]) {
+        EXPECT_EQ(feature["properties"]["beyond"], "visible");
+        for (const auto& line : feature["geometry"]["coordinates"])
+            length += std::hypot(line[0][0].get<double>() - line[1][0].get<double>(),
+                                 line[0][2].get<double>() - line[1][2].get<double>());
+    }
+    // Outline of 8 x 3 m, and the joint of two buildings.
+    EXPECT_NEAR(length, 2 * 8 + 3 * 3, 1e-3);
+    // A plane through the first box alone: nothing of it is seen beyond, but for the second box.
+    runSvtWell(folder.path(), {"section", "boxes.svt", "-o", "x.svg", "--plane", "x<1", "--beyond"});
+    EXPECT_EQ(readText(folder / "x.svg").find("class=\"beyond"), std::string::npos);
+    runSvtWell(folder.path(), {"section", "boxes.svt", "-o", "x.dxf", "-o", "x.svg", "--plane", "x<1", "--hidden"});
+    EXPECT_EQ(readText(folder / "x.svg").find("class=\"beyond visible"), std::string::npos);
+}
+
+TEST(Section, PlansOfTheHouseShowWhatIsBelowAndAbove) {
+    const TemporaryFolder folder;
+    buildHouse(folder.path());
+    runSvtWell(folder.path(), {"section", "house.svt", "-o", "p.svg", "-o", "p.dxf", "--plane", "z=1.5", "--beyond",
+                               "--hidden", "--above"});
+    const std::string svg = readText(folder / "p.svg"), dxf = readText(folder / "p.dxf");
+    for (const char* kind : {"visible", "hidden", "above"})
+        EXPECT_NE(svg.find(std::string("<g class=\"beyond ") + kind), std::string::npos) << kind;
+    EXPECT_NE(svg.find("data-id=\"house_sofa"), std::string::npos);
+    for (const char* layer : {"BEYOND_VISIBLE", "BEYOND_HIDDEN", "BEYOND_ABOVE", "ACAD_ISO02W100", "ACAD_ISO05W100"})
+        EXPECT_NE(dxf.find(layer), std::string::npos) << layer;
+    runSvtWell(folder.path(), {"section", "house.svt", "-o", "q.svg", "--plane", "z=1.5", "--beyond", "--hidden",
+                               "--above", "--threads", "1"});
+    EXPECT_EQ(svg, readText(folder / "q.svg"));
+    if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo";
+    const std::string seen = outputOf(folder.path(), "ogrinfo -q -al p.dxf");
+    EXPECT_NE(seen.find("BEYOND_HIDDEN"), std::string::npos);
+    EXPECT_EQ(seen.find("ERROR"), std::string::npos);
+}
+
+TEST(Section, WithoutMeshesNothingIsBeyond) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "v.svt", "--spacing", "0.1", "--vectors", "none"});
+    const CommandResult result = runSvt(folder.path(), {"section", "v.svt", "-o", "d.svg", "--beyond"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("E509 NoMeshes"), std::string::npos) << result.toString();
+}
+
 TEST(Section, ErrorsSayWhatToDo) {
     const TemporaryFolder folder;
     buildBoxes(folder.path());
@@ -278,6 +331,8 @@ TEST(Section, ErrorsSayWhatToDo) {
         {{"-o", "d.svg", "--hide", "all"}, 2, "E503 BadSection.*cuts nothing that is shown"},
         {{"-o", "d.svg", "--hide", "class="}, 2, "E901 BadQuery"},
         {{"-o", "d.svg", "--min-area", "-1"}, 2, "min-area"},
+        {{"-o", "d.svg", "--elevation", "up"}, 2, "elevation"},
+        {{"-o", "d.svg", "--elevation", "north", "--plane", "z=1"}, 2, "--plane and --elevation exclude each other"},
         {{"-o", "missing/d.svg"}, 5, "E404 CannotWrite"},
         {{"--table", "t.txt"}, 2, "\\.json, \\.csv"},
     };

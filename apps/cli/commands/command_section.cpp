@@ -1,5 +1,6 @@
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -13,32 +14,19 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
-
 namespace svt::cli {
 namespace {
 
 struct SectionArguments {
     std::filesystem::path input;
     std::vector<std::filesystem::path> outputs, tables;
-    std::string plane, scale;
+    std::string plane, elevation, scale;
     std::vector<std::string> show, hide;
     double minArea = 0;
+    illustrate::BeyondOptions beyond;
     bool noRooms = false, json = false, verbose = false;
     BuildArguments build;
 };
-
-// "1:50" or "50".
-Result<double> parseScale(const std::string& text) {
-    const std::string number = text.rfind("1:", 0) == 0 ? text.substr(2) : text;
-    char* rest = nullptr;
-    const double scale = std::strtod(number.c_str(), &rest);
-    if (number.empty() || *rest != '\0' || !(scale >= 0.01 && scale <= 1e7))
-        return Error(Code::BadArgument,
-                     fmt::format("--scale '{}': expected 1:N with N from 0.01 to 10000000, such as 1:50", text));
-    return scale;
-}
 
 Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path, double scale) {
@@ -50,9 +38,17 @@ Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, co
     return writers::writeSvg(drawing, volume, path, options);
 }
 
+Result<illustrate::SectionPlane> planeOf(const SectionArguments& arguments, const volume::SemanticVolume& volume) {
+    if (!arguments.elevation.empty()) return illustrate::elevationPlane(arguments.elevation, volume);
+    if (arguments.plane.empty()) return illustrate::defaultSectionPlane(volume);
+    return illustrate::parseSectionPlane(arguments.plane, volume);
+}
+
 int runSection(const SectionArguments& arguments) {
     if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
         return fail(Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json"));
+    if (!arguments.plane.empty() && !arguments.elevation.empty())
+        return fail(Error(Code::BadArgument, "--plane and --elevation exclude each other; give one of them"));
     const auto scale = parseScale(arguments.scale);
     if (!scale) return fail(scale.error());
     Diagnostics diagnostics;
@@ -62,14 +58,15 @@ int runSection(const SectionArguments& arguments) {
     const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
-    const auto plane = arguments.plane.empty() ? illustrate::defaultSectionPlane(*volume)
-                                               : illustrate::parseSectionPlane(arguments.plane, *volume);
+    const auto plane = planeOf(arguments, *volume);
     if (!plane) return fail(plane.error());
     illustrate::SectionOptions options;
     options.show = arguments.show;
     options.hide = arguments.hide;
     options.spaces = !arguments.noRooms;
     options.smallestArea = arguments.minArea;
+    options.beyond = arguments.beyond;
+    if (!arguments.elevation.empty()) options.beyond.visible = true;
     options.threads = arguments.build.threads;
     std::vector<std::string> nothing;
     options.nothing = &nothing;
@@ -80,8 +77,9 @@ int runSection(const SectionArguments& arguments) {
     illustrate::reportSection(*drawing, *volume, findings);
     printDiagnostics(findings, true);
     for (const std::string& message : nothing) note(message);
-    if (drawing->components.empty() && !nothing.empty()) note("nothing is drawn");
-    if (drawing->components.empty() && nothing.empty())
+    const bool isEmpty = drawing->components.empty() && drawing->beyond.empty();
+    if (isEmpty && !nothing.empty()) note("nothing is drawn");
+    if (isEmpty && nothing.empty())
         return fail(Error(Code::BadSection,
                           fmt::format("the plane '{}' cuts nothing that is shown; move it, or see --show, --hide, "
                                       "--no-rooms and --min-area",
@@ -105,6 +103,10 @@ Action connectSection(Command& command) {
     command.set("input", arguments->input);
     command.set("--output", arguments->outputs);
     command.set("--plane", arguments->plane);
+    command.set("--elevation", arguments->elevation);
+    command.set("--beyond", arguments->beyond.visible);
+    command.set("--hidden", arguments->beyond.hidden);
+    command.set("--above", arguments->beyond.above);
     command.set("--scale", arguments->scale);
     command.set("--hide", arguments->hide);
     command.set("--show", arguments->show);

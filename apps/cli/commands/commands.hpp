@@ -12,6 +12,7 @@ Action connectInfo(Command& command);
 Action connectCheck(Command& command);
 Action connectRender(Command& command);
 Action connectSection(Command& command);
+Action connectSheets(Command& command);
 Action connectQuery(Command& command);
 Action connectShell(Command& command);
 Action connectConvert(Command& command);

@@ -17,7 +17,7 @@ constexpr std::string_view kExitCodes[][2] = {
     {"3", "input that cannot be read"},
     {"4", "the model has defects (check, build \\-\\-strict)"},
     {"5", "output that cannot be written"},
-    {"6", "no graphics driver (render \\-\\-gl)"},
+    {"6", "no graphics driver (render \\-\\-gl), or no cairo library (sheets as PDF)"},
     {"8", "a limit or the memory is exceeded"},
     {"9", "cancelled"},
 };

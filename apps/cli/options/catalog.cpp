@@ -432,6 +432,19 @@ constexpr Option kSection[] = {
      .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
      .help = "z=1.2, y<3, x>4, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres from the lower corner",
      .group = "Drawing"},
+    {.name = "--elevation",
+     .choices = "north|east|south|west",
+     .help = "the outside, seen from there: what stands behind a plane before the model",
+     .group = "Drawing"},
+    {.name = "--beyond", .kind = Flag, .help = "also draw what is seen behind the plane", .group = "Drawing"},
+    {.name = "--hidden",
+     .kind = Flag,
+     .help = "also draw the edges behind it that are hidden, dashed",
+     .group = "Drawing"},
+    {.name = "--above",
+     .kind = Flag,
+     .help = "also draw what is cut away, as seen from the plane, dashed and dotted",
+     .group = "Drawing"},
     {.name = "--scale",
      .value = "1:N",
      .byDefault = "1:100",
@@ -704,6 +717,35 @@ constexpr Option kPage[] = {
     {.name = "-v,--verbose", .kind = Flag, .help = "show all findings", .group = "Page", .excludes = "--quiet"},
 };
 
+// sheets
+
+constexpr Option kSheets[] = {
+    kModelInput[0],
+    {.name = "-o,--output",
+     .value = "P.pdf",
+     .help = "the sheets as one PDF",
+     .file = FileUse::Output,
+     .formats = "pdf"},
+    {.name = "--svg", .value = "DIR", .help = "also write each sheet as sheet-N.svg", .file = FileUse::OutputFolder},
+    {.name = "--scale",
+     .value = "1:N",
+     .otherwise = "1:100, or the next of 1:200, 1:500, ... at which all views fit",
+     .help = "scale of all views: 1:50 draws 1 m as 20 mm",
+     .group = "Sheets"},
+    {.name = "--paper",
+     .choices = "A4|A3|A2|A1|A0",
+     .byDefault = "A3",
+     .help = "size of a sheet, landscape",
+     .group = "Sheets"},
+    {.name = "--hide",
+     .value = "QUERY",
+     .help = "leave out what the query selects",
+     .group = "Sheets",
+     .mayRepeat = true},
+    {.name = "--no-above", .kind = Flag, .help = "plans without what is above the cut", .group = "Sheets"},
+    {.name = "--verbose", .kind = Flag, .help = "show all findings", .group = "Output"},
+};
+
 // doctor, describe
 
 constexpr Option kDoctor[] = {kInfoOutput[0]};
@@ -756,6 +798,9 @@ std::span<const CommandText> commandTexts() {
         {"section",
          "Draw what a plane cuts (SVG, DXF, GeoJSON)",
          {kSection, kQuiet, kVerbose, kGrid, kModel, kMemory, kStyle, kVoxels}},
+        {"sheets",
+         "Draw plans, sections and elevations on sheets of paper (PDF, SVG)",
+         {kSheets, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels}},
         {"query",
          "List the features that a query selects, and what is around them",
          {kQuery, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels}},

@@ -21,6 +21,7 @@ constexpr FileFormat kFormats[] = {
     {"png", ".png", FileContent::Png},
     {"svt", ".svt", FileContent::Volume},
     {"svg", ".svg", FileContent::Svg},
+    {"pdf", ".pdf", FileContent::Pdf},
     {"dxf", ".dxf", FileContent::Dxf},
     {"geojson", ".geojson", FileContent::GeoJson},
     {"scene", ".json", FileContent::PlainJson},
@@ -99,6 +100,7 @@ FileContent contentOf(std::string_view head) {
     if (volume::looksLikeSvt(std::as_bytes(std::span(head.data(), head.size())))) return FileContent::Volume;
     if (head.starts_with("PK\3\4"sv) || head.starts_with("PK\5\6"sv)) return FileContent::Zip;
     if (head.starts_with("\x1f\x8b"sv)) return FileContent::Gzip;
+    if (head.starts_with("%PDF-"sv)) return FileContent::Pdf;
     if (head.starts_with("glTF"sv)) return FileContent::Gltf;
     if (head.starts_with("NRRD000"sv)) return FileContent::Nrrd;
     if (head.starts_with("ply\n"sv)) return FileContent::Ply;
@@ -143,6 +145,7 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Nifti: return "a NIfTI";
         case FileContent::Tiff: return "a TIFF";
         case FileContent::Svg: return "an SVG drawing";
+        case FileContent::Pdf: return "a PDF";
         case FileContent::Html: return "an HTML page";
         case FileContent::CityGml: return "a CityGML model";
         case FileContent::Xml: return "an XML file";

@@ -23,6 +23,7 @@ enum class FileContent : std::uint8_t {
     Nifti,
     Tiff,
     Svg,
+    Pdf,
     Html,
     CityGml,
     Xml,  ///< another XML

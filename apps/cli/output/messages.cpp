@@ -32,7 +32,8 @@ int exitCodeOf(Code code) noexcept {
         case Code::NothingSelected:
         case Code::BadArgument: return kUsage;
         case Code::Internal: return kInternal;
-        case Code::NoGraphics: return kNoGraphics;
+        case Code::NoGraphics:
+        case Code::NoCairo: return kNoGraphics;
         default: return kInput;
     }
 }

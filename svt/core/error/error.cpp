@@ -100,6 +100,8 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(UncertainArea);
         SVT_CASE(PlaneInFaces);
         SVT_CASE(DrawnByVoxels);
+        SVT_CASE(NoMeshes);
+        SVT_CASE(NoCairo);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

@@ -1,6 +1,7 @@
 #include <svt/illustrate/section_drawing.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/illustrate/beyond/lines_beyond.hpp>
 #include <svt/illustrate/exact/body_cells.hpp>
 #include <svt/illustrate/section/exact_section.hpp>
 #include <svt/illustrate/section/section_rings.hpp>
@@ -263,7 +264,10 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
     if (isCut) {
         auto drawing = drawMeshes(volume, bricks, plane, *isDrawn, options);
         if (!drawing) return drawing.error();
-        if (*drawing) return std::move(**drawing);
+        if (*drawing) {
+            addLinesBeyond(**drawing, volume, *isDrawn, options.beyond, options.threads);
+            return std::move(**drawing);
+        }
     }
     std::optional<volume::BrickVolume> own;
     if (bricks == nullptr) {
@@ -274,6 +278,8 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
     }
     SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, *isDrawn, options);
     drawing.isUnsettled = isCut;
+    drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
+    addLinesBeyond(drawing, volume, *isDrawn, options.beyond, options.threads);
     return drawing;
 }
 

@@ -113,6 +113,27 @@ SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
     return plane;
 }
 
+Result<SectionPlane> elevationPlane(std::string_view side, const volume::SemanticVolume& volume) {
+    constexpr double kBefore = 0.01;  // metres
+    constexpr std::array<std::pair<std::string_view, Vec3d>, 4> kSides = {
+        {{"north", {0, 1, 0}}, {"east", {1, 0, 0}}, {"south", {0, -1, 0}}, {"west", {-1, 0, 0}}}};
+    const auto found = std::find_if(kSides.begin(), kSides.end(), [&](const auto& s) { return s.first == side; });
+    if (found == kSides.end())
+        return Error(Code::BadSection, fmt::format("the elevation '{}': expected north, east, south or west", side));
+    const volume::Grid& grid = volume.grid;
+    Vec3d normal = grid.axes()[0];
+    for (const Vec3d axis : {grid.axes()[0], -grid.axes()[0], grid.axes()[1], -grid.axes()[1]})
+        if (dot(axis, found->second) > dot(normal, found->second) + 1e-9) normal = axis;
+    double before = extentAlong(normal, grid).second;
+    if (!volume.vectors.triangles.empty()) {
+        before = -kInfinity;
+        for (const auto& triangle : volume.vectors.triangles)
+            for (const std::uint32_t corner : triangle.corners)
+                before = std::max(before, dot(volume.vectors.position(corner, {}), normal));
+    }
+    return SectionPlane{normal, grid.origin() + normal * (before + kBefore)};
+}
+
 Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume) {
     return parseSectionPlane(text, volume, volume.labels);
 }

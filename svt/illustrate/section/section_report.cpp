@@ -42,6 +42,11 @@ void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& 
                 "all components are drawn by their voxels, for the edges of their meshes do not settle in whole "
                 "numbers; move the plane by a little",
                 place);
+    if (drawing.lacksMeshes)
+        log.add(Severity::Warning, Code::NoMeshes,
+                "what stands beyond the cut is not drawn, for the volume keeps no meshes; give the model itself, or "
+                "build the volume with --vectors meshes",
+                place);
     if (!byVoxels.empty())
         log.add(Severity::Note, Code::DrawnByVoxels,
                 fmt::format("{} of {} components are drawn by their voxels, for their shells are open: {}",

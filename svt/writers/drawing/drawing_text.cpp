@@ -33,7 +33,29 @@ bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid)
     return std::abs(dot(drawing.axes.normal, grid.axes()[2])) > 1 - 1e-12;
 }
 
+std::string_view beyondName(illustrate::BeyondKind kind) noexcept {
+    switch (kind) {
+        case illustrate::BeyondKind::Hidden: return "hidden";
+        case illustrate::BeyondKind::Above: return "above";
+        case illustrate::BeyondKind::Visible: break;
+    }
+    return "visible";
+}
+
+bool isElevation(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
+    const bool isUpright = std::abs(dot(drawing.plane.normal, grid.axes()[2])) < 1e-9;
+    return isUpright && !drawing.beyond.empty() && drawing.components.empty();
+}
+
+std::string_view compassName(Vec3d direction) noexcept {
+    constexpr std::string_view kNames[] = {"north", "north-east", "east", "south-east",
+                                           "south", "south-west", "west", "north-west"};
+    const double eighth = std::atan2(direction.x, direction.y) / 0.78539816339744831;
+    return kNames[static_cast<std::size_t>(std::lround(eighth) + 8) % 8];
+}
+
 std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) {
+    if (isElevation(drawing, grid)) return fmt::format("Elevation from the {}", compassName(drawing.plane.normal));
     const Vec3d normal = drawing.plane.normal;
     const double offset = dot(normal, drawing.plane.point - grid.origin());
     for (int axis = 0; axis < 3; ++axis) {

@@ -19,7 +19,16 @@ namespace svt::writers {
 /// Display name of a component: its name, else its id.
 [[nodiscard]] const std::string& shownName(const volume::Label& label) noexcept;
 
-/// "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the grid's lower corner.
+/// "visible", "hidden" or "above".
+[[nodiscard]] std::string_view beyondName(illustrate::BeyondKind kind) noexcept;
+
+/// Whether a drawing shows the model from outside: an upright plane that cuts nothing, and lines behind it.
+[[nodiscard]] bool isElevation(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
+
+/// The nearest of eight directions: "north" for y of world space, "north-east", ...
+[[nodiscard]] std::string_view compassName(Vec3d direction) noexcept;
+
+/// "Elevation from the south", "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the grid's lower corner.
 [[nodiscard]] std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid);
 
 /// True if the section plane is horizontal.

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace svt::writers {
@@ -54,6 +56,29 @@ std::string dxfText(std::string_view text) {
     return safe;
 }
 
+constexpr std::size_t kMostCharacters = 255;  // of a text in extended data
+
+// Lines beyond the cut, by kind: narrow lines of ISO 128-2, dashes in widths of the line, gaps below zero.
+struct BeyondStyle {
+    illustrate::BeyondKind kind;
+    const char *layer, *lineType, *words;
+    int color;
+    int dashCount;
+    double dashes[6];
+};
+constexpr BeyondStyle kBeyondStyles[] = {
+    {illustrate::BeyondKind::Visible, "BEYOND_VISIBLE", "Continuous", "", 7, 0, {}},
+    {illustrate::BeyondKind::Hidden, "BEYOND_HIDDEN", "ACAD_ISO02W100", "ISO dash", 8, 2, {12, -3}},
+    {illustrate::BeyondKind::Above,
+     "BEYOND_ABOVE",
+     "ACAD_ISO05W100",
+     "ISO long-dash double-dot",
+     8,
+     6,
+     {24, -3, 0, -3, 0, -3}}};
+constexpr int kBeyondWidth = 18;            // hundredths of a millimetre
+constexpr double kDashUnit = 1.8e-4 * 100;  // metres: the width of the line at a scale of 1:100
+
 class DxfWriter {
 public:
     DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume)
@@ -72,7 +97,14 @@ public:
                 low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
                 high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
             }
-        if (drawing.components.empty()) low_ = high_ = {};
+        for (const illustrate::BeyondLine& line : drawing.beyond) {
+            for (const PlanePoint p : {line.from, line.to}) {
+                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+            }
+            hasKind_[static_cast<std::size_t>(line.kind)] = true;
+        }
+        if (drawing.components.empty() && drawing.beyond.empty()) low_ = high_ = {};
     }
 
     std::string write() {
@@ -206,7 +238,10 @@ private:
     }
 
     void lineTypeTable() {
-        table("LTYPE", "2", 3);
+        int count = 3;
+        for (const BeyondStyle& style : kBeyondStyles)
+            if (hasKind_[static_cast<std::size_t>(style.kind)] && style.dashCount != 0) ++count;
+        table("LTYPE", "2", count);
         for (const auto& [handle, name] :
              {std::pair("22", "ByBlock"), std::pair("23", "ByLayer"), std::pair("24", "Continuous")}) {
             record("LTYPE", handle, "2", "AcDbLinetypeTableRecord", name);
@@ -215,21 +250,40 @@ private:
             tag(73, 0);
             tag(40, "0");
         }
+        for (const BeyondStyle& style : kBeyondStyles) {
+            if (!hasKind_[static_cast<std::size_t>(style.kind)] || style.dashCount == 0) continue;
+            record("LTYPE", newHandle(), "2", "AcDbLinetypeTableRecord", style.lineType);
+            tag(3, style.words);
+            tag(72, 65);
+            tag(73, style.dashCount);
+            double length = 0;
+            for (int n = 0; n < style.dashCount; ++n) length += std::abs(style.dashes[n]);
+            number(40, kDashUnit * length);
+            for (int n = 0; n < style.dashCount; ++n) {
+                number(49, kDashUnit * style.dashes[n]);
+                tag(74, 0);
+            }
+        }
         endTable();
     }
 
     void layerTable() {
-        table("LAYER", "3", static_cast<int>(layers_.size()) + 2);
-        const auto layer = [&](std::string_view handle, std::string_view name, int color) {
+        const auto kinds = static_cast<int>(std::count(std::begin(hasKind_), std::end(hasKind_), true));
+        table("LAYER", "3", static_cast<int>(layers_.size()) + 2 + kinds);
+        const auto layer = [&](std::string_view handle, std::string_view name, int color,
+                               const char* lineType = "Continuous", int width = -3) {
             record("LAYER", handle, "3", "AcDbLayerTableRecord", name);
             tag(62, color);
-            tag(6, "Continuous");
-            tag(370, -3);
+            tag(6, lineType);
+            tag(370, width);
             tag(390, "F");
         };
         layer("25", "0", 7);
         layer("26", "TEXT", 7);
         for (const auto& [name, className] : layers_) layer(newHandle(), name, colorOf(className));
+        for (const BeyondStyle& style : kBeyondStyles)
+            if (hasKind_[static_cast<std::size_t>(style.kind)])
+                layer(newHandle(), style.layer, style.color, style.lineType, kBeyondWidth);
         endTable();
     }
 
@@ -318,7 +372,6 @@ private:
 
     // Id, area and its bound (m2), and whether it is exact (1) or drawn by voxels (0).
     void extendedData(const illustrate::SectionComponent& component) {
-        constexpr std::size_t kMostCharacters = 255;
         tag(1001, "SVT");
         tag(1000, dxfText(volume_.labels.labels[component.label].id).substr(0, kMostCharacters));
         number(1040, component.area);
@@ -334,6 +387,17 @@ private:
             if (isClosed) points.pop_back();
             polyline(points, isClosed, layer, component);
         }
+    }
+
+    void beyond(const illustrate::BeyondLine& line) {
+        entity("LINE", kBeyondStyles[static_cast<std::size_t>(line.kind)].layer);
+        tag(100, "AcDbLine");
+        point(10, line.from);
+        tag(30, "0");
+        point(11, line.to);
+        tag(31, "0");
+        tag(1001, "SVT");
+        tag(1000, dxfText(volume_.labels.labels[line.label].id).substr(0, kMostCharacters));
     }
 
     void text(PlanePoint at, double height, std::string_view content) {
@@ -368,6 +432,7 @@ private:
             if (component.polygons.empty()) continue;
             if (model::isSpace(label.className)) name(component, shownName(label));
         }
+        for (const illustrate::BeyondLine& line : drawing_.beyond) beyond(line);
         endSection();
     }
 
@@ -393,6 +458,7 @@ private:
     const volume::SemanticVolume& volume_;
     PlanePoint low_, high_;
     std::vector<Layer> layers_;
+    bool hasKind_[3] = {};  // of lines beyond the cut
     unsigned nextHandle_ = 0x100;
     std::string dxf_;
 };

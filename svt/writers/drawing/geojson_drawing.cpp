@@ -71,6 +71,36 @@ void appendGeometry(std::string& json, const illustrate::SectionComponent& compo
     json += "]}";
 }
 
+// What stands beyond the cut: a feature per component and kind of line.
+void appendBeyond(std::string& json, const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                  bool isFirst) {
+    const std::vector<illustrate::BeyondLine>& lines = drawing.beyond;
+    for (std::size_t n = 0; n < lines.size();) {
+        const illustrate::BeyondLine first = lines[n];
+        const volume::Label& label = volume.labels.labels[first.label];
+        json += isFirst ? "\n" : ",\n";
+        isFirst = false;
+        json += "{\"type\":\"Feature\",\"properties\":{";
+        appendMember(json, "id", label.id);
+        json += ',';
+        appendMember(json, "class", label.className);
+        json += ',';
+        appendMember(json, "name", label.name);
+        json += ',';
+        appendMember(json, "beyond", beyondName(first.kind));
+        json += "},\"geometry\":{\"type\":\"MultiLineString\",\"coordinates\":[";
+        for (std::size_t from = n; n < lines.size() && lines[n].kind == first.kind && lines[n].label == first.label;
+             ++n) {
+            json += n == from ? "[" : ",[";
+            appendVector(json, drawing.axes.worldFromPlane(lines[n].from), 6);
+            json += ',';
+            appendVector(json, drawing.axes.worldFromPlane(lines[n].to), 6);
+            json += ']';
+        }
+        json += "]}}";
+    }
+}
+
 }  // namespace
 
 std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
@@ -106,6 +136,7 @@ std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume:
         appendGeometry(json, component, drawing);
         json += '}';
     }
+    appendBeyond(json, drawing, volume, isFirst);
     return json + "\n]}\n";
 }
 

@@ -1,0 +1,97 @@
+#include <svt/illustrate/beyond/piercing.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace svt::illustrate {
+namespace {
+
+constexpr double kReaches = 1e-3;    // metres: how far each face must reach beyond the other one
+constexpr double kNotFlat = 0.05;    // sine of the angle between the faces
+constexpr double kShortLine = 2e-3;  // metres
+
+// The two points where the sides of a face meet the plane of another; nothing if it does not reach beyond both sides.
+std::optional<std::array<Vec3d, 2>> crossingOf(const ViewFace& face, const ViewFace& plane) noexcept {
+    std::array<double, 4> heights{};
+    double low = 0, high = 0;
+    for (std::uint32_t n = 0; n < face.cornerCount; ++n) {
+        heights[n] = dot(plane.normal, face.corners[n] - plane.corners[0]);
+        low = std::min(low, heights[n]);
+        high = std::max(high, heights[n]);
+    }
+    if (low > -kReaches || high < kReaches) return std::nullopt;
+    std::array<Vec3d, 2> ends{};
+    std::uint32_t found = 0;
+    for (std::uint32_t n = 0; n < face.cornerCount && found < 2; ++n) {
+        const std::uint32_t next = n + 1 < face.cornerCount ? n + 1 : 0;
+        if ((heights[n] >= 0) == (heights[next] >= 0)) continue;
+        const double t = heights[n] / (heights[n] - heights[next]);
+        ends[found++] = face.corners[n] + (face.corners[next] - face.corners[n]) * t;
+    }
+    if (found < 2) return std::nullopt;
+    return ends;
+}
+
+std::optional<std::pair<Vec3d, Vec3d>> commonLine(const ViewFace& a, const ViewFace& b) noexcept {
+    const Vec3d direction = cross(a.normal, b.normal);
+    if (length(direction) < kNotFlat) return std::nullopt;
+    const auto x = crossingOf(a, b);
+    if (!x) return std::nullopt;
+    auto y = crossingOf(b, a);
+    if (!y) return std::nullopt;
+    const Vec3d along = normalized(direction);
+    std::array<Vec3d, 2> first = *x, second = *y;
+    if (dot(first[1] - first[0], along) < 0) std::swap(first[0], first[1]);
+    if (dot(second[1] - second[0], along) < 0) std::swap(second[0], second[1]);
+    const Vec3d from = dot(first[0] - second[0], along) > 0 ? first[0] : second[0];
+    const Vec3d to = dot(first[1] - second[1], along) < 0 ? first[1] : second[1];
+    if (dot(to - from, along) < kShortLine) return std::nullopt;
+    return std::pair(from, to);
+}
+
+struct FaceBox {
+    double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
+    [[nodiscard]] bool meets(const FaceBox& o) const noexcept {
+        return left < o.right && o.left < right && bottom < o.top && o.bottom < top && near < o.far && o.near < far;
+    }
+};
+
+FaceBox boxOf(const ViewFace& face) noexcept {
+    const Vec3d p = face.corners[0];
+    FaceBox box{p.x, p.x, p.y, p.y, p.z, p.z};
+    for (std::uint32_t n = 1; n < face.cornerCount; ++n) {
+        const Vec3d q = face.corners[n];
+        box = {std::min(box.left, q.x), std::max(box.right, q.x), std::min(box.bottom, q.y),
+               std::max(box.top, q.y),  std::min(box.near, q.z),  std::max(box.far, q.z)};
+    }
+    return box;
+}
+
+}  // namespace
+
+std::vector<ViewEdge> findPiercingLines(const std::vector<ViewFace>& faces, const PlaneIndex& index) {
+    std::vector<FaceBox> boxes;
+    boxes.reserve(faces.size());
+    for (const ViewFace& face : faces) boxes.push_back(boxOf(face));
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    index.forEachCell([&](std::span<const std::uint32_t> items) {
+        for (std::size_t n = 0; n < items.size(); ++n)
+            for (std::size_t m = n + 1; m < items.size(); ++m) {
+                const std::uint32_t a = items[n], b = items[m];
+                if (boxes[a].meets(boxes[b]) && faces[a].label != faces[b].label && commonLine(faces[a], faces[b]))
+                    pairs.emplace_back(a, b);
+            }
+    });
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    std::vector<ViewEdge> lines;
+    for (const auto& [a, b] : pairs)
+        if (const auto line = commonLine(faces[a], faces[b]))
+            lines.push_back({line->first, line->second, std::min(faces[a].label, faces[b].label), {}, 0, true});
+    return lines;
+}
+
+}  // namespace svt::illustrate

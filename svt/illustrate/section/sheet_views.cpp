@@ -1,0 +1,169 @@
+#include <svt/illustrate/sheet_views.hpp>
+
+#include <svt/analyze/scalar_boxes.hpp>
+#include <svt/core/text.hpp>
+#include <svt/model/classes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace svt::illustrate {
+namespace {
+
+constexpr double kCutHeight = 1.1;     // metres above the floor
+constexpr double kLeastRoom = 1.5;     // metres: lower spaces are voids
+constexpr double kSameLevel = 1.2;     // metres
+constexpr double kLeastFloorArea = 1;  // m2
+
+// The extent of labels along the grid's axes, metres from its lower corner: of the meshes, else of the voxels.
+std::vector<Box3d> boxesOf(const volume::SemanticVolume& volume) {
+    std::vector<Box3d> boxes(volume.labels.labels.size());
+    const auto& axes = volume.grid.axes();
+    for (const auto& triangle : volume.vectors.triangles)
+        for (const std::uint32_t corner : triangle.corners) {
+            const Vec3d p = volume.vectors.position(corner, {});
+            boxes[triangle.label].add(Vec3d{dot(p, axes[0]), dot(p, axes[1]), dot(p, axes[2])});
+        }
+    const auto samples = analyze::labelBoxes(volume.columns, volume.labels);
+    for (std::size_t l = 0; l < boxes.size(); ++l) {
+        if (!boxes[l].isEmpty() || samples[l].isEmpty()) continue;
+        const Vec3d half{0.5, 0.5, 0.5};
+        boxes[l].add(scaled(toDouble(samples[l].min) - half, volume.grid.spacing()));
+        boxes[l].add(scaled(toDouble(samples[l].max) + half, volume.grid.spacing()));
+    }
+    return boxes;
+}
+
+bool isRoom(const volume::Label& label) {
+    return model::isSpace(label.className) && model::classRank(label.className) == model::ClassRank::Room;
+}
+
+// Whether a component is a stair by its class, type or name; the door of a stairwell is none.
+bool isStair(const volume::Label& label) {
+    const auto rank = model::classRank(label.className);
+    if (rank != model::ClassRank::Installation && rank != model::ClassRank::Element) return false;
+    if (model::isBoundarySurface(label.className)) return false;
+    std::string words = label.className + " " + label.name;
+    for (const Attribute& attribute : label.attributes)
+        if (attribute.name == "ifcType" || attribute.name == "function")
+            if (const auto* text = std::get_if<std::string>(&attribute.value)) words += " " + *text;
+    for (char& c : words) c = lowerAscii(c);
+    return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
+}
+
+// Of nine planes across an axis, through the stair or the middle half of the building, the one that cuts most of rooms
+// and least of walls along their length.
+Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const Box3d& all,
+                              const std::optional<Box3d>& stair, int threads) {
+    const Box3d& through = stair ? *stair : all;
+    const double low = through.min[axis], size = through.max[axis] - low, spread = stair ? 0.09 : 0.0571;
+    const Vec3d along = volume.grid.axes()[static_cast<std::size_t>(axis)];
+    const auto& labels = volume.labels.labels;
+    const bool hasRooms = std::any_of(labels.begin(), labels.end(),
+                                      [](const volume::Label& label) { return label.count > 0 && isRoom(label); });
+    SectionOptions options;
+    options.threads = threads;
+    double best = low + 0.5 * size, most = -kInfinity;
+    for (int n = 0; n < 9; ++n) {
+        // From the middle outwards, beside round parts of the extent, where walls often stand.
+        const double at = low + (0.487 + (n % 2 == 0 ? 1 : -1) * spread * ((n + 1) / 2)) * size;
+        const auto drawing =
+            drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
+        if (!drawing) return drawing.error();
+        // Without rooms, what cuts most of the buildings.
+        double score = 0;
+        for (const SectionComponent& component : drawing->components) {
+            const volume::Label& label = volume.labels.labels[component.label];
+            if (isRoom(label))
+                score += component.area + 2;
+            else if (!model::isSpace(label.className))
+                score += hasRooms ? -component.area : component.area + component.lineLength;
+        }
+        if (drawing->edgesInPlane > 0) score -= 1;
+        if (score > most + 0.5) {
+            best = at;
+            most = score;
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
+    std::vector<double> floors;
+    const std::vector<Box3d> boxes = boxesOf(volume);
+    for (std::size_t l = 0; l < boxes.size(); ++l) {
+        const Vec3d size = boxes[l].size();
+        if (isRoom(volume.labels.labels[l]) && size.z >= kLeastRoom && size.x * size.y >= kLeastFloorArea)
+            floors.push_back(boxes[l].min.z);
+    }
+    std::sort(floors.begin(), floors.end());
+    std::vector<BuildingLevel> levels;
+    for (const StoreyHeights& storey : findStoreys(volume)) {
+        const volume::Label& label = volume.labels.labels[storey.label];
+        // Heights of storeys are those of voxels; the floor of a room within a voxel tells the true one.
+        double floor = storey.floor;
+        const auto nearest = std::min_element(floors.begin(), floors.end(), [&](double a, double b) {
+            return std::abs(a - storey.floor) < std::abs(b - storey.floor);
+        });
+        if (nearest != floors.end() && std::abs(*nearest - floor) <= 1.01 * volume.grid.spacing().z) floor = *nearest;
+        // Storeys of several buildings or parts may share a floor.
+        if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;
+        levels.push_back({label.name.empty() ? label.id : label.name, floor});
+    }
+    if (!levels.empty()) return levels;
+    for (const double floor : floors)
+        if (levels.empty() || floor - levels.back().floor >= kSameLevel) levels.push_back({"", floor});
+    return levels;
+}
+
+Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads) {
+    SheetViews chosen;
+    chosen.levels = findLevels(volume);
+    const volume::Grid& grid = volume.grid;
+    const Vec3d up = grid.axes()[2];
+    for (const BuildingLevel& level : chosen.levels) {
+        const SectionPlane plane{up, grid.origin() + up * (level.floor + kCutHeight)};
+        if (meetsGrid(plane, grid))
+            chosen.views.push_back({ViewKind::Plan, level.name, plane, level.floor, {.visible = true, .above = true}});
+    }
+    if (chosen.views.empty())
+        chosen.views.push_back({ViewKind::Plan, "", defaultSectionPlane(volume), 0, {.visible = true, .above = true}});
+    Box3d all;
+    std::optional<Box3d> stair;
+    const std::vector<Box3d> boxes = boxesOf(volume);
+    for (std::size_t l = 0; l < boxes.size(); ++l) {
+        const volume::Label& label = volume.labels.labels[l];
+        if (model::classRank(label.className) == model::ClassRank::Other) continue;  // terrain
+        all.add(boxes[l]);
+        if (!boxes[l].isEmpty() && boxes[l].size().z > kLeastRoom && isStair(label) && !stair) stair = boxes[l];
+    }
+    if (all.isEmpty()) {
+        all.add(Vec3d{});
+        all.add(scaled(toDouble(grid.dimension()), grid.spacing()));
+    }
+    // A-A along the shorter side, so that it cuts the ridge of most roofs.
+    const int first = all.size().x >= all.size().y ? 0 : 1;
+    for (int n = 0; n < 2; ++n) {
+        const int axis = n == 0 ? first : 1 - first;
+        const auto at = placeOfSection(volume, axis, all, stair, threads);
+        if (!at) return at.error();
+        const Vec3d along = grid.axes()[static_cast<std::size_t>(axis)];
+        chosen.views.push_back({ViewKind::Section,
+                                n == 0 ? "A" : "B",
+                                {along * (axis == 1 ? -1.0 : 1.0), grid.origin() + along * *at},
+                                0,
+                                {.visible = true}});
+    }
+    for (const char* side : {"north", "east", "south", "west"}) {
+        const auto plane = elevationPlane(side, volume);
+        if (!plane) return plane.error();
+        chosen.views.push_back({ViewKind::Elevation, side, *plane, 0, {.visible = true}});
+    }
+    return chosen;
+}
+
+}  // namespace svt::illustrate

@@ -1,0 +1,95 @@
+#include <svt/writers/drawing/name_place.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+using illustrate::PlanePoint;
+
+constexpr double kTextSize = 2.5, kLeastTextSize = 1.2;  // millimetres
+
+struct Segment {
+    PlanePoint from, to;
+};
+struct Rectangle {
+    PlanePoint low, high;
+};
+
+// Whether a segment has a point within a rectangle.
+bool meets(const Segment& s, const Rectangle& r) noexcept {
+    double from = 0, to = 1;
+    const auto clip = [&](double start, double change, double low, double high) {
+        if (change == 0) return start >= low && start <= high;
+        const double a = (low - start) / change, b = (high - start) / change;
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+        return from <= to;
+    };
+    return clip(s.from.u, s.to.u - s.from.u, r.low.u, r.high.u) && clip(s.from.v, s.to.v - s.from.v, r.low.v, r.high.v);
+}
+
+void addRing(const illustrate::Ring& ring, std::vector<Segment>& segments) {
+    for (std::size_t n = 0; n < ring.size(); ++n) segments.push_back({ring[n], ring[(n + 1) % ring.size()]});
+}
+
+bool isInside(PlanePoint p, const std::vector<Segment>& borders) noexcept {
+    bool inside = false;
+    for (const auto& [a, b] : borders)
+        if ((a.v > p.v) != (b.v > p.v) && p.u < a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u)) inside = !inside;
+    return inside;
+}
+
+}  // namespace
+
+std::optional<NamePlace> placeName(const illustrate::SectionComponent& component,
+                                   const illustrate::SectionDrawing& drawing, double millimetres, double width,
+                                   double lines) {
+    const auto& largest = *std::max_element(component.polygons.begin(), component.polygons.end(),
+                                            [](const auto& a, const auto& b) { return a.area < b.area; });
+    const illustrate::TextPlace place = illustrate::findTextPlace(largest);
+    const double size =
+        std::min({kTextSize, 0.9 * place.width * millimetres / width, 0.8 * place.height * millimetres / lines});
+    if (!(size >= kLeastTextSize)) return std::nullopt;
+    std::vector<Segment> borders, crossing;
+    addRing(largest.outer, borders);
+    for (const auto& hole : largest.holes) addRing(hole, borders);
+    Rectangle all{largest.outer.front(), largest.outer.front()};
+    for (const PlanePoint p : largest.outer) {
+        all.low = {std::min(all.low.u, p.u), std::min(all.low.v, p.v)};
+        all.high = {std::max(all.high.u, p.u), std::max(all.high.v, p.v)};
+    }
+    for (const illustrate::BeyondLine& line : drawing.beyond)
+        if (meets({line.from, line.to}, all)) crossing.push_back({line.from, line.to});
+    const double halfWidth = 0.5 * (size * width + 0.8) / millimetres,
+                 halfHeight = 0.5 * (size * lines + 0.8) / millimetres;
+    const auto countCrossings = [&](PlanePoint p) {
+        const Rectangle text{{p.u - halfWidth, p.v - halfHeight}, {p.u + halfWidth, p.v + halfHeight}};
+        return std::count_if(crossing.begin(), crossing.end(), [&](const Segment& s) { return meets(s, text); });
+    };
+    NamePlace best{place.center, size};
+    auto least = countCrossings(place.center);
+    if (least == 0) return best;
+    // The nearest place with the fewest lines.
+    constexpr int kSteps = 20;
+    double distance = 0;
+    for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; j <= kSteps; ++j) {
+            const PlanePoint p{all.low.u + (all.high.u - all.low.u) * i / kSteps,
+                               all.low.v + (all.high.v - all.low.v) * j / kSteps};
+            const Rectangle text{{p.u - halfWidth, p.v - halfHeight}, {p.u + halfWidth, p.v + halfHeight}};
+            if (std::any_of(borders.begin(), borders.end(), [&](const Segment& s) { return meets(s, text); })) continue;
+            if (!isInside(p, borders)) continue;
+            const auto count = countCrossings(p);
+            const double away = std::hypot(p.u - place.center.u, p.v - place.center.v);
+            if (count > least || (count == least && (distance == 0 || away >= distance))) continue;
+            least = count;
+            distance = away;
+            best.center = p;
+        }
+    return best;
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// Drawings of a building on sheets of paper, to scale, with frame and title block: as one PDF, or as SVG documents.
+///
+///     +--+---------------------------------+
+///     |  |   view         view             |    views of one kind stand on one sheet, as many as fit
+///     |  |   Plan EG      Plan OG          |
+///     |  |                  +--------------+
+///     |  |  scale bar       | title block  |    180 mm wide, after ISO 7200; frame after ISO 5457
+///     +--+------------------+--------------+
+
+#include <svt/core/result.hpp>
+#include <svt/illustrate/sheet_views.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace svt::writers {
+
+/// A view and what it shows.
+struct DrawnView {
+    illustrate::SheetView view;
+    illustrate::SectionDrawing drawing;
+};
+
+struct SheetContent {
+    std::vector<illustrate::BuildingLevel> levels;  ///< marks of heights are above the lowest
+    std::vector<DrawnView> views;
+};
+
+struct SheetOptions {
+    double scale = 0;          ///< 100 draws 1 m as 10 mm; 0: 1:100, or the next standard scale at which all views fit
+    std::string paper = "A3";  ///< A4 to A0, landscape
+};
+
+/// The sheets as SVG documents, in order. `volume` is the volume the drawings were made from. Equal drawings give equal
+/// bytes.
+/// \return the documents, or BadArgument: an unknown paper, a scale out of 1:0.01 to 1:10000000, or a view that is
+///         larger than the paper (names the paper or scale that would do)
+[[nodiscard]] Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content,
+                                                             const volume::SemanticVolume& volume,
+                                                             const SheetOptions& options = {});
+
+/// The sheets as one PDF, a page each.
+/// \return the bytes, or the errors of makeSvgSheets(), NoCairo or CannotWrite
+[[nodiscard]] Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
+                                                const SheetOptions& options = {});
+
+}  // namespace svt::writers

@@ -1,0 +1,133 @@
+#include <svt/writers/sheets/drawing_painter.hpp>
+
+#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/drawing/name_place.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace svt::writers {
+namespace {
+
+using illustrate::PlanePoint;
+using render::Hatch;
+
+constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18;  // millimetres: widths of ISO 128-2
+
+class DrawingPainter {
+public:
+    DrawingPainter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                   const DrawingPlace& place, SheetCanvas& canvas)
+        : drawing_(drawing),
+          volume_(volume),
+          place_(place),
+          canvas_(canvas),
+          style_(drawing, volume, place.millimetres) {}
+
+    void paint() {
+        inLayer("Cut", [&] { addComponents(); });
+        for (const auto kind :
+             {illustrate::BeyondKind::Visible, illustrate::BeyondKind::Hidden, illustrate::BeyondKind::Above})
+            addBeyond(kind);
+        inLayer("Outlines", [&] { addBorders(); });
+        inLayer("Names", [&] { addNames(); });
+    }
+
+private:
+    template <typename Body>
+    void inLayer(std::string_view name, const Body& body) {
+        canvas_.beginLayer(name);
+        body();
+        canvas_.endLayer();
+    }
+
+    [[nodiscard]] PaperPath pathOf(const std::vector<PlanePoint>& points, bool isRing) const {
+        PaperPath path;
+        for (const PlanePoint p : points) path.push_back(place_.onPaper(p));
+        if (isRing) path.push_back(path.front());
+        return path;
+    }
+
+    void addComponents() {
+        for (const illustrate::SectionComponent& component : drawing_.components) {
+            if (component.polygons.empty()) continue;
+            std::vector<PaperPath> rings;
+            for (const auto& polygon : component.polygons) {
+                rings.push_back(pathOf(polygon.outer, true));
+                for (const auto& hole : polygon.holes) rings.push_back(pathOf(hole, true));
+            }
+            const Hatch hatch = style_.hatchOf(component.label);
+            const auto tiles = hatchTiles();
+            const auto tile =
+                std::find_if(tiles.begin(), tiles.end(), [&](const HatchTile& t) { return t.hatch == hatch; });
+            if (style_.isSpace(component.label)) continue;
+            if (tile != tiles.end())
+                canvas_.hatch(rings, *tile);
+            else
+                canvas_.fill(rings, "#d9d9d9");
+        }
+    }
+
+    void addBeyond(illustrate::BeyondKind kind) {
+        std::vector<PaperPath> paths;
+        for (const illustrate::BeyondLine& line : drawing_.beyond)
+            if (line.kind == kind) paths.push_back({place_.onPaper(line.from), place_.onPaper(line.to)});
+        if (paths.empty()) return;
+        const LineType type = kind == illustrate::BeyondKind::Visible  ? LineType::Continuous
+                              : kind == illustrate::BeyondKind::Hidden ? LineType::Dashed
+                                                                       : LineType::LongDashDoubleDots;
+        inLayer(fmt::format("Beyond: {}", beyondName(kind)), [&] { canvas_.stroke(paths, {kBeyond, type}); });
+    }
+
+    void addBorders() {
+        for (const bool bold : {false, true}) {
+            std::vector<PaperPath> paths;
+            for (const illustrate::SectionBorder& border : drawing_.borders) {
+                if (style_.isSpace(border.left) && style_.isSpace(border.right)) continue;
+                if (bold == style_.isBoldBetween(border.left, border.right))
+                    paths.push_back(pathOf(border.points, false));
+            }
+            canvas_.stroke(paths, {bold ? kBold : kThin});
+        }
+        std::vector<PaperPath> bold, thin, dashed;
+        for (const illustrate::SectionLine& line : drawing_.lines) {
+            const bool isVirtual = volume_.labels.labels[line.label].className == "ClosureSurface";
+            (isVirtual ? dashed : style_.isBold(line.label) ? bold : thin).push_back(pathOf(line.points, false));
+        }
+        canvas_.stroke(dashed, {kThin, LineType::Dashed});
+        canvas_.stroke(thin, {kThin});
+        canvas_.stroke(bold, {kBold});
+    }
+
+    void addNames() {
+        for (const illustrate::SectionComponent& component : drawing_.components) {
+            if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
+            const std::string name = shortened(shownName(volume_.labels.labels[component.label]), 2.5, 40);
+            const std::string area =
+                isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
+            const double width = std::max(widthOnPaper(name, 1), widthOnPaper(area, 1));  // at size 1
+            const auto at = placeName(component, drawing_, place_.millimetres, width, area.empty() ? 1 : 2.3);
+            if (!at) continue;
+            const PaperPoint p = place_.onPaper(at->center);
+            canvas_.text(
+                {{p.x, p.y + at->size * (area.empty() ? 0.35 : -0.25)}, at->size, name, TextAnchor::Middle, true});
+            if (!area.empty()) canvas_.text({{p.x, p.y + at->size * 1.05}, at->size, area, TextAnchor::Middle, true});
+        }
+    }
+
+    const illustrate::SectionDrawing& drawing_;
+    const volume::SemanticVolume& volume_;
+    const DrawingPlace& place_;
+    SheetCanvas& canvas_;
+    DrawingStyle style_;
+};
+
+}  // namespace
+
+void paintDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                  const DrawingPlace& place, SheetCanvas& canvas) {
+    DrawingPainter(drawing, volume, place, canvas).paint();
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,23 @@
+#pragma once
+/// \file
+/// Paints a section drawing onto a sheet: hatched parts, lines beyond, outlines, names of rooms.
+
+#include <svt/writers/sheets/sheet_canvas.hpp>
+
+namespace svt::writers {
+
+/// Where a drawing stands on its sheet.
+struct DrawingPlace {
+    PaperPoint corner;           ///< of the drawing's lower left corner
+    illustrate::PlanePoint low;  ///< that corner, in the drawing
+    double millimetres = 10;     ///< on paper per metre
+
+    [[nodiscard]] PaperPoint onPaper(illustrate::PlanePoint p) const noexcept {
+        return {corner.x + (p.u - low.u) * millimetres, corner.y - (p.v - low.v) * millimetres};
+    }
+};
+
+void paintDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                  const DrawingPlace& place, SheetCanvas& canvas);
+
+}  // namespace svt::writers

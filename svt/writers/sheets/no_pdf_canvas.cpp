@@ -1,0 +1,9 @@
+#include <svt/writers/sheets/pdf_canvas.hpp>
+
+namespace svt::writers {
+
+Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& /*title*/) {
+    return Error(Code::NoCairo, "this build writes no PDF; write the sheets as SVG");
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,166 @@
+#include <svt/writers/sheets/sheet_layout.hpp>
+
+#include <svt/core/text.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace svt::writers {
+namespace {
+
+using illustrate::PlanePoint;
+
+// Millimetres: room around a drawing for marks of sections and heights, and below it for its title.
+constexpr double kBeside = 14, kAbove = 12, kBelow = 22;
+constexpr double kScales[] = {100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000};  // ISO 5455
+
+Result<SheetPaper> paperOf(const std::string& name) {
+    constexpr std::array<std::pair<double, double>, 5> kSizes = {
+        {{1189, 841}, {841, 594}, {594, 420}, {420, 297}, {297, 210}}};
+    if (name.size() == 2 && lowerAscii(name[0]) == 'a' && name[1] >= '0' && name[1] <= '4') {
+        const auto [width, height] = kSizes[static_cast<std::size_t>(name[1] - '0')];
+        return SheetPaper{"A" + name.substr(1), width, height, 20, 10, width - 10, height - 10};
+    }
+    return Error(Code::BadArgument, fmt::format("paper '{}': expected A4, A3, A2, A1 or A0", name));
+}
+
+struct ViewSize {
+    std::size_t view = 0;
+    PlanePoint low;
+    double width = 0, height = 0;  // metres
+};
+
+// Of rows of a sheet: the views [first, end) and the height with all margins.
+struct SheetRow {
+    std::size_t first = 0, end = 0;
+    double width = 0, height = 0;
+};
+
+class LayoutMaker {
+public:
+    LayoutMaker(const SheetPaper& paper, std::vector<ViewSize> sizes, const SheetContent& content)
+        : paper_(paper), sizes_(std::move(sizes)), content_(content) {}
+
+    // Whether each view fits onto a sheet of its own.
+    [[nodiscard]] bool fits(double scale) const {
+        return std::all_of(sizes_.begin(), sizes_.end(), [&](const ViewSize& size) {
+            return outerWidth(size, scale) <= areaWidth() && outerHeight(size, scale) <= areaHeight();
+        });
+    }
+
+    [[nodiscard]] SheetLayout make(double scale) const {
+        SheetLayout layout{paper_, scale, {}};
+        std::size_t perRow = 0, endOfKind = 0;
+        for (std::size_t first = 0; first < sizes_.size();) {
+            const auto kind = kindOf(first);
+            if (first >= endOfKind) perRow = evenRow(first, scale, endOfKind);
+            std::vector<SheetRow> rows;
+            double height = 0;
+            std::size_t next = first;
+            while (next < sizes_.size() && kindOf(next) == kind) {
+                const SheetRow row = rowFrom(next, kind, scale, perRow);
+                if (!rows.empty() && height + row.height > areaHeight()) break;
+                rows.push_back(row);
+                height += row.height;
+                next = row.end;
+            }
+            layout.sheets.push_back(place(rows, height, kind, scale));
+            first = next;
+        }
+        return layout;
+    }
+
+private:
+    [[nodiscard]] illustrate::ViewKind kindOf(std::size_t n) const { return content_.views[sizes_[n].view].view.kind; }
+    [[nodiscard]] double areaWidth() const { return paper_.right - paper_.left; }
+    [[nodiscard]] double areaHeight() const { return paper_.bottom - SheetPaper::kTitleHeight - paper_.top; }
+    static double outerWidth(const ViewSize& size, double scale) { return size.width * 1000 / scale + 2 * kBeside; }
+    static double outerHeight(const ViewSize& size, double scale) {
+        return size.height * 1000 / scale + kAbove + kBelow;
+    }
+
+    // How many views of a kind a row has at most, so that all rows have about as many: 2 and 2 rather than 3 and 1.
+    std::size_t evenRow(std::size_t first, double scale, std::size_t& endOfKind) const {
+        const auto kind = kindOf(first);
+        std::size_t rows = 0;
+        for (endOfKind = first; endOfKind < sizes_.size() && kindOf(endOfKind) == kind; ++rows)
+            endOfKind = rowFrom(endOfKind, kind, scale, sizes_.size()).end;
+        return (endOfKind - first + rows - 1) / rows;
+    }
+
+    [[nodiscard]] SheetRow rowFrom(std::size_t first, illustrate::ViewKind kind, double scale, std::size_t most) const {
+        SheetRow row{first, first, 0, 0};
+        for (; row.end < sizes_.size() && row.end < first + most && kindOf(row.end) == kind; ++row.end) {
+            const double width = outerWidth(sizes_[row.end], scale);
+            if (row.end > first && row.width + width > areaWidth()) break;
+            row.width += width;
+            row.height = std::max(row.height, outerHeight(sizes_[row.end], scale));
+        }
+        return row;
+    }
+
+    // Rows and views with equal distances; the drawings of a row stand on one line.
+    [[nodiscard]] Sheet place(const std::vector<SheetRow>& rows, double height, illustrate::ViewKind kind,
+                              double scale) const {
+        Sheet sheet{kind, {}};
+        const double gap = (areaHeight() - height) / static_cast<double>(rows.size() + 1);
+        double y = paper_.top + gap;
+        for (const SheetRow& row : rows) {
+            const double between = (areaWidth() - row.width) / static_cast<double>(row.end - row.first + 1);
+            double x = paper_.left + between;
+            for (std::size_t n = row.first; n < row.end; ++n) {
+                const ViewSize& size = sizes_[n];
+                const double mm = 1000 / scale;
+                sheet.views.push_back({size.view,
+                                       {{x + kBeside, y + row.height - kBelow}, size.low, mm},
+                                       size.width * mm,
+                                       size.height * mm});
+                x += outerWidth(size, scale) + between;
+            }
+            y += row.height + gap;
+        }
+        return sheet;
+    }
+
+    SheetPaper paper_;
+    std::vector<ViewSize> sizes_;
+    const SheetContent& content_;
+};
+
+}  // namespace
+
+Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions& options) {
+    const auto paper = paperOf(options.paper);
+    if (!paper) return paper.error();
+    if (options.scale != 0 && !(options.scale >= 0.01 && options.scale <= 1e7))
+        return Error(Code::BadArgument,
+                     fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
+    std::vector<ViewSize> sizes;
+    for (std::size_t n = 0; n < content.views.size(); ++n) {
+        const auto [low, high] = drawnBox(content.views[n].drawing);
+        if (high.u > low.u || high.v > low.v) sizes.push_back({n, low, high.u - low.u, high.v - low.v});
+    }
+    const LayoutMaker maker(*paper, sizes, content);
+    if (options.scale == 0) {
+        const auto* scale =
+            std::find_if(std::begin(kScales), std::end(kScales), [&](double s) { return maker.fits(s); });
+        if (scale != std::end(kScales)) return maker.make(*scale);
+        return Error(Code::BadArgument, fmt::format("the views do not fit onto {} at 1:50000", paper->name));
+    }
+    if (maker.fits(options.scale)) return maker.make(options.scale);
+    for (const char* name : {"A4", "A3", "A2", "A1", "A0"})
+        if (LayoutMaker(*paperOf(name), sizes, content).fits(options.scale))
+            return Error(Code::BadArgument, fmt::format("the views do not fit onto {} at 1:{}; {} is large enough",
+                                                        paper->name, shortNumber(options.scale, 2), name));
+    const auto* scale = std::find_if(std::begin(kScales), std::end(kScales),
+                                     [&](double s) { return s > options.scale && maker.fits(s); });
+    return Error(Code::BadArgument, fmt::format("the views do not fit onto any paper at 1:{}; on {} 1:{} would do",
+                                                shortNumber(options.scale, 2), paper->name,
+                                                scale != std::end(kScales) ? *scale : kScales[8]));
+}
+
+}  // namespace svt::writers

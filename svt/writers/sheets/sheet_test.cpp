@@ -1,0 +1,186 @@
+/// Sheets of boxes whose places on paper are known.
+
+#include <svt/writers/sheet_writer.hpp>
+#include <svt/writers/sheets/pdf_canvas.hpp>
+#include <svt/writers/sheets/sheet_layout.hpp>
+#include <svt/writers/sheets/tile_path.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace svt::writers {
+namespace {
+
+using illustrate::ViewKind;
+
+/// A volume of one wall label; drawings refer to it.
+volume::SemanticVolume wallVolume() {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({11, 11, 11}, {1, 1, 1}, {500000, 5400000, 100},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    volume.modelName = "Haus <1>";
+    volume.source = "house.gml";
+    volume.crsName = "urn:ogc:def:crs:EPSG::25832";
+    volume::Label label;
+    label.id = "wall";
+    label.className = "WallSurface";
+    label.subtreeEnd = 1;
+    label.count = 1;
+    label.first = 1;
+    volume.labels.labels.push_back(label);
+    return volume;
+}
+
+/// A wall of `width` x `height` metres, cut.
+DrawnView wallView(ViewKind kind, const std::string& name, double width, double height) {
+    DrawnView view;
+    view.view = {kind, name, {{0, 0, 1}, {500000, 5400000, 101}}, 0, {}};
+    illustrate::SectionDrawing& drawing = view.drawing;
+    drawing.plane = view.view.plane;
+    drawing.axes.origin = {500000, 5400000, 101};
+    const illustrate::Ring ring{{0, 0}, {width, 0}, {width, height}, {0, height}};
+    drawing.components.push_back({0, {{ring, {}, width * height}}, width * height, 0, true, 0});
+    std::vector<illustrate::PlanePoint> border = ring;
+    border.push_back(ring.front());
+    drawing.borders.push_back({border, 0, volume::kNoLabel});
+    drawing.classes.push_back({"WallSurface", 1, width * height});
+    return view;
+}
+
+TEST(TilePath, CommandsBecomeSteps) {
+    const auto steps = readTilePath("M1-.5l.5.25H3v2C1 2 3 4 5 6S7 8 9 10z");
+    ASSERT_EQ(steps.size(), 7u);
+    EXPECT_EQ(steps[0].x, 1);
+    EXPECT_EQ(steps[0].y, -0.5);
+    EXPECT_EQ(steps[1].x, 1.5);
+    EXPECT_EQ(steps[1].y, -0.25);
+    EXPECT_EQ(steps[2].x, 3);
+    EXPECT_EQ(steps[3].y, 1.75);
+    EXPECT_EQ(steps[4].x2, 3);
+    EXPECT_EQ(steps[5].x1, 7);  // mirrored: 2 * 5 - 3
+    EXPECT_EQ(steps[5].y1, 8);
+    EXPECT_EQ(steps[6].kind, TileStep::Kind::Close);
+}
+
+// Each tile of the table can be drawn, and stays on itself.
+TEST(TilePath, TilesOfTheTableAreRead) {
+    for (const HatchTile& tile : hatchTiles()) {
+        const auto steps = readTilePath(tile.lines);
+        EXPECT_GE(steps.size(), 2u);
+        for (const TileStep& step : steps) {
+            EXPECT_GE(step.x, -0.01);
+            EXPECT_LE(step.x, tile.width + 0.01);
+            EXPECT_GE(step.y, -0.01);
+            EXPECT_LE(step.y, tile.height + 0.01);
+        }
+    }
+}
+
+TEST(SheetText, LongNamesAreShortened) {
+    EXPECT_EQ(shortened("Flur", 2.5, 40), "Flur");
+    const std::string longer = shortened("Größeres Besprechungszimmer im Obergeschoss", 2.5, 40);
+    EXPECT_LE(widthOnPaper(longer, 2.5), 40);
+    EXPECT_GT(widthOnPaper(longer, 2.5), 33);
+    EXPECT_TRUE(longer.ends_with("\u2026"));
+    // A character is never cut.
+    EXPECT_EQ(shortened("ÄÖÜ", 2.5, widthOnPaper("Ä\u2026", 2.5) + 0.01), "Ä\u2026");
+}
+
+TEST(SheetLayout, ViewsStandInsideTheFrameAndApart) {
+    SheetContent content;
+    for (int n = 0; n < 4; ++n) content.views.push_back(wallView(ViewKind::Elevation, "north", 8, 3 + n));
+    const auto layout = layOutSheets(content, {});
+    ASSERT_TRUE(layout);
+    EXPECT_EQ(layout->scale, 100);
+    ASSERT_EQ(layout->sheets.size(), 1u);
+    std::vector<std::array<double, 4>> boxes;
+    for (const PlacedView& placed : layout->sheets[0].views) {
+        const double left = placed.place.corner.x, bottom = placed.place.corner.y;
+        EXPECT_NEAR(placed.width, 80, 1e-9);
+        EXPECT_GT(left, layout->paper.left);
+        EXPECT_LT(left + placed.width, layout->paper.right);
+        EXPECT_GT(bottom - placed.height, layout->paper.top);
+        EXPECT_LT(bottom, layout->paper.bottom - SheetPaper::kTitleHeight);
+        for (const auto& other : boxes)
+            EXPECT_TRUE(left > other[2] || left + placed.width < other[0] || bottom < other[1] ||
+                        bottom - placed.height > other[3]);
+        boxes.push_back({left, bottom - placed.height, left + placed.width, bottom});
+    }
+}
+
+TEST(SheetLayout, RowsHaveAboutAsManyViews) {
+    SheetContent content;
+    // Three would fit into a row of 390 mm, and no second row under 180 mm.
+    for (int n = 0; n < 4; ++n) content.views.push_back(wallView(ViewKind::Elevation, "north", 9, 15));
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 9, 9));
+    const auto layout = layOutSheets(content, {});
+    ASSERT_TRUE(layout);
+    ASSERT_EQ(layout->sheets.size(), 3u);
+    EXPECT_EQ(layout->sheets[0].views.size(), 2u);
+    EXPECT_EQ(layout->sheets[1].views.size(), 2u);
+    EXPECT_EQ(layout->sheets[2].kind, ViewKind::Plan);
+}
+
+TEST(SheetLayout, TheScaleFollowsTheLargestView) {
+    SheetContent content;
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 60, 30));
+    EXPECT_EQ(layOutSheets(content, {})->scale, 200);
+    EXPECT_EQ(layOutSheets(content, {0, "A1"})->scale, 100);
+    const auto tooLarge = layOutSheets(content, {100, "A3"});
+    ASSERT_FALSE(tooLarge);
+    EXPECT_EQ(tooLarge.error().code(), Code::BadArgument);
+    EXPECT_NE(tooLarge.error().message().find("A1 is large enough"), std::string::npos) << tooLarge.error().message();
+    const auto never = layOutSheets(content, {10, "A3"});
+    ASSERT_FALSE(never);
+    EXPECT_NE(never.error().message().find("1:200 would do"), std::string::npos) << never.error().message();
+    EXPECT_EQ(layOutSheets(content, {0, "A5"}).error().code(), Code::BadArgument);
+    EXPECT_EQ(layOutSheets(content, {-1, "A3"}).error().code(), Code::BadArgument);
+}
+
+TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
+    const volume::SemanticVolume volume = wallVolume();
+    SheetContent content;
+    content.levels.push_back({"EG", 0.5});
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
+    content.views.back().view.floor = 0.5;
+    const auto sheets = makeSvgSheets(content, volume, {50, "A4"});
+    ASSERT_TRUE(sheets);
+    ASSERT_EQ(sheets->size(), 1u);
+    const std::string& svg = sheets->front();
+    EXPECT_NE(svg.find("width=\"297mm\" height=\"210mm\" viewBox=\"0 0 297 210\""), std::string::npos);
+    // 4 x 3 m at 1:50 in the middle of the area of 267 x 154 mm: 80 x 60 mm.
+    const auto layout = layOutSheets(content, {50, "A4"});
+    const PaperPoint low = layout->sheets[0].views[0].place.corner;
+    EXPECT_NEAR(low.x, 20 + 0.5 * (267 - 80), 1e-9);
+    EXPECT_NE(svg.find(fmt::format("M{:g} {:g}L{:g} {:g} {:g} {:g}", low.x, low.y, low.x + 80, low.y, low.x + 80,
+                                   low.y - 60)),
+              std::string::npos);
+    for (const char* text : {">Haus &lt;1&gt;<", ">1:50<", ">Plan EG, level \u00B10.00<", ">1 of 1<", ">A4<",
+                             ">house.gml, EPSG:25832<", "url(#masonry)", "inkscape:label=\"Outlines\""})
+        EXPECT_NE(svg.find(text), std::string::npos) << text;
+    EXPECT_EQ(*sheets, *makeSvgSheets(content, volume, {50, "A4"}));
+}
+
+TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
+    if (!makePdfCanvas("")) GTEST_SKIP() << "no cairo";
+    const volume::SemanticVolume volume = wallVolume();
+    SheetContent content;
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
+    content.views.push_back(wallView(ViewKind::Section, "A", 4, 3));
+    const auto pdf = makePdfSheets(content, volume, {50, "A4"});
+    ASSERT_TRUE(pdf);
+    EXPECT_TRUE(pdf->starts_with("%PDF-"));
+    std::size_t pages = 0;
+    for (std::size_t at = pdf->find("/MediaBox"); at != std::string::npos; at = pdf->find("/MediaBox", at + 1)) {
+        ++pages;
+        // 297 x 210 mm in points.
+        EXPECT_EQ(pdf->substr(at, 40).rfind("/MediaBox [ 0 0 841.889", 0), 0u) << pdf->substr(at, 40);
+    }
+    EXPECT_EQ(pages, 2u);
+    EXPECT_EQ(*pdf, *makePdfSheets(content, volume, {50, "A4"}));
+}
+
+}  // namespace
+}  // namespace svt::writers

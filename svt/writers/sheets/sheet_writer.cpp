@@ -1,0 +1,252 @@
+#include <svt/writers/sheet_writer.hpp>
+
+#include <svt/core/rounding.hpp>
+#include <svt/model/classes.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/sheets/pdf_canvas.hpp>
+#include <svt/writers/sheets/sheet_layout.hpp>
+#include <svt/writers/sheets/svg_canvas.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::writers {
+namespace {
+
+using illustrate::PlanePoint;
+using illustrate::ViewKind;
+
+constexpr LineStyle kFrame{0.7}, kBox{0.35}, kFine{0.18};
+
+// Heights as architects write them: "+2.70", "±0.00".
+std::string heightText(double height) {
+    const double rounded = std::round(height * 100) / 100;
+    if (rounded == 0) return "\u00B10.00";
+    return fmt::format("{}{:.2f}", rounded > 0 ? "+" : "\u2212", std::abs(rounded));
+}
+
+class SheetPainter {
+public:
+    SheetPainter(const SheetContent& content, const volume::SemanticVolume& volume, const SheetLayout& layout,
+                 SheetCanvas& canvas)
+        : content_(content), volume_(volume), layout_(layout), canvas_(canvas) {}
+
+    void paint() {
+        for (std::size_t n = 0; n < layout_.sheets.size(); ++n) {
+            const Sheet& sheet = layout_.sheets[n];
+            canvas_.beginSheet(layout_.paper.width, layout_.paper.height,
+                               fmt::format("{}: {}", modelName(), titleOf(sheet)));
+            for (const PlacedView& placed : sheet.views) {
+                const DrawnView& view = content_.views[placed.view];
+                paintDrawing(view.drawing, volume_, placed.place, canvas_);
+                canvas_.beginLayer("Marks");
+                addCaption(placed, view);
+                if (view.view.kind == ViewKind::Plan)
+                    addSectionMarks(placed, view);
+                else
+                    addHeights(placed, view);
+                canvas_.endLayer();
+            }
+            canvas_.beginLayer("Frame");
+            addFrame(sheet, n);
+            canvas_.endLayer();
+            canvas_.endSheet();
+        }
+    }
+
+private:
+    [[nodiscard]] const std::string& modelName() const noexcept {
+        return volume_.modelName.empty() ? volume_.source : volume_.modelName;
+    }
+    [[nodiscard]] double datum() const noexcept { return content_.levels.empty() ? 0 : content_.levels.front().floor; }
+
+    [[nodiscard]] std::string captionOf(const DrawnView& view) const {
+        switch (view.view.kind) {
+            case ViewKind::Section: return fmt::format("Section {0}\u2013{0}", view.view.name);
+            case ViewKind::Elevation: return fmt::format("Elevation from the {}", view.view.name);
+            case ViewKind::Plan: break;
+        }
+        const std::string height = heightText(view.view.floor - datum());
+        if (content_.levels.empty()) return planeText(view.drawing, volume_.grid);
+        return view.view.name.empty() ? fmt::format("Plan, level {}", height)
+                                      : fmt::format("Plan {}, level {}", view.view.name, height);
+    }
+    [[nodiscard]] std::string titleOf(const Sheet& sheet) const {
+        const std::size_t count = sheet.views.size();
+        if (count == 1) return captionOf(content_.views[sheet.views.front().view]);
+        return sheet.kind == ViewKind::Plan ? "Plans" : sheet.kind == ViewKind::Section ? "Sections" : "Elevations";
+    }
+
+    void line(PaperPoint a, PaperPoint b, LineStyle style) { canvas_.stroke({{a, b}}, style); }
+    void box(double left, double top, double right, double bottom, LineStyle style) {
+        canvas_.stroke({{{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}}}, style);
+    }
+
+    void addCaption(const PlacedView& placed, const DrawnView& view) {
+        const PaperPoint corner = placed.place.corner;
+        canvas_.text({{corner.x, corner.y + 14}, 3.5, captionOf(view)});
+        canvas_.text({{corner.x, corner.y + 18.5}, 2.5, fmt::format("1:{}", shortNumber(layout_.scale, 2))});
+    }
+
+    // Where the sections cut a plan: bold ends of a line, arrows to where one looks, and the letter.
+    void addSectionMarks(const PlacedView& placed, const DrawnView& plan) {
+        constexpr double kOff = 3, kLength = 6;
+        const PaperPoint low = placed.place.corner, high{low.x + placed.width, low.y - placed.height};
+        for (const DrawnView& view : content_.views) {
+            if (view.view.kind != ViewKind::Section) continue;
+            const illustrate::PlaneAxes& axes = plan.drawing.axes;
+            const PaperPoint at = placed.place.onPaper(axes.planeFromWorld(view.view.plane.point));
+            const double u = -dot(view.view.plane.normal, axes.u), v = dot(view.view.plane.normal, axes.v);  // on paper
+            if (std::abs(u) < 0.999 && std::abs(v) < 0.999) continue;
+            const bool isUpright = std::abs(u) > 0.5;
+            for (const bool isFirst : {true, false}) {
+                PaperPoint from = isUpright ? PaperPoint{at.x, isFirst ? low.y + kOff : high.y - kOff}
+                                            : PaperPoint{isFirst ? low.x - kOff : high.x + kOff, at.y};
+                const double out = isFirst == isUpright ? 1 : -1;
+                const PaperPoint to =
+                    isUpright ? PaperPoint{at.x, from.y + out * kLength} : PaperPoint{from.x + out * kLength, at.y};
+                line(from, to, {0.7});
+                const PaperPoint tip{to.x + 4 * u, to.y + 4 * v};
+                line(to, tip, kFine);
+                canvas_.fill({{tip,
+                               {tip.x - 2 * u - 0.7 * v, tip.y - 2 * v + 0.7 * u},
+                               {tip.x - 2 * u + 0.7 * v, tip.y - 2 * v - 0.7 * u},
+                               tip}},
+                             "#000000");
+                canvas_.text({{to.x - 2.6 * u, to.y - 2.6 * v + 1.25}, 3.5, view.view.name, TextAnchor::Middle});
+            }
+        }
+    }
+
+    // Heights of the floors, and of the highest point, at the right.
+    void addHeights(const PlacedView& placed, const DrawnView& view) {
+        if (content_.levels.empty()) return;
+        const Vec3d up = volume_.grid.axes()[2], origin = volume_.grid.origin();
+        const double x = placed.place.corner.x + placed.width;
+        const double perHeight = dot(view.drawing.axes.v, up);
+        const double top = placed.place.low.v + placed.height / placed.place.millimetres;
+        double last = 1e9;  // y of the mark below
+        const auto mark = [&](double height, double y) {
+            if (last - y < 4) return;
+            last = y;
+            line({x + 1, y}, {x + 13, y}, kFine);
+            canvas_.stroke({{{x + 3, y}, {x + 2, y - 1.6}, {x + 4, y - 1.6}, {x + 3, y}}}, kFine);
+            canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightText(height)});
+        };
+        for (const illustrate::BuildingLevel& level : content_.levels) {
+            const PlanePoint p = view.drawing.axes.planeFromWorld(origin + up * level.floor);
+            mark(level.floor - datum(), placed.place.onPaper({0, p.v}).y);
+        }
+        const double zero = view.drawing.axes.planeFromWorld(origin + up * datum()).v;
+        mark((top - zero) / perHeight, placed.place.onPaper({0, top}).y);
+    }
+
+    void addFrame(const Sheet& sheet, std::size_t number) {
+        const SheetPaper& paper = layout_.paper;
+        box(paper.left, paper.top, paper.right, paper.bottom, kFrame);
+        const double left = paper.right - SheetPaper::kTitleWidth, top = paper.bottom - SheetPaper::kTitleHeight;
+        const double column = paper.right - 45, middle = top + 14, lower = top + 25;
+        line({left, paper.bottom}, {left, top}, kBox);
+        line({left, top}, {paper.right, top}, kBox);
+        line({left, middle}, {paper.right, middle}, kFine);
+        line({left, lower}, {paper.right, lower}, kFine);
+        line({column, top}, {column, paper.bottom}, kFine);
+        const double room = column - left - 4;
+        const auto field = [&](double x, double y, const char* what, const std::string& text, double size,
+                               double width) {
+            canvas_.text({{x + 2, y + 3}, 1.8, what});
+            canvas_.text({{x + 2, y + 4.2 + size * 1.25}, size, shortened(text, size, width)});
+        };
+        field(left, top, "Building", modelName(), 5, room);
+        field(left, middle, "Drawing", titleOf(sheet), 3.5, room);
+        field(left, lower, "Model", sourceText(), 2.5, room);
+        field(column, top, "Scale", fmt::format("1:{}", shortNumber(layout_.scale, 2)), 5, 41);
+        field(column, middle, "Sheet", fmt::format("{} of {}", number + 1, layout_.sheets.size()), 3.5, 41);
+        field(column, lower, "Paper", paper.name, 2.5, 41);
+        addScaleBar(paper.left + 8, paper.bottom - 10);
+        if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
+        if (sheet.kind == ViewKind::Plan) addNorth(sheet, {left - 18, paper.bottom - 18});
+    }
+
+    [[nodiscard]] std::string sourceText() const {
+        std::string text = volume_.source;
+        if (const std::uint32_t epsg = epsgCodeOf(volume_.crsName); epsg != 0) text += fmt::format(", EPSG:{}", epsg);
+        return text;
+    }
+    [[nodiscard]] std::string datumText() const {
+        const std::string& name = content_.levels.front().name;
+        const double height = dot(volume_.grid.origin(), volume_.grid.axes()[2]) + datum();
+        return fmt::format("Heights above {}: \u00B10.00 = {:.2f} m{}", name.empty() ? "the lowest floor" : name,
+                           height, volume_.crsName.empty() ? "" : " in the heights of the model");
+    }
+
+    // Four fields of a rounded length, 7 to 17 mm each.
+    void addScaleBar(double x, double y) {
+        const double field = roundDownTo125(17.5 * layout_.scale / 1000), size = field * 1000 / layout_.scale;
+        for (int n = 0; n < 4; ++n) {
+            const double from = x + n * size, to = from + size;
+            if (n % 2 == 0) canvas_.fill({{{from, y}, {to, y}, {to, y + 1.4}, {from, y + 1.4}, {from, y}}}, "#000000");
+            box(from, y, to, y + 1.4, {0.13});
+        }
+        for (const int n : {0, 1, 2, 4})
+            canvas_.text({{x + n * size, y - 1},
+                          2.2,
+                          shortNumber(n * field, 3) + (n == 4 ? " m" : ""),
+                          n == 0 ? TextAnchor::Start : TextAnchor::Middle});
+    }
+
+    void addNorth(const Sheet& sheet, PaperPoint at) {
+        const illustrate::PlaneAxes& axes = content_.views[sheet.views.front().view].drawing.axes;
+        const Vec3d north{0, 1, 0};
+        const double u = dot(north, axes.u), v = -dot(north, axes.v), length = std::hypot(u, v);
+        if (!(length > 0.5)) return;
+        const PaperPoint along{u / length, v / length};
+        constexpr double kRadius = 7;
+        PaperPath circle;
+        for (int n = 0; n <= 64; ++n) {
+            const double angle = 2 * 3.14159265358979323846 * (n % 64) / 64;
+            circle.push_back({at.x + kRadius * std::cos(angle), at.y + kRadius * std::sin(angle)});
+        }
+        canvas_.stroke({circle}, kFine);
+        const PaperPoint tip{at.x + kRadius * along.x, at.y + kRadius * along.y};
+        const auto foot = [&](double side) {
+            return PaperPoint{at.x - 0.8 * kRadius * along.x - side * along.y,
+                              at.y - 0.8 * kRadius * along.y + side * along.x};
+        };
+        canvas_.fill({{tip, foot(3), {at.x - 0.45 * kRadius * along.x, at.y - 0.45 * kRadius * along.y}, tip}},
+                     "#000000");
+        canvas_.stroke({{tip, foot(-3), {at.x - 0.45 * kRadius * along.x, at.y - 0.45 * kRadius * along.y}, tip}},
+                       kFine);
+        canvas_.text({{tip.x + 3 * along.x, tip.y + 3 * along.y + 1.1}, 3, "N", TextAnchor::Middle});
+    }
+
+    const SheetContent& content_;
+    const volume::SemanticVolume& volume_;
+    const SheetLayout& layout_;
+    SheetCanvas& canvas_;
+};
+
+}  // namespace
+
+Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, const volume::SemanticVolume& volume,
+                                               const SheetOptions& options) {
+    const auto layout = layOutSheets(content, options);
+    if (!layout) return layout.error();
+    SvgCanvas canvas;
+    SheetPainter(content, volume, *layout, canvas).paint();
+    return canvas.takeDocuments();
+}
+
+Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
+                                  const SheetOptions& options) {
+    const auto layout = layOutSheets(content, options);
+    if (!layout) return layout.error();
+    auto canvas = makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName);
+    if (!canvas) return canvas.error();
+    SheetPainter(content, volume, *layout, **canvas).paint();
+    return (*canvas)->finish();
+}
+
+}  // namespace svt::writers

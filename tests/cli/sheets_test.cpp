@@ -1,0 +1,64 @@
+// `svt sheets`: PDF that other programs read, true to scale, and what it says where that is not possible.
+#include "run_command.hpp"
+#include "small_model.hpp"
+
+#include <cstdlib>
+#include <regex>
+
+namespace svt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool hasPoppler() { return std::system("pdfinfo -v > /dev/null 2>&1 && pdftotext -v > /dev/null 2>&1") == 0; }
+
+std::string outputOf(const fs::path& folder, const std::string& command) {
+    const int status = std::system(("cd '" + folder.string() + "' && " + command + " > output.txt 2>&1").c_str());
+    EXPECT_EQ(status, 0) << command;
+    return readText(folder / "output.txt");
+}
+
+TEST(Sheets, TheHouseHasPlansSectionsAndElevations) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1"});
+    runSvtWell(folder.path(), {"sheets", "house.svt", "-o", "house.pdf", "--svg", "sheets"});
+    runSvtWell(folder.path(), {"sheets", "house.svt", "-o", "again.pdf", "--threads", "1"});
+    EXPECT_EQ(readText(folder / "house.pdf"), readText(folder / "again.pdf"));
+    for (int n = 1; n <= 5; ++n) EXPECT_TRUE(fs::exists(folder / "sheets" / ("sheet-" + std::to_string(n) + ".svg")));
+    EXPECT_FALSE(fs::exists(folder / "sheets" / "sheet-6.svg"));
+    if (!hasPoppler()) GTEST_SKIP() << "no poppler";
+    const std::string info = outputOf(folder.path(), "pdfinfo house.pdf");
+    EXPECT_TRUE(std::regex_search(info, std::regex("Pages: +5"))) << info;
+    EXPECT_TRUE(std::regex_search(info, std::regex("Title: +Sample house"))) << info;
+    EXPECT_TRUE(std::regex_search(info, std::regex("1190\\.55 x 841\\.89 pts \\(A3\\)"))) << info;
+    const std::string text = outputOf(folder.path(), "pdftotext house.pdf -");
+    for (const char* part : {"Living room", "Plan Ground floor, level \u00B10.00", "Section A\u2013A",
+                             "Elevation from the west", "1:100", "5 of 5"})
+        EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(Sheets, WhatDoesNotFitIsRefusedWithWhatWould) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    const auto result =
+        runSvt(folder.path(), {"sheets", "boxes.gml", "-o", "s.pdf", "--scale", "1:20", "--paper", "A4"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.err.find("is large enough"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder / "s.pdf"));
+    const auto nothing = runSvt(folder.path(), {"sheets", "boxes.gml"});
+    EXPECT_EQ(nothing.exitCode, 2);
+    EXPECT_NE(nothing.err.find("give -o P.pdf or --svg DIR"), std::string::npos) << nothing.err;
+}
+
+// A model without rooms and storeys has a plan at half its height.
+TEST(Sheets, BoxesWithoutStoreysHaveOnePlan) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    runSvtWell(folder.path(), {"sheets", "boxes.gml", "--svg", "s"});
+    EXPECT_NE(readText(folder / "s" / "sheet-1.svg").find(">Plan at z = "), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "s" / "sheet-3.svg"));
+}
+
+}  // namespace
+}  // namespace svt::test
