@@ -2,6 +2,7 @@
 # Installs the packages that SVT needs to build and test on Debian 12. Does nothing if all are installed.
 #   scripts/setup.sh          for `make build`, `make test` and `make demo`
 #   scripts/setup.sh peers    also the peers used only by `make bench`
+#   scripts/setup.sh python   also the tools to build and test the Python module
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
@@ -14,12 +15,14 @@ packages=(
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
+python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 command -v node >/dev/null || web+=(nodejs)
 command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
 [ "${1:-}" = web ] && packages+=("${web[@]}")
+[ "${1:-}" = python ] && packages+=("${python[@]}")
 [ "${1:-}" = checks ] && packages+=("${checks[@]}")
 
 missing=()

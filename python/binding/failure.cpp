@@ -1,10 +1,34 @@
 #include "failure.hpp"
 
+#include <cctype>
+#include <string>
+#include <string_view>
+
 namespace svt::python {
 namespace {
 
 py::object placeOf(const Place& place) {
     return py::module_::import("svt.errors").attr("Place")(place.file, place.line, place.column, place.id);
+}
+
+// Messages name options as the command has them, "--min-area 3"; in Python they are keywords, "min_area 3".
+std::string inKeywords(const std::string& message) {
+    std::string text;
+    for (std::size_t at = 0; at < message.size(); ++at) {
+        const bool isOption = message.compare(at, 2, "--") == 0 && at + 2 < message.size() &&
+                              std::islower(static_cast<unsigned char>(message[at + 2])) != 0 &&
+                              (at == 0 || std::string_view(" '(").find(message[at - 1]) != std::string_view::npos);
+        if (!isOption) {
+            text += message[at];
+            continue;
+        }
+        for (at += 2;
+             at < message.size() && (std::islower(static_cast<unsigned char>(message[at])) != 0 || message[at] == '-');
+             ++at)
+            text += message[at] == '-' ? '_' : message[at];
+        --at;
+    }
+    return text;
 }
 
 }  // namespace
@@ -16,8 +40,8 @@ void registerFailures() {
         } catch (const Failure& failure) {
             const Error& error = failure.error();
             const py::object type = py::module_::import("svt.errors").attr("Error");
-            const py::object made = type(codeTag(error.code()), std::string(codeName(error.code())), error.message(),
-                                         placeOf(error.where()));
+            const py::object made = type(codeTag(error.code()), std::string(codeName(error.code())),
+                                         inKeywords(error.message()), placeOf(error.where()));
             PyErr_SetObject(type.ptr(), made.ptr());
         }
     });

@@ -29,6 +29,8 @@ def _stop(process: subprocess.Popen, folder: str | None) -> None:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
+    process.stdout.close()
+    process.stderr.close()
     if folder is not None:
         shutil.rmtree(folder, ignore_errors=True)
 

@@ -248,7 +248,7 @@ class Volume:
         Parameters
         ----------
         plane
-            ``'z=1.2'`` (metres from the grid's lower corner; x and y too), ``'z<1.2'`` (the other side), ``'storey=EG+1.1'``, or
+            ``'z=1.2'`` (metres above the lowest samples; x and y too), ``'z<1.2'`` (the other side), ``'storey=EG+1.1'``, or
             ``'A,B,C,D'``; default: 1.1 m above the lowest floor.
         show, hide
             Queries: only what these select, or without it.
@@ -285,7 +285,7 @@ class Volume:
              progress: Progress = None) -> Volume:
         """A part of the volume as a volume, as `svt convert` makes it: the samples in a world box, the labels that a query
         selects, a coarse level. Labels keep their numbers."""
-        return Volume(_native_part(self._native, box, select, level, progress))
+        return Volume(self._native.part(_box_of(box), select, level, progress))
 
     def save(self, path: PathLike, *, compressed: bool = True, zarr_version: int = 2, model: PathLike = "",
              progress: Progress = None) -> int:
@@ -371,10 +371,6 @@ class Volume:
 
 def _list_of(texts: str | Sequence[str]) -> list[str]:
     return [texts] if isinstance(texts, str) else list(texts)
-
-
-def _native_part(native: _native.Volume, box: Box | None, select: str | None, level: int, progress: Progress) -> _native.Volume:
-    return native.part(_box_of(box), select, level, progress)
 
 
 def _table_of(labels: Any) -> str:

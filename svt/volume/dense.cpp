@@ -33,14 +33,16 @@ public:
         }
     }
 
-    void moveTo(std::int32_t k) {
+    /// Whether the scalar of any column has changed.
+    bool moveTo(std::int32_t k) {
         const auto height = static_cast<std::uint32_t>(k);
-        if (height < nextEnd_) return;
+        if (height < nextEnd_) return false;
         nextEnd_ = std::numeric_limits<std::uint32_t>::max();
         for (std::size_t c = 0; c < cursor_.size(); ++c) {
             if (tile_.runs[cursor_[c]].end == height) scalars_[c] = static_cast<T>(tile_.runs[++cursor_[c]].scalar);
             nextEnd_ = std::min(nextEnd_, tile_.runs[cursor_[c]].end);
         }
+        return true;
     }
 
     [[nodiscard]] const T* scalars() const noexcept { return scalars_.data(); }
@@ -66,23 +68,28 @@ void copyTile(const ColumnVolume& columns, std::int32_t tileX, std::int32_t tile
     out += static_cast<std::size_t>(tileX * kTile + first - box.iBegin) +
            stride * static_cast<std::size_t>(tileY * kTile + rowBegin - box.jBegin);
 
+    // The rows of the dictionary are unpacked where one of their columns changes; what is written are copies of them.
+    const std::size_t rows = tile.rowColumns.size() / tileWidth;
+    std::vector<T> unpacked(rows * width);
     Plane<T> plane(tile, box.kBegin);
     for (std::int32_t k = box.kBegin; k < box.kEnd; ++k) {
-        plane.moveTo(k);
-        const T* scalars = plane.scalars();
-        T* row = out + sliceSize * static_cast<std::size_t>(k - box.kBegin);
-        int previous = -1;
-        for (std::int32_t r = rowBegin; r < rowEnd; ++r, row += stride) {
-            const int number = tile.rowOf[static_cast<std::size_t>(r)];
-            if (number == previous) {
-                std::memcpy(row, row - stride, width * sizeof(T));
-                continue;
+        if (plane.moveTo(k) || k == box.kBegin) {
+            const T* scalars = plane.scalars();
+            for (std::size_t r = 0; r < rows; ++r) {
+                const std::uint16_t* columnOf =
+                    tile.rowColumns.data() + r * tileWidth + static_cast<std::size_t>(first);
+                for (std::size_t x = 0; x < width; ++x) unpacked[r * width + x] = scalars[columnOf[x]];
             }
-            previous = number;
-            const std::uint16_t* columnOf =
-                tile.rowColumns.data() + static_cast<std::size_t>(number) * tileWidth + static_cast<std::size_t>(first);
-            for (std::size_t x = 0; x < width; ++x) row[x] = scalars[columnOf[x]];
         }
+        T* row = out + sliceSize * static_cast<std::size_t>(k - box.kBegin);
+        const std::uint8_t* rowOf = tile.rowOf.data() + rowBegin;
+        const std::uint8_t* end = tile.rowOf.data() + rowEnd;
+        if (width == kTile)  // of a size that the compiler knows
+            for (; rowOf != end; ++rowOf, row += stride)
+                std::memcpy(row, unpacked.data() + *rowOf * std::size_t{kTile}, kTile * sizeof(T));
+        else
+            for (; rowOf != end; ++rowOf, row += stride)
+                std::memcpy(row, unpacked.data() + *rowOf * width, width * sizeof(T));
     }
 }
 
