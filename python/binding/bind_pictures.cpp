@@ -13,6 +13,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cstring>
+#include <memory>
 
 namespace svt::python {
 namespace {
@@ -106,6 +107,18 @@ void bindPictures(py::module_& module) {
             return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         },
         py::arg("pixels"), py::arg("dpi"));
+    module.def(
+        "read_png",
+        [](const std::filesystem::path& path) {
+            auto image = longCall(py::none(), [&](const Progress*) { return image::readPng(path); });
+            const std::vector<py::ssize_t> shape{image.height(), image.width(), 4};
+            auto owned = std::make_unique<image::Image<image::Rgba8>>(std::move(image));
+            const auto* memory = reinterpret_cast<const std::uint8_t*>(owned->pixels().data());
+            const py::capsule owner(owned.release(),
+                                    [](void* held) { delete static_cast<image::Image<image::Rgba8>*>(held); });
+            return py::array_t<std::uint8_t>(shape, memory, owner);
+        },
+        py::arg("path"));
     module.def(
         "write_png",
         [](const std::filesystem::path& path, const Pixels& pixels, int dpi) {

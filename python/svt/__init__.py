@@ -16,11 +16,11 @@ from ._native import Feature, Label
 from .errors import Error, Finding, Place
 from .labels import Labels
 from .model import Model, read, sample
-from .picture import Frame, write_png
+from .picture import Frame, read_png, write_png
 from .section import Axes, Component, Polygon, Section
 from .viewer import View
 from .volume import Runs, Volume, build, open
 
 __version__: str = _native.version
 __all__ = ["Axes", "Component", "Error", "Feature", "Finding", "Frame", "Label", "Labels", "Model", "Place", "Polygon", "Runs",
-           "Section", "View", "Volume", "build", "open", "read", "sample", "write_png"]
+           "Section", "View", "Volume", "build", "open", "read", "read_png", "sample", "write_png"]

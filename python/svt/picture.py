@@ -55,6 +55,11 @@ def write_png(path: PathLike, pixels: np.ndarray, dpi: int = 0) -> None:
     _native.write_png(os.fspath(path), rgba_of(pixels), dpi)
 
 
+def read_png(path: PathLike) -> np.ndarray:
+    """Read a PNG of any kind as an array (height, width, 4) of uint8: red, green, blue (sRGB) and alpha."""
+    return _native.read_png(os.fspath(path))
+
+
 def rgba_of(pixels: np.ndarray) -> np.ndarray:
     pixels = np.asarray(pixels)
     if pixels.dtype != np.uint8:

@@ -1,6 +1,10 @@
 """The module against the command: labels, areas, pictures, files."""
+import contextlib
+import io
 import json
 import os
+import pathlib
+import shutil
 import unittest
 
 import numpy as np
@@ -165,6 +169,30 @@ class Command(unittest.TestCase):
         with open(path("fzk-python.svt"), "rb") as a, open(path("fzk.svt"), "rb") as b:
             self.assertTrue(a.read() == b.read())
         self.assertGreater(v.labels["Unterzug-1"].volume, 0)
+
+
+class Manual(unittest.TestCase):
+    def test_code_of_the_page_runs(self):
+        model = os.path.join(DATA, "fzk_haus_citygml3.gml")
+        if not os.path.exists(model):
+            self.skipTest("no real models at SVT_DATA_DIR")
+        page = pathlib.Path(__file__).resolve().parent.parent.parent / "docs" / "python" / "README.md"
+        code = page.read_text(encoding="utf-8").partition("```python\n")[2].partition("```")[0]
+        os.makedirs(path("manual"), exist_ok=True)
+        shutil.copy(model, path("manual/house.gml"))
+        before = os.getcwd()
+        os.chdir(path("manual"))
+        try:
+            names = {"points": np.array([[457840.0, 5439090, 112]]), "origins": np.array([[457840.0, 5439080, 112]]),
+                     "directions": np.array([0, 1, 0]), "array": np.ones((3, 4, 5), np.uint8)}
+            with contextlib.redirect_stdout(io.StringIO()) as told:
+                exec(compile(code, str(page), "exec"), names)
+        finally:
+            os.chdir(before)
+        self.assertIn("voxelize", told.getvalue())
+        self.assertEqual(names["image"].shape, (720, 1280, 4))
+        self.assertEqual(svt.open(path("manual/new.svt")).labels["wall"].voxels, 60)
+        self.assertTrue(os.path.getsize(path("manual/plan.svg")) > 1000)
 
 
 if __name__ == "__main__":
