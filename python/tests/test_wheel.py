@@ -11,7 +11,7 @@ import unittest
 import zipfile
 
 import svt
-from common import path
+from common import FOLDER, path
 
 PACKER = pathlib.Path(__file__).resolve().parent.parent / "pack_wheel.py"
 BUILD = pathlib.Path(svt.__file__).resolve().parent.parent.parent
@@ -44,8 +44,8 @@ class Wheel(unittest.TestCase):
     def test_unpacked_wheel_is_the_module(self):
         with zipfile.ZipFile(pack("wheel")) as archive:
             archive.extractall(path("site"))
-        environment = {**os.environ, "PYTHONPATH": path("site")}
-        done = subprocess.run([sys.executable, "-c", "import svt; print(svt.__file__, svt.__version__)"], env=environment,
+        environment = {**os.environ, "PYTHONPATH": path("site")}  # and not the folder of the test
+        done = subprocess.run([sys.executable, "-c", "import svt; print(svt.__file__, svt.__version__)"], env=environment, cwd=FOLDER.name,
                               capture_output=True, text=True)
         self.assertEqual(done.stdout.split(), [os.path.join(path("site"), "svt", "__init__.py"), svt.__version__], done.stderr)
 
