@@ -4,6 +4,8 @@
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
+#include <apps/cli/output/json_output.hpp>
+
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/volume/volume_part.hpp>
@@ -266,6 +268,10 @@ void bindVolumes(py::module_& module) {
                  return LabelReference{v, static_cast<std::uint32_t>(index)};
              })
         .def("label_json", [](const SharedVolume& v) { return volume::writeLabelsJson(v->volume().labels); })
+        .def("info_json",
+             [](const SharedVolume& v) {
+                 return cli::infoJson(v->volume()).dump(-1, ' ', false, cli::Json::error_handler_t::replace);
+             })
         .def("query", &query, py::arg("text"))
         .def("part", &partOf, py::arg("box"), py::arg("select"), py::arg("level"), py::arg("progress"))
         .def("save", &save, py::arg("path"), py::arg("compressed"), py::arg("zarr_version"), py::arg("model"),

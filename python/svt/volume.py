@@ -169,6 +169,10 @@ class Volume:
         """Sample positions of world points: array (..., 3) in metres to (..., 3) of i, j, k, not rounded."""
         return _native.index_from_world(self._native, points)
 
+    def info(self) -> dict:
+        """Grid, labels and overlaps as plain data: what `svt info --json` prints (docs/user/json.md)."""
+        return json.loads(self._native.info_json())
+
     # Questions
 
     def query(self, text: str) -> list[_native.Label]:

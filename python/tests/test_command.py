@@ -58,6 +58,9 @@ class Command(unittest.TestCase):
         again = svt.open(path("command-h.nrrd"))
         np.testing.assert_array_equal(again.dense(), v.dense())
 
+    def test_info_is_that_of_the_command(self):
+        self.assertEqual(svt.open(house_svt()).info(), json.loads(command("info", house_svt(), "--json")))
+
     def test_queries_select_the_same(self):
         v = svt.open(house_svt())
         for query in ("class=BuildingRoom and volume>20", "name~Kitchen", "class=Window", "under Kitchen", "all"):
