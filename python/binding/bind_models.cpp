@@ -115,12 +115,12 @@ void bindFeatures(py::module_& module) {
         .def_property_readonly(
             "index", [](const FeatureReference& f) { return f.index; }, "Number in Model.features.")
         .def_property_readonly(
-            "id", [](const FeatureReference& f) { return f.get().id; }, "Id in the file; unique in the model.")
+            "id", [](const FeatureReference& f) { return textOf(f.get().id); }, "Id in the file; unique in the model.")
         .def_property_readonly(
-            "class_name", [](const FeatureReference& f) { return f.get().className; },
+            "class_name", [](const FeatureReference& f) { return textOf(f.get().className); },
             "Class as CityGML 3.0 names it, such as 'BuildingRoom'.")
         .def_property_readonly(
-            "name", [](const FeatureReference& f) { return f.get().name; }, "Name, or ''.")
+            "name", [](const FeatureReference& f) { return textOf(f.get().name); }, "Name, or ''.")
         .def_property_readonly(
             "attributes", [](const FeatureReference& f) { return attributesOf(f.get().attributes); },
             "Attributes by name: str, int, float or bool.")
@@ -140,8 +140,8 @@ void bindFeatures(py::module_& module) {
             },
             "The features below it, in the order of the file.")
         .def("__repr__", [](const FeatureReference& f) {
-            return "<svt.Feature " + f.get().className + " '" + (f.get().name.empty() ? f.get().id : f.get().name) +
-                   "'>";
+            return textOf("<svt.Feature " + f.get().className + " '" +
+                          (f.get().name.empty() ? f.get().id : f.get().name) + "'>");
         });
 }
 
@@ -150,10 +150,10 @@ void bindFeatures(py::module_& module) {
 void bindModels(py::module_& module) {
     bindFeatures(module);
     py::class_<ModelObject, std::shared_ptr<ModelObject>>(module, "Model")
-        .def_property_readonly("name", [](const ModelObject& m) { return m.model.name; })
-        .def_property_readonly("format", [](const ModelObject& m) { return m.model.format; })
-        .def_property_readonly("source", [](const ModelObject& m) { return m.model.source; })
-        .def_property_readonly("crs", [](const ModelObject& m) { return m.model.crs.name; })
+        .def_property_readonly("name", [](const ModelObject& m) { return textOf(m.model.name); })
+        .def_property_readonly("format", [](const ModelObject& m) { return textOf(m.model.format); })
+        .def_property_readonly("source", [](const ModelObject& m) { return textOf(m.model.source); })
+        .def_property_readonly("crs", [](const ModelObject& m) { return textOf(m.model.crs.name); })
         .def_property_readonly("findings", [](const ModelObject& m) { return toPython(m.findings); })
         .def_property_readonly("feature_count", [](const ModelObject& m) { return m.model.features.size(); })
         .def("feature", [](const std::shared_ptr<ModelObject>& m, std::size_t index) {

@@ -78,7 +78,7 @@ py::list linesOf(const py::object& self) {
     return lines;
 }
 
-std::string textOf(const SectionObject& section, const std::string& format, double scale) {
+std::string writtenAs(const SectionObject& section, const std::string& format, double scale) {
     const auto& volume = section.volume->volume();
     if (format == "svg") {
         writers::SvgOptions options;
@@ -113,7 +113,12 @@ void bindSections(py::module_& module) {
              })
         .def("polygons", &polygonsOf)
         .def("lines", &linesOf)
-        .def("text", &textOf, py::arg("format"), py::arg("scale"));
+        .def(
+            "text",
+            [](const SectionObject& section, const std::string& format, double scale) {
+                return py::bytes(writtenAs(section, format, scale));  // DXF is in a code page
+            },
+            py::arg("format"), py::arg("scale"));
     module.def("section", &drawSection, py::arg("volume"), py::arg("plane"), py::arg("show"), py::arg("hide"),
                py::arg("spaces"), py::arg("min_area"), py::arg("tolerance"), py::arg("use_meshes"),
                py::arg("progress"));

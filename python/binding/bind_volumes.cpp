@@ -178,12 +178,12 @@ void bindLabels(py::module_& module) {
         .def_property_readonly(
             "index", [](const LabelReference& l) { return l.index; }, "Number in Volume.labels.")
         .def_property_readonly(
-            "id", [](const LabelReference& l) { return l.get().id; }, "Id in the model.")
+            "id", [](const LabelReference& l) { return textOf(l.get().id); }, "Id in the model.")
         .def_property_readonly(
-            "class_name", [](const LabelReference& l) { return l.get().className; },
+            "class_name", [](const LabelReference& l) { return textOf(l.get().className); },
             "Class as CityGML 3.0 names it, such as 'BuildingRoom'.")
         .def_property_readonly(
-            "name", [](const LabelReference& l) { return l.get().name; }, "Name, or ''.")
+            "name", [](const LabelReference& l) { return textOf(l.get().name); }, "Name, or ''.")
         .def_property_readonly(
             "attributes", [](const LabelReference& l) { return attributesOf(l.get().attributes); },
             "Attributes by name: str, int, float or bool.")
@@ -231,8 +231,8 @@ void bindLabels(py::module_& module) {
         .def("__hash__",
              [](const LabelReference& l) { return py::hash(py::make_tuple(std::uintptr_t(l.volume.get()), l.index)); })
         .def("__repr__", [](const LabelReference& l) {
-            return "<svt.Label " + std::to_string(l.index) + " " + l.get().className + " '" +
-                   (l.get().name.empty() ? l.get().id : l.get().name) + "'>";
+            return textOf("<svt.Label " + std::to_string(l.index) + " " + l.get().className + " '" +
+                          (l.get().name.empty() ? l.get().id : l.get().name) + "'>");
         });
     bindLabelMeasures(label);
 }
@@ -251,9 +251,9 @@ void bindVolumes(py::module_& module) {
                                    const auto& axes = grid(v).axes();
                                    return py::make_tuple(toPython(axes[0]), toPython(axes[1]), toPython(axes[2]));
                                })
-        .def_property_readonly("crs", [](const SharedVolume& v) { return v->volume().crsName; })
-        .def_property_readonly("name", [](const SharedVolume& v) { return v->volume().modelName; })
-        .def_property_readonly("source", [](const SharedVolume& v) { return v->volume().source; })
+        .def_property_readonly("crs", [](const SharedVolume& v) { return textOf(v->volume().crsName); })
+        .def_property_readonly("name", [](const SharedVolume& v) { return textOf(v->volume().modelName); })
+        .def_property_readonly("source", [](const SharedVolume& v) { return textOf(v->volume().source); })
         .def_property_readonly("findings", [](const SharedVolume& v) { return toPython(v->findings()); })
         .def_property_readonly("scalar_bits", [](const SharedVolume& v) { return v->volume().labels.scalarBits(); })
         .def_property_readonly("scalar_count", [](const SharedVolume& v) { return v->volume().labels.scalarCount(); })

@@ -8,7 +8,8 @@ namespace svt::python {
 namespace {
 
 py::object placeOf(const Place& place) {
-    return py::module_::import("svt.errors").attr("Place")(place.file, place.line, place.column, place.id);
+    return py::module_::import("svt.errors")
+        .attr("Place")(textOf(place.file), place.line, place.column, textOf(place.id));
 }
 
 // Messages name options as the command has them, "--min-area 3"; in Python they are keywords, "min_area 3".
@@ -41,7 +42,7 @@ void registerFailures() {
             const Error& error = failure.error();
             const py::object type = py::module_::import("svt.errors").attr("Error");
             const py::object made = type(codeTag(error.code()), std::string(codeName(error.code())),
-                                         inKeywords(error.message()), placeOf(error.where()));
+                                         textOf(inKeywords(error.message())), placeOf(error.where()));
             PyErr_SetObject(type.ptr(), made.ptr());
         }
     });
@@ -52,15 +53,27 @@ py::list toPython(const Diagnostics& findings) {
     py::list list;
     for (const Diagnostic& item : findings.items())
         list.append(type(std::string(severityName(item.severity)), codeTag(item.code), std::string(codeName(item.code)),
-                         item.message, placeOf(item.where)));
+                         textOf(item.message), placeOf(item.where)));
     return list;
+}
+
+py::str textOf(std::string_view text) {
+    PyObject* decoded = PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace");
+    if (decoded == nullptr) throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(decoded);
 }
 
 py::dict attributesOf(const std::vector<Attribute>& attributes) {
     py::dict dict;
     for (const Attribute& attribute : attributes)
-        dict[py::str(attribute.name)] =
-            std::visit([](const auto& value) -> py::object { return py::cast(value); }, attribute.value);
+        dict[textOf(attribute.name)] = std::visit(
+            [](const auto& value) -> py::object {
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+                    return textOf(value);
+                else
+                    return py::cast(value);
+            },
+            attribute.value);
     return dict;
 }
 

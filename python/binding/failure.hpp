@@ -10,6 +10,7 @@
 #include <pybind11/pybind11.h>
 
 #include <exception>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,9 @@ void registerFailures();
 
 /// The findings as a list of svt.Finding. Needs the GIL.
 [[nodiscard]] py::list toPython(const Diagnostics& findings);
+
+/// Text as Python has it; bytes that are no UTF-8, which a file name may hold, become U+FFFD. Needs the GIL.
+[[nodiscard]] py::str textOf(std::string_view text);
 
 /// Attributes by name. Needs the GIL.
 [[nodiscard]] py::dict attributesOf(const std::vector<Attribute>& attributes);

@@ -17,7 +17,7 @@ bool isOfProcess(std::span<const Option> set) {
     });
 }
 
-cli::CommandText textOf(std::string_view name) {
+cli::CommandText commandTextOf(std::string_view name) {
     for (cli::CommandText text : cli::commandTexts())
         if (text.name == name) {
             std::erase_if(text.sets, isOfProcess);
@@ -34,15 +34,16 @@ std::string keywordOf(const Option& option) {
 }
 
 // One value as it would be written on the command line. Paths are what os.fspath() says.
-std::string textOf(const py::handle& value) {
+std::string valueTextOf(const py::handle& value) {
     const py::object fspath = py::module_::import("os").attr("fspath");
     if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) return py::str(fspath(value));
     if (py::isinstance<py::tuple>(value)) {
         std::string joined;
-        for (const py::handle& member : value) joined += (joined.empty() ? "" : ",") + textOf(member);
+        for (const py::handle& member : value) joined += (joined.empty() ? "" : ",") + valueTextOf(member);
         return joined;
     }
-    if (py::hasattr(value, "item") && !PyFloat_Check(value.ptr())) return textOf(value.attr("item")());  // of numpy
+    if (py::hasattr(value, "item") && !PyFloat_Check(value.ptr()))
+        return valueTextOf(value.attr("item")());  // of numpy
     return py::str(value);
 }
 
@@ -51,11 +52,11 @@ std::vector<std::string> textsOf(const py::handle& value) {
     std::vector<std::string> texts;
     if (py::isinstance<py::dict>(value)) {
         for (const auto& [key, member] : py::reinterpret_borrow<py::dict>(value))
-            texts.push_back(textOf(key) + ":" + textOf(member));
+            texts.push_back(valueTextOf(key) + ":" + valueTextOf(member));
     } else if (py::isinstance<py::list>(value)) {
-        for (const py::handle& member : value) texts.push_back(textOf(member));
+        for (const py::handle& member : value) texts.push_back(valueTextOf(member));
     } else {
-        texts.push_back(textOf(value));
+        texts.push_back(valueTextOf(value));
     }
     return texts;
 }
@@ -96,7 +97,7 @@ std::vector<std::string> valuesFor(const Option& option, const std::string& keyw
 
 }  // namespace
 
-Keywords::Keywords(std::string_view command) : text_(textOf(command)), command_(text_) {}
+Keywords::Keywords(std::string_view command) : text_(commandTextOf(command)), command_(text_) {}
 
 void Keywords::take(const py::dict& given) const {
     std::vector<std::string_view> names;

@@ -18,8 +18,7 @@ class Labels(Sequence):
 
     def __init__(self, native: _native.Volume) -> None:
         self._native = native
-        self._by_id: dict[str, int] | None = None
-        self._by_name: dict[str, list[int]] = {}
+        self._numbers: tuple[dict[str, int], dict[str, list[int]]] | None = None  # by id, by name
         self._of_scalar: np.ndarray | None = None
 
     def __len__(self) -> int:
@@ -39,8 +38,8 @@ class Labels(Sequence):
     def __contains__(self, key: object) -> bool:
         if not isinstance(key, str):
             return any(label == key for label in self)
-        self._index()
-        return key in self._by_id or key in self._by_name
+        by_id, by_name = self._index()
+        return key in by_id or key in by_name
 
     @property
     def of_scalar(self) -> np.ndarray:
@@ -53,27 +52,28 @@ class Labels(Sequence):
             self._of_scalar.flags.writeable = False
         return self._of_scalar
 
-    def _index(self) -> None:
-        if self._by_id is not None:
-            return
-        by_id: dict[str, int] = {}
-        for index, label_id in enumerate(self._native.ids):
-            by_id.setdefault(label_id, index)
-        for index, name in enumerate(self._native.names):
-            if name:
-                self._by_name.setdefault(name, []).append(index)
-        self._by_id = by_id
+    def _index(self) -> tuple[dict[str, int], dict[str, list[int]]]:
+        if self._numbers is None:
+            by_id: dict[str, int] = {}
+            for index, label_id in enumerate(self._native.ids):
+                by_id.setdefault(label_id, index)
+            by_name: dict[str, list[int]] = {}
+            for index, name in enumerate(self._native.names):
+                if name:
+                    by_name.setdefault(name, []).append(index)
+            self._numbers = by_id, by_name
+        return self._numbers
 
     def _find(self, key: str) -> int:
-        self._index()
-        if key in self._by_id:
-            return self._by_id[key]
-        named = self._by_name.get(key, [])
+        by_id, by_name = self._index()
+        if key in by_id:
+            return by_id[key]
+        named = by_name.get(key, [])
         if len(named) == 1:
             return named[0]
         if named:
             raise KeyError(f"{len(named)} labels have the name '{key}'; take one by its id, or all by query()")
-        near = difflib.get_close_matches(key, [*self._by_id, *self._by_name], 1)
+        near = difflib.get_close_matches(key, list(by_id) + list(by_name), 1)
         raise KeyError(f"no label has the id or name '{key}'" + (f"; did you mean '{near[0]}'?" if near else ""))
 
     def __repr__(self) -> str:

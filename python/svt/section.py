@@ -134,29 +134,30 @@ class Section:
         origin, u, v, _ = (np.array(vector) for vector in self.axes)
         return origin + points[..., :1] * u + points[..., 1:2] * v
 
-    def _written(self, text: str, path: PathLike | None) -> str:
+    def _text(self, kind: str, path: PathLike | None, scale: float = 0, encoding: str = "utf-8") -> str:
+        data = self._native.text(kind, scale)
         if path is not None:
             temporary = f"{os.fspath(path)}.part"
-            with open(temporary, "w", encoding="utf-8", newline="") as file:
-                file.write(text)
+            with open(temporary, "wb") as file:
+                file.write(data)
             os.replace(temporary, path)
-        return text
+        return data.decode(encoding, "replace")
 
     def to_svg(self, path: PathLike | None = None, scale: float = 100) -> str:
         """The drawing to scale as SVG: `scale` 100 draws 1 m as 10 mm. Returned, and written to `path` if that is given."""
-        return self._written(self._native.text("svg", scale), path)
+        return self._text("svg", path, scale)
 
     def to_dxf(self, path: PathLike | None = None) -> str:
-        """The drawing as DXF, in metres along u and v; a layer per class. As `to_svg`."""
-        return self._written(self._native.text("dxf", 0), path)
+        """The drawing as DXF, in metres along u and v; a layer per class. As `to_svg`; the file is in code page 1252."""
+        return self._text("dxf", path, encoding="cp1252")
 
     def to_geojson(self, path: PathLike | None = None) -> str:
         """The drawing as GeoJSON, in the model's coordinates. As `to_svg`."""
-        return self._written(self._native.text("geojson", 0), path)
+        return self._text("geojson", path)
 
     def to_csv(self, path: PathLike | None = None) -> str:
         """The areas as a table. As `to_svg`."""
-        return self._written(self._native.text("csv", 0), path)
+        return self._text("csv", path)
 
     def to_dict(self) -> dict:
         """The plane and the areas, as `svt section --json` prints them."""

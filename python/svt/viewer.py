@@ -29,8 +29,9 @@ def _stop(process: subprocess.Popen, folder: str | None) -> None:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
-    process.stdout.close()
-    process.stderr.close()
+    for pipe in (process.stdout, process.stderr):
+        if pipe is not None:
+            pipe.close()
     if folder is not None:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -58,6 +59,7 @@ class View:
             shutil.rmtree(folder, ignore_errors=True)
             raise
         # The first line is the address; the command ends without one if it cannot serve.
+        assert process.stdout is not None and process.stderr is not None
         self.address = process.stdout.readline().strip()
         if not self.address:
             said = process.stderr.read().strip().splitlines()

@@ -6,7 +6,7 @@ import html
 import json
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Optional, Union
+from typing import Any, Union
 
 import numpy as np
 
@@ -22,9 +22,7 @@ from .viewer import View
 Box = Union[Sequence[float], Sequence[Sequence[float]], np.ndarray]
 
 
-def _box_of(box: Box | None) -> Optional[list[float]]:
-    if box is None:
-        return None
+def _box_of(box: Box) -> list[float]:
     numbers = np.asarray(box, dtype=float).reshape(-1).tolist()
     if len(numbers) != 6:
         raise ValueError(f"box: expected two corners of three numbers, found {len(numbers)} numbers")
@@ -200,7 +198,7 @@ class Volume:
         """
         if level:
             return self.part(box=box, level=level).dense()
-        return _native.dense(self._native, _box_of(box))
+        return _native.dense(self._native, None if box is None else _box_of(box))
 
     def samples_in(self, box: Box) -> tuple[tuple[int, int, int], tuple[int, int, int]]:
         """The samples whose positions lie in a world box (metres, bounds included): first and one past the last, (i, j, k)."""
@@ -289,7 +287,7 @@ class Volume:
              progress: Progress = None) -> Volume:
         """A part of the volume as a volume, as `svt convert` makes it: the samples in a world box, the labels that a query
         selects, a coarse level. Labels keep their numbers."""
-        return Volume(self._native.part(_box_of(box), select, level, progress))
+        return Volume(self._native.part(None if box is None else _box_of(box), select, level, progress))
 
     def save(self, path: PathLike, *, compressed: bool = True, zarr_version: int = 2, model: PathLike = "",
              progress: Progress = None) -> int:

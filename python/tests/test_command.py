@@ -130,6 +130,32 @@ class Command(unittest.TestCase):
             with open(path("plan." + ending), "rb") as one, open(path("python." + ending), "rb") as other:
                 self.assertTrue(one.read() == other.read(), ending)
 
+    def test_names_of_any_letters_come_through(self):
+        names = ["K\u00fcche", "\u03a9 \u5bb6", "a 'b' \"c\" --d"]
+        array = np.ones((4, 4, 4), np.uint8)
+        array[:, :2], array[:, :, :2] = 2, 3
+        v = svt.Volume.from_dense(array, {n: {"name": name, "class": "BuildingRoom"} for n, name in enumerate(names, 1)})
+        v.save(path("\u5bb6 names.svt"))
+        again = svt.open(path("\u5bb6 names.svt"))
+        self.assertEqual([label.name for label in again.labels], names)
+        for name in names[:2]:
+            self.assertEqual([label.name for label in again.query(f'name="{name}"')], [name])
+            self.assertEqual(again.labels[name].name, name)
+        command("section", path("\u5bb6 names.svt"), "--plane", "z=1.2", "-o", path("names.dxf"), "-o", path("names.svg"))
+        section = again.section("z=1.2")
+        self.assertIn("K\u00fcche", section.to_dxf(path("python.dxf")))
+        section.to_svg(path("python.svg"))
+        for ending in ("dxf", "svg"):
+            with open(path("names." + ending), "rb") as one, open(path("python." + ending), "rb") as other:
+                self.assertTrue(one.read() == other.read(), ending)
+        with self.assertRaises(svt.Error) as caught:
+            svt.open(path("\u5bb6 missing.svt"))
+        self.assertIn("\u5bb6 missing.svt", str(caught.exception))
+        # Bytes that are no text, as a file may be called.
+        with self.assertRaises(svt.Error) as caught:
+            svt.open(path("no text") + "\udcff.svt")
+        self.assertIn("no text\ufffd.svt", str(caught.exception))
+
     def test_pictures_have_the_same_bytes(self):
         v = svt.open(house_svt())
         pairs = [
