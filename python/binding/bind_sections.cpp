@@ -4,6 +4,7 @@
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
+#include <svt/core/file.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/geojson_drawing.hpp>
@@ -11,6 +12,7 @@
 #include <svt/writers/svg_drawing.hpp>
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 namespace svt::python {
 namespace {
@@ -78,17 +80,27 @@ py::list linesOf(const py::object& self) {
     return lines;
 }
 
-std::string writtenAs(const SectionObject& section, const std::string& format, double scale) {
+Result<std::string> writtenAs(const SectionObject& section, const std::string& format, double scale) {
     const auto& volume = section.volume->volume();
-    if (format == "svg") {
-        writers::SvgOptions options;
-        options.scale = scale;
-        return valueOf(writers::makeSvg(section.drawing, volume, options));
-    }
+    writers::SvgOptions options;
+    options.scale = scale;
+    if (format == "svg") return writers::makeSvg(section.drawing, volume, options);
     if (format == "dxf") return writers::makeDxf(section.drawing, volume);
     if (format == "geojson") return writers::makeGeojson(section.drawing, volume);
     if (format == "csv") return writers::makeSectionCsv(section.drawing, volume);
     return writers::makeSectionJson(section.drawing, volume);
+}
+
+/// The drawing in a format; also written to `path`, all or nothing, unless that is None. Bytes, since DXF has a code page.
+py::bytes writeAs(const SectionObject& section, const std::string& format, double scale,
+                  const std::optional<std::filesystem::path>& path) {
+    const std::string text = longCall(py::none(), [&](const Progress*) -> Result<std::string> {
+        auto made = writtenAs(section, format, scale);
+        if (made && path)
+            if (const auto written = writeFileAtomically(*path, *made); !written) return written.error();
+        return made;
+    });
+    return py::bytes(text);
 }
 
 }  // namespace
@@ -113,12 +125,7 @@ void bindSections(py::module_& module) {
              })
         .def("polygons", &polygonsOf)
         .def("lines", &linesOf)
-        .def(
-            "text",
-            [](const SectionObject& section, const std::string& format, double scale) {
-                return py::bytes(writtenAs(section, format, scale));  // DXF is in a code page
-            },
-            py::arg("format"), py::arg("scale"));
+        .def("write", &writeAs, py::arg("format"), py::arg("scale"), py::arg("path"));
     module.def("section", &drawSection, py::arg("volume"), py::arg("plane"), py::arg("show"), py::arg("hide"),
                py::arg("spaces"), py::arg("min_area"), py::arg("tolerance"), py::arg("use_meshes"),
                py::arg("progress"));

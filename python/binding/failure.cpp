@@ -12,11 +12,15 @@ py::object placeOf(const Place& place) {
         .attr("Place")(textOf(place.file), place.line, place.column, textOf(place.id));
 }
 
-// Messages name options as the command has them, "--min-area 3"; in Python they are keywords, "min_area 3".
+// Messages name options as the command has them, "--min-area 3"; in Python they are keywords, "min_area 3". What is told to
+// be typed, 'svt build --vectors edges', stays.
 std::string inKeywords(const std::string& message) {
     std::string text;
+    std::size_t typed = 0;  // end of what is told to be typed
     for (std::size_t at = 0; at < message.size(); ++at) {
-        const bool isOption = message.compare(at, 2, "--") == 0 && at + 2 < message.size() &&
+        if (message.compare(at, 5, "'svt ") == 0) typed = message.find('\'', at + 1);
+        const bool isOption = (typed == 0 || at > typed) && message.compare(at, 2, "--") == 0 &&
+                              at + 2 < message.size() &&
                               std::islower(static_cast<unsigned char>(message[at + 2])) != 0 &&
                               (at == 0 || std::string_view(" '(").find(message[at - 1]) != std::string_view::npos);
         if (!isOption) {

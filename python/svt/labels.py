@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import difflib
+import operator
 from collections.abc import Sequence
 from typing import Iterator
 
@@ -32,8 +33,10 @@ class Labels(Sequence):
             return [self._native.label(i) for i in range(*key.indices(len(self)))]
         if isinstance(key, str):
             return self._native.label(self._find(key))
-        index = int(key)
-        return self._native.label(index + len(self) if index < 0 else index)
+        index = operator.index(key)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"no label {index}; there are {len(self)}")
+        return self._native.label(index % len(self))
 
     def __contains__(self, key: object) -> bool:
         if not isinstance(key, str):

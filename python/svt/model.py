@@ -1,6 +1,7 @@
 """Models as read from a file: the tree of features before any voxel."""
 from __future__ import annotations
 
+import operator
 import os
 from collections.abc import Sequence
 from typing import Callable, Iterator, Optional, Union
@@ -34,7 +35,10 @@ class Model(Sequence):
     def __getitem__(self, index):
         if isinstance(index, slice):
             return [self._native.feature(i) for i in range(*index.indices(len(self)))]
-        return self._native.feature(index + len(self) if index < 0 else index)
+        index = operator.index(index)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"no feature {index}; there are {len(self)}")
+        return self._native.feature(index % len(self))
 
     def __iter__(self) -> Iterator[_native.Feature]:
         return (self._native.feature(i) for i in range(len(self)))

@@ -135,13 +135,7 @@ class Section:
         return origin + points[..., :1] * u + points[..., 1:2] * v
 
     def _text(self, kind: str, path: PathLike | None, scale: float = 0, encoding: str = "utf-8") -> str:
-        data = self._native.text(kind, scale)
-        if path is not None:
-            temporary = f"{os.fspath(path)}.part"
-            with open(temporary, "wb") as file:
-                file.write(data)
-            os.replace(temporary, path)
-        return data.decode(encoding, "replace")
+        return self._native.write(kind, scale, None if path is None else os.fspath(path)).decode(encoding, "replace")
 
     def to_svg(self, path: PathLike | None = None, scale: float = 100) -> str:
         """The drawing to scale as SVG: `scale` 100 draws 1 m as 10 mm. Returned, and written to `path` if that is given."""
@@ -161,7 +155,7 @@ class Section:
 
     def to_dict(self) -> dict:
         """The plane and the areas, as `svt section --json` prints them."""
-        return json.loads(self._native.text("json", 0))
+        return json.loads(self._text("json", None))
 
     def _repr_svg_(self) -> str:
         return self.to_svg()

@@ -1,4 +1,5 @@
 """Answers that are known: of a small array, and of the generated house."""
+import os
 import unittest
 
 import numpy as np
@@ -200,6 +201,12 @@ class House(unittest.TestCase):
         self.assertIn("Kitchen", str(caught.exception))
         with self.assertRaises(IndexError):
             v.labels[len(v.labels)]
+        with self.assertRaises(IndexError):
+            v.labels[-len(v.labels) - 1]
+        with self.assertRaises(TypeError):
+            v.labels[2.5]
+        self.assertEqual(v.labels[-1], v.labels[len(v.labels) - 1])
+        self.assertEqual(v.labels[np.int32(3)], v.labels[3])
 
     def test_areas_and_boxes_are_those_of_the_voxels(self):
         v = house()
@@ -273,6 +280,21 @@ class Words(unittest.TestCase):
         with self.assertRaises(svt.Error):
             svt.build(house_file(), spacing=0.1, dimension=(20, 20, 20))
         self.assertEqual(v.render(size=(np.int64(40), 30), ortho=True, hatch=False, zoom=None).shape, (30, 40, 4))
+
+    def test_what_is_told_to_be_typed_stays(self):
+        with self.assertRaises(svt.Error) as caught:
+            house().render(wireframe="all")
+        self.assertIn("'svt build --vectors edges'", caught.exception.message)
+
+    def test_drawings_are_written_whole_or_not_at_all(self):
+        section = house().section("z=1.2")
+        with self.assertRaises(svt.Error) as caught:
+            section.to_svg(path("no folder/plan.svg"))
+        self.assertEqual(caught.exception.code, "E404")
+        with self.assertRaises(svt.Error) as caught:
+            section.to_svg(path("whole.svg"), scale=0)
+        self.assertEqual(caught.exception.code, "E904")
+        self.assertFalse(os.path.exists(path("whole.svg")))
 
     def test_docstrings_name_every_keyword(self):
         for keyword in ("spacing", "dimension", "lod", "no_bodies", "threads"):
