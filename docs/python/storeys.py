@@ -24,6 +24,8 @@ def storeys(volume):
 def main():
     volume, folder = arguments(__doc__, spacing=0.05)
     rows = storeys(volume)
+    if not rows:
+        raise SystemExit("the model names no storeys")
     with open(os.path.join(folder, "storeys.csv"), "w", newline="") as file:
         table = csv.writer(file)
         table.writerow(("storey", "rooms", "area_1m_m2", "rooms_m3", "construction_m3"))
