@@ -5,6 +5,7 @@
 #   make test     all tests
 #   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
+#   make python   the Python module svt: build/release/python, and a wheel in build/wheel
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
 #   make check    format, layers, error pages
 #   make asan     all tests with the address and undefined-behaviour sanitizers
@@ -19,7 +20,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo install package npm test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: build demo install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
@@ -43,6 +44,7 @@ test: setup
 	@scripts/check.sh
 	@scripts/build.sh release
 	@$(MAKE) -s npm
+	@$(MAKE) -s python
 	@scripts/test.sh
 
 web:
@@ -77,7 +79,11 @@ install: setup
 	@DESTDIR=$(DESTDIR) cmake --install build/release --prefix $(PREFIX) >build/release/install.log || { cat build/release/install.log >&2; exit 1; }
 	@echo "install: in $(DESTDIR)$(PREFIX)"
 
-package: build viewer
+python: setup
+	@scripts/setup.sh python
+	@scripts/python.sh
+
+package: build python viewer
 	@scripts/package.sh
 
 npm: build viewer

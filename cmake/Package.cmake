@@ -1,7 +1,12 @@
-# `make package`: two packages for Debian, of the components of cmake/Install.cmake. `svt` has the command with its manual
-# and page, `libsvt-dev` the static libraries with their headers.
+# `make package`: packages for Debian, of the components of cmake/Install.cmake and python/CMakeLists.txt. `svt` has the command
+# with its manual and page, `libsvt-dev` the static libraries with their headers, `python3-svt` the module for Python.
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL command development)
+set(packages command=svt development=libsvt-dev)
+if(SVT_HAS_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND packages python=python3-svt)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/build/package)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -35,6 +40,18 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, make labelled volumes
 of them, ask and draw these; a CMake package and a pkg-config file.")
 
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-svt)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${SVT_PYTHON_VERSION}), python3 (<< ${SVT_PYTHON_NEXT}), python3-numpy, ${SVT_PROJ_PACKAGE}")
+# The command serves the page of Volume.view().
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS svt)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-scipy, python3-shapely")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Module for Python: volumes in which every point of a building knows
+which component it belongs to, as arrays of numpy; labels at points and along
+rays, sections as polygons, pictures.")
+
 # What Debian wants beside: copyright and changelog, compressed manual pages.
 find_program(GZIP_PROGRAM gzip)
 if(GZIP_PROGRAM)
@@ -43,7 +60,7 @@ if(GZIP_PROGRAM)
   if(NOT date)
     set(date "Thu, 01 Jan 1970 00:00:00 +0000")
   endif()
-  foreach(pair command=svt development=libsvt-dev)
+  foreach(pair ${packages})
     string(REPLACE "=" ";" pair ${pair})
     list(POP_FRONT pair component name)
     set(folder ${CMAKE_BINARY_DIR}/debian/${name})

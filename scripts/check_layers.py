@@ -17,7 +17,7 @@ import re
 import sys
 
 MAX_FILES = 25
-PARTS = ("svt", "apps", "web/wasm", "bench", "tests")
+PARTS = ("svt", "apps", "web/wasm", "python", "bench", "tests")
 THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd", "ft2build",
                "EGL/", "GLES3/", "polyclipping", "hwy/")
 POSIX = re.compile(r"(unistd|fcntl|signal|poll|sched|pthread|dlfcn|spawn)\.h$|(sys|netinet|arpa|linux)/")
@@ -56,7 +56,7 @@ def folder_of(path: str, folders: set[str]) -> str | None:
 
 def room_of(path: str, folder: str) -> str:
     """The sub-folder of `folder` that holds a file, "" for its top."""
-    top = folder if folder.split("/")[0] in ("apps", "web", "bench", "tests") else f"svt/{folder}"
+    top = folder if folder.split("/")[0] in ("apps", "web", "python", "bench", "tests") else f"svt/{folder}"
     rest = path[len(top) + 1:].split("/")
     return rest[0] if len(rest) > 1 else ""
 
@@ -83,7 +83,7 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
             if not match:
                 continue
             other, place = match.group(1), f"{name}:{number}"
-            target = folder_of(other, folders) if other.startswith(("svt/", "apps/", "web/", "bench/", "tests/")) else None
+            target = folder_of(other, folders) if other.startswith(("svt/", "apps/", "web/", "python/", "bench/", "tests/")) else None
             if target is not None:
                 inner = room_of(other, target)
                 (used_by_tests if is_test else used)[folder].add(target)

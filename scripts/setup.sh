@@ -3,6 +3,7 @@
 #   scripts/setup.sh          for `make build`, `make test` and `make demo`
 #   scripts/setup.sh peers    also the peers used only by `make bench`
 #   scripts/setup.sh readers  also the programs that read our formats in tests, which are skipped without them
+#   scripts/setup.sh python   also the tools to build and test the Python module
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
@@ -16,6 +17,7 @@ packages=(
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 readers=(python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
+python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 command -v node >/dev/null || web+=(nodejs)
@@ -23,6 +25,7 @@ command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
 [ "${1:-}" = readers ] && packages+=("${readers[@]}")
 [ "${1:-}" = web ] && packages+=("${web[@]}")
+[ "${1:-}" = python ] && packages+=("${python[@]}")
 [ "${1:-}" = checks ] && packages+=("${checks[@]}")
 
 missing=()

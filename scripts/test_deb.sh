@@ -51,6 +51,21 @@ echo "deb: libsvt-dev is installed, and used by another project"
 quietly inside sh -c 'apt-get install -y -q --no-install-recommends /tmp/libsvt-dev_*.deb cmake g++ ninja-build'
 quietly inside sh -ec 'cmake -S /tmp/example -B /tmp/build -G Ninja -DCMAKE_BUILD_TYPE=Release; cmake --build /tmp/build
   cd /tmp/work; /tmp/build/draw_picture h.svt example.png; test -s example.png'
+if [ -n "$(compgen -G 'build/package/python3-svt_*.deb')" ]; then
+  echo "deb: python3-svt is installed, and used"
+  quietly inside sh -c 'apt-get install -y -q --no-install-recommends /tmp/python3-svt_*.deb'
+  inside sh -ec 'cd /tmp/work; python3 - <<"END"
+import svt
+v = svt.open("h.svt")
+assert v.sample(v.labels["Kitchen"].box.mean(axis=0)) >= 0
+assert v.dense().shape == v.shape
+v.frame().save("python.png")
+with v.view() as page:
+    print("deb: the page at", page.address)
+END
+  cmp h.png python.png'
+  quietly inside apt-get purge -y -q python3-svt
+fi
 quietly inside apt-get purge -y -q svt libsvt-dev
 left=$(cd "$root" && find usr -path '*/terminfo' -prune -o -name '*svt*' -not -path 'usr/share/doc/*' -print | head)
 [ -z "$left" ] || { echo "deb: left behind: $left" >&2; exit 1; }

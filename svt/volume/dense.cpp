@@ -33,14 +33,16 @@ public:
         }
     }
 
-    void moveTo(std::int32_t k) {
+    /// Whether the scalar of any column has changed.
+    bool moveTo(std::int32_t k) {
         const auto height = static_cast<std::uint32_t>(k);
-        if (height < nextEnd_) return;
+        if (height < nextEnd_) return false;
         nextEnd_ = std::numeric_limits<std::uint32_t>::max();
         for (std::size_t c = 0; c < cursor_.size(); ++c) {
             if (tile_.runs[cursor_[c]].end == height) scalars_[c] = static_cast<T>(tile_.runs[++cursor_[c]].scalar);
             nextEnd_ = std::min(nextEnd_, tile_.runs[cursor_[c]].end);
         }
+        return true;
     }
 
     [[nodiscard]] const T* scalars() const noexcept { return scalars_.data(); }
@@ -56,29 +58,38 @@ template <class T>
 void copyTile(const ColumnVolume& columns, std::int32_t tileX, std::int32_t tileY, const DenseBox& box, T* out) {
     constexpr std::int32_t kTile = ColumnVolume::kTileSize;
     const ColumnTile& tile = columns.tiles()[std::size_t(tileX) + std::size_t(columns.tilesX()) * std::size_t(tileY)];
-    const auto width = static_cast<std::size_t>(columns.tileWidth(tileX));
-    const auto stride = static_cast<std::size_t>(columns.dimension().x);
+    const auto tileWidth = static_cast<std::size_t>(columns.tileWidth(tileX));
+    const std::int32_t first = std::max(0, box.iBegin - tileX * kTile);
+    const auto width = static_cast<std::size_t>(std::min(columns.tileWidth(tileX), box.iEnd - tileX * kTile) - first);
+    const auto stride = static_cast<std::size_t>(box.iEnd - box.iBegin);
     const std::int32_t rowBegin = std::max(0, box.jBegin - tileY * kTile);
     const std::int32_t rowEnd = std::min(columns.tileHeight(tileY), box.jEnd - tileY * kTile);
     const std::size_t sliceSize = stride * static_cast<std::size_t>(box.jEnd - box.jBegin);
-    out += std::size_t(tileX) * kTile + stride * static_cast<std::size_t>(tileY * kTile + rowBegin - box.jBegin);
+    out += static_cast<std::size_t>(tileX * kTile + first - box.iBegin) +
+           stride * static_cast<std::size_t>(tileY * kTile + rowBegin - box.jBegin);
 
+    // The rows of the dictionary are unpacked where one of their columns changes; what is written are copies of them.
+    const std::size_t rows = tile.rowColumns.size() / tileWidth;
+    std::vector<T> unpacked(rows * width);
     Plane<T> plane(tile, box.kBegin);
     for (std::int32_t k = box.kBegin; k < box.kEnd; ++k) {
-        plane.moveTo(k);
-        const T* scalars = plane.scalars();
-        T* row = out + sliceSize * static_cast<std::size_t>(k - box.kBegin);
-        int previous = -1;
-        for (std::int32_t r = rowBegin; r < rowEnd; ++r, row += stride) {
-            const int number = tile.rowOf[static_cast<std::size_t>(r)];
-            if (number == previous) {
-                std::memcpy(row, row - stride, width * sizeof(T));
-                continue;
+        if (plane.moveTo(k) || k == box.kBegin) {
+            const T* scalars = plane.scalars();
+            for (std::size_t r = 0; r < rows; ++r) {
+                const std::uint16_t* columnOf =
+                    tile.rowColumns.data() + r * tileWidth + static_cast<std::size_t>(first);
+                for (std::size_t x = 0; x < width; ++x) unpacked[r * width + x] = scalars[columnOf[x]];
             }
-            previous = number;
-            const std::uint16_t* columnOf = tile.rowColumns.data() + static_cast<std::size_t>(number) * width;
-            for (std::size_t x = 0; x < width; ++x) row[x] = scalars[columnOf[x]];
         }
+        T* row = out + sliceSize * static_cast<std::size_t>(k - box.kBegin);
+        const std::uint8_t* rowOf = tile.rowOf.data() + rowBegin;
+        const std::uint8_t* end = tile.rowOf.data() + rowEnd;
+        if (width == kTile)  // of a size that the compiler knows
+            for (; rowOf != end; ++rowOf, row += stride)
+                std::memcpy(row, unpacked.data() + *rowOf * std::size_t{kTile}, kTile * sizeof(T));
+        else
+            for (; rowOf != end; ++rowOf, row += stride)
+                std::memcpy(row, unpacked.data() + *rowOf * width, width * sizeof(T));
     }
 }
 
@@ -92,14 +103,18 @@ Scalar largestScalar(const ColumnVolume& columns) noexcept {
 }
 
 template <class T>
-void copyBox(const ColumnVolume& columns, const DenseBox& box, std::span<T> out, int threads) {
+void copyBox(const ColumnVolume& columns, const DenseBox& asked, std::span<T> out, int threads) {
     const Vec3i dimension = columns.dimension();
+    DenseBox box = asked;
+    if (box.iEnd == DenseBox::kRowEnd) box.iEnd = dimension.x;
+    SVT_CHECK(0 <= box.iBegin && box.iBegin <= box.iEnd && box.iEnd <= dimension.x);
     SVT_CHECK(0 <= box.jBegin && box.jBegin <= box.jEnd && box.jEnd <= dimension.y);
     SVT_CHECK(0 <= box.kBegin && box.kBegin <= box.kEnd && box.kEnd <= dimension.z);
-    SVT_CHECK(out.size() ==
-              std::size_t(dimension.x) * std::size_t(box.jEnd - box.jBegin) * std::size_t(box.kEnd - box.kBegin));
+    SVT_CHECK(out.size() == std::size_t(box.iEnd - box.iBegin) * std::size_t(box.jEnd - box.jBegin) *
+                                std::size_t(box.kEnd - box.kBegin));
     if (out.empty()) return;
-    const auto tilesX = static_cast<std::size_t>(columns.tilesX());
+    const std::int32_t firstTile = box.iBegin / ColumnVolume::kTileSize;
+    const auto tilesX = static_cast<std::size_t>((box.iEnd - 1) / ColumnVolume::kTileSize - firstTile + 1);
     const std::int32_t firstRow = box.jBegin / ColumnVolume::kTileSize;
     const std::int32_t lastRow = (box.jEnd - 1) / ColumnVolume::kTileSize;
     const std::size_t tiles = tilesX * static_cast<std::size_t>(lastRow - firstRow + 1);
@@ -108,10 +123,11 @@ void copyBox(const ColumnVolume& columns, const DenseBox& box, std::span<T> out,
     parallelFor(tiles * slabs, 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const std::size_t slab = t / tiles;
-            const auto tileX = static_cast<std::int32_t>(t % tilesX);
+            const auto tileX = firstTile + static_cast<std::int32_t>(t % tilesX);
             const auto tileY = firstRow + static_cast<std::int32_t>(t % tiles / tilesX);
             const std::int32_t kBegin = box.kBegin + static_cast<std::int32_t>(slab) * kSlabSlices;
-            const DenseBox part{box.jBegin, box.jEnd, kBegin, std::min(kBegin + kSlabSlices, box.kEnd)};
+            const DenseBox part{box.jBegin, box.jEnd, kBegin, std::min(kBegin + kSlabSlices, box.kEnd),
+                                box.iBegin, box.iEnd};
             copyTile(columns, tileX, tileY, part, out.data() + slabSize * slab);
         }
     });

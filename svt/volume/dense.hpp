@@ -11,21 +11,25 @@
 
 namespace svt::volume {
 
-/// Samples i in [0, nx), j in [jBegin, jEnd), k in [kBegin, kEnd).
+/// Samples i in [iBegin, iEnd), j in [jBegin, jEnd), k in [kBegin, kEnd); by default whole rows.
 struct DenseBox {
+    static constexpr std::int32_t kRowEnd = -1;
     std::int32_t jBegin = 0;
     std::int32_t jEnd = 0;
     std::int32_t kBegin = 0;
     std::int32_t kEnd = 0;
+    std::int32_t iBegin = 0;
+    std::int32_t iEnd = kRowEnd;  ///< kRowEnd: nx
 };
 
 /// The largest scalar in the volume. Cost: O(runs).
 [[nodiscard]] Scalar largestScalar(const ColumnVolume& columns) noexcept;
 
-/// Copies the scalars of `box` to `out`, x fastest: out[i + nx * ((j - jBegin) + (jEnd - jBegin) * (k - kBegin))].
+/// Copies the scalars of `box` to `out`, x fastest: out[(i - iBegin) + ni * ((j - jBegin) + nj * (k - kBegin))] with
+/// ni = iEnd - iBegin and nj = jEnd - jBegin.
 /// `T` is std::uint8_t, std::uint16_t or std::uint32_t and must hold every scalar; the box must lie inside the volume
 /// and `out` must have exactly its size.
-/// Cost: about 1 ns per sample and core. Prefer boxes of several k: each call searches every column once.
+/// Cost: about 0.5 ns per sample and core, pages of new memory included. Prefer boxes of several k: each call searches every column once.
 /// \param threads  at most this many; 0: all cores. The result does not depend on it.
 template <class T>
 void copyBox(const ColumnVolume& columns, const DenseBox& box, std::span<T> out, int threads = 0);

@@ -48,6 +48,26 @@ TEST(Dense, BoxesJoinToTheWhole) {
     }
 }
 
+TEST(Dense, PartOfTheRowsIsThatOfTheWhole) {
+    const Vec3i dimension{150, 70, 20};
+    const auto columns = ColumnVolume::fromDense(dimension, randomScalars(dimension, 60000));
+    const auto whole = toDense<std::uint16_t>(columns);
+    ASSERT_TRUE(whole);
+    for (const DenseBox box : {DenseBox{0, 70, 0, 20, 3, 11}, DenseBox{60, 66, 5, 18, 63, 129},
+                               DenseBox{64, 70, 0, 17, 149, 150}, DenseBox{0, 70, 0, 20, 64, 64},
+                               DenseBox{0, 70, 3, 4, 0, 150}, DenseBox{1, 69, 3, 4, 128, DenseBox::kRowEnd}}) {
+        const std::int32_t iEnd = box.iEnd == DenseBox::kRowEnd ? 150 : box.iEnd;
+        std::vector<std::uint16_t> expected;
+        for (std::int32_t k = box.kBegin; k < box.kEnd; ++k)
+            for (std::int32_t j = box.jBegin; j < box.jEnd; ++j)
+                for (std::int32_t i = box.iBegin; i < iEnd; ++i)
+                    expected.push_back((*whole)[std::size_t(i) + 150 * (std::size_t(j) + 70 * std::size_t(k))]);
+        std::vector<std::uint16_t> part(expected.size());
+        copyBox<std::uint16_t>(columns, box, part);
+        EXPECT_TRUE(part == expected) << box.iBegin;
+    }
+}
+
 TEST(Dense, AnyNumberOfThreadsGivesTheSame) {
     const Vec3i dimension{200, 200, 20};
     const auto columns = ColumnVolume::fromDense(dimension, randomScalars(dimension, 9));

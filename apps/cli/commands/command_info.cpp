@@ -64,19 +64,7 @@ int runInfo(const InfoArguments& arguments) {
     if (!loaded) return fail(loaded.error());
     const volume::SemanticVolume& volume = *loaded;
     if (arguments.json) {
-        Json json;
-        json["grid"] = gridJson(volume.grid);
-        json["scalarType"] = fmt::format("uint{}", volume.labels.scalarBits());
-        json["crs"] = volume.crsName;
-        json["name"] = volume.modelName;
-        json["source"] = volume.source;
-        json["objects"] = Json::array();
-        json["features"] = Json::array();
-        for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
-            json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(
-                labelJson(volume.labels, l, volume.grid));
-        json["overlaps"] = overlapsJson(volume.labels);
-        print(json);
+        print(infoJson(volume));
     } else {
         printFigures(volume);
         if (arguments.tree) printTree(volume);

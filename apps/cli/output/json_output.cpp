@@ -54,6 +54,22 @@ Json overlapsJson(const volume::LabelTable& table) {
     return list;
 }
 
+Json infoJson(const volume::SemanticVolume& volume) {
+    Json json;
+    json["grid"] = gridJson(volume.grid);
+    json["scalarType"] = fmt::format("uint{}", volume.labels.scalarBits());
+    json["crs"] = volume.crsName;
+    json["name"] = volume.modelName;
+    json["source"] = volume.source;
+    json["objects"] = Json::array();
+    json["features"] = Json::array();
+    for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
+        json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(
+            labelJson(volume.labels, l, volume.grid));
+    json["overlaps"] = overlapsJson(volume.labels);
+    return json;
+}
+
 Json diagnosticsJson(const Diagnostics& diagnostics) {
     Json list = Json::array();
     for (const Diagnostic& item : diagnostics.items()) {

@@ -19,6 +19,8 @@ using Json = nlohmann::ordered_json;
 /// One feature: id, class, name, parent, first, count, voxels, volume, closed, filling, ...
 [[nodiscard]] Json labelJson(const volume::LabelTable& table, std::uint32_t label, const volume::Grid& grid);
 [[nodiscard]] Json overlapsJson(const volume::LabelTable& table);
+/// What `svt info --json` prints.
+[[nodiscard]] Json infoJson(const volume::SemanticVolume& volume);
 [[nodiscard]] Json diagnosticsJson(const Diagnostics& diagnostics);
 
 /// Prints with two spaces of indentation; invalid UTF-8 is replaced.

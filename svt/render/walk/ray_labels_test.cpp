@@ -52,6 +52,59 @@ TEST(RayLabels, AreThoseAlongAnAxisInMetres) {
         EXPECT_EQ(labelsAlong(*bricks, grid, twoLabels(), {}, direction).error().code(), Code::BadArgument);
 }
 
+TEST(RayLabels, ManyRaysAreThoseOfEachAlone) {
+    std::mt19937 random(5);
+    std::vector<Scalar> dense;
+    for (int n = 0; n < 40 * 30 * 20; ++n) dense.push_back(random() % 7 == 0 ? random() % 4 : n / 9000);
+    const auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense({40, 30, 20}, dense), {.threads = 1});
+    const Grid grid = *Grid::fromParts({40, 30, 20}, {0.5, 0.5, 0.5}, {100, 200, 300},
+                                       {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    std::uniform_real_distribution<double> at(-3, 23);
+    std::vector<Vec3d> origins, directions;
+    for (int r = 0; r < 3000; ++r) {
+        origins.push_back(Vec3d{100, 200, 300} + Vec3d{at(random), at(random), at(random)});
+        directions.push_back({at(random) - 10, at(random) - 10, at(random) - 10});
+    }
+    const auto rays = labelsAlongRays(*bricks, grid, twoLabels(), origins, directions);
+    ASSERT_TRUE(rays);
+    ASSERT_EQ(rays->start.size(), 3001u);
+    ASSERT_EQ(rays->start.back(), rays->intervals.size());
+    std::size_t hits = 0;
+    for (std::size_t r = 0; r < origins.size(); ++r) {
+        const auto alone = labelsAlong(*bricks, grid, twoLabels(), origins[r], directions[r]);
+        hits += !alone->empty();
+        const std::vector<LabelInterval> among(rays->intervals.begin() + std::ptrdiff_t(rays->start[r]),
+                                               rays->intervals.begin() + std::ptrdiff_t(rays->start[r + 1]));
+        ASSERT_EQ(among, *alone) << r;
+    }
+    EXPECT_GT(hits, 500u);
+    const auto one = labelsAlongRays(*bricks, grid, twoLabels(), origins, directions, 1);
+    EXPECT_EQ(one->intervals, rays->intervals);
+    // One direction for all.
+    const auto down = labelsAlongRays(*bricks, grid, twoLabels(), origins, std::vector<Vec3d>{{0, 0, -1}});
+    ASSERT_TRUE(down);
+    EXPECT_EQ(down->start[1], labelsAlong(*bricks, grid, twoLabels(), origins[0], {0, 0, -1})->size());
+}
+
+TEST(RayLabels, RaysThatAreNoneAreNamed) {
+    const auto bricks =
+        BrickVolume::fromColumns(ColumnVolume::fromDense({2, 2, 2}, std::vector<Scalar>(8, 1)), {.threads = 1});
+    const Grid grid;
+    const std::vector<Vec3d> three(3), good(3, Vec3d{1, 0, 0});
+    const auto few = labelsAlongRays(*bricks, grid, twoLabels(), three, std::vector<Vec3d>(2, Vec3d{1, 0, 0}));
+    EXPECT_EQ(few.error().code(), Code::BadArgument);
+    std::vector<Vec3d> bad = good;
+    bad[2] = {};
+    const auto zero = labelsAlongRays(*bricks, grid, twoLabels(), three, bad);
+    ASSERT_FALSE(zero);
+    EXPECT_EQ(zero.error().message().substr(0, 5), "ray 2");
+    EXPECT_EQ(labelsAlongRays(*bricks, grid, twoLabels(), {}, good).error().code(), Code::BadArgument);
+    EXPECT_EQ(labelsAlongRays(*bricks, grid, twoLabels(), {}, {})->start, std::vector<std::uint64_t>{0});
+    Progress stopped;
+    stopped.cancel = true;
+    EXPECT_EQ(labelsAlongRays(*bricks, grid, twoLabels(), three, good, 0, &stopped).error().code(), Code::Cancelled);
+}
+
 TEST(RayLabels, MeetASphereWhereItIs) {
     std::vector<Scalar> dense;
     for (int k = 0; k < 48; ++k)

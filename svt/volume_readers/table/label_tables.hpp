@@ -26,6 +26,8 @@ struct UserTable {
     std::vector<float> opacities;
 };
 [[nodiscard]] Result<UserTable> readUserTable(const std::filesystem::path& path);
+/// The same from text. \return as above, without a place
+[[nodiscard]] Result<UserTable> parseUserTable(std::string_view text);
 
 /// The volume of an image whose samples are read.
 /// \param values  columns whose scalars are the values of the samples

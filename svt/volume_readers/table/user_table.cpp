@@ -113,7 +113,12 @@ Result<void> readEntry(const json& entry, std::size_t number, UserTable& table) 
     return {};
 }
 
-Result<UserTable> parseTable(std::string_view text) {
+}  // namespace
+
+Result<UserTable> parseUserTable(std::string_view text) {
+    if (text.size() > kMaxTableBytes)
+        return Error(Code::InputTooBig,
+                     fmt::format("a table of {} bytes; {} are possible", text.size(), kMaxTableBytes));
     UserTable table;
     json root;
     try {
@@ -133,16 +138,11 @@ Result<UserTable> parseTable(std::string_view text) {
     return table;
 }
 
-}  // namespace
-
 Result<UserTable> readUserTable(const std::filesystem::path& path) {
     const Place place{path.string(), 0, 0, {}};
     const auto file = MappedFile::open(path);
     if (!file) return file.error();
-    if (file->bytes().size() > kMaxTableBytes)
-        return Error(Code::InputTooBig,
-                     fmt::format("a table of {} bytes; {} are possible", file->bytes().size(), kMaxTableBytes), place);
-    auto table = parseTable(file->text());
+    auto table = parseUserTable(file->text());
     if (!table) return Error(table.error().code(), table.error().message(), place);
     return table;
 }

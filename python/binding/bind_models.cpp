@@ -1,0 +1,172 @@
+// Models: reading, and building volumes of them.
+#include "bindings.hpp"
+#include "keywords.hpp"
+#include "long_call.hpp"
+#include "volume_object.hpp"
+
+#include <apps/cli/options/build_options.hpp>
+
+#include <svt/pipeline/build_volume.hpp>
+#include <svt/samples/sample.hpp>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace svt::python {
+namespace {
+
+using Paths = std::vector<std::filesystem::path>;
+
+/// A feature of a model: index and the model that has it.
+struct FeatureReference {
+    std::shared_ptr<ModelObject> model;
+    std::uint32_t index;
+    [[nodiscard]] const model::Feature& get() const { return model->model.features[index]; }
+};
+
+std::shared_ptr<ModelObject> readModel(const Paths& paths, const std::string& crs, bool keepFarFeatures,
+                                       const py::object& report) {
+    auto read = std::make_shared<ModelObject>();
+    readers::ReadOptions options;
+    options.crs = valueOf(cli::parseCrs(crs));
+    options.keepFarFeatures = keepFarFeatures;
+    read->model = longCall(report, [&](const Progress* progress) {
+        options.progress = progress;
+        return pipeline::readModels(paths, options, &read->findings);
+    });
+    return read;
+}
+
+/// The options of `svt build` that say how a model becomes a volume, from keywords.
+class BuildKeywords {
+public:
+    BuildKeywords() { arguments_.connect(keywords_.command()); }
+
+    const pipeline::BuildOptions& take(const py::dict& given, const std::vector<std::string>& vectors,
+                                       const SharedVolume& gridOf) {
+        keywords_.take(given);
+        // As the command does: meshes are kept where they can be, unless asked for or against.
+        arguments_.vectors = {.meshes = true, .isRequired = false};
+        if (!vectors.empty()) arguments_.vectors = {};
+        for (const std::string& kind : vectors) {
+            if (kind != "edges" && kind != "meshes" && kind != "none")
+                throw Failure(
+                    Error(Code::BadArgument, "vectors: '" + kind + "' is none of 'edges', 'meshes' and 'none'"));
+            arguments_.vectors.edges = arguments_.vectors.edges || kind == "edges";
+            arguments_.vectors.meshes = arguments_.vectors.meshes || kind == "meshes";
+        }
+        options_ = valueOf(arguments_.options(sheet_));
+        if (gridOf != nullptr) {
+            if (options_.dimension || options_.spacing)
+                throw Failure(Error(Code::BadArgument,
+                                    "grid_of excludes dimension and spacing; the other volume has them already"));
+            options_.grid = gridOf->volume().grid;
+        }
+        return options_;
+    }
+    [[nodiscard]] std::string describe() const { return keywords_.describe(); }
+
+private:
+    Keywords keywords_{"build"};
+    cli::BuildArguments arguments_;
+    std::optional<pipeline::StyleSheet> sheet_;
+    pipeline::BuildOptions options_;
+};
+
+SharedVolume buildFiles(const Paths& paths, const py::dict& given, const std::vector<std::string>& vectors,
+                        const SharedVolume& gridOf, const py::object& report) {
+    BuildKeywords keywords;
+    pipeline::BuildOptions options = keywords.take(given, vectors, gridOf);
+    Diagnostics findings;
+    auto built = longCall(report, [&](const Progress* progress) {
+        options.progress = progress;
+        return pipeline::buildVolume(paths, options, &findings);
+    });
+    return std::make_shared<VolumeObject>(std::move(built.volume), std::move(findings));
+}
+
+SharedVolume buildModel(const std::shared_ptr<ModelObject>& read, const py::dict& given,
+                        const std::vector<std::string>& vectors, const SharedVolume& gridOf, const py::object& report) {
+    BuildKeywords keywords;
+    pipeline::BuildOptions options = keywords.take(given, vectors, gridOf);
+    Diagnostics findings = read->findings;
+    auto built = longCall(report, [&](const Progress* progress) {
+        options.progress = progress;
+        // buildVolume() adds features for caps; the model of the caller stays as it was read.
+        model::BuildingModel copy = read->model;
+        return pipeline::buildVolume(copy, options, &findings);
+    });
+    return std::make_shared<VolumeObject>(std::move(built.volume), std::move(findings));
+}
+
+std::string writeSample(const std::string& kind, std::uint64_t seed) {
+    const auto kinds = {std::pair("house", samples::SampleKind::House),
+                        {"tower", samples::SampleKind::Tower},
+                        {"district", samples::SampleKind::District}};
+    samples::SampleOptions options;
+    options.seed = seed;
+    for (const auto& [name, value] : kinds)
+        if (kind == name) return valueOf(samples::writeSample(value, samples::SampleFormat::CityGml3, options));
+    throw Failure(Error(Code::BadArgument, "sample '" + kind + "': possible are house, tower and district"));
+}
+
+void bindFeatures(py::module_& module) {
+    py::class_<FeatureReference>(module, "Feature", "A feature of a model: building, storey, room, wall, window, ...")
+        .def_property_readonly(
+            "index", [](const FeatureReference& f) { return f.index; }, "Number in Model.features.")
+        .def_property_readonly(
+            "id", [](const FeatureReference& f) { return textOf(f.get().id); }, "Id in the file; unique in the model.")
+        .def_property_readonly(
+            "class_name", [](const FeatureReference& f) { return textOf(f.get().className); },
+            "Class as CityGML 3.0 names it, such as 'BuildingRoom'.")
+        .def_property_readonly(
+            "name", [](const FeatureReference& f) { return textOf(f.get().name); }, "Name, or ''.")
+        .def_property_readonly(
+            "attributes", [](const FeatureReference& f) { return attributesOf(f.get().attributes); },
+            "Attributes by name: str, int, float or bool.")
+        .def_property_readonly(
+            "parent",
+            [](const FeatureReference& f) -> py::object {
+                if (f.get().parent == model::kNoFeature) return py::none();
+                return py::cast(FeatureReference{f.model, f.get().parent});
+            },
+            "The feature above it in the tree, or None.")
+        .def_property_readonly(
+            "children",
+            [](const FeatureReference& f) {
+                std::vector<FeatureReference> children;
+                for (const std::uint32_t c : f.get().children) children.push_back({f.model, c});
+                return children;
+            },
+            "The features below it, in the order of the file.")
+        .def("__repr__", [](const FeatureReference& f) {
+            return textOf("<svt.Feature " + f.get().className + " '" +
+                          (f.get().name.empty() ? f.get().id : f.get().name) + "'>");
+        });
+}
+
+}  // namespace
+
+void bindModels(py::module_& module) {
+    bindFeatures(module);
+    py::class_<ModelObject, std::shared_ptr<ModelObject>>(module, "Model")
+        .def_property_readonly("name", [](const ModelObject& m) { return textOf(m.model.name); })
+        .def_property_readonly("format", [](const ModelObject& m) { return textOf(m.model.format); })
+        .def_property_readonly("source", [](const ModelObject& m) { return textOf(m.model.source); })
+        .def_property_readonly("crs", [](const ModelObject& m) { return textOf(m.model.crs.name); })
+        .def_property_readonly("findings", [](const ModelObject& m) { return toPython(m.findings); })
+        .def_property_readonly("feature_count", [](const ModelObject& m) { return m.model.features.size(); })
+        .def("feature", [](const std::shared_ptr<ModelObject>& m, std::size_t index) {
+            if (index >= m->model.features.size()) throw py::index_error("no feature " + std::to_string(index));
+            return FeatureReference{m, static_cast<std::uint32_t>(index)};
+        });
+    module.def("read", &readModel, py::arg("paths"), py::arg("crs"), py::arg("keep_far_features"), py::arg("progress"));
+    module.def("build_files", &buildFiles, py::arg("paths"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),
+               py::arg("progress"));
+    module.def("build_model", &buildModel, py::arg("model"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),
+               py::arg("progress"));
+    module.def("build_keywords", [] { return BuildKeywords().describe(); });
+    module.def("sample", &writeSample, py::arg("kind"), py::arg("seed"));
+}
+
+}  // namespace svt::python

@@ -1,0 +1,131 @@
+// Pictures: frames whose buffers numpy sees as they are, and PNG.
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "keywords.hpp"
+#include "long_call.hpp"
+#include "volume_object.hpp"
+
+#include <apps/cli/options/scene_options.hpp>
+
+#include <svt/image/png.hpp>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cstring>
+#include <memory>
+
+namespace svt::python {
+namespace {
+
+struct FrameObject {
+    render::Frame frame;
+    int dpi = 0;
+    std::vector<std::string> notes;
+};
+using SharedFrame = std::shared_ptr<FrameObject>;
+
+/// The options of `svt render` that say what a picture shows, from keywords.
+class PictureKeywords {
+public:
+    PictureKeywords() { arguments_.connect(keywords_.command()); }
+    [[nodiscard]] const cli::SceneArguments& take(const py::dict& given) {
+        keywords_.take(given);
+        return arguments_;
+    }
+    [[nodiscard]] std::string describe() const { return keywords_.describe(); }
+
+private:
+    Keywords keywords_{"render"};
+    cli::SceneArguments arguments_;
+};
+
+SharedFrame draw(const SharedVolume& volume, const py::dict& given, const py::object& report) {
+    PictureKeywords keywords;
+    const cli::SceneArguments& arguments = keywords.take(given);
+    const illustrate::Scene scene = valueOf(arguments.toScene(0, 1));
+    auto made = std::make_shared<FrameObject>();
+    made->dpi = arguments.printedDpi();
+    auto painting = longCall(report, [&](const Progress* progress) {
+        render::CastOptions options;
+        options.progress = progress;
+        options.isAdaptive = true;  // as the command, whose pictures these are
+        return volume->paint(scene, options, made->notes);
+    });
+    made->frame = std::move(painting.frame);
+    return made;
+}
+
+static_assert(sizeof(image::Rgba8) == 4);
+
+template <class T, class Pixel>
+py::array_t<T> bufferOf(const py::object& self, const image::Image<Pixel>& image, bool hasChannels) {
+    std::vector<py::ssize_t> shape{image.height(), image.width()};
+    if (hasChannels) shape.push_back(py::ssize_t(sizeof(Pixel) / sizeof(T)));
+    // The frame belongs to this object alone, so whoever has it may write.
+    return py::array_t<T>(shape, reinterpret_cast<const T*>(image.pixels().data()), self);
+}
+
+using Pixels = py::array_t<std::uint8_t, py::array::c_style>;
+
+image::Image<image::Rgba8> imageOf(const Pixels& pixels) {
+    if (pixels.ndim() != 3 || pixels.shape(2) != 4)
+        throw py::value_error("pixels: expected an array of height x width x 4");
+    if (pixels.shape(0) > image::kMaxPngSize || pixels.shape(1) > image::kMaxPngSize)
+        throw Failure(Error(Code::BadImage,
+                            "the image is larger than " + std::to_string(image::kMaxPngSize) + " pixels along a side"));
+    image::Image<image::Rgba8> image(static_cast<std::int32_t>(pixels.shape(1)),
+                                     static_cast<std::int32_t>(pixels.shape(0)));
+    if (pixels.size() != 0) std::memcpy(image.pixels().data(), pixels.data(), static_cast<std::size_t>(pixels.size()));
+    return image;
+}
+
+}  // namespace
+
+void bindPictures(py::module_& module) {
+    py::class_<FrameObject, SharedFrame>(module, "Frame")
+        .def_property_readonly("color",
+                               [](const py::object& self) {
+                                   return bufferOf<std::uint8_t>(self, self.cast<SharedFrame>()->frame.color, true);
+                               })
+        .def_property_readonly("scalar",
+                               [](const py::object& self) {
+                                   return bufferOf<volume::Scalar>(self, self.cast<SharedFrame>()->frame.label, false);
+                               })
+        .def_property_readonly(
+            "depth",
+            [](const py::object& self) { return bufferOf<float>(self, self.cast<SharedFrame>()->frame.depth, false); })
+        .def_property_readonly("dpi", [](const FrameObject& frame) { return frame.dpi; })
+        .def_property_readonly("notes", [](const FrameObject& frame) { return frame.notes; });
+    module.def("draw", &draw, py::arg("volume"), py::arg("options"), py::arg("progress"));
+    module.def("draw_keywords", [] { return PictureKeywords().describe(); });
+    module.def(
+        "encode_png",
+        [](const Pixels& pixels, int dpi) {
+            const auto image = imageOf(pixels);
+            const auto bytes = longCall(py::none(), [&](const Progress*) { return image::encodePng(image, dpi); });
+            return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        },
+        py::arg("pixels"), py::arg("dpi"));
+    module.def(
+        "read_png",
+        [](const std::filesystem::path& path) {
+            auto image = longCall(py::none(), [&](const Progress*) { return image::readPng(path); });
+            const std::vector<py::ssize_t> shape{image.height(), image.width(), 4};
+            auto owned = std::make_unique<image::Image<image::Rgba8>>(std::move(image));
+            const auto* memory = reinterpret_cast<const std::uint8_t*>(owned->pixels().data());
+            const py::capsule owner(owned.release(),
+                                    [](void* held) { delete static_cast<image::Image<image::Rgba8>*>(held); });
+            return py::array_t<std::uint8_t>(shape, memory, owner);
+        },
+        py::arg("path"));
+    module.def(
+        "write_png",
+        [](const std::filesystem::path& path, const Pixels& pixels, int dpi) {
+            const auto image = imageOf(pixels);
+            longCall(py::none(), [&](const Progress*) { return image::writePng(path, image, dpi); });
+        },
+        py::arg("path"), py::arg("pixels"), py::arg("dpi"));
+}
+
+}  // namespace svt::python

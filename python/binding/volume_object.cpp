@@ -1,0 +1,38 @@
+#include "volume_object.hpp"
+
+namespace svt::python {
+
+Result<const volume::BrickVolume*> VolumeObject::bricks(const Progress* progress) {
+    const std::lock_guard lock(making_);
+    if (!bricks_) {
+        auto made = volume::BrickVolume::fromColumns(volume_.columns, {.planes = volume_.planes, .progress = progress});
+        if (!made) return made.error();
+        bricks_ = std::move(*made);
+    }
+    return &*bricks_;
+}
+
+const VolumeObject::Measures& VolumeObject::measures() {
+    const std::lock_guard lock(making_);
+    if (!measures_) {
+        Measures made;
+        made.contacts = analyze::findContacts(volume_.columns, volume_.grid, volume_.labels);
+        made.labels = analyze::measureLabels(volume_, made.contacts);
+        measures_ = std::move(made);
+    }
+    return *measures_;
+}
+
+Result<illustrate::Painting> VolumeObject::paint(const illustrate::Scene& scene, const render::CastOptions& options,
+                                                 std::vector<std::string>& nothing) {
+    const std::lock_guard lock(painting_);
+    if (!painter_) painter_.emplace(volume_);
+    painter_->tolerateNothing(&nothing);
+    painter_->reportTo(options.progress);
+    auto painting = painter_->paint(scene, options);
+    painter_->tolerateNothing(nullptr);
+    painter_->reportTo(nullptr);
+    return painting;
+}
+
+}  // namespace svt::python

@@ -1,0 +1,61 @@
+#pragma once
+/// \file
+/// What Python holds as a volume: the volume itself, which never changes, and what is made of it when it is first needed.
+
+#include <svt/analyze/contacts.hpp>
+#include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/selection.hpp>
+#include <svt/core/diagnostics.hpp>
+#include <svt/illustrate/scene_painter.hpp>
+#include <svt/volume/brick_volume.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace svt::python {
+
+/// Shared by all objects of Python that refer to the volume. Safe to use from several threads; the calls that make something
+/// must not hold the GIL, since they wait for each other.
+class VolumeObject {
+public:
+    explicit VolumeObject(volume::SemanticVolume made, Diagnostics found = {})
+        : volume_(std::move(made)), findings_(std::move(found)) {}
+    VolumeObject(const VolumeObject&) = delete;
+    VolumeObject& operator=(const VolumeObject&) = delete;
+
+    [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
+    [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
+    [[nodiscard]] const volume::Label& label(std::uint32_t index) const noexcept {
+        return volume_.labels.labels[index];
+    }
+
+    /// Bricks with the planes of the model. Cost: BrickVolume::fromColumns() once.
+    [[nodiscard]] Result<const volume::BrickVolume*> bricks(const Progress* progress);
+
+    struct Measures {
+        std::vector<analyze::Contact> contacts;
+        std::vector<analyze::LabelMeasure> labels;
+    };
+    /// Contacts and areas of all labels. Cost: analyze::findContacts() once.
+    [[nodiscard]] const Measures& measures();
+
+    /// Draws; one picture at a time.
+    [[nodiscard]] Result<illustrate::Painting> paint(const illustrate::Scene& scene, const render::CastOptions& options,
+                                                     std::vector<std::string>& nothing);
+
+private:
+    const volume::SemanticVolume volume_;
+    const Diagnostics findings_;
+    std::mutex making_, painting_;
+    std::optional<volume::BrickVolume> bricks_;
+    std::optional<Measures> measures_;
+    std::optional<illustrate::ScenePainter> painter_;
+};
+
+using SharedVolume = std::shared_ptr<VolumeObject>;
+
+}  // namespace svt::python

@@ -1,0 +1,26 @@
+"""Semantic volume textures of building models: read, build, ask, cut and draw.
+
+    import svt
+    v = svt.build("house.gml", spacing=0.02)
+    v.labels["Unterzug-1"].volume
+    v.query("class=BuildingRoom and volume>20")
+    v.sample(points)
+    v.section("z=1.2").polygons
+    image = v.render(size=(1280, 720), section="y<4")
+
+Lengths are metres, points are in the model's coordinates, arrays of samples are indexed [k, j, i] (z, y, x). Long work
+leaves the interpreter to other threads, and Ctrl-C ends it. Errors are :class:`svt.Error` with a stable code.
+"""
+from . import _native
+from ._native import Feature, Label
+from .errors import Error, Finding, Place
+from .labels import Labels
+from .model import Model, read, sample
+from .picture import Frame, read_png, write_png
+from .section import Axes, Component, Polygon, Section
+from .viewer import View
+from .volume import Runs, Volume, build, open
+
+__version__: str = _native.version
+__all__ = ["Axes", "Component", "Error", "Feature", "Finding", "Frame", "Label", "Labels", "Model", "Place", "Polygon", "Runs",
+           "Section", "View", "Volume", "build", "open", "read", "read_png", "sample", "write_png"]

@@ -1,0 +1,114 @@
+"""Models as read from a file: the tree of features before any voxel."""
+from __future__ import annotations
+
+import operator
+import os
+from collections.abc import Sequence
+from typing import Callable, Iterator, Optional, Union
+
+from . import _native
+from .errors import Finding
+
+PathLike = Union[str, "os.PathLike[str]"]
+#: Called with the stage ('read', 'voxelize', ...) and the fraction of it that is done, 0 to 1, on the calling thread.
+Progress = Optional[Callable[[str, float], object]]
+
+
+def paths_of(paths: PathLike | Sequence[PathLike]) -> list[str]:
+    if isinstance(paths, (str, os.PathLike)):
+        paths = [paths]
+    return [os.fspath(path) for path in paths]
+
+
+class Model(Sequence):
+    """A building model: a sequence of its features, parents before children.
+
+    Made by :func:`svt.read`; goes into :func:`svt.build`, which leaves it as it is.
+    """
+
+    def __init__(self, native: _native.Model) -> None:
+        self._native = native
+
+    def __len__(self) -> int:
+        return self._native.feature_count
+
+    def __getitem__(self, index):
+        if isinstance(index, slice):
+            return [self._native.feature(i) for i in range(*index.indices(len(self)))]
+        index = operator.index(index)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"no feature {index}; there are {len(self)}")
+        return self._native.feature(index % len(self))
+
+    def __iter__(self) -> Iterator[_native.Feature]:
+        return (self._native.feature(i) for i in range(len(self)))
+
+    @property
+    def name(self) -> str:
+        """Name of the whole model, or ''."""
+        return self._native.name
+
+    @property
+    def format(self) -> str:
+        """What was read, such as 'CityGML 3.0'."""
+        return self._native.format
+
+    @property
+    def source(self) -> str:
+        """Path as it was given."""
+        return self._native.source
+
+    @property
+    def crs(self) -> str:
+        """Name of the coordinate reference system, or ''."""
+        return self._native.crs
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What was found while reading, in order."""
+        return self._native.findings
+
+    def __repr__(self) -> str:
+        return f"<svt.Model '{self.name or self.source}' {self.format}, {len(self)} features>"
+
+
+def read(paths: PathLike | Sequence[PathLike], *, crs: str | int = "", keep_far_features: bool = False,
+         progress: Progress = None) -> Model:
+    """Read a model: CityGML, CityJSON, CityJSONSeq or IFC, plain or gzip; the content tells which.
+
+    Parameters
+    ----------
+    paths
+        A file, or several that together are one model.
+    crs
+        EPSG code of a projection in metres that the model is brought to, such as 25832; default: as the file has it.
+    keep_far_features
+        Keep features that lie far away from all others.
+    progress
+        Called with (stage, fraction).
+
+    Raises
+    ------
+    svt.Error
+        E101 to E123, when the file cannot be read.
+    """
+    return Model(_native.read(paths_of(paths), str(crs or ""), keep_far_features, progress))
+
+
+def sample(kind: str = "house", path: PathLike | None = None, *, seed: int = 1) -> str:
+    """The text of a model that the library generates itself (CityGML 3.0), for trials without a file.
+
+    Parameters
+    ----------
+    kind
+        'house' (furnished), 'tower' (flats and owners) or 'district'.
+    path
+        Where to write it as well.
+    seed
+        Owners of the tower, houses of the district.
+    """
+    text = _native.sample(kind, seed)
+    if path is not None:
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+    return text

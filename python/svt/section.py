@@ -1,0 +1,164 @@
+"""Section drawings: what a plane cuts, as polygons with exact areas."""
+from __future__ import annotations
+
+import json
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _native
+from .errors import Finding
+from .model import PathLike
+
+
+class Polygon:
+    """A polygon of one component in a section.
+
+    ``shapely.geometry.shape(polygon)`` is the same for Shapely: coordinates are metres along the section's axes u and v.
+
+    Attributes
+    ----------
+    label : svt.Label
+    outer : ndarray (N, 2) float64
+        The outer ring, counter-clockwise; the first point is not repeated. A read-only view of the drawing.
+    holes : list of ndarray (N, 2)
+        Inner rings, clockwise.
+    area : float
+        m2, without holes.
+    """
+
+    __slots__ = ("label", "outer", "holes", "area")
+
+    def __init__(self, label: _native.Label, area: float, outer: np.ndarray, holes: list[np.ndarray]) -> None:
+        self.label = label
+        self.area = area
+        self.outer = outer
+        self.holes = holes
+
+    @property
+    def __geo_interface__(self) -> dict:
+        def closed(ring: np.ndarray) -> tuple:
+            points = [tuple(point) for point in ring.tolist()]
+            return tuple(points + points[:1])
+
+        return {"type": "Polygon", "coordinates": (closed(self.outer), *(closed(hole) for hole in self.holes))}
+
+    def __repr__(self) -> str:
+        return f"<svt.Polygon of '{self.label.name or self.label.id}', {self.area:.4g} m2>"
+
+
+class Component:
+    """What a plane cuts of one label.
+
+    Attributes
+    ----------
+    label : svt.Label
+    area : float
+        m2.
+    area_bound : float
+        Bound of the error of `area`, m2.
+    is_exact : bool
+        Cut from the model's mesh, not from voxels.
+    line_length : float
+        Of a label without inside, which is cut in lines: metres.
+    """
+
+    def __init__(self, section: _native.Section, volume: _native.Volume, number: int) -> None:
+        label, self.area, self.area_bound, self.is_exact, self.line_length = section.component(number)
+        self.label = volume.label(label)
+        self._section = section
+        self._number = number
+
+    @property
+    def polygons(self) -> list[Polygon]:
+        return [Polygon(self.label, *polygon) for polygon in self._section.polygons(self._number)]
+
+    def __repr__(self) -> str:
+        return f"<svt.Component '{self.label.name or self.label.id}', {self.area:.4g} m2>"
+
+
+class Axes(NamedTuple):
+    """The coordinate system of a section in world space: a point (u, v) is at origin + u * axes.u + v * axes.v."""
+
+    origin: tuple[float, float, float]  #: metres
+    u: tuple[float, float, float]
+    v: tuple[float, float, float]
+    normal: tuple[float, float, float]
+
+
+class Section:
+    """The section of a volume by a plane. Made by :meth:`svt.Volume.section`."""
+
+    def __init__(self, native: _native.Section, volume: _native.Volume) -> None:
+        self._native = native
+        self._volume = volume
+
+    @property
+    def components(self) -> list[Component]:
+        """What is cut, one entry per label, in the order of the labels."""
+        return [Component(self._native, self._volume, n) for n in range(self._native.component_count)]
+
+    @property
+    def polygons(self) -> list[Polygon]:
+        """All polygons of all components."""
+        return [polygon for component in self.components for polygon in component.polygons]
+
+    @property
+    def lines(self) -> list[tuple[_native.Label, np.ndarray]]:
+        """Labels without inside, each with a line of points (N, 2), metres along u and v."""
+        return [(self._volume.label(label), points) for label, points in self._native.lines()]
+
+    @property
+    def area(self) -> float:
+        """Of all components, m2."""
+        return self._native.area
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether meshes were cut; else all is drawn from voxels."""
+        return self._native.is_exact
+
+    @property
+    def axes(self) -> Axes:
+        return Axes(*self._native.axes)
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What a reader of the drawing should know: uncertain areas, a plane in faces."""
+        return self._native.findings
+
+    def world(self, points: np.ndarray) -> np.ndarray:
+        """Points (..., 2) along u and v as world points (..., 3), metres."""
+        points = np.asarray(points, dtype=float)
+        origin, u, v, _ = (np.array(vector) for vector in self.axes)
+        return origin + points[..., :1] * u + points[..., 1:2] * v
+
+    def _text(self, kind: str, path: PathLike | None, scale: float = 0, encoding: str = "utf-8") -> str:
+        return self._native.write(kind, scale, None if path is None else os.fspath(path)).decode(encoding, "replace")
+
+    def to_svg(self, path: PathLike | None = None, scale: float = 100) -> str:
+        """The drawing to scale as SVG: `scale` 100 draws 1 m as 10 mm. Returned, and written to `path` if that is given."""
+        return self._text("svg", path, scale)
+
+    def to_dxf(self, path: PathLike | None = None) -> str:
+        """The drawing as DXF, in metres along u and v; a layer per class. As `to_svg`; the file is in code page 1252."""
+        return self._text("dxf", path, encoding="cp1252")
+
+    def to_geojson(self, path: PathLike | None = None) -> str:
+        """The drawing as GeoJSON, in the model's coordinates. As `to_svg`."""
+        return self._text("geojson", path)
+
+    def to_csv(self, path: PathLike | None = None) -> str:
+        """The areas as a table. As `to_svg`."""
+        return self._text("csv", path)
+
+    def to_dict(self) -> dict:
+        """The plane and the areas, as `svt section --json` prints them."""
+        return json.loads(self._text("json", None))
+
+    def _repr_svg_(self) -> str:
+        return self.to_svg()
+
+    def __repr__(self) -> str:
+        return f"<svt.Section: {self._native.component_count} components, {self.area:.4g} m2>"

@@ -1,0 +1,457 @@
+"""Semantic volumes: for every point of a building, which component it belongs to."""
+from __future__ import annotations
+
+import base64
+import html
+import json
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+
+from . import _native
+from .errors import Finding
+from .labels import Labels
+from .model import Model, PathLike, Progress, paths_of
+from .picture import Frame
+from .section import Section
+from .viewer import View
+
+#: A box along the world axes in metres: lower and upper corner, ((x, y, z), (x, y, z)) or six numbers.
+Box = Union[Sequence[float], Sequence[Sequence[float]], np.ndarray]
+
+
+def _box_of(box: Box) -> list[float]:
+    numbers = np.asarray(box, dtype=float).reshape(-1).tolist()
+    if len(numbers) != 6:
+        raise ValueError(f"box: expected two corners of three numbers, found {len(numbers)} numbers")
+    return numbers
+
+
+class Runs(Sequence):
+    """What rays go through. ``runs[r]`` are the runs of ray r: a structured array with the fields
+
+    - ``label`` (uint32): index in Volume.labels,
+    - ``enter``, ``leave`` (float64): metres from the origin of the ray.
+
+    Background is left out; a label that a ray enters again is listed again.
+
+    Attributes
+    ----------
+    all : structured ndarray
+        The runs of all rays, one ray behind the other. Not a copy.
+    start : ndarray (rays + 1) uint64
+        Those of ray r are all[start[r]:start[r + 1]].
+    """
+
+    def __init__(self, start: np.ndarray, runs: np.ndarray) -> None:
+        self.start = start
+        self.all = runs
+
+    def __len__(self) -> int:
+        return len(self.start) - 1
+
+    def __getitem__(self, index):
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        index = int(index)
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"no ray {index}")
+        index %= len(self)
+        return self.all[int(self.start[index]):int(self.start[index + 1])]
+
+    @property
+    def ray(self) -> np.ndarray:
+        """For each run of `all` the ray that it belongs to: int64 array."""
+        return np.repeat(np.arange(len(self)), np.diff(self.start.astype(np.int64)))
+
+    def __repr__(self) -> str:
+        return f"<svt.Runs: {len(self)} rays, {len(self.all)} runs>"
+
+
+class Volume:
+    """A semantic volume: a grid of samples, and the label that each belongs to. It never changes.
+
+    Made by :func:`svt.build`, :func:`svt.open` and :meth:`from_dense`. Points are in world space, the coordinates of the
+    model, in metres. Sample (i, j, k) is at origin + i * spacing[0] * axes[0] + j * spacing[1] * axes[1] + k * spacing[2] *
+    axes[2], the centre of its voxel. Arrays of samples are indexed [k, j, i].
+    """
+
+    def __init__(self, native: _native.Volume) -> None:
+        self._native = native
+        self._labels: Labels | None = None
+
+    # What it is
+
+    @property
+    def dimension(self) -> tuple[int, int, int]:
+        """Samples along x, y, z."""
+        return self._native.dimension
+
+    @property
+    def spacing(self) -> tuple[float, float, float]:
+        """Metres between samples along x, y, z."""
+        return self._native.spacing
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """Sample (0, 0, 0) in world space, metres."""
+        return self._native.origin
+
+    @property
+    def axes(self) -> tuple[tuple[float, float, float], ...]:
+        """Unit vectors along which i, j and k grow, world space; a rotation."""
+        return self._native.axes
+
+    @property
+    def voxel_volume(self) -> float:
+        """Of one voxel, m3."""
+        x, y, z = self.spacing
+        return x * y * z
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Shape of dense(): samples along z, y, x."""
+        return self.dimension[::-1]
+
+    @property
+    def dtype(self) -> np.dtype:
+        """Type of dense(): the smallest of uint8, uint16 and uint32 that holds all scalars."""
+        return np.dtype(f"u{self._native.scalar_bits // 8}")
+
+    @property
+    def size_bytes(self) -> int:
+        """Memory that the samples take: runs of equal labels, each column stored once."""
+        return self._native.size_bytes
+
+    @property
+    def crs(self) -> str:
+        """Name of the model's coordinate reference system, or ''."""
+        return self._native.crs
+
+    @property
+    def name(self) -> str:
+        """Name of the model, or ''."""
+        return self._native.name
+
+    @property
+    def source(self) -> str:
+        """File name of the model."""
+        return self._native.source
+
+    @property
+    def labels(self) -> Labels:
+        """The components, in the order of the tree."""
+        if self._labels is None:
+            self._labels = Labels(self._native)
+        return self._labels
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What was found while it was built; empty for a volume that was opened."""
+        return self._native.findings
+
+    @property
+    def box(self) -> np.ndarray:
+        """Box around all voxels along the world axes: array (2, 3) of lower and upper corner, metres."""
+        corners = self.world([[i, j, k] for i in (-0.5, self.dimension[0] - 0.5) for j in (-0.5, self.dimension[1] - 0.5)
+                              for k in (-0.5, self.dimension[2] - 0.5)])
+        return np.array([corners.min(axis=0), corners.max(axis=0)])
+
+    def world(self, index) -> np.ndarray:
+        """World points of sample positions: array (..., 3) of i, j, k, whole or not, to (..., 3) of x, y, z in metres."""
+        return _native.world_from_index(self._native, index)
+
+    def index(self, points) -> np.ndarray:
+        """Sample positions of world points: array (..., 3) in metres to (..., 3) of i, j, k, not rounded."""
+        return _native.index_from_world(self._native, points)
+
+    def info(self) -> dict:
+        """Grid, labels and overlaps as plain data: what `svt info --json` prints (docs/user/json.md)."""
+        return json.loads(self._native.info_json())
+
+    # Questions
+
+    def query(self, text: str) -> list[_native.Label]:
+        """The labels that a query selects, such as ``'class=BuildingRoom and volume>20'``; none is an answer, too.
+
+        The language: docs/user/query-language.md. Raises svt.Error E901 where the text is no query.
+        """
+        return [self._native.label(index) for index in self._native.query(text)]
+
+    def dense(self, box: Box | None = None, level: int = 0) -> np.ndarray:
+        """The scalars of the samples as an array, 0 for background: what `svt convert` writes as NRRD.
+
+        Parameters
+        ----------
+        box
+            World box in metres, bounds included: only the samples in it. :meth:`samples_in` tells which these are.
+        level
+            0 to 6: cells of 2**level samples along each axis, each with the label that fills most of it.
+
+        Returns
+        -------
+        ndarray (nz, ny, nx) of uint8, uint16 or uint32
+            C order, x fastest: a[k, j, i] is sample (i, j, k). ``a.T`` is the same memory as a[i, j, k]. It is written once,
+            straight from the runs of labels, and belongs to the caller. ``labels.of_scalar[a]`` are indices of labels.
+        """
+        if level:
+            return self.part(box=box, level=level).dense()
+        return _native.dense(self._native, None if box is None else _box_of(box))
+
+    def samples_in(self, box: Box) -> tuple[tuple[int, int, int], tuple[int, int, int]]:
+        """The samples whose positions lie in a world box (metres, bounds included): first and one past the last, (i, j, k)."""
+        return _native.samples_in(self._native, _box_of(box))
+
+    def sample(self, points, *, scalars: bool = False) -> np.ndarray:
+        """The labels at points.
+
+        Parameters
+        ----------
+        points : array (..., 3)
+            World space, metres. An array of float64 in C order is read as it is, without a copy.
+        scalars
+            Give scalars as in dense() instead of labels.
+
+        Returns
+        -------
+        ndarray (...) of int32
+            Index in `labels`, -1 where there is none; with `scalars` uint32, 0 where there is none. A point belongs to the
+            voxel that it lies in.
+        """
+        found = _native.sample_scalars(self._native, points)
+        return found if scalars else self.labels.of_scalar[found]
+
+    def rays(self, origins, directions, *, progress: Progress = None) -> Runs:
+        """The labels that rays go through, with where they enter and leave them.
+
+        Parameters
+        ----------
+        origins : array (N, 3)
+            World space, metres; may lie inside.
+        directions : array (N, 3) or (3,)
+            Any length but zero; a single one holds for all rays.
+        """
+        return Runs(*_native.rays(self._native, np.atleast_2d(origins), directions, progress))
+
+    def contacts(self) -> np.ndarray:
+        """Which labels touch, and the areas: structured array with the fields ``a`` and ``b`` (int32, indices of labels, a <
+        b; b is -1 for background) and ``area`` (m2). The first call measures, later ones do not."""
+        return _native.contacts(self._native)
+
+    # Drawings and pictures
+
+    def section(self, plane: str = "", *, show: str | Sequence[str] = (), hide: str | Sequence[str] = (),
+                spaces: bool = True, min_area: float = 0, tolerance: float = -1, meshes: bool = True,
+                progress: Progress = None) -> Section:
+        """What a plane cuts, as polygons.
+
+        Parameters
+        ----------
+        plane
+            ``'z=1.2'`` (metres above the lowest samples; x and y too), ``'z<1.2'`` (the other side), ``'storey=EG+1.1'``, or
+            ``'A,B,C,D'``; default: 1.1 m above the lowest floor.
+        show, hide
+            Queries: only what these select, or without it.
+        spaces
+            Also rooms, units and storeys.
+        min_area
+            Leave out polygons that are smaller, m2.
+        tolerance
+            Largest deviation of a border, metres; default: exact where the volume keeps meshes.
+        meshes
+            Cut the meshes that the volume keeps; False: the voxels.
+        """
+        native = _native.section(self._native, plane, _list_of(show), _list_of(hide), spaces, min_area, tolerance, meshes,
+                                 progress)
+        return Section(native, self._native)
+
+    def frame(self, *, progress: Progress = None, **options: Any) -> Frame:
+        """A picture with the label and depth of each pixel; options as for :meth:`render`."""
+        return Frame(_native.draw(self._native, options, progress))
+
+    def render(self, *, progress: Progress = None, **options: Any) -> np.ndarray:
+        return self.frame(progress=progress, **options).color
+
+    def view(self, *, height: int = 600, browser: bool = False) -> View:
+        """Show the volume on the interactive page, served by `svt view`. Embedded in a notebook, `height` pixels high.
+
+        Keep the result: when it is closed or forgotten, the page ends.
+        """
+        return View(self, height, browser)
+
+    # Files and parts
+
+    def part(self, *, box: Box | None = None, select: str | None = None, level: int = 0,
+             progress: Progress = None) -> Volume:
+        """A part of the volume as a volume, as `svt convert` makes it: the samples in a world box, the labels that a query
+        selects, a coarse level. Labels keep their numbers."""
+        return Volume(self._native.part(None if box is None else _box_of(box), select, level, progress))
+
+    def save(self, path: PathLike, *, compressed: bool = True, zarr_version: int = 2, model: PathLike = "",
+             progress: Progress = None) -> int:
+        """Write the volume. The ending tells the format: `.svt`, and all of `svt convert` (.nrrd, .vti, .nii.gz, .zarr, ...).
+
+        Parameters
+        ----------
+        compressed
+            For formats that leave the choice.
+        zarr_version
+            2 or 3.
+        model
+            For CityGML: the model that the volume was built from, which is kept in the document.
+
+        Returns
+        -------
+        int
+            Bytes written. All or nothing: a file that was there is kept where writing fails.
+        """
+        return self._native.save(os.fspath(path), compressed, zarr_version, os.fspath(model), progress)
+
+    @classmethod
+    def from_dense(cls, array, labels: Any = None, *, spacing: float | Sequence[float] = 1,
+                   origin: Sequence[float] = (0, 0, 0), axes: Sequence[Sequence[float]] = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+                   like: Volume | None = None, crs: str = "", source: str = "array", progress: Progress = None) -> Volume:
+        """A volume from an array of labels.
+
+        Parameters
+        ----------
+        array : ndarray (nz, ny, nx) of bool or whole numbers up to 32 bits
+            a[k, j, i] is sample (i, j, k); 0 is background. In C order and of 8, 16 or 32 bits it is read as it is; else it is
+            copied.
+        labels
+            What the values are: None (each value is a label), the labels of another volume (values are its scalars), a mapping
+            from value to name or to a dict with any of id, class, name, parent, color, opacity, attributes; or a sequence of
+            such dicts with a value (a number or a range [first, last]) each, as docs/user/build.md has them.
+        spacing
+            Metres between samples: one number, or along x, y, z.
+        origin
+            Sample (0, 0, 0) in world space, metres.
+        axes
+            Unit vectors along which i, j and k grow: a rotation.
+        like
+            A volume of the same dimension, whose grid and CRS are taken.
+        """
+        array = np.asarray(array)
+        if array.dtype == bool:
+            array = array.astype(np.uint8)
+        if array.dtype.kind not in "iu":
+            raise TypeError(f"labels are whole numbers, found {array.dtype}")
+        if array.dtype.itemsize > 4:
+            if array.size and (array.min() < 0 or array.max() > 0xFFFFFFFF):
+                raise ValueError("labels of more than 32 bits, or below 0")
+            array = array.astype(np.uint32)
+        if like is not None:
+            if array.shape != like.shape:
+                raise ValueError(f"an array of {array.shape}, and the grid is that of {like.shape}")
+            spacing, origin, axes, crs = like.spacing, like.origin, like.axes, crs or like.crs
+        if isinstance(spacing, (int, float)):
+            spacing = (spacing,) * 3
+        array = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
+        native = _native.from_array(array, list(spacing), list(origin), [list(axis) for axis in axes], _table_of(labels), crs,
+                                    source, progress)
+        return cls(native)
+
+    # Notebooks
+
+    def _repr_html_(self) -> str:
+        rows = [("samples", "{} x {} x {}".format(*self.dimension)), ("spacing", "{:g} x {:g} x {:g} m".format(*self.spacing)),
+                ("size", "{:.4g} x {:.4g} x {:.4g} m".format(*(n * s for n, s in zip(self.dimension, self.spacing)))),
+                ("labels", str(len(self.labels))), ("memory", f"{self.size_bytes / 1e6:.3g} MB"), ("CRS", self.crs or "-")]
+        picture = base64.b64encode(self.frame(size=(480, 300))._repr_png_()).decode()
+        table = "".join(f"<tr><th style='text-align:left'>{name}</th><td style='text-align:left'>{html.escape(text)}</td></tr>"
+                        for name, text in rows)
+        title = html.escape(self.name or self.source or "volume")
+        return (f"<div><b>{title}</b><br><img alt='{title}' width='480' height='300' "
+                f"src='data:image/png;base64,{picture}'><table>{table}</table></div>")
+
+    def __repr__(self) -> str:
+        return "<svt.Volume '{}' {} x {} x {} samples, {} labels>".format(self.name or self.source, *self.dimension,
+                                                                        len(self.labels))
+
+
+def _list_of(texts: str | Sequence[str]) -> list[str]:
+    return [texts] if isinstance(texts, str) else list(texts)
+
+
+def _table_of(labels: Any) -> str:
+    """The table of labels as JSON."""
+    if labels is None:
+        return ""
+    if isinstance(labels, Labels):
+        return labels._native.label_json()
+    if isinstance(labels, Mapping):
+        labels = [{"value": value, **(entry if isinstance(entry, Mapping) else {"name": entry})}
+                  for value, entry in labels.items()]
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, np.generic):
+            return value.item()
+        if isinstance(value, range):
+            return [value.start, value.stop - 1]
+        raise TypeError(f"labels: {type(value).__name__} is no text, number, list or dict")
+
+    entries = [dict(entry) for entry in labels]
+    for entry in entries:
+        for key, value in entry.items():
+            if isinstance(value, (range, np.generic)):
+                entry[key] = plain(value)
+    return json.dumps({"labels": entries}, default=plain)
+
+
+def open(path: PathLike, *, labels: PathLike = "", progress: Progress = None) -> Volume:
+    """Open a `.svt`, or a label volume of another program: NRRD, VTI, NIfTI, TIFF, CityGML with a volume.
+
+    Parameters
+    ----------
+    labels
+        For a label volume: a table (JSON) that says which label each value is; see docs/user/build.md.
+    """
+    return Volume(_native.open(os.fspath(path), os.fspath(labels), progress))
+
+
+def build(model: Model | PathLike | Sequence[PathLike], *, vectors: str | Sequence[str] = (), grid_of: Volume | None = None,
+          progress: Progress = None, **options: Any) -> Volume:
+    native_grid = None if grid_of is None else grid_of._native
+    if isinstance(model, Model):
+        made = _native.build_model(model._native, options, _list_of(vectors), native_grid, progress)
+    else:
+        made = _native.build_files(paths_of(model), options, _list_of(vectors), native_grid, progress)
+    return Volume(made)
+
+
+def _indented(text: str, blanks: int) -> str:
+    return "".join(" " * blanks + line + "\n" for line in text.splitlines())
+
+
+# The options are those of the command, and so is what is said of them.
+build.__doc__ = f"""Build a volume from a model.
+
+    Parameters
+    ----------
+    model
+        What svt.read() gave, a path or several. A path saves a copy of the model.
+    vectors
+        What is kept of the model's geometry beside the voxels: 'meshes' (default, where they can be: sections are exact),
+        'edges' (lines in pictures), both, or 'none'.
+    grid_of
+        A volume whose grid is taken.
+    progress
+        Called with (stage, fraction) on the calling thread; an exception of it stops the work, and so does Ctrl-C.
+
+    Options of `svt build`, as keywords; a tuple for several numbers:
+
+{_indented(_native.build_keywords(), 4)}
+    Returns
+    -------
+    Volume
+        Its findings are those of reading and building.
+    """
+Volume.render.__doc__ = f"""A picture: array (height, width, 4) of uint8, red, green, blue (sRGB) and alpha; row 0 is the top.
+
+        The options are those of `svt render` with '_' for '-', and the pictures are the same. A tuple is for several numbers
+        (``size=(1280, 720)``), a list for an option that is given several times (``hide=['class=BuildingRoom', 'name~Dach']``), a
+        dict for queries with a value (``opacity={{'class=BuildingRoom': 0.2}}``).
+
+{_indented(_native.draw_keywords(), 8)}"""

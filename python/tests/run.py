@@ -1,0 +1,35 @@
+#!/usr/bin/env python3
+"""Runs test modules of this folder, as ctest calls it. Ends with 77 and a word where what they need is missing.
+
+    run.py MODULE [NEEDED...]     such as: run.py test_examples scipy
+"""
+import importlib.util
+import os
+import pathlib
+import sys
+import sysconfig
+import unittest
+
+
+def missing(needed):
+    for name in ["numpy", *needed]:
+        if importlib.util.find_spec(name) is None:
+            return f"no {name} (scripts/setup.sh python installs it)"
+    folder = pathlib.Path(os.environ.get("PYTHONPATH", "").split(os.pathsep)[0])
+    if not (folder / "svt" / f"_native{sysconfig.get_config_var('EXT_SUFFIX')}").is_file():
+        return "the module is not built (make python)"
+    return None
+
+
+def main():
+    module, *needed = sys.argv[1:]
+    why = missing(needed)
+    if why is not None:
+        print(f"SKIPPED: {why}")
+        return 77
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    return 0 if unittest.main(module=None, argv=["run.py", module], exit=False).result.wasSuccessful() else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

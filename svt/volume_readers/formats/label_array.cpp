@@ -1,0 +1,67 @@
+#include <svt/core/machine.hpp>
+#include <svt/volume_readers/label_array.hpp>
+#include <svt/volume_readers/samples/label_image.hpp>
+#include <svt/volume_readers/table/label_tables.hpp>
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <optional>
+
+namespace svt::volume_readers {
+namespace {
+
+// Voxels as they are in the array. A table of another volume, of which the array may be a part, has the volumes of meshes,
+// which hold where no voxel is missing.
+void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
+    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
+    for (volume::Label& label : volume.labels.labels) {
+        std::uint64_t count = 0;
+        for (volume::Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
+        if (hasVolumes && count == label.voxels) continue;
+        label.voxels = count;
+        label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
+    }
+}
+
+}  // namespace
+
+Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::string_view labelsJson,
+                                               std::uint64_t maxBytes, const Progress* progress) {
+    if (array.bits != 8 && array.bits != 16 && array.bits != 32)
+        return Error(Code::BadArgument, fmt::format("samples of {} bits; 8, 16 and 32 are possible", array.bits));
+    const std::uint64_t bytes = array.grid.sampleCount() * static_cast<std::uint64_t>(array.bits / 8);
+    if (array.samples.size() != bytes)
+        return Error(Code::BadArgument,
+                     fmt::format("an array of {} bytes, and the grid has samples for {}", array.samples.size(), bytes));
+    if (maxBytes == 0) {
+        const auto grant = memoryGrant();
+        maxBytes = grant ? grant->bytes / 2 : std::uint64_t{1} << 30;
+    }
+    std::optional<UserTable> table;
+    if (!labelsJson.empty()) {
+        auto parsed = parseUserTable(labelsJson);
+        if (!parsed) return parsed.error();
+        table = std::move(*parsed);
+    }
+    LabelImage image;
+    image.dimension = array.grid.dimension();
+    image.bits = array.bits;
+    image.isSigned = array.isSigned;
+    image.crsName = array.crsName;
+    std::size_t at = 0;
+    image.read = [&](std::span<std::byte> out) -> Result<void> {
+        std::memcpy(out.data(), array.samples.data() + at, out.size());
+        at += out.size();
+        return {};
+    };
+    auto columns = readColumns(image, maxBytes, Code::BadArgument, progress);
+    if (!columns) return columns.error();
+    auto volume = makeVolume(image, std::move(*columns), table ? &*table : nullptr, array.source);
+    if (!volume) return volume;
+    volume->grid = array.grid;  // exact, whatever its axes
+    countAgain(*volume, table && !table->labelsJson.empty());
+    return volume;
+}
+
+}  // namespace svt::volume_readers
