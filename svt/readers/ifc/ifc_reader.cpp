@@ -126,6 +126,7 @@ private:
         add("description", fields[3]);
         add("objectType", fields[4]);
         add(product.kind == ProductKind::Spatial ? "longName" : "tag", fields[7]);
+        if (product.ifcType == "IfcSpace" || product.ifcType == "IfcSpatialZone") nameSpace(fields, feature);
         if (product.ifcType == "IfcBuildingStorey" && fields[9].number())
             feature.attributes.push_back({"elevation", file_.metres(fields[9]), "m"});
         if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
@@ -139,6 +140,17 @@ private:
         const auto parent = product.parent == Product::kNoProduct ? model::kNoFeature : featureOf_[product.parent];
         featureOf_.resize(structure_.products.size(), model::kNoFeature);
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
+    }
+
+    // The name of a space is its number in the plan, its long name what people call it. A zone that somebody occupies is a
+    // unit.
+    static void nameSpace(const Fields& fields, model::Feature& feature) {
+        const std::string longName = fields[7].string().value_or("");
+        if (!longName.empty() && longName != feature.name) {
+            if (!feature.name.empty()) feature.attributes.push_back({"number", feature.name, ""});
+            feature.name = longName;
+        }
+        if (fields[8].enumeration() == "OCCUPANCY") feature.className = "BuildingUnit";
     }
 
     void addSitePlace(const Fields& fields, model::Feature& feature) const {
