@@ -390,6 +390,7 @@ Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, co
     reading.threads = options.threads;
     reading.progress = options.progress;
     reading.crs = options.crs;
+    reading.splitLayers = options.splitLayers;
     reading.keepFarFeatures = options.keepFarFeatures;
     auto model = readModels(files, reading, log);
     if (!model) return model.error();

@@ -19,6 +19,7 @@ struct ReadOptions {
     int crs = 0;
     int likelyCrs = 0;             ///< where coordinates must be projected: to this code if possible; 0: the usual one
     bool keepFarFeatures = false;  ///< features far away from all others are not left out
+    bool splitLayers = false;      ///< IFC: walls and slabs become the layers of their material
 };
 
 }  // namespace svt::readers

@@ -62,6 +62,7 @@ void BuildArguments::connect(Command& command) {
     command.set("--no-bodies", noBodies);
     command.set("--crs", crs);
     command.set("--keep-far-features", keepFarFeatures);
+    command.set("--layers", layers);
     command.set("--style", style);
     command.set("--patterns", patterns);
     command.set("--sheets", sheets);
@@ -115,6 +116,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     if (!code) return code.error();
     options.crs = *code;
     options.keepFarFeatures = keepFarFeatures;
+    options.splitLayers = layers;
     options.vectors = vectors;
     if (!style.empty()) {
         auto sheet = pipeline::readStyleSheet(style);

@@ -70,6 +70,11 @@ constexpr Option kModel[] = {
      .help = "keep features that lie far away from all others",
      .group = "Model",
      .isForModels = true},
+    {.name = "--layers",
+     .kind = Flag,
+     .help = "IFC: split walls and slabs into the layers of their material, each an object of its own",
+     .group = "Model",
+     .isForModels = true},
 };
 constexpr Option kMemory[] = {
     {.name = "--memory",

@@ -3,6 +3,7 @@
 #include <svt/core/text.hpp>
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
+#include <svt/readers/ifc/layers.hpp>
 #include <svt/readers/ifc/properties.hpp>
 #include <svt/readers/ifc/structure.hpp>
 #include <svt/readers/ifc/styles.hpp>
@@ -291,13 +292,64 @@ private:
         if (const auto found = styles.ofMaterial.find(properties.materialOf(structure_.products[number].record));
             found != styles.ofMaterial.end())
             material = found->second;
-        addGeometry(feature, shape, placement, material);
+        if (options_.splitLayers && splitProduct(number, shape, placement, styles, properties, material)) return;
+        addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
     }
 
-    void addGeometry(model::Feature& feature, Shape& shape, const Transform& placement, std::int32_t otherwise) {
+    // Layers as features below the product; false where it has none, or they cannot be told apart.
+    bool splitProduct(std::size_t number, const Shape& shape, const Transform& placement, const Styles& styles,
+                      const Properties& properties, std::int32_t material) {
+        const RecordIndex record = structure_.products[number].record;
+        auto layered = splitIntoLayers(file_, properties, record, shapeOf(record), shape);
+        if (!layered) return false;
+        ++withLayers_;
+        const model::FeatureIndex product = featureOf_[number];
+        const std::string id = model_.features[product].id;
+        const std::uint64_t line = model_.features[product].line;
+        const auto tell = [&](const std::string& what) {
+            diagnostics_.add(Severity::Warning, Code::LayersNotSplit,
+                             fmt::format("this {} {}", structure_.products[number].ifcType, what),
+                             {std::string(name_), line, 0, id});
+        };
+        if (!layered->why.empty()) {
+            tell("was not split into its layers: " + layered->why);
+            return false;
+        }
+        ++split_;
+        if (layered->moved > 0)
+            tell(fmt::format("has its layers beside its body; they were moved onto it, by {:.4g} m", layered->moved));
+        if (!layered->rest.empty()) tell("is thicker than its layers; what is beside them belongs to no layer");
+        addGeometry(model_.features[product], layered->rest, placement, material);
+        for (std::size_t i = 0; i < layered->layers.size(); ++i) {
+            LayerPart& layer = layered->layers[i];
+            if (layer.bodies.empty()) continue;
+            model::Feature feature;
+            feature.id = fmt::format("{}_layer{}", id, i + 1);
+            ids_.insert(feature.id);
+            feature.className = model_.features[product].className;
+            feature.name = layer.name;
+            feature.line = line;
+            feature.attributes = {{"ifcType", std::string("IfcMaterialLayer"), ""},
+                                  {"material", layer.name, ""},
+                                  {"layer", static_cast<std::int64_t>(i + 1), ""},
+                                  {"thickness", layer.thickness, "m"}};
+            if (!layer.function.empty()) feature.attributes.push_back({"function", layer.function, ""});
+            std::int32_t own = material;
+            if (const auto found = styles.ofMaterial.find(layer.material); found != styles.ofMaterial.end()) {
+                own = found->second;
+                for (Body& body : layer.bodies) body.material = own;
+            }
+            const model::FeatureIndex index = model_.addFeature(std::move(feature), product);
+            addGeometry(model_.features[index], layer.bodies, placement, own);
+        }
+        return true;
+    }
+
+    void addGeometry(model::Feature& feature, std::vector<Body>& bodies, const Transform& placement,
+                     std::int32_t otherwise) {
         model::Geometry geometry;
         const bool isMirrored = placement.determinant() < 0;
-        for (Body& body : shape.bodies) {
+        for (Body& body : bodies) {
             std::vector<model::SurfaceUse> uses;
             if (isMirrored) turnOver(body.faces);
             for (model::Polygon& face : body.faces) {
@@ -321,6 +373,11 @@ private:
                          fmt::format("{} of {} products with a shape were read, {} of them in part",
                                      withShape_ - skipped_, withShape_, partial_),
                          place());
+        if (options_.splitLayers)
+            diagnostics_.add(
+                Severity::Note, Code::LayersSplit,
+                fmt::format("{} of {} products with layers of materials were split into them", split_, withLayers_),
+                place());
     }
 
     Result<model::BuildingModel> placeModel() {
@@ -344,7 +401,7 @@ private:
     std::unordered_set<std::string> ids_;
     std::vector<model::FeatureIndex> featureOf_;  // by product
     std::unordered_map<RecordIndex, model::FeatureIndex> groupFeature_;
-    std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0;
+    std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0, withLayers_ = 0, split_ = 0;
     model::BuildingModel model_;
 };
 

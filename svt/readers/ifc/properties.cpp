@@ -205,13 +205,17 @@ void Properties::appendMaterial(RecordIndex material, std::vector<Attribute>& at
     if (!layers.empty()) attributes.push_back({"materialLayers", layers.substr(0, kMaxText), ""});
 }
 
-RecordIndex Properties::materialOf(RecordIndex object) const {
+const std::vector<RecordIndex>& Properties::materialsOf(RecordIndex object) const {
     const Records* materials = &of(materials_, object);
     if (materials->empty())
         for (const RecordIndex type : of(types_, object)) materials = &of(materials_, type);
+    return *materials;
+}
+
+RecordIndex Properties::materialOf(RecordIndex object) const {
     double thickest = -1;
     RecordIndex best = kNoRecord;
-    for (const RecordIndex material : *materials)
+    for (const RecordIndex material : materialsOf(object))
         for (const RecordIndex part : layersOf(material)) {
             const Fields fields = file_.fieldsOf(part);
             const Entity entity = file_.entityOf(part);

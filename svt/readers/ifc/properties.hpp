@@ -20,6 +20,9 @@ public:
     /// `materialLayers`, `classification`. A property of the object takes the place of one of its type.
     void append(RecordIndex object, std::vector<Attribute>& attributes) const;
 
+    /// Materials, layer sets and usages of an object, else of its type.
+    [[nodiscard]] const std::vector<RecordIndex>& materialsOf(RecordIndex object) const;
+
     /// The material that is nearest to being that of the whole object, for its colour; kNoRecord: none.
     [[nodiscard]] RecordIndex materialOf(RecordIndex object) const;
 
