@@ -259,6 +259,30 @@ TEST(IfcShapes, BooleansOfSolids) {
     expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.INTERSECTION.,#210,#211);\n" + two), 0.25);
 }
 
+// An empty result is an operand like any other; chains of many differences are one, however long.
+TEST(IfcShapes, BooleansOfBooleans) {
+    const std::string three =
+        "#210=IFCBLOCK(#14,1000.,1000.,1000.);\n#211=IFCBLOCK(#212,1000.,1000.,1000.);\n"
+        "#212=IFCAXIS2PLACEMENT3D(#213,#11,#12);\n#213=IFCCARTESIANPOINT((5000.,500.,0.));\n"
+        "#220=IFCBLOCK(#14,2000.,500.,500.);\n";
+    expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.UNION.,#201,#220);\n"
+                             "#201=IFCBOOLEANRESULT(.INTERSECTION.,#210,#211);\n" +
+                             three),
+                 0.5);
+    expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.DIFFERENCE.,#210,#201);\n"
+                             "#201=IFCBOOLEANRESULT(.DIFFERENCE.,#220,#210);\n" +
+                             three),
+                 1);
+    std::string chain = "#230=IFCBLOCK(#14,100000.,1000.,1000.);\n";
+    for (int i = 0; i < 100; ++i)
+        chain += fmt::format(
+            "#{}=IFCBLOCK(#{},500.,1000.,1000.);\n#{}=IFCAXIS2PLACEMENT3D(#{},#11,#12);\n"
+            "#{}=IFCCARTESIANPOINT(({}.,0.,0.));\n#{}=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#{},#{});\n",
+            1000 + i, 2000 + i, 2000 + i, 3000 + i, 3000 + i, 1000 * i, i == 99 ? 200 : 4000 + i,
+            i == 0 ? 230 : 3999 + i, 1000 + i);
+    expectVolume(ifcWithItem(chain), 50);
+}
+
 std::string wallWithOpening(const std::string& openingDepth, const std::string& openingY) {
     return ifcFile(
         "#100=IFCWALL('wall',$,'Wall',$,$,#15,#101,$,$);\n#101=IFCPRODUCTDEFINITIONSHAPE($,$,(#102));\n"

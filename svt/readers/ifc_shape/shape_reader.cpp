@@ -16,6 +16,7 @@ namespace {
 using Polygons = std::vector<model::Polygon>;
 
 constexpr int kMaxItemDepth = 48;
+constexpr std::size_t kMaxChain = 10'000;  // booleans of one kind in a row
 constexpr std::uint64_t kMaxExpandedPoints =
     200'000'000;  // of mapped items: some bytes of the file stand for a whole shape
 
@@ -452,33 +453,72 @@ bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& b
     return true;
 }
 
-void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
-    Bodies first, second;
-    readItem(file_.follow(fields[1]), depth + 1, first);
-    if (first.empty()) return;
-    Box3d around;
-    for (const Body& body : first) around.add(boundsOf(body.faces));
-    const RecordIndex operand = file_.follow(fields[2]);
-    const std::string_view op = fields[0].enumeration();
-    const auto keepFirst = [&](std::string_view why) {
+// The second operand of a boolean as closed bodies; false, and said, where it is none.
+bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Box3d& around, int depth,
+                              Bodies& bodies) {
+    const auto refuse = [&](std::string_view why) {
         leaveOut(fmt::format("the {} with an {}: {}", op, file_.typeName(operand), why));
-        bodies.insert(bodies.end(), first.begin(), first.end());
+        return false;
     };
     switch (file_.entityOf(operand)) {
         case Entity::HalfSpaceSolid:
         case Entity::BoxedHalfSpace:
         case Entity::PolygonalBoundedHalfSpace:
-            if (!readHalfSpace(operand, around, second)) return keepFirst("it cannot be read");
+            if (around.isEmpty()) return refuse("there is nothing that it could bound");
+            if (!readHalfSpace(operand, around, bodies)) return refuse("it cannot be read");
             break;
         default:
-            readItem(operand, depth + 1, second);
-            if (second.empty()) return keepFirst("it cannot be read");
+            readItem(operand, depth + 1, bodies);
+            if (bodies.empty()) return refuse("it cannot be read");
     }
-    const auto isOpen = [](const Body& body) { return !isClosed(body.faces); };
-    if (std::any_of(second.begin(), second.end(), isOpen)) return keepFirst("it is not closed");
-    if (std::any_of(first.begin(), first.end(), isOpen))
-        return keepFirst("the body that it is applied to is not closed");
-    const std::int32_t material = first.front().material;
+    if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !isClosed(body.faces); }))
+        return refuse("it is not closed");
+    return true;
+}
+
+// ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
+// openings of a wall, is evaluated at once, whatever its depth.
+void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
+    const std::string_view op = fields[0].enumeration();
+    std::vector<RecordIndex> operands{file_.follow(fields[2])};
+    RecordIndex base = file_.follow(fields[1]);
+    for (std::size_t length = 1; op != "INTERSECTION"; ++length) {
+        const Entity entity = file_.entityOf(base);
+        if (entity != Entity::BooleanResult && entity != Entity::BooleanClippingResult) break;
+        const Fields inner = file_.fieldsOf(base);
+        if (inner[0].enumeration() != op) break;
+        if (length == kMaxChain) return leaveOut("booleans that refer to each other in a circle, or nest too deep");
+        operands.push_back(file_.follow(inner[2]));
+        base = file_.follow(inner[1]);
+    }
+    Bodies first, second;
+    readItem(base, depth + 1, first);
+    if (first.empty() && op != "UNION") return;
+    if (std::any_of(first.begin(), first.end(), [](const Body& body) { return !isClosed(body.faces); })) {
+        leaveOut(fmt::format("the {} with an {}: the body that it is applied to is not closed", op,
+                             file_.typeName(operands.back())));
+        bodies.insert(bodies.end(), first.begin(), first.end());
+        return;
+    }
+    Box3d around;
+    for (const Body& body : first) around.add(boundsOf(body.faces));
+    bool isRead = true;
+    for (auto operand = operands.rbegin(); operand != operands.rend(); ++operand) {
+        Bodies part;
+        if (readOperand(*operand, op, around, depth, part))
+            second.insert(second.end(), part.begin(), part.end());
+        else
+            isRead = false;
+    }
+    // An intersection with a half-space that takes nothing in is nothing; a difference with one is all.
+    if (second.empty() && (op != "INTERSECTION" || !isRead)) {
+        bodies.insert(bodies.end(), first.begin(), first.end());
+        return;
+    }
+    evaluate(op, first, second, bodies);
+}
+
+void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies) {
     std::vector<Polygons> operands;
     for (const Body& body : second) operands.push_back(body.faces);
     if (op == "UNION") {
@@ -488,23 +528,28 @@ void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
             bodies.insert(bodies.end(), second.begin(), second.end());
             bodies.insert(bodies.end(), first.begin(), first.end());
         } else if (!joined->empty()) {
-            bodies.push_back({std::move(*joined), true, material});
+            bodies.push_back({std::move(*joined), true, (first.empty() ? second : first).front().material});
         }
         return;
     }
     // The second operand as one body.
     if (op == "INTERSECTION" && operands.size() > 1) {
         auto joined = evaluateBoolean(BooleanOperator::Union, operands);
-        if (!joined) return keepFirst("its parts cannot be joined");
+        if (!joined) {
+            leaveOut("the INTERSECTION with parts that cannot be joined");
+            bodies.insert(bodies.end(), first.begin(), first.end());
+            return;
+        }
         operands = {std::move(*joined)};
     }
+    if (op == "INTERSECTION" && operands.empty()) return;
     for (const Body& body : first) {
         std::vector<Polygons> all{body.faces};
         all.insert(all.end(), operands.begin(), operands.end());
         auto result =
             evaluateBoolean(op == "INTERSECTION" ? BooleanOperator::Intersection : BooleanOperator::Difference, all);
         if (!result) {
-            leaveOut(fmt::format("the {} with an {}: the result is not closed", op, file_.typeName(operand)));
+            leaveOut(fmt::format("a {}: its result is not closed", op));
             bodies.push_back(body);
         } else if (!result->empty()) {
             bodies.push_back({std::move(*result), true, body.material});

@@ -50,6 +50,8 @@ private:
     void readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readBoolean(const Fields& fields, int depth, Bodies& bodies);
     bool readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies);
+    bool readOperand(RecordIndex operand, std::string_view op, const Box3d& around, int depth, Bodies& bodies);
+    void evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies);
     void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);
     void leaveOut(std::string what);
 
