@@ -366,7 +366,7 @@ TEST(IfcShapes, FacetedSolidsWithHollows) {
 
 // A half cylinder of radius 1 m and height 1 m. Split, the arc below is two edges, so that the curved face is no longer one
 // between two curves of equally many points.
-std::string halfCylinder(bool isSplit) {
+std::string halfCylinder(bool isSplit, bool isSpline = false) {
     std::string text =
         "#200=IFCADVANCEDBREP(#201);\n#201=IFCCLOSEDSHELL((#210,#220,#230,#240));\n"
         "#300=IFCCARTESIANPOINT((1000.,0.,0.));\n#301=IFCCARTESIANPOINT((-1000.,0.,0.));\n"
@@ -381,7 +381,22 @@ std::string halfCylinder(bool isSplit) {
         "#332=IFCEDGECURVE(#311,#310,#324,.T.);\n#333=IFCEDGECURVE(#313,#312,#324,.T.);\n"
         "#334=IFCEDGECURVE(#310,#312,#327,.T.);\n#335=IFCEDGECURVE(#311,#313,#327,.T.);\n"
         "#336=IFCEDGECURVE(#310,#314,#320,.T.);\n#337=IFCEDGECURVE(#314,#311,#320,.T.);\n"
-        "#340=IFCPLANE(#14);\n#341=IFCCYLINDRICALSURFACE(#14,1000.);\n";
+        "#340=IFCPLANE(#14);\n";
+    if (isSpline) {
+        const int x[] = {1000, 1000, 0, -1000, -1000}, y[] = {0, 1000, 1000, 1000, 0};
+        std::string rows;
+        for (int i = 0; i < 5; ++i) {
+            for (int k = 0; k < 2; ++k)
+                text += fmt::format("#{}=IFCCARTESIANPOINT(({}.,{}.,{}.));\n", 350 + 2 * i + k, x[i], y[i], 1000 * k);
+            rows += fmt::format("{}(#{},#{})", i == 0 ? "" : ",", 350 + 2 * i, 351 + 2 * i);
+        }
+        text += "#341=IFCRATIONALBSPLINESURFACEWITHKNOTS(2,1,(" + rows +
+                "),.UNSPECIFIED.,.F.,.F.,.F.,(3,2,3),(2,2),(0.,1.,2.),(0.,1.),.UNSPECIFIED.,"
+                "((1.,1.),(0.70710678118654752,0.70710678118654752),(1.,1.),"
+                "(0.70710678118654752,0.70710678118654752),(1.,1.)));\n";
+    } else {
+        text += "#341=IFCCYLINDRICALSURFACE(#14,1000.);\n";
+    }
     int id = 400;
     const auto addFaceOf = [&](int number, int surface, const std::vector<std::pair<int, bool>>& edges) {
         std::string list;
@@ -416,6 +431,67 @@ TEST(IfcShapes, AdvancedBrepsWithCylinders) {
         EXPECT_GT(read.volume, share * kPiTest / 2) << isSplit;
         EXPECT_GE(read.faces, 27U) << isSplit;
     }
+}
+
+TEST(IfcShapes, AdvancedBrepsWithRationalSplines) {
+    for (const bool isSplit : {false, true}) {
+        const Read read = readShapeOf(halfCylinder(isSplit, true));
+        EXPECT_TRUE(read.isClosed) << isSplit;
+        EXPECT_EQ(read.findings, "") << isSplit;
+        EXPECT_NEAR(read.volume, kPiTest / 2, 0.003) << isSplit;  // chords within 1 mm of an area of pi m2
+        EXPECT_GE(read.faces, 27U) << isSplit;
+    }
+}
+
+// A block of 1 m whose top is z = 1 + c x (1 - x) y (1 - y): its edges are those of the block, its volume is 1 + c / 36.
+std::string bulgedBlock(int control) {
+    std::string text =
+        "#200=IFCADVANCEDBREP(#201);\n#201=IFCCLOSEDSHELL((#210,#211,#212,#213,#214,#215));\n#340=IFCPLANE(#14);\n"
+        "#324=IFCLINE(#300,#325);\n#325=IFCVECTOR(#12,1.);\n";
+    for (int i = 0; i < 8; ++i)
+        text += fmt::format("#{}=IFCCARTESIANPOINT(({}.,{}.,{}.));\n#{}=IFCVERTEXPOINT(#{});\n", 300 + i,
+                            (i & 1) * 1000, (i >> 1 & 1) * 1000, (i >> 2) * 1000, 310 + i, 300 + i);
+    std::string rows;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            text += fmt::format("#{}=IFCCARTESIANPOINT(({}.,{}.,{}.));\n", 350 + 3 * i + j, 500 * i, 500 * j,
+                                i == 1 && j == 1 ? control : 1000);
+            rows += fmt::format("{}#{}{}", j == 0 ? (i == 0 ? "(" : ",(") : ",", 350 + 3 * i + j, j == 2 ? ")" : "");
+        }
+    text += "#341=IFCBSPLINESURFACEWITHKNOTS(2,2,(" + rows +
+            "),.UNSPECIFIED.,.F.,.F.,.F.,(3,3),(3,3),(0.,1.),(0.,1.),.UNSPECIFIED.);\n";
+    const int corners[6][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    int id = 400;
+    for (int face = 0; face < 6; ++face) {
+        std::string loop;
+        for (int i = 0; i < 4; ++i) {
+            text += fmt::format("#{}=IFCEDGECURVE(#{},#{},#324,.T.);\n#{}=IFCORIENTEDEDGE(*,*,#{},.T.);\n", id,
+                                310 + corners[face][i], 310 + corners[face][(i + 1) % 4], id + 1, id);
+            loop += fmt::format("{}#{}", i == 0 ? "" : ",", id + 1);
+            id += 2;
+        }
+        text += fmt::format(
+            "#{}=IFCEDGELOOP(({}));\n#{}=IFCFACEOUTERBOUND(#{},.T.);\n#{}=IFCADVANCEDFACE((#{}),#{},.T.);\n", id, loop,
+            id + 1, id, 210 + face, id + 1, face == 0 ? 341 : 340);
+        id += 2;
+    }
+    return ifcWithItem(text);
+}
+
+TEST(IfcShapes, AdvancedBrepsWithSplines) {
+    for (const int control : {1200, 800, 2000}) {
+        const Read read = readShapeOf(bulgedBlock(control));
+        EXPECT_TRUE(read.isClosed) << control;
+        EXPECT_EQ(read.findings, "") << control;
+        EXPECT_NEAR(read.volume, 1 + 4 * (control - 1000) / 1000.0 / 36, 0.001) << control;  // 1 mm over 1 m2
+        EXPECT_GT(read.faces, 20U) << control;
+    }
+    // Knots that are not in order: the face is a polygon of its edges, and that is said.
+    std::string broken = bulgedBlock(1200);
+    broken.replace(broken.find("(3,3),(0.,1.),(0.,1.)"), 21, "(3,3),(1.,0.),(0.,1.)");
+    const Read read = readShapeOf(broken);
+    EXPECT_NEAR(read.volume, 1, 1e-9);
+    EXPECT_NE(read.findings.find("E132"), std::string::npos);
 }
 
 TEST(IfcShapes, BoundingBoxAsTheLastResort) {

@@ -319,7 +319,11 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
         rings.insert(isOuter ? rings.begin() : rings.end(), std::move(ring));
     }
     if (rings.empty()) return false;
-    if (isCurved && addRuledFace(rings, edgeEnds, faces)) return true;
+    // Four straight edges say nothing of what a B-spline surface is between them.
+    const Entity surface = file_.entityOf(file_.follow(fields[1]));
+    const bool isSpline =
+        surface == Entity::BSplineSurfaceWithKnots || surface == Entity::RationalBSplineSurfaceWithKnots;
+    if (isCurved && !isSpline && addRuledFace(rings, edgeEnds, faces)) return true;
     if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces)) return true;
     if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(file_.follow(fields[1]))));
     const auto areaOf = [](const std::vector<Vec3d>& ring) {
