@@ -57,6 +57,7 @@ public:
         if (structure_.order.empty())
             return Error(Code::EmptyModel, "the file has no product: no building, storey, space or element", place());
         tellOfStructure();
+        presentationLayers_ = readPresentationLayers(file_);
         const Properties properties(file_, units_);
         for (const std::size_t p : structure_.order) addFeature(structure_.products[p], p, properties);
         addGroups();
@@ -137,6 +138,7 @@ private:
         if (const auto host = structure_.filled.find(product.record); host != structure_.filled.end())
             if (auto id = file_.fieldsOf(host->second)[0].string())
                 feature.attributes.push_back({"fills", std::move(*id), ""});
+        addPresentationLayers(product, feature);
         properties.append(product.record, feature.attributes);
         const auto parent = product.parent == Product::kNoProduct ? model::kNoFeature : featureOf_[product.parent];
         featureOf_.resize(structure_.products.size(), model::kNoFeature);
@@ -152,6 +154,29 @@ private:
             feature.name = longName;
         }
         if (fields[8].enumeration() == "OCCUPANCY") feature.className = "BuildingUnit";
+    }
+
+    // Of the representations of a product, of their items, and of what mapped items show; each once.
+    void addPresentationLayers(const Product& product, model::Feature& feature) const {
+        if (presentationLayers_.empty()) return;
+        std::string names;
+        const auto add = [&](RecordIndex record) {
+            const auto found = presentationLayers_.find(record);
+            if (found == presentationLayers_.end()) return;
+            if (("; " + names + "; ").find("; " + found->second + "; ") == std::string::npos)
+                names += (names.empty() ? "" : "; ") + found->second;
+        };
+        for (const RecordIndex representation : file_.followAll(file_.fieldsOf(shapeOf(product.record))[2])) {
+            add(representation);
+            for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) {
+                add(item);
+                if (file_.entityOf(item) != Entity::MappedItem) continue;
+                const RecordIndex shown = file_.follow(file_.fieldsOf(file_.follow(file_.fieldsOf(item)[0]))[1]);
+                add(shown);
+                for (const RecordIndex inner : file_.followAll(file_.fieldsOf(shown)[3])) add(inner);
+            }
+        }
+        if (!names.empty()) feature.attributes.push_back({"presentationLayer", std::move(names), ""});
     }
 
     void addSitePlace(const Fields& fields, model::Feature& feature) const {
@@ -399,6 +424,7 @@ private:
     MapPlace map_;
     Structure structure_;
     std::unordered_set<std::string> ids_;
+    std::unordered_map<RecordIndex, std::string> presentationLayers_;
     std::vector<model::FeatureIndex> featureOf_;  // by product
     std::unordered_map<RecordIndex, model::FeatureIndex> groupFeature_;
     std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0, withLayers_ = 0, split_ = 0;

@@ -192,6 +192,29 @@ TEST(IfcShapes, SweptDisksWithBends) {
     expectVolume(ifcWithItem("#200=IFCSWEPTDISKSOLID(#301,20.,10.,$,$);\n" + points), 2 * kPiTest * 0.0003, 1e-6);
 }
 
+// A profile of 200 x 300 mm along an L of 2 m and 3 m, with a mitre, and along a circle of radius 1 m.
+TEST(IfcShapes, ProfilesAlongCurves) {
+    const std::string rest =
+        "#300=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,200.,300.);\n#310=IFCPOLYLINE((#311,#312,#313));\n"
+        "#311=IFCCARTESIANPOINT((0.,0.,0.));\n#312=IFCCARTESIANPOINT((2000.,0.,0.));\n"
+        "#313=IFCCARTESIANPOINT((2000.,3000.,0.));\n#320=IFCPLANE(#14);\n#330=IFCCIRCLE(#14,1000.);\n"
+        "#340=IFCCYLINDRICALSURFACE(#14,1000.);\n";
+    for (const char* sweep : {"#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,#14,#310,$,$,#11);\n",
+                              "#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,$,#310,0.,1.,#11);\n",
+                              "#200=IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID(#300,#14,#310,0.,2.,#11);\n",
+                              "#200=IFCSURFACECURVESWEPTAREASOLID(#300,#14,#310,0.,5000.,#320);\n"})
+        expectVolume(ifcWithItem(sweep + rest), 0.06 * 5);
+    const Read ring = readShapeOf(ifcWithItem("#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,#14,#330,$,$,#11);\n" + rest));
+    EXPECT_TRUE(ring.isClosed);
+    EXPECT_NEAR(ring.volume, 0.06 * 2 * kPiTest, 0.002 * 0.06 * 2 * kPiTest);
+    EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,#14,#310,0.5,0.7,#11);\n" + rest))
+                  .findings.find("whole curve"),
+              std::string::npos);
+    EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCSURFACECURVESWEPTAREASOLID(#300,#14,#310,$,$,#340);\n" + rest))
+                  .findings.find("IFCCYLINDRICALSURFACE"),
+              std::string::npos);
+}
+
 TEST(IfcShapes, Primitives) {
     expectVolume(ifcWithItem("#200=IFCCSGSOLID(#201);\n#201=IFCBLOCK(#14,1000.,2000.,3000.);"), 6);
     expectVolume(ifcWithItem("#200=IFCCSGSOLID(#201);\n#201=IFCRECTANGULARPYRAMID(#14,1000.,2000.,3000.);"), 2);

@@ -10,6 +10,7 @@ namespace {
 using std::string_view;
 
 constexpr std::size_t kMaxText = 4096;
+constexpr int kMaxNesting = 4;  // of complex properties
 
 bool endsWith(string_view text, string_view tail) noexcept { return text.ends_with(tail); }
 
@@ -133,8 +134,8 @@ void Properties::appendSet(RecordIndex set, std::vector<Attribute>& attributes) 
         appendProperty(name.empty() ? std::string() : name + ".", member, attributes);
 }
 
-void Properties::appendProperty(const std::string& prefix, RecordIndex property,
-                                std::vector<Attribute>& attributes) const {
+void Properties::appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes,
+                                int depth) const {
     const Fields fields = file_.fieldsOf(property);
     Attribute attribute{prefix + fields[0].string().value_or(""), std::string(), ""};
     if (attribute.name.size() == prefix.size()) return;
@@ -161,6 +162,11 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
                 Attribute bound{attribute.name + word, std::string(), ""};
                 if (readValue(fields[number], units_, bound)) replaceOrAdd(attributes, std::move(bound));
             }
+            break;
+        case Entity::ComplexProperty:
+            if (depth < kMaxNesting)
+                for (const RecordIndex part : file_.followAll(fields[3]))
+                    appendProperty(attribute.name + ".", part, attributes, depth + 1);
             break;
         case Entity::QuantityLength: quantity(units_.length, "m"); break;
         case Entity::QuantityArea: quantity(units_.area, "m2"); break;

@@ -30,7 +30,8 @@ private:
     using Records = std::vector<RecordIndex>;
 
     void appendSet(RecordIndex set, std::vector<Attribute>& attributes) const;
-    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes) const;
+    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes,
+                        int depth = 0) const;
     void appendMaterial(RecordIndex material, std::vector<Attribute>& attributes) const;
     [[nodiscard]] Records layersOf(RecordIndex material) const;
     [[nodiscard]] static const Records& of(const std::unordered_map<RecordIndex, Records>& map, RecordIndex key);

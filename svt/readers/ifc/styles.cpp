@@ -74,6 +74,19 @@ private:
 
 }  // namespace
 
+std::unordered_map<RecordIndex, std::string> readPresentationLayers(const IfcFile& file) {
+    std::unordered_map<RecordIndex, std::string> layers;
+    for (RecordIndex i = 0; i < file.step().records().size(); ++i) {
+        const Entity entity = file.entityOf(i);
+        if (entity != Entity::PresentationLayerAssignment && entity != Entity::PresentationLayerWithStyle) continue;
+        const Fields fields = file.fieldsOf(i);
+        const std::string name = fields[0].string().value_or("");
+        if (name.empty()) continue;
+        for (const RecordIndex item : file.followAll(fields[2])) layers.emplace(item, name);
+    }
+    return layers;
+}
+
 Styles readStyles(const IfcFile& file) { return StyleReader(file).run(); }
 
 }  // namespace svt::readers::ifc

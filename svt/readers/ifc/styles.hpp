@@ -5,6 +5,7 @@
 #include <svt/model/building_model.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct Styles {
     std::unordered_map<RecordIndex, std::int32_t> ofItem;      ///< representation item -> material
     std::unordered_map<RecordIndex, std::int32_t> ofMaterial;  ///< IfcMaterial -> material
 };
+
+/// Representation or item -> name of the presentation layer that it is assigned to.
+[[nodiscard]] std::unordered_map<RecordIndex, std::string> readPresentationLayers(const IfcFile& file);
 
 [[nodiscard]] Styles readStyles(const IfcFile& file);
 

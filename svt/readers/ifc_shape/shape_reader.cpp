@@ -104,6 +104,9 @@ void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, int dept
         case Entity::ExtrudedAreaSolid:
         case Entity::ExtrudedAreaSolidTapered:
         case Entity::RevolvedAreaSolid: return readSweep(item, fields, bodies);
+        case Entity::FixedReferenceSweptAreaSolid:
+        case Entity::DirectrixDerivedReferenceSweptAreaSolid:
+        case Entity::SurfaceCurveSweptAreaSolid: return readDirectedSweep(item, fields, bodies);
         case Entity::SweptDiskSolid:
         case Entity::SweptDiskSolidPolygonal: return readDisk(fields, bodies);
         case Entity::FacetedBrep:
@@ -167,6 +170,34 @@ void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodi
         addSolid(
             transformed(isTapered ? extrudeTapered(regions[r], ends[r], sweep) : extrude(regions[r], sweep), position),
             bodies, item);
+}
+
+// A profile along a curve. Its x axis keeps to a direction, or to the normal of a plane that the curve lies on.
+void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    std::vector<Region> regions;
+    std::vector<Vec3d> line;
+    std::string why;
+    if (!readProfile(file_, file_.follow(fields[0]), regions, why) ||
+        !readCurve(file_, file_.follow(fields[2]), line, why))
+        return leaveOut(why);
+    Vec3d reference = file_.direction(fields[5]).value_or(Vec3d{0, 0, 1});
+    if (file_.entityOf(item) == Entity::SurfaceCurveSweptAreaSolid) {
+        const RecordIndex surface = file_.follow(fields[5]);
+        if (file_.entityOf(surface) != Entity::Plane)
+            return leaveOut(fmt::format("a profile swept along a curve on {}", file_.typeName(surface)));
+        reference = file_.axes(file_.follow(file_.fieldsOf(surface)[0])).z;
+    }
+    // Writers give parameters in many ways; all but the whole curve would need the parameter of each kind of curve.
+    const double begin = fields[3].number().value_or(0), end = fields[4].number().value_or(1);
+    double whole = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) whole += length(line[i + 1] - line[i]);
+    const auto isEnd = [&](double value) { return std::abs(end - value) <= 1e-3 * value; };
+    const auto isWhole = begin == 0 && (isEnd(1) || isEnd(double(line.size() - 1)) || isEnd(whole / file_.lengthUnit));
+    if (!isWhole)
+        leaveOut("the ends of a swept profile, which stand at parameters of its curve: it has the whole curve");
+    const Transform position = file_.axes(file_.follow(fields[1]));
+    for (const Region& region : regions)
+        addSolid(transformed(sweepAlong(region, line, reference), position), bodies, item);
 }
 
 void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {

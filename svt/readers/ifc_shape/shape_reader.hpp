@@ -43,6 +43,7 @@ private:
     void readKnownItem(RecordIndex item, const Fields& fields, int depth, Bodies& bodies);
     void readMappedItem(const Fields& fields, int depth, Bodies& bodies);
     void readSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readDisk(const Fields& fields, Bodies& bodies);
     void readBrep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readSurfaceModel(const Fields& fields, Bodies& bodies);
