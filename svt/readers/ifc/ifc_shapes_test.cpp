@@ -389,7 +389,9 @@ TEST(IfcShapes, FacetedSolidsWithHollows) {
 
 // A half cylinder of radius 1 m and height 1 m. Split, the arc below is two edges, so that the curved face is no longer one
 // between two curves of equally many points.
-std::string halfCylinder(bool isSplit, bool isSpline = false) {
+enum class Side { Cylinder, Spline, Revolution };
+
+std::string halfCylinder(bool isSplit, Side side = Side::Cylinder) {
     std::string text =
         "#200=IFCADVANCEDBREP(#201);\n#201=IFCCLOSEDSHELL((#210,#220,#230,#240));\n"
         "#300=IFCCARTESIANPOINT((1000.,0.,0.));\n#301=IFCCARTESIANPOINT((-1000.,0.,0.));\n"
@@ -405,7 +407,7 @@ std::string halfCylinder(bool isSplit, bool isSpline = false) {
         "#334=IFCEDGECURVE(#310,#312,#327,.T.);\n#335=IFCEDGECURVE(#311,#313,#327,.T.);\n"
         "#336=IFCEDGECURVE(#310,#314,#320,.T.);\n#337=IFCEDGECURVE(#314,#311,#320,.T.);\n"
         "#340=IFCPLANE(#14);\n";
-    if (isSpline) {
+    if (side == Side::Spline) {
         const int x[] = {1000, 1000, 0, -1000, -1000}, y[] = {0, 1000, 1000, 1000, 0};
         std::string rows;
         for (int i = 0; i < 5; ++i) {
@@ -417,6 +419,13 @@ std::string halfCylinder(bool isSplit, bool isSpline = false) {
                 "),.UNSPECIFIED.,.F.,.F.,.F.,(3,2,3),(2,2),(0.,1.,2.),(0.,1.),.UNSPECIFIED.,"
                 "((1.,1.),(0.70710678118654752,0.70710678118654752),(1.,1.),"
                 "(0.70710678118654752,0.70710678118654752),(1.,1.)));\n";
+    } else if (side == Side::Revolution) {
+        // A line of three points at (0.6, 0.8), which need not be where the face begins.
+        text +=
+            "#341=IFCSURFACEOFREVOLUTION(#342,$,#343);\n#342=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#344);\n"
+            "#343=IFCAXIS1PLACEMENT(#10,#11);\n#344=IFCPOLYLINE((#345,#346,#347));\n"
+            "#345=IFCCARTESIANPOINT((600.,800.,-100.));\n#346=IFCCARTESIANPOINT((600.,800.,300.));\n"
+            "#347=IFCCARTESIANPOINT((600.,800.,1200.));\n";
     } else {
         text += "#341=IFCCYLINDRICALSURFACE(#14,1000.);\n";
     }
@@ -458,12 +467,20 @@ TEST(IfcShapes, AdvancedBrepsWithCylinders) {
 
 TEST(IfcShapes, AdvancedBrepsWithRationalSplines) {
     for (const bool isSplit : {false, true}) {
-        const Read read = readShapeOf(halfCylinder(isSplit, true));
+        const Read read = readShapeOf(halfCylinder(isSplit, Side::Spline));
         EXPECT_TRUE(read.isClosed) << isSplit;
         EXPECT_EQ(read.findings, "") << isSplit;
         EXPECT_NEAR(read.volume, kPiTest / 2, 0.003) << isSplit;  // chords within 1 mm of an area of pi m2
         EXPECT_GE(read.faces, 27U) << isSplit;
     }
+}
+
+TEST(IfcShapes, AdvancedBrepsWithSurfacesOfRevolution) {
+    const Read read = readShapeOf(halfCylinder(true, Side::Revolution));
+    EXPECT_TRUE(read.isClosed);
+    EXPECT_EQ(read.findings, "");
+    EXPECT_NEAR(read.volume, kPiTest / 2, 0.003);
+    EXPECT_GE(read.faces, 50U);  // cut at the corner of the line, too
 }
 
 // A block of 1 m whose top is z = 1 + c x (1 - x) y (1 - y): its edges are those of the block, its volume is 1 + c / 36.

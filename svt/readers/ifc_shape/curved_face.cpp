@@ -65,7 +65,7 @@ struct Surface {
     Transform axes;
     double radius = 0, second = 0;  // second: of the tube of a torus; tangent of the angle of a cone
     Vec3d sweep{};                  // unit vector of a linear extrusion
-    std::vector<Vec3d> curve;       // of a linear extrusion, in space
+    std::vector<Vec3d> curve;  // of a linear extrusion, in space; of a revolution: distance from the axis, 0, height
     std::optional<Spline> spline;
     double periodU = 0, periodV = 0, stepU = 0, stepV = 0;  // steps: between lines of equal parameter; 0: none
 
@@ -75,6 +75,10 @@ struct Surface {
         const double x = dot(local, axes.x), y = dot(local, axes.y), z = dot(local, axes.z), reach = std::hypot(x, y);
         if (kind == Entity::SurfaceOfLinearExtrusion) return onCurve(p);
         if (reach < 1e-6) return std::nullopt;
+        if (kind == Entity::SurfaceOfRevolution) {
+            const auto along = onCurve({reach, 0, z});
+            return along ? std::optional(Vec3d{std::atan2(y, x) * radius, along->x, 0}) : std::nullopt;
+        }
         const double u = std::atan2(y, x) * radius;
         switch (kind) {
             case Entity::SphericalSurface: return Vec3d{u, std::atan2(z, reach) * radius, 0};
@@ -91,6 +95,10 @@ struct Surface {
             return axes.point({reach * turn.cosine, reach * turn.sine, z});
         };
         switch (kind) {
+            case Entity::SurfaceOfRevolution: {
+                const Vec3d across = pointOfCurve(uv.y);
+                return turned(across.x, across.z);
+            }
             case Entity::SphericalSurface: {
                 const auto [sineV, cosineV] = sineCosine(uv.y / radius);
                 return turned(radius * cosineV, radius * sineV);
@@ -238,6 +246,29 @@ std::optional<Surface> readSpline(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
+// The curve is taken to the plane of the axis and turned from there, so that it may lie anywhere around it.
+std::optional<Surface> readRevolution(const IfcFile& file, RecordIndex record) {
+    const Fields fields = file.fieldsOf(record);
+    const Transform position = file.axes(file.follow(fields[1])), own = file.axes(file.follow(fields[2]));
+    Surface surface;
+    surface.kind = Entity::SurfaceOfRevolution;
+    surface.axes = axesFrom(position.point(own.origin), position.direction(own.z), position.x);
+    std::string why;
+    if (!readCurve(file, file.follow(file.fieldsOf(file.follow(fields[0]))[2]), surface.curve, why) ||
+        surface.curve.size() < 2)
+        return std::nullopt;
+    for (Vec3d& p : surface.curve) {
+        const Vec3d local = position.point(p) - surface.axes.origin;
+        const double height = dot(local, surface.axes.z);
+        p = {length(local - surface.axes.z * height), 0, height};
+        surface.radius = std::max(surface.radius, p.x);
+    }
+    if (!(surface.radius > 1e-6)) return std::nullopt;
+    surface.stepU = stepOf(surface.radius);
+    surface.periodU = 2 * kPi * surface.radius;
+    return surface;
+}
+
 struct Layout {
     std::vector<std::vector<Vec3d>> rings;   // in parameters
     std::vector<std::vector<Vec3d>> places;  // the same corners in space
@@ -299,6 +330,14 @@ void addStrips(const Surface& surface, const Layout& layout, std::vector<FlatSeg
     }
     const auto first = [](double low, double step) { return std::floor(low / step / 2) * 2 * step; };
     int count = 0;
+    if (surface.kind == Entity::SurfaceOfRevolution) {
+        double along = 0;
+        for (std::size_t i = 0; i + 1 < surface.curve.size() && i < std::size_t(kMaxStrips); ++i) {
+            const double next = along + length(surface.curve[i + 1] - surface.curve[i]);
+            if (i % 2 == 1) addRectangle(lowU, highU, along, next, 2, segments);
+            along = next;
+        }
+    }
     for (double u = first(layout.lowU, surface.stepU); u < layout.highU && ++count < kMaxStrips; u += 2 * surface.stepU)
         addRectangle(u, u + surface.stepU, lowV, highV, 1, segments);
     if (surface.stepV == 0) return;
@@ -337,6 +376,7 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
     const Entity kind = file.entityOf(record);
     const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
     const auto surface = isSpline                                   ? readSpline(file, record)
+                         : kind == Entity::SurfaceOfRevolution      ? readRevolution(file, record)
                          : kind == Entity::SurfaceOfLinearExtrusion ? readExtrusion(file, record)
                                                                     : readSurface(file, record);
     Layout layout;
