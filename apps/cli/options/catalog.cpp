@@ -177,8 +177,9 @@ constexpr Option kSample[] = {
 constexpr Option kBuild[] = {
     {.name = "input",
      .value = "FILE",
-     .help = "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3; or one label "
-             "volume: NRRD, VTI, NIfTI, TIFF, CityGML with a volume in it",
+     .help =
+         "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3, IndoorGML; or one label "
+         "volume: NRRD, VTI, NIfTI, TIFF, CityGML with a volume in it",
      .isRequired = true,
      .mayRepeat = true,
      .file = FileUse::Model},
