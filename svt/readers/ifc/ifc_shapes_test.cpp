@@ -558,6 +558,19 @@ TEST(IfcShapes, WhatIsNotReadIsNamed) {
     EXPECT_NE(difference.findings.find("DIFFERENCE"), std::string::npos);
 }
 
+// 40 records for 2^20 unions and as many intersections.
+TEST(IfcShapes, BooleansOfSharedOperandsEnd) {
+    std::string text = "#1000=IFCBLOCK(#14,1000.,1000.,1000.);\n";
+    for (int i = 0; i < 40; ++i)
+        text += fmt::format("#{}=IFCBOOLEANRESULT(.{}.,#{},#{});\n", i == 39 ? 200 : 1001 + i,
+                            i % 2 == 0 ? "UNION" : "INTERSECTION", 1000 + i, 1000 + i);
+    EXPECT_NE(readShapeOf(ifcWithItem(text)).findings.find("too often"), std::string::npos);
+    EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCBOOLEANRESULT(.UNION.,#201,#201);\n"
+                                      "#201=IFCBOOLEANRESULT(.INTERSECTION.,#200,#200);\n"))
+                  .findings.find("circle"),
+              std::string::npos);
+}
+
 TEST(IfcShapes, CirclesOfReferencesEnd) {
     EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCBOOLEANRESULT(.DIFFERENCE.,#200,#200);")).findings.find("circle"),
               std::string::npos);

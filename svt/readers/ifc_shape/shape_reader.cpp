@@ -17,6 +17,7 @@ using Polygons = std::vector<model::Polygon>;
 
 constexpr int kMaxItemDepth = 48;
 constexpr std::size_t kMaxChain = 10'000;  // booleans of one kind in a row
+constexpr std::size_t kFreeBooleans = 1000;
 constexpr std::uint64_t kMaxExpandedPoints =
     200'000'000;  // of mapped items: some bytes of the file stand for a whole shape
 
@@ -514,6 +515,9 @@ bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Bo
 // ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
 // openings of a wall, is evaluated at once, whatever its depth.
 void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
+    // Each is evaluated once but where results share operands: some 50 records could stand for 2^48 evaluations.
+    if (++booleans_ > kFreeBooleans + 2 * file_.step().records().size())
+        return leaveOut("booleans that use each other's results too often");
     const std::string_view op = fields[0].enumeration();
     std::vector<RecordIndex> operands{file_.follow(fields[2])};
     RecordIndex base = file_.follow(fields[1]);
