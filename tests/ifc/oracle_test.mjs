@@ -109,7 +109,7 @@ async function compare(name, path) {
   const rows = { name, compared: 0, same: 0, onlyOurs: 0, openTheirs: 0, others: [], ours: ours.seconds, theirs: theirs.seconds };
   for (const object of ours.objects) {
     const type = object.attributes?.ifcType;
-    if (!type || type === "IfcMaterialLayer" || object.count === 0) continue;
+    if (!type || object.count === 0) continue;
     const other = theirs.products.get(object.id);
     if (!other) {
       ++rows.onlyOurs;

@@ -321,6 +321,17 @@ private:
         addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
     }
 
+    // What is true of a wall is true of its layers, so that queries for walls find them; but not its measures and materials.
+    static std::vector<Attribute> attributesOfLayers(const std::vector<Attribute>& ofProduct) {
+        constexpr string_view kOwn[] = {"material", "materialLayers", "tag", "layer", "thickness", "function"};
+        std::vector<Attribute> attributes;
+        for (const Attribute& attribute : ofProduct)
+            if (std::find(std::begin(kOwn), std::end(kOwn), attribute.name) == std::end(kOwn) &&
+                attribute.name.find("Quantities.") == std::string::npos)
+                attributes.push_back(attribute);
+        return attributes;
+    }
+
     // Layers as features below the product; false where it has none, or they cannot be told apart.
     bool splitProduct(std::size_t number, const Shape& shape, const Transform& placement, const Styles& styles,
                       const Properties& properties, std::int32_t material) {
@@ -354,10 +365,10 @@ private:
             feature.className = model_.features[product].className;
             feature.name = layer.name;
             feature.line = line;
-            feature.attributes = {{"ifcType", std::string("IfcMaterialLayer"), ""},
-                                  {"material", layer.name, ""},
-                                  {"layer", static_cast<std::int64_t>(i + 1), ""},
-                                  {"thickness", layer.thickness, "m"}};
+            feature.attributes = attributesOfLayers(model_.features[product].attributes);
+            feature.attributes.push_back({"material", layer.name, ""});
+            feature.attributes.push_back({"layer", static_cast<std::int64_t>(i + 1), ""});
+            feature.attributes.push_back({"thickness", layer.thickness, "m"});
             if (!layer.function.empty()) feature.attributes.push_back({"function", layer.function, ""});
             std::int32_t own = material;
             if (const auto found = styles.ofMaterial.find(layer.material); found != styles.ofMaterial.end()) {

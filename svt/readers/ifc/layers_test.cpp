@@ -49,7 +49,10 @@ std::vector<Part> partsOf(const model::BuildingModel& model, const std::string& 
     std::vector<Part> parts;
     for (const model::Feature& feature : model.features) {
         if (feature.parent == model::kNoFeature || model.features[feature.parent].id != id) continue;
-        if (textOf(feature, "ifcType") != "IfcMaterialLayer") continue;
+        if (textOf(feature, "layer").empty()) continue;
+        EXPECT_EQ(textOf(feature, "ifcType"), "IfcWall");
+        EXPECT_EQ(textOf(feature, "Pset_WallCommon.IsExternal"), "true");
+        EXPECT_EQ(textOf(feature, "BaseQuantities.NetVolume"), "");
         const auto faces = facesOf(model, feature);
         EXPECT_TRUE(ifc::isClosed(faces)) << feature.id;
         EXPECT_EQ(textOf(feature, "material"), feature.name);
@@ -88,6 +91,12 @@ std::string wall(const std::string& usage, const std::string& axis = "(#411,#412
             "#321=IFCMATERIALLAYERSETUSAGE(#320," +
             usage +
             ",$);\n"
+            "#330=IFCPROPERTYSET('p',$,'Pset_WallCommon',$,(#331));\n"
+            "#331=IFCPROPERTYSINGLEVALUE('IsExternal',$,IFCBOOLEAN(.T.),$);\n"
+            "#332=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#100),#330);\n"
+            "#333=IFCELEMENTQUANTITY('q',$,'BaseQuantities',$,$,(#334));\n"
+            "#334=IFCQUANTITYVOLUME('NetVolume',$,$,3.,$);\n"
+            "#335=IFCRELDEFINESBYPROPERTIES('rq',$,$,$,(#100),#333);\n"
             "#322=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#100),#321);\n" +
             extra,
         "#100");
