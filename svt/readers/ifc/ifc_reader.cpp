@@ -256,7 +256,7 @@ private:
     }
 
     Result<void> readShapes(const Styles& styles, const Properties& properties) {
-        ShapeReader shapes(file_, styles.ofItem);
+        ShapeReader shapes(file_, styles.ofItem, styles.ofFaces);
         std::size_t done = 0;
         for (const std::size_t p : structure_.order) {
             if (Progress::isCancelled(options_.progress))
@@ -391,7 +391,7 @@ private:
             for (model::Polygon& face : body.faces) {
                 for (Vec3d& p : face.points) p = map_.mapFromProject.point(placement.point(p));
                 if (!std::all_of(face.points.begin(), face.points.end(), [](Vec3d p) { return isFinite(p); })) continue;
-                face.material = body.material >= 0 ? body.material : otherwise;
+                if (face.material < 0) face.material = body.material >= 0 ? body.material : otherwise;
                 uses.push_back({model_.addPolygon(std::move(face)), false});
             }
             if (uses.empty()) continue;

@@ -211,6 +211,42 @@ TEST(IfcReader, StylesBecomeMaterials) {
     for (const model::Polygon& polygon : byMaterial->polygons) EXPECT_EQ(polygon.material, 0);
 }
 
+TEST(IfcReader, FacesHaveColorsOfTheirOwn) {
+    const auto model =
+        readText(ifcWithItem("#200=IFCTRIANGULATEDFACESET(#201,$,.T.,((1,3,2),(1,2,4),(2,2,4),(2,3,4),(3,1,4)),$);\n"
+                             "#201=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1000.,0.,0.),(0.,1000.,0.),(0.,0.,1000.)));\n"
+                             "#210=IFCINDEXEDCOLOURMAP(#200,0.75,#211,(1,2,1,2,9));\n"
+                             "#211=IFCCOLOURRGBLIST(((1.,0.,0.),(0.,0.,1.)));\n"));
+    ASSERT_TRUE(model);
+    ASSERT_EQ(model->polygons.size(), 4u);  // the third has no area
+    ASSERT_EQ(model->materials.size(), 2u);
+    EXPECT_EQ(model->materials[1].diffuse, (Vec3f{0, 0, 1}));
+    EXPECT_FLOAT_EQ(model->materials[0].transparency, 0.25F);
+    std::vector<std::int32_t> colors;
+    for (const model::Polygon& polygon : model->polygons) colors.push_back(polygon.material);
+    EXPECT_EQ(colors, (std::vector<std::int32_t>{0, 1, 1, -1}));
+}
+
+TEST(IfcReader, RigidOperationsAndTables) {
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#50=IFCRIGIDOPERATION(#20,#51,IFCLENGTHMEASURE(457850.),"
+                                                    "IFCLENGTHMEASURE(5439000.),110.);\n"
+                                                    "#51=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,#52);\n"
+                                                    "#52=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"
+                                                    "#60=IFCPROPERTYSET('p',$,'Set',$,(#61));\n"
+                                                    "#61=IFCPROPERTYTABLEVALUE('Sound',$,(IFCREAL(125.),IFCREAL(250.)),"
+                                                    "(IFCLABEL('low'),IFCLABEL('high')),$,$,$,$);\n"
+                                                    "#62=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#100),#60);\n") +
+                                            kBox,
+                                        "#100", "IFC4X3_ADD2"));
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(model->crs.epsg, 25832);
+    const model::Feature& wall = *find(*model, "wall");
+    EXPECT_NEAR(bounds(*model, wall).center().x, 457850, 1e-8);
+    EXPECT_NEAR(bounds(*model, wall).min.z, 110, 1e-8);
+    EXPECT_EQ(attribute(wall, "Set.Sound"), "125.: low, 250.: high");
+}
+
 TEST(IfcReader, DoorsKnowWhatTheyFill) {
     const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
                                                     "#110=IFCDOOR('door',$,$,$,$,#15,#101,$,$,$);\n"

@@ -58,16 +58,18 @@ bool readValue(Value value, const Units& units, Attribute& attribute) {
     return true;
 }
 
+std::string textOf(Value value) {
+    if (auto text = value.string()) return std::move(*text);
+    return std::string(value.inner().text());
+}
+
 // Texts of the values of a list, joined.
 std::string joined(Value list) {
     std::string text;
     step::ValueCursor cursor(list);
     for (Value item; cursor.next(item);) {
         if (!text.empty()) text += ", ";
-        if (const auto string = item.string())
-            text += *string;
-        else
-            text += item.inner().text();
+        text += textOf(item);
         if (text.size() > kMaxText) break;
     }
     return text;
@@ -163,6 +165,17 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
                 if (readValue(fields[number], units_, bound)) replaceOrAdd(attributes, std::move(bound));
             }
             break;
+        case Entity::PropertyTableValue: {
+            const std::vector<Value> from = step::itemsOf(fields[2]), to = step::itemsOf(fields[3]);
+            std::string text;
+            for (std::size_t i = 0; i < std::min(from.size(), to.size()) && text.size() < kMaxText; ++i)
+                text += (i == 0 ? "" : ", ") + textOf(from[i]) + ": " + textOf(to[i]);
+            if (!text.empty()) {
+                attribute.value = std::move(text);
+                replaceOrAdd(attributes, std::move(attribute));
+            }
+            break;
+        }
         case Entity::ComplexProperty:
             if (depth < kMaxNesting)
                 for (const RecordIndex part : file_.followAll(fields[3]))

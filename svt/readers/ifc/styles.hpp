@@ -15,6 +15,8 @@ struct Styles {
     std::vector<model::Material> materials;
     std::unordered_map<RecordIndex, std::int32_t> ofItem;      ///< representation item -> material
     std::unordered_map<RecordIndex, std::int32_t> ofMaterial;  ///< IfcMaterial -> material
+    /// Face set -> material of each of its faces.
+    std::unordered_map<RecordIndex, std::vector<std::int32_t>> ofFaces;
 };
 
 /// Representation or item -> name of the presentation layer that it is assigned to.

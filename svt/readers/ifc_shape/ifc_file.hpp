@@ -31,7 +31,7 @@ using step::Value;
     X(Vector) X(CartesianTransformationOperator2D) X(CartesianTransformationOperator2DnonUniform) \
     X(CartesianTransformationOperator3D) X(CartesianTransformationOperator3DnonUniform) X(ProductDefinitionShape) \
     X(ShapeRepresentation) X(TopologyRepresentation) X(RepresentationMap) X(MappedItem) X(StyledItem) \
-    X(PresentationStyleAssignment) X(SurfaceStyle) X(SurfaceStyleRendering) X(SurfaceStyleShading) X(ColourRgb) \
+    X(PresentationStyleAssignment) X(SurfaceStyle) X(SurfaceStyleRendering) X(SurfaceStyleShading) X(ColourRgb) X(ColourRgbList) X(IndexedColourMap) \
     X(MaterialDefinitionRepresentation) X(StyledRepresentation) X(ExtrudedAreaSolid) X(ExtrudedAreaSolidTapered) \
     X(RevolvedAreaSolid) X(FixedReferenceSweptAreaSolid) X(DirectrixDerivedReferenceSweptAreaSolid) \
     X(SurfaceCurveSweptAreaSolid) X(SweptDiskSolid) X(SweptDiskSolidPolygonal) X(FacetedBrep) X(FacetedBrepWithVoids) \
@@ -52,7 +52,7 @@ using step::Value;
     X(CompositeCurve) X(CompositeCurveOnSurface) X(CompositeCurveSegment) X(ReparametrisedCompositeCurveSegment) \
     X(TrimmedCurve) X(Circle) X(Ellipse) X(Line) X(IndexedPolyCurve) X(BSplineCurveWithKnots) \
     X(RationalBSplineCurveWithKnots) X(BezierCurve) X(SurfaceCurve) X(SeamCurve) X(IntersectionCurve) X(PropertySet) \
-    X(PropertySingleValue) X(PropertyEnumeratedValue) X(PropertyListValue) X(PropertyBoundedValue) X(ComplexProperty) \
+    X(PropertySingleValue) X(PropertyEnumeratedValue) X(PropertyListValue) X(PropertyBoundedValue) X(ComplexProperty) X(PropertyTableValue) \
     X(ElementQuantity) X(QuantityLength) X(QuantityArea) X(QuantityVolume) X(QuantityCount) X(QuantityWeight) \
     X(QuantityTime) X(RelAggregates) X(RelNests) X(RelContainedInSpatialStructure) X(RelVoidsElement) \
     X(RelFillsElement) X(RelProjectsElement) X(RelDefinesByProperties) X(RelDefinesByType) X(RelAssociatesMaterial) \

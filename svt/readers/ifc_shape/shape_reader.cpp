@@ -54,8 +54,9 @@ void turnLoop(std::vector<Vec3d>& ring, std::vector<std::size_t>& ends) {
 
 }  // namespace
 
-ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem)
-    : file_(file), materialOfItem_(std::move(materialOfItem)) {}
+ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
+                         std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces)
+    : file_(file), materialOfItem_(std::move(materialOfItem)), materialOfFaces_(std::move(materialOfFaces)) {}
 
 void ShapeReader::leaveOut(std::string what) {
     if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
@@ -434,9 +435,19 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
     const Value closed = fields[1].enumeration().empty() ? fields[2] : fields[1];
     body.isSolid = closed.enumeration() == "T";
     step::ValueCursor cursor(isTriangles ? fields[3] : fields[2]);
+    const auto colors = materialOfFaces_.find(item);
+    std::size_t number = 0;
+    // A face that has no area is left out, and so is its colour.
+    const auto add = [&](const std::vector<std::vector<Vec3d>>& rings) {
+        const std::size_t before = body.faces.size();
+        addFace(body.faces, rings);
+        if (colors != materialOfFaces_.end() && number < colors->second.size() && body.faces.size() > before)
+            body.faces.back().material = colors->second[number];
+        ++number;
+    };
     for (Value face; cursor.next(face);) {
         if (isTriangles) {
-            addFace(body.faces, {ringOf(face)});
+            add({ringOf(face)});
             continue;
         }
         const RecordIndex record = file_.follow(face);
@@ -446,7 +457,7 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
             step::ValueCursor inner(of[1]);
             for (Value ring; inner.next(ring);) rings.push_back(ringOf(ring));
         }
-        addFace(body.faces, rings);
+        add(rings);
     }
     if (isWrong) leaveOut(fmt::format("corners of an {} with an index that is out of range", file_.typeName(item)));
     if (body.faces.empty()) return leaveOut(fmt::format("an {} without faces", file_.typeName(item)));

@@ -23,8 +23,10 @@ struct Shape {
 
 class ShapeReader {
 public:
-    /// \param materialOfItem  representation item -> material of its style
-    ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem);
+    /// \param materialOfItem   representation item -> material of its style
+    /// \param materialOfFaces  face set -> material of each of its faces, -1: that of the item
+    ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
+                std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces = {});
 
     /// The body of a product: the representation Body, or what comes nearest to it; a bounding box where there is nothing
     /// else, which is said in `leftOut`.
@@ -64,6 +66,7 @@ private:
 
     const IfcFile& file_;
     std::unordered_map<RecordIndex, std::int32_t> materialOfItem_;
+    std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces_;
     std::unordered_map<RecordIndex, std::shared_ptr<const Bodies>> mapped_;             // by representation map
     std::unordered_map<RecordIndex, std::vector<std::string>> leftOutOfMap_;            // what was left out of it
     std::unordered_map<RecordIndex, std::shared_ptr<const std::vector<Vec3d>>> edges_;  // points of edge curves
