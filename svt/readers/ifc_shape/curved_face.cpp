@@ -188,7 +188,7 @@ std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
-constexpr int kMaxSplineStrips = 128;
+constexpr int kMaxSplineStrips = 64;
 
 // How many equal strips along one parameter, so that chords across them stay within kChordError of the surface.
 int splineStrips(const Spline& spline, bool isAlongU) {
@@ -372,9 +372,13 @@ void addCell(std::vector<std::vector<Vec3d>> rings, bool isTurned, std::vector<m
 }  // namespace
 
 bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<std::vector<Vec3d>>& rings,
-                   std::vector<model::Polygon>& faces) {
+                   std::vector<model::Polygon>& faces, std::uint64_t& budget) {
     const Entity kind = file.entityOf(record);
     const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
+    // To measure a spline takes about this, more for a high degree.
+    const std::uint64_t measuring = isSpline ? 2'000'000 : 0;
+    if (budget <= measuring) return false;
+    budget -= measuring;
     const auto surface = isSpline                                   ? readSpline(file, record)
                          : kind == Entity::SurfaceOfRevolution      ? readRevolution(file, record)
                          : kind == Entity::SurfaceOfLinearExtrusion ? readExtrusion(file, record)
@@ -396,8 +400,11 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
         return static_cast<std::uint8_t>(1 + (windings[1] > 0 ? 1 : 0) + (windings[2] > 0 ? 2 : 0));
     };
     const std::size_t before = faces.size();
-    std::uint64_t budget = kMaxFaceSteps;
-    for (FlatFace& cell : overlay(segments, 3, stateOf, budget)) {
+    const std::uint64_t granted = std::min(kMaxFaceSteps, budget);
+    std::uint64_t left = granted;
+    std::vector<FlatFace> cells = overlay(segments, 3, stateOf, left);
+    budget -= granted - std::min(left, granted);
+    for (FlatFace& cell : cells) {
         for (auto& ring : cell.rings)
             for (Vec3d& p : ring) p = placeOf(*surface, layout, p);
         addCell(std::move(cell.rings), isTurned, faces);

@@ -18,6 +18,7 @@ using Polygons = std::vector<model::Polygon>;
 constexpr int kMaxItemDepth = 48;
 constexpr std::size_t kMaxChain = 10'000;  // booleans of one kind in a row
 constexpr std::size_t kFreeBooleans = 1000;
+constexpr std::uint64_t kFreeFaceSteps = 1'000'000'000, kFaceStepsPerRecord = 200'000;  // of curved faces
 constexpr std::uint64_t kMaxExpandedPoints =
     200'000'000;  // of mapped items: some bytes of the file stand for a whole shape
 
@@ -56,7 +57,10 @@ void turnLoop(std::vector<Vec3d>& ring, std::vector<std::size_t>& ends) {
 
 ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
                          std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces)
-    : file_(file), materialOfItem_(std::move(materialOfItem)), materialOfFaces_(std::move(materialOfFaces)) {}
+    : file_(file),
+      materialOfItem_(std::move(materialOfItem)),
+      materialOfFaces_(std::move(materialOfFaces)),
+      faceBudget_(kFreeFaceSteps + kFaceStepsPerRecord * file.step().records().size()) {}
 
 void ShapeReader::leaveOut(std::string what) {
     if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
@@ -357,7 +361,7 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
     const bool isSpline =
         surface == Entity::BSplineSurfaceWithKnots || surface == Entity::RationalBSplineSurfaceWithKnots;
     if (isCurved && !isSpline && addRuledFace(rings, edgeEnds, faces)) return true;
-    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces)) return true;
+    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces, faceBudget_)) return true;
     if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(file_.follow(fields[1]))));
     const auto areaOf = [](const std::vector<Vec3d>& ring) {
         Vec3d sum{};

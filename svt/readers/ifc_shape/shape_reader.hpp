@@ -72,7 +72,8 @@ private:
     std::unordered_map<RecordIndex, std::shared_ptr<const std::vector<Vec3d>>> edges_;  // points of edge curves
     std::vector<std::string> leftOut_;                                                  // of the shape that is read
     std::uint64_t expanded_ = 0;                                                        // points of mapped items
-    std::size_t booleans_ = 0;                                                          // evaluated in the file
+    std::uint64_t faceBudget_;  // steps left for curved faces of the file
+    std::size_t booleans_ = 0;  // evaluated in the file
 };
 
 }  // namespace svt::readers::ifc
