@@ -19,8 +19,10 @@ for target in "${targets[@]}"; do
   work=build/fuzz/corpus/$target
   [[ $amount == *runs ]] && work=build/fuzz/runs/$target && rm -rf "$work"
   mkdir -p "$work"
+  words=()
+  [ -f "tests/fuzz/$target.dict" ] && words=(-dict="tests/fuzz/$target.dict")
   echo "fuzz: $target with $said, from $(find "tests/fuzz/corpus/$target" -type f 2>/dev/null | wc -l) files"
-  if ! "build/fuzz/bin/$target" "${limit[@]}" -timeout=20 -rss_limit_mb=2048 -max_len=65536 -print_final_stats=1 \
+  if ! "build/fuzz/bin/$target" "${limit[@]}" "${words[@]}" -timeout=20 -rss_limit_mb=2048 -max_len=65536 -print_final_stats=1 \
       -artifact_prefix="build/fuzz/$target-" "$work" "tests/fuzz/corpus/$target" >"build/fuzz/$target.log" 2>&1; then
     tail -n 40 "build/fuzz/$target.log" >&2
     echo "fuzz: $target failed; the input is build/fuzz/$target-*" >&2

@@ -41,6 +41,8 @@ enum class Code : std::uint16_t {
     ReadInPart = 132,         ///< a product of which a part of the shape, or an opening, was not read
     ShapeNotRead = 133,       ///< a product whose shape could not be read
     ProductsRead = 134,       ///< how many products of a model were read, in part or not
+    LayersNotSplit = 135,     ///< a product that was not split into the layers of its material, or not as a whole
+    LayersSplit = 136,        ///< how many products were split into the layers of their material
     // 2xx: geometry
     TooFewPoints = 201,         ///< a ring of fewer than three distinct points
     BadCoordinate = 202,        ///< NaN, infinite or absurdly large coordinate

@@ -391,6 +391,7 @@ Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, co
     reading.threads = options.threads;
     reading.progress = options.progress;
     reading.crs = options.crs;
+    reading.splitLayers = options.splitLayers;
     reading.keepFarFeatures = options.keepFarFeatures;
     reading.extrudeFootprints = options.extrudeFootprints;
     auto model = readModels(files, reading, log);

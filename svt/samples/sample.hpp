@@ -18,10 +18,11 @@ namespace svt::samples {
 enum class SampleKind : std::uint8_t { House, Tower, District };
 
 enum class SampleFormat : std::uint8_t {
-    CityGml3,     ///< CityGML 3.0, GML 3.2
-    CityGml2,     ///< CityGML 2.0 LoD4; see SampleOptions::thematic
-    CityJson2,    ///< CityJSON 2.0, one document
-    CityJsonSeq2  ///< CityJSON 2.0, one line for the header and one for each building
+    CityGml3,      ///< CityGML 3.0, GML 3.2
+    CityGml2,      ///< CityGML 2.0 LoD4; see SampleOptions::thematic
+    CityJson2,     ///< CityJSON 2.0, one document
+    CityJsonSeq2,  ///< CityJSON 2.0, one line for the header and one for each building
+    Ifc4  ///< IFC4 as a STEP file: parametric bodies, openings, layers; components by Tag (rooms, units by Name)
 };
 
 /// What to generate. A value out of range is Code::BadArgument, with the name, the value and the range.

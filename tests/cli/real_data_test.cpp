@@ -217,12 +217,13 @@ TEST(CityJsonConformance, EveryConstructIsReadOrNamed) {
     runSvtWell(folder.path(), {"build", model.string(), "-o", "c.svt", "--dimension", "60"});
 }
 
-TEST(OtherFormats, AreNamedAndRefused) {
+TEST(IndoorGml, CellSpacesAreRooms) {
     SVT_NEEDS_DATA(indoorGml, "fzk_haus_indoorgml.gml");
     const TemporaryFolder folder;
-    const CommandResult second = runSvt(folder.path(), {"info", indoorGml.string()});
-    EXPECT_EQ(second.exitCode, 3);
-    EXPECT_NE(second.err.find("IndoorGML"), std::string::npos) << second.err;
+    runSvtWell(folder.path(), {"build", indoorGml.string(), "-o", "i.svt", "--spacing", "0.2"});
+    const json rooms = runSvtForJson(folder.path(), {"query", "i.svt", "class=BuildingRoom", "--json"});
+    EXPECT_EQ(rooms.size(), 24u);
+    for (const json& room : rooms) EXPECT_GT(room["voxels"], 0) << room;
 }
 
 }  // namespace

@@ -47,6 +47,31 @@ double ringArea(const nlohmann::json& ring) {
     return area;
 }
 
+// A section of the generated IFC house from south to north, 9.9 m from its eaves: areas of the layers in closed form.
+TEST(Section, LayersOfIfcAreCutAndHatched) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.ifc"});
+    const auto drawn = runSvtForJson(folder.path(), {"section", "house.ifc", "--layers", "--spacing", "0.1", "--plane",
+                                                     "x<9.9", "-o", "layers.svg", "--json"});
+    std::map<std::string, double> areas;
+    for (const auto& component : drawn["components"])
+        areas[component["name"].get<std::string>()] += component["area"].get<double>();
+    EXPECT_NEAR(areas["screed"], 9 * (0.05 + 0.05), 1e-4);
+    EXPECT_NEAR(areas["EPS insulation"], 9 * (0.06 + 0.02), 1e-4);
+    EXPECT_NEAR(areas["reinforced concrete"], 9 * (0.14 + 0.13), 1e-4);
+    EXPECT_NEAR(areas["gypsum board"], 2 * 0.0125 * 2.76, 1e-4);
+    EXPECT_EQ(areas.count("Exterior wall north, ground floor"), 0u);
+    const std::string svg = readText(folder.path() / "layers.svg");
+    for (const char* hatch : {"url(#masonry)", "url(#insulation)", "url(#reinforced-concrete)", "url(#concrete)"})
+        EXPECT_NE(svg.find(hatch), std::string::npos) << hatch;
+    const auto whole = runSvtForJson(
+        folder.path(), {"section", "house.ifc", "--spacing", "0.1", "--plane", "x<9.9", "-o", "whole.svg", "--json"});
+    double sum = 0;
+    for (const auto& component : whole["components"])
+        if (component["name"] == "Exterior wall north, ground floor") sum += component["area"].get<double>();
+    EXPECT_NEAR(sum, 0.365 * 2.76, 1e-4);
+}
+
 TEST(Section, TableHasTheAreasOfTheBoxes) {
     const TemporaryFolder folder;
     buildBoxes(folder.path());

@@ -41,6 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     (void)svt::readers::looksLikeIfc(bytes);
     svt::readers::ReadOptions options;
     options.threads = 1;
+    options.splitLayers = true;
     svt::Diagnostics diagnostics;
     const auto model = svt::readers::readIfc(bytes, "fuzz", options, &diagnostics);
     if (model) checkModel(*model);

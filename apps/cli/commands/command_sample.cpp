@@ -25,6 +25,7 @@ samples::SampleFormat formatOf(const SampleArguments& arguments) {
     const std::string ending = endingOf(arguments.output);
     if (arguments.format == "citygml3") return samples::SampleFormat::CityGml3;
     if (arguments.format == "citygml2") return samples::SampleFormat::CityGml2;
+    if (arguments.format == "ifc" || (arguments.format.empty() && ending == ".ifc")) return samples::SampleFormat::Ifc4;
     if (arguments.format == "cityjson") return samples::SampleFormat::CityJson2;
     if (arguments.format == "cityjsonseq" || ending == ".jsonl") return samples::SampleFormat::CityJsonSeq2;
     return ending == ".json" ? samples::SampleFormat::CityJson2 : samples::SampleFormat::CityGml3;

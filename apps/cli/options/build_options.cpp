@@ -63,6 +63,7 @@ void BuildArguments::connect(Command& command) {
     command.set("--crs", crs);
     command.set("--keep-far-features", keepFarFeatures);
     command.set("--extrude-footprints", extrudeFootprints);
+    command.set("--layers", layers);
     command.set("--style", style);
     command.set("--patterns", patterns);
     command.set("--sheets", sheets);
@@ -117,6 +118,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.crs = *code;
     options.keepFarFeatures = keepFarFeatures;
     options.extrudeFootprints = extrudeFootprints;
+    options.splitLayers = layers;
     options.vectors = vectors;
     if (!style.empty()) {
         auto sheet = pipeline::readStyleSheet(style);

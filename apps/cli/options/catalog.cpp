@@ -75,6 +75,11 @@ constexpr Option kModel[] = {
      .help = "what has a footprint alone, and a height as attribute, becomes a body",
      .group = "Model",
      .isForModels = true},
+    {.name = "--layers",
+     .kind = Flag,
+     .help = "IFC: split walls and slabs into the layers of their material, each an object of its own",
+     .group = "Model",
+     .isForModels = true},
 };
 constexpr Option kMemory[] = {
     {.name = "--memory",
@@ -135,12 +140,12 @@ constexpr Option kSample[] = {
     {.name = "kind", .choices = "house|tower|district", .help = "house, tower or district", .isRequired = true},
     {.name = "-o,--output",
      .value = "FILE",
-     .help = "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq)",
+     .help = "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq), .ifc (IFC4)",
      .isRequired = true,
      .file = FileUse::Output,
-     .formats = "citygml|cityjson|cityjsonseq"},
+     .formats = "citygml|cityjson|cityjsonseq|ifc"},
     {.name = "--format",
-     .choices = "citygml3|citygml2|cityjson|cityjsonseq",
+     .choices = "citygml3|citygml2|cityjson|cityjsonseq|ifc",
      .otherwise = "by extension",
      .help = "format of the model"},
     {.name = "--seed",
@@ -177,8 +182,9 @@ constexpr Option kSample[] = {
 constexpr Option kBuild[] = {
     {.name = "input",
      .value = "FILE",
-     .help = "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3; or one label "
-             "volume: NRRD, VTI, NIfTI, TIFF, CityGML with a volume in it",
+     .help =
+         "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3, IndoorGML; or one label "
+         "volume: NRRD, VTI, NIfTI, TIFF, CityGML with a volume in it",
      .isRequired = true,
      .mayRepeat = true,
      .file = FileUse::Model},

@@ -31,6 +31,7 @@ constexpr FileFormat kFormats[] = {
     {"citygml", ".gml|.xml", FileContent::CityGml},
     {"cityjson", ".json", FileContent::CityJson},
     {"cityjsonseq", ".jsonl", FileContent::CityJson},
+    {"ifc", ".ifc", FileContent::Ifc},
 };
 
 // What the formats of volumes take the place of: writers::volumeFormats() has their names and endings.
@@ -116,6 +117,7 @@ FileContent contentOf(std::string_view head) {
         head.remove_prefix(3);
     }
     head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+    if (head.starts_with("ISO-10303-21"sv)) return FileContent::Ifc;
     if (head.starts_with('<')) return contentOfXml(head);
     if (head.starts_with('{') || head.starts_with('[')) return contentOfJson(head);
     if (isDxf(head)) return FileContent::Dxf;
@@ -150,6 +152,7 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::CityGml: return "a CityGML model";
         case FileContent::Xml: return "an XML file";
         case FileContent::CityJson: return "a CityJSON model";
+        case FileContent::Ifc: return "an IFC model";
         case FileContent::GeoJson: return "a GeoJSON drawing";
         case FileContent::Style: return "a style file";
         case FileContent::PlainJson: return "a JSON file";

@@ -28,6 +28,7 @@ enum class FileContent : std::uint8_t {
     CityGml,
     Xml,  ///< another XML
     CityJson,
+    Ifc,
     GeoJson,
     Style,
     PlainJson,  ///< another JSON

@@ -39,6 +39,8 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(ReadInPart);
         SVT_CASE(ShapeNotRead);
         SVT_CASE(ProductsRead);
+        SVT_CASE(LayersNotSplit);
+        SVT_CASE(LayersSplit);
         SVT_CASE(TooFewPoints);
         SVT_CASE(BadCoordinate);
         SVT_CASE(ZeroArea);

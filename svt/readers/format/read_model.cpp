@@ -8,6 +8,7 @@
 #include <svt/readers/format/extrude_footprints.hpp>
 #include <svt/readers/format/zip_member.hpp>
 #include <svt/readers/ifc/ifc_reader.hpp>
+#include <svt/readers/indoorgml/indoorgml_reader.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -33,6 +34,7 @@ constexpr Format kFormats[] = {
     {"CityGML 1.0 to 3.0", looksLikeCityGml, readCityGml},
     {"CityJSON and CityJSONSeq", looksLikeCityJson, readCityJson},
     {"IFC 2x3 to 4.3 (STEP)", looksLikeIfc, readIfc},
+    {"IndoorGML", looksLikeIndoorGml, readIndoorGml},
 };
 
 string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
@@ -103,7 +105,6 @@ constexpr KnownOther kOthers[] = {
 };
 constexpr KnownOther kOtherRoots[] = {
     {"html", "an HTML page, perhaps an error page that was saved instead of the file"},
-    {"IndoorFeatures", "IndoorGML; convert it to CityGML 3.0 or CityJSON"},
     {"kml", "KML"},
     {"ifcXML", "ifcXML; export it as IFC in the STEP format (.ifc)"},
     {"LandXML", "LandXML"},

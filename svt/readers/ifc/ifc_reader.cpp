@@ -3,6 +3,7 @@
 #include <svt/core/text.hpp>
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
+#include <svt/readers/ifc/layers.hpp>
 #include <svt/readers/ifc/properties.hpp>
 #include <svt/readers/ifc/structure.hpp>
 #include <svt/readers/ifc/styles.hpp>
@@ -56,6 +57,7 @@ public:
         if (structure_.order.empty())
             return Error(Code::EmptyModel, "the file has no product: no building, storey, space or element", place());
         tellOfStructure();
+        presentationLayers_ = readPresentationLayers(file_);
         const Properties properties(file_, units_);
         for (const std::size_t p : structure_.order) addFeature(structure_.products[p], p, properties);
         addGroups();
@@ -126,6 +128,7 @@ private:
         add("description", fields[3]);
         add("objectType", fields[4]);
         add(product.kind == ProductKind::Spatial ? "longName" : "tag", fields[7]);
+        if (product.ifcType == "IfcSpace" || product.ifcType == "IfcSpatialZone") nameSpace(fields, feature);
         if (product.ifcType == "IfcBuildingStorey" && fields[9].number())
             feature.attributes.push_back({"elevation", file_.metres(fields[9]), "m"});
         if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
@@ -135,10 +138,45 @@ private:
         if (const auto host = structure_.filled.find(product.record); host != structure_.filled.end())
             if (auto id = file_.fieldsOf(host->second)[0].string())
                 feature.attributes.push_back({"fills", std::move(*id), ""});
+        addPresentationLayers(product, feature);
         properties.append(product.record, feature.attributes);
         const auto parent = product.parent == Product::kNoProduct ? model::kNoFeature : featureOf_[product.parent];
         featureOf_.resize(structure_.products.size(), model::kNoFeature);
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
+    }
+
+    // The name of a space is its number in the plan, its long name what people call it. A zone that somebody occupies is a
+    // unit.
+    static void nameSpace(const Fields& fields, model::Feature& feature) {
+        const std::string longName = fields[7].string().value_or("");
+        if (!longName.empty() && longName != feature.name) {
+            if (!feature.name.empty()) feature.attributes.push_back({"number", feature.name, ""});
+            feature.name = longName;
+        }
+        if (fields[8].enumeration() == "OCCUPANCY") feature.className = "BuildingUnit";
+    }
+
+    // Of the representations of a product, of their items, and of what mapped items show; each once.
+    void addPresentationLayers(const Product& product, model::Feature& feature) const {
+        if (presentationLayers_.empty()) return;
+        std::string names;
+        const auto add = [&](RecordIndex record) {
+            const auto found = presentationLayers_.find(record);
+            if (found == presentationLayers_.end()) return;
+            if (("; " + names + "; ").find("; " + found->second + "; ") == std::string::npos)
+                names += (names.empty() ? "" : "; ") + found->second;
+        };
+        for (const RecordIndex representation : file_.followAll(file_.fieldsOf(shapeOf(product.record))[2])) {
+            add(representation);
+            for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) {
+                add(item);
+                if (file_.entityOf(item) != Entity::MappedItem) continue;
+                const RecordIndex shown = file_.follow(file_.fieldsOf(file_.follow(file_.fieldsOf(item)[0]))[1]);
+                add(shown);
+                for (const RecordIndex inner : file_.followAll(file_.fieldsOf(shown)[3])) add(inner);
+            }
+        }
+        if (!names.empty()) feature.attributes.push_back({"presentationLayer", std::move(names), ""});
     }
 
     void addSitePlace(const Fields& fields, model::Feature& feature) const {
@@ -218,7 +256,7 @@ private:
     }
 
     Result<void> readShapes(const Styles& styles, const Properties& properties) {
-        ShapeReader shapes(file_, styles.ofItem);
+        ShapeReader shapes(file_, styles.ofItem, styles.ofFaces);
         std::size_t done = 0;
         for (const std::size_t p : structure_.order) {
             if (Progress::isCancelled(options_.progress))
@@ -279,19 +317,81 @@ private:
         if (const auto found = styles.ofMaterial.find(properties.materialOf(structure_.products[number].record));
             found != styles.ofMaterial.end())
             material = found->second;
-        addGeometry(feature, shape, placement, material);
+        if (options_.splitLayers && splitProduct(number, shape, placement, styles, properties, material)) return;
+        addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
     }
 
-    void addGeometry(model::Feature& feature, Shape& shape, const Transform& placement, std::int32_t otherwise) {
+    // What is true of a wall is true of its layers, so that queries for walls find them; but not its measures and materials.
+    static std::vector<Attribute> attributesOfLayers(const std::vector<Attribute>& ofProduct) {
+        constexpr string_view kOwn[] = {"material", "materialLayers", "tag", "layer", "thickness", "function"};
+        std::vector<Attribute> attributes;
+        for (const Attribute& attribute : ofProduct)
+            if (std::find(std::begin(kOwn), std::end(kOwn), attribute.name) == std::end(kOwn) &&
+                attribute.name.find("Quantities.") == std::string::npos)
+                attributes.push_back(attribute);
+        return attributes;
+    }
+
+    // Layers as features below the product; false where it has none, or they cannot be told apart.
+    bool splitProduct(std::size_t number, const Shape& shape, const Transform& placement, const Styles& styles,
+                      const Properties& properties, std::int32_t material) {
+        const RecordIndex record = structure_.products[number].record;
+        auto layered = splitIntoLayers(file_, properties, record, shapeOf(record), shape);
+        if (!layered) return false;
+        ++withLayers_;
+        const model::FeatureIndex product = featureOf_[number];
+        const std::string id = model_.features[product].id;
+        const std::uint64_t line = model_.features[product].line;
+        const auto tell = [&](const std::string& what) {
+            diagnostics_.add(Severity::Warning, Code::LayersNotSplit,
+                             fmt::format("this {} {}", structure_.products[number].ifcType, what),
+                             {std::string(name_), line, 0, id});
+        };
+        if (!layered->why.empty()) {
+            tell("was not split into its layers: " + layered->why);
+            return false;
+        }
+        ++split_;
+        if (layered->moved > 0)
+            tell(fmt::format("has its layers beside its body; they were moved onto it, by {:.4g} m", layered->moved));
+        if (!layered->rest.empty()) tell("is thicker than its layers; what is beside them belongs to no layer");
+        addGeometry(model_.features[product], layered->rest, placement, material);
+        for (std::size_t i = 0; i < layered->layers.size(); ++i) {
+            LayerPart& layer = layered->layers[i];
+            if (layer.bodies.empty()) continue;
+            model::Feature feature;
+            feature.id = fmt::format("{}_layer{}", id, i + 1);
+            ids_.insert(feature.id);
+            feature.className = model_.features[product].className;
+            feature.name = layer.name;
+            feature.line = line;
+            feature.attributes = attributesOfLayers(model_.features[product].attributes);
+            feature.attributes.push_back({"material", layer.name, ""});
+            feature.attributes.push_back({"layer", static_cast<std::int64_t>(i + 1), ""});
+            feature.attributes.push_back({"thickness", layer.thickness, "m"});
+            if (!layer.function.empty()) feature.attributes.push_back({"function", layer.function, ""});
+            std::int32_t own = material;
+            if (const auto found = styles.ofMaterial.find(layer.material); found != styles.ofMaterial.end()) {
+                own = found->second;
+                for (Body& body : layer.bodies) body.material = own;
+            }
+            const model::FeatureIndex index = model_.addFeature(std::move(feature), product);
+            addGeometry(model_.features[index], layer.bodies, placement, own);
+        }
+        return true;
+    }
+
+    void addGeometry(model::Feature& feature, std::vector<Body>& bodies, const Transform& placement,
+                     std::int32_t otherwise) {
         model::Geometry geometry;
         const bool isMirrored = placement.determinant() < 0;
-        for (Body& body : shape.bodies) {
+        for (Body& body : bodies) {
             std::vector<model::SurfaceUse> uses;
             if (isMirrored) turnOver(body.faces);
             for (model::Polygon& face : body.faces) {
                 for (Vec3d& p : face.points) p = map_.mapFromProject.point(placement.point(p));
                 if (!std::all_of(face.points.begin(), face.points.end(), [](Vec3d p) { return isFinite(p); })) continue;
-                face.material = body.material >= 0 ? body.material : otherwise;
+                if (face.material < 0) face.material = body.material >= 0 ? body.material : otherwise;
                 uses.push_back({model_.addPolygon(std::move(face)), false});
             }
             if (uses.empty()) continue;
@@ -309,6 +409,11 @@ private:
                          fmt::format("{} of {} products with a shape were read, {} of them in part",
                                      withShape_ - skipped_, withShape_, partial_),
                          place());
+        if (options_.splitLayers)
+            diagnostics_.add(
+                Severity::Note, Code::LayersSplit,
+                fmt::format("{} of {} products with layers of materials were split into them", split_, withLayers_),
+                place());
     }
 
     Result<model::BuildingModel> placeModel() {
@@ -330,9 +435,10 @@ private:
     MapPlace map_;
     Structure structure_;
     std::unordered_set<std::string> ids_;
+    std::unordered_map<RecordIndex, std::string> presentationLayers_;
     std::vector<model::FeatureIndex> featureOf_;  // by product
     std::unordered_map<RecordIndex, model::FeatureIndex> groupFeature_;
-    std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0;
+    std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0, withLayers_ = 0, split_ = 0;
     model::BuildingModel model_;
 };
 

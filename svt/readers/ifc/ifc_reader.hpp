@@ -11,8 +11,9 @@
 /// | body of a product                            | polygons; solids where the file has solids, else surfaces             |
 /// | openings                                     | cut out of the body of what they void; no features                    |
 /// | boolean results, half-spaces                 | evaluated: closed polygons (ifc_shape/solid_boolean.hpp)              |
+/// | layer set usages, with splitLayers           | features below the product, one for each layer (ifc/layers.hpp)       |
 /// | mapped items                                 | a copy of their polygons in each place                                |
-/// | surface styles                               | materials                                                             |
+/// | surface styles, colour maps of face sets     | materials                                                             |
 /// | zones, systems, groups                       | CityObjectGroup with members                                          |
 /// | map conversion, projected CRS                | coordinates in the map, `crs`                                         |
 /// | annotations, grids, ports, analysis models   | nothing                                                               |
@@ -35,7 +36,7 @@ namespace svt::readers {
 
 /// \return the model, or BadStep, UnknownVersion (a schema that is not IFC), EmptyModel (no product), InputTooBig,
 ///         Cancelled, or what georeference() returns. Findings: BadRecord, DuplicateId, MissingId, BadValue, UnknownElement,
-///         ReferenceCycle, ReadInPart, ShapeNotRead, and ProductsRead as the last.
+///         ReferenceCycle, ReadInPart, ShapeNotRead, LayersNotSplit, and ProductsRead and LayersSplit as the last.
 /// Cost: one pass over the text, then O(what the products are made of); memory below five times the file for most.
 [[nodiscard]] Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, std::string_view name,
                                                    const ReadOptions& options, Diagnostics* diagnostics);

@@ -75,6 +75,53 @@ TEST(IfcReader, TheTreeAndItsClasses) {
     EXPECT_EQ(log.items().back().message, "6 of 6 products with a shape were read, 0 of them in part");
 }
 
+TEST(IfcReader, SpacesByTheirLongNamesLayersAndComplexProperties) {
+    const auto model =
+        readText(ifcFile(std::string("#100=IFCSPACE('space',$,'1.01',$,$,#15,#101,'Kitchen',$,$);\n"
+                                     "#110=IFCSPACE('unnamed',$,'1.02',$,$,#15,#101,$,$,$);\n"
+                                     "#111=IFCSPATIALZONE('flat',$,'A',$,$,#15,#101,'Flat A',.OCCUPANCY.);\n"
+                                     "#112=IFCSPATIALZONE('fire',$,'F',$,$,#15,#101,$,.FIRESAFETY.);\n"
+                                     "#120=IFCPRESENTATIONLAYERASSIGNMENT('A-WALL',$,(#102),$);\n"
+                                     "#121=IFCPRESENTATIONLAYERWITHSTYLE('A-ITEM',$,(#103),$,.T.,.F.,.F.,());\n"
+                                     "#130=IFCPROPERTYSET('p',$,'Set',$,(#131));\n"
+                                     "#131=IFCCOMPLEXPROPERTY('Door',$,'usage',(#132,#133));\n"
+                                     "#132=IFCPROPERTYSINGLEVALUE('Width',$,IFCPOSITIVELENGTHMEASURE(900.),$);\n"
+                                     "#133=IFCCOMPLEXPROPERTY('Self',$,'usage',(#133));\n"
+                                     "#134=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#100),#130);\n") +
+                             kBox,
+                         "#100,#110,#111,#112"));
+    ASSERT_TRUE(model);
+    const model::Feature& space = *find(*model, "space");
+    EXPECT_EQ(space.name, "Kitchen");
+    EXPECT_EQ(attribute(space, "number"), "1.01");
+    EXPECT_EQ(attribute(space, "presentationLayer"), "A-WALL; A-ITEM");
+    EXPECT_EQ(attribute(space, "Set.Door.Width"), "0.9 m");
+    EXPECT_EQ(find(*model, "unnamed")->name, "1.02");
+    EXPECT_EQ(find(*model, "flat")->className, "BuildingUnit");
+    EXPECT_EQ(find(*model, "flat")->name, "Flat A");
+    EXPECT_EQ(find(*model, "fire")->className, "GenericLogicalSpace");
+}
+
+// 3 m along an L of 2 m in x and 4 m in y, a metre to the left, half a metre up.
+TEST(IfcReader, LinearPlacementsGoAlongACurve) {
+    const auto model =
+        readText(ifcFile(std::string("#100=IFCWALL('wall',$,'Wall',$,$,#110,#101,$,$);\n"
+                                     "#110=IFCLINEARPLACEMENT($,#111,$);\n#111=IFCAXIS2PLACEMENTLINEAR(#112,$,$);\n"
+                                     "#112=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(3000.),1000.,500.,$,#113);\n"
+                                     "#113=IFCPOLYLINE((#10,#114,#115));\n#114=IFCCARTESIANPOINT((2000.,0.,0.));\n"
+                                     "#115=IFCCARTESIANPOINT((2000.,4000.,0.));\n") +
+                             kBox,
+                         "#100", "IFC4X3_ADD2"));
+    ASSERT_TRUE(model);
+    const Box3d box = bounds(*model, *find(*model, "wall"));
+    // The profile of 0.2 x 0.3 m stands across the second leg, turned by a quarter.
+    EXPECT_NEAR(box.center().x, 1, 1e-12);
+    EXPECT_NEAR(box.center().y, 1, 1e-12);
+    EXPECT_NEAR(box.min.z, 0.5, 1e-12);
+    EXPECT_NEAR(box.size().x, 0.3, 1e-12);
+    EXPECT_NEAR(box.size().y, 0.2, 1e-12);
+}
+
 TEST(IfcReader, PlacementsAndUnits) {
     const std::string records = std::string(
                                     "#100=IFCWALL('wall',$,$,$,$,#40,#101,$,$);\n#40=IFCLOCALPLACEMENT(#41,#42);\n"
@@ -162,6 +209,42 @@ TEST(IfcReader, StylesBecomeMaterials) {
                 "#100"));
     ASSERT_TRUE(byMaterial);
     for (const model::Polygon& polygon : byMaterial->polygons) EXPECT_EQ(polygon.material, 0);
+}
+
+TEST(IfcReader, FacesHaveColorsOfTheirOwn) {
+    const auto model =
+        readText(ifcWithItem("#200=IFCTRIANGULATEDFACESET(#201,$,.T.,((1,3,2),(1,2,4),(2,2,4),(2,3,4),(3,1,4)),$);\n"
+                             "#201=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1000.,0.,0.),(0.,1000.,0.),(0.,0.,1000.)));\n"
+                             "#210=IFCINDEXEDCOLOURMAP(#200,0.75,#211,(1,2,1,2,9));\n"
+                             "#211=IFCCOLOURRGBLIST(((1.,0.,0.),(0.,0.,1.)));\n"));
+    ASSERT_TRUE(model);
+    ASSERT_EQ(model->polygons.size(), 4u);  // the third has no area
+    ASSERT_EQ(model->materials.size(), 2u);
+    EXPECT_EQ(model->materials[1].diffuse, (Vec3f{0, 0, 1}));
+    EXPECT_FLOAT_EQ(model->materials[0].transparency, 0.25F);
+    std::vector<std::int32_t> colors;
+    for (const model::Polygon& polygon : model->polygons) colors.push_back(polygon.material);
+    EXPECT_EQ(colors, (std::vector<std::int32_t>{0, 1, 1, -1}));
+}
+
+TEST(IfcReader, RigidOperationsAndTables) {
+    const auto model = readText(ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                                    "#50=IFCRIGIDOPERATION(#20,#51,IFCLENGTHMEASURE(457850.),"
+                                                    "IFCLENGTHMEASURE(5439000.),110.);\n"
+                                                    "#51=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,#52);\n"
+                                                    "#52=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"
+                                                    "#60=IFCPROPERTYSET('p',$,'Set',$,(#61));\n"
+                                                    "#61=IFCPROPERTYTABLEVALUE('Sound',$,(IFCREAL(125.),IFCREAL(250.)),"
+                                                    "(IFCLABEL('low'),IFCLABEL('high')),$,$,$,$);\n"
+                                                    "#62=IFCRELDEFINESBYPROPERTIES('r',$,$,$,(#100),#60);\n") +
+                                            kBox,
+                                        "#100", "IFC4X3_ADD2"));
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(model->crs.epsg, 25832);
+    const model::Feature& wall = *find(*model, "wall");
+    EXPECT_NEAR(bounds(*model, wall).center().x, 457850, 1e-8);
+    EXPECT_NEAR(bounds(*model, wall).min.z, 110, 1e-8);
+    EXPECT_EQ(attribute(wall, "Set.Sound"), "125.: low, 250.: high");
 }
 
 TEST(IfcReader, DoorsKnowWhatTheyFill) {

@@ -192,6 +192,29 @@ TEST(IfcShapes, SweptDisksWithBends) {
     expectVolume(ifcWithItem("#200=IFCSWEPTDISKSOLID(#301,20.,10.,$,$);\n" + points), 2 * kPiTest * 0.0003, 1e-6);
 }
 
+// A profile of 200 x 300 mm along an L of 2 m and 3 m, with a mitre, and along a circle of radius 1 m.
+TEST(IfcShapes, ProfilesAlongCurves) {
+    const std::string rest =
+        "#300=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,200.,300.);\n#310=IFCPOLYLINE((#311,#312,#313));\n"
+        "#311=IFCCARTESIANPOINT((0.,0.,0.));\n#312=IFCCARTESIANPOINT((2000.,0.,0.));\n"
+        "#313=IFCCARTESIANPOINT((2000.,3000.,0.));\n#320=IFCPLANE(#14);\n#330=IFCCIRCLE(#14,1000.);\n"
+        "#340=IFCCYLINDRICALSURFACE(#14,1000.);\n";
+    for (const char* sweep : {"#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,#14,#310,$,$,#11);\n",
+                              "#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,$,#310,0.,1.,#11);\n",
+                              "#200=IFCDIRECTRIXDERIVEDREFERENCESWEPTAREASOLID(#300,#14,#310,0.,2.,#11);\n",
+                              "#200=IFCSURFACECURVESWEPTAREASOLID(#300,#14,#310,0.,5000.,#320);\n"})
+        expectVolume(ifcWithItem(sweep + rest), 0.06 * 5);
+    const Read ring = readShapeOf(ifcWithItem("#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,#14,#330,$,$,#11);\n" + rest));
+    EXPECT_TRUE(ring.isClosed);
+    EXPECT_NEAR(ring.volume, 0.06 * 2 * kPiTest, 0.002 * 0.06 * 2 * kPiTest);
+    EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCFIXEDREFERENCESWEPTAREASOLID(#300,#14,#310,0.5,0.7,#11);\n" + rest))
+                  .findings.find("whole curve"),
+              std::string::npos);
+    EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCSURFACECURVESWEPTAREASOLID(#300,#14,#310,$,$,#340);\n" + rest))
+                  .findings.find("IFCCYLINDRICALSURFACE"),
+              std::string::npos);
+}
+
 TEST(IfcShapes, Primitives) {
     expectVolume(ifcWithItem("#200=IFCCSGSOLID(#201);\n#201=IFCBLOCK(#14,1000.,2000.,3000.);"), 6);
     expectVolume(ifcWithItem("#200=IFCCSGSOLID(#201);\n#201=IFCRECTANGULARPYRAMID(#14,1000.,2000.,3000.);"), 2);
@@ -257,6 +280,30 @@ TEST(IfcShapes, BooleansOfSolids) {
     expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.UNION.,#210,#211);\n" + two), 1.75);
     expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.DIFFERENCE.,#210,#211);\n" + two), 0.75);
     expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.INTERSECTION.,#210,#211);\n" + two), 0.25);
+}
+
+// An empty result is an operand like any other; chains of many differences are one, however long.
+TEST(IfcShapes, BooleansOfBooleans) {
+    const std::string three =
+        "#210=IFCBLOCK(#14,1000.,1000.,1000.);\n#211=IFCBLOCK(#212,1000.,1000.,1000.);\n"
+        "#212=IFCAXIS2PLACEMENT3D(#213,#11,#12);\n#213=IFCCARTESIANPOINT((5000.,500.,0.));\n"
+        "#220=IFCBLOCK(#14,2000.,500.,500.);\n";
+    expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.UNION.,#201,#220);\n"
+                             "#201=IFCBOOLEANRESULT(.INTERSECTION.,#210,#211);\n" +
+                             three),
+                 0.5);
+    expectVolume(ifcWithItem("#200=IFCBOOLEANRESULT(.DIFFERENCE.,#210,#201);\n"
+                             "#201=IFCBOOLEANRESULT(.DIFFERENCE.,#220,#210);\n" +
+                             three),
+                 1);
+    std::string chain = "#230=IFCBLOCK(#14,100000.,1000.,1000.);\n";
+    for (int i = 0; i < 100; ++i)
+        chain += fmt::format(
+            "#{}=IFCBLOCK(#{},500.,1000.,1000.);\n#{}=IFCAXIS2PLACEMENT3D(#{},#11,#12);\n"
+            "#{}=IFCCARTESIANPOINT(({}.,0.,0.));\n#{}=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#{},#{});\n",
+            1000 + i, 2000 + i, 2000 + i, 3000 + i, 3000 + i, 1000 * i, i == 99 ? 200 : 4000 + i,
+            i == 0 ? 230 : 3999 + i, 1000 + i);
+    expectVolume(ifcWithItem(chain), 50);
 }
 
 std::string wallWithOpening(const std::string& openingDepth, const std::string& openingY) {
@@ -342,7 +389,9 @@ TEST(IfcShapes, FacetedSolidsWithHollows) {
 
 // A half cylinder of radius 1 m and height 1 m. Split, the arc below is two edges, so that the curved face is no longer one
 // between two curves of equally many points.
-std::string halfCylinder(bool isSplit) {
+enum class Side { Cylinder, Spline, Revolution };
+
+std::string halfCylinder(bool isSplit, Side side = Side::Cylinder) {
     std::string text =
         "#200=IFCADVANCEDBREP(#201);\n#201=IFCCLOSEDSHELL((#210,#220,#230,#240));\n"
         "#300=IFCCARTESIANPOINT((1000.,0.,0.));\n#301=IFCCARTESIANPOINT((-1000.,0.,0.));\n"
@@ -357,7 +406,29 @@ std::string halfCylinder(bool isSplit) {
         "#332=IFCEDGECURVE(#311,#310,#324,.T.);\n#333=IFCEDGECURVE(#313,#312,#324,.T.);\n"
         "#334=IFCEDGECURVE(#310,#312,#327,.T.);\n#335=IFCEDGECURVE(#311,#313,#327,.T.);\n"
         "#336=IFCEDGECURVE(#310,#314,#320,.T.);\n#337=IFCEDGECURVE(#314,#311,#320,.T.);\n"
-        "#340=IFCPLANE(#14);\n#341=IFCCYLINDRICALSURFACE(#14,1000.);\n";
+        "#340=IFCPLANE(#14);\n";
+    if (side == Side::Spline) {
+        const int x[] = {1000, 1000, 0, -1000, -1000}, y[] = {0, 1000, 1000, 1000, 0};
+        std::string rows;
+        for (int i = 0; i < 5; ++i) {
+            for (int k = 0; k < 2; ++k)
+                text += fmt::format("#{}=IFCCARTESIANPOINT(({}.,{}.,{}.));\n", 350 + 2 * i + k, x[i], y[i], 1000 * k);
+            rows += fmt::format("{}(#{},#{})", i == 0 ? "" : ",", 350 + 2 * i, 351 + 2 * i);
+        }
+        text += "#341=IFCRATIONALBSPLINESURFACEWITHKNOTS(2,1,(" + rows +
+                "),.UNSPECIFIED.,.F.,.F.,.F.,(3,2,3),(2,2),(0.,1.,2.),(0.,1.),.UNSPECIFIED.,"
+                "((1.,1.),(0.70710678118654752,0.70710678118654752),(1.,1.),"
+                "(0.70710678118654752,0.70710678118654752),(1.,1.)));\n";
+    } else if (side == Side::Revolution) {
+        // A line of three points at (0.6, 0.8), which need not be where the face begins.
+        text +=
+            "#341=IFCSURFACEOFREVOLUTION(#342,$,#343);\n#342=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#344);\n"
+            "#343=IFCAXIS1PLACEMENT(#10,#11);\n#344=IFCPOLYLINE((#345,#346,#347));\n"
+            "#345=IFCCARTESIANPOINT((600.,800.,-100.));\n#346=IFCCARTESIANPOINT((600.,800.,300.));\n"
+            "#347=IFCCARTESIANPOINT((600.,800.,1200.));\n";
+    } else {
+        text += "#341=IFCCYLINDRICALSURFACE(#14,1000.);\n";
+    }
     int id = 400;
     const auto addFaceOf = [&](int number, int surface, const std::vector<std::pair<int, bool>>& edges) {
         std::string list;
@@ -394,6 +465,80 @@ TEST(IfcShapes, AdvancedBrepsWithCylinders) {
     }
 }
 
+TEST(IfcShapes, AdvancedBrepsWithRationalSplines) {
+    for (const bool isSplit : {false, true}) {
+        const Read read = readShapeOf(halfCylinder(isSplit, Side::Spline));
+        EXPECT_TRUE(read.isClosed) << isSplit;
+        EXPECT_EQ(read.findings, "") << isSplit;
+        EXPECT_NEAR(read.volume, kPiTest / 2, 0.003) << isSplit;  // chords within 1 mm of an area of pi m2
+        EXPECT_GE(read.faces, 27U) << isSplit;
+    }
+}
+
+TEST(IfcShapes, AdvancedBrepsWithSurfacesOfRevolution) {
+    const Read read = readShapeOf(halfCylinder(true, Side::Revolution));
+    EXPECT_TRUE(read.isClosed);
+    EXPECT_EQ(read.findings, "");
+    EXPECT_NEAR(read.volume, kPiTest / 2, 0.003);
+    EXPECT_GE(read.faces, 50U);  // cut at the corner of the line, too
+}
+
+// A block of 1 m whose top is z = 1 + c x (1 - x) y (1 - y): its edges are those of the block, its volume is 1 + c / 36.
+std::string bulgedBlock(int control) {
+    std::string text =
+        "#200=IFCADVANCEDBREP(#201);\n#201=IFCCLOSEDSHELL((#210,#211,#212,#213,#214,#215));\n#340=IFCPLANE(#14);\n"
+        "#324=IFCLINE(#300,#325);\n#325=IFCVECTOR(#12,1.);\n";
+    for (int i = 0; i < 8; ++i)
+        text += fmt::format("#{}=IFCCARTESIANPOINT(({}.,{}.,{}.));\n#{}=IFCVERTEXPOINT(#{});\n", 300 + i,
+                            (i & 1) * 1000, (i >> 1 & 1) * 1000, (i >> 2) * 1000, 310 + i, 300 + i);
+    std::string rows;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            text += fmt::format("#{}=IFCCARTESIANPOINT(({}.,{}.,{}.));\n", 350 + 3 * i + j, 500 * i, 500 * j,
+                                i == 1 && j == 1 ? control : 1000);
+            rows += fmt::format("{}#{}{}", j == 0 ? (i == 0 ? "(" : ",(") : ",", 350 + 3 * i + j, j == 2 ? ")" : "");
+        }
+    text += "#341=IFCBSPLINESURFACEWITHKNOTS(2,2,(" + rows +
+            "),.UNSPECIFIED.,.F.,.F.,.F.,(3,3),(3,3),(0.,1.),(0.,1.),.UNSPECIFIED.);\n";
+    const int corners[6][4] = {{4, 5, 7, 6}, {0, 2, 3, 1}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    int id = 400;
+    for (int face = 0; face < 6; ++face) {
+        std::string loop;
+        for (int i = 0; i < 4; ++i) {
+            text += fmt::format("#{}=IFCEDGECURVE(#{},#{},#324,.T.);\n#{}=IFCORIENTEDEDGE(*,*,#{},.T.);\n", id,
+                                310 + corners[face][i], 310 + corners[face][(i + 1) % 4], id + 1, id);
+            loop += fmt::format("{}#{}", i == 0 ? "" : ",", id + 1);
+            id += 2;
+        }
+        text += fmt::format(
+            "#{}=IFCEDGELOOP(({}));\n#{}=IFCFACEOUTERBOUND(#{},.T.);\n#{}=IFCADVANCEDFACE((#{}),#{},.T.);\n", id, loop,
+            id + 1, id, 210 + face, id + 1, face == 0 ? 341 : 340);
+        id += 2;
+    }
+    return ifcWithItem(text);
+}
+
+TEST(IfcShapes, AdvancedBrepsWithSplines) {
+    for (const int control : {1200, 800, 2000}) {
+        const Read read = readShapeOf(bulgedBlock(control));
+        EXPECT_TRUE(read.isClosed) << control;
+        EXPECT_EQ(read.findings, "") << control;
+        EXPECT_NEAR(read.volume, 1 + 4 * (control - 1000) / 1000.0 / 36, 0.001) << control;  // 1 mm over 1 m2
+        EXPECT_GT(read.faces, 20U) << control;
+    }
+    // As much as is cut: 64 strips each way, for a spike of 25 m.
+    const Read spike = readShapeOf(bulgedBlock(100'000));
+    EXPECT_TRUE(spike.isClosed);
+    EXPECT_EQ(spike.findings, "");
+    EXPECT_NEAR(spike.volume, 1 + 4 * 99 / 36.0, 0.01);
+    // Knots that are not in order: the face is a polygon of its edges, and that is said.
+    std::string broken = bulgedBlock(1200);
+    broken.replace(broken.find("(3,3),(0.,1.),(0.,1.)"), 21, "(3,3),(1.,0.),(0.,1.)");
+    const Read read = readShapeOf(broken);
+    EXPECT_NEAR(read.volume, 1, 1e-9);
+    EXPECT_NE(read.findings.find("E132"), std::string::npos);
+}
+
 TEST(IfcShapes, BoundingBoxAsTheLastResort) {
     const Read read = readShapeOf(ifcFile(
         "#100=IFCWALL('wall',$,'Wall',$,$,#15,#101,$,$);\n#101=IFCPRODUCTDEFINITIONSHAPE($,$,(#102));\n"
@@ -416,6 +561,19 @@ TEST(IfcShapes, WhatIsNotReadIsNamed) {
     EXPECT_NEAR(difference.volume, 1, 1e-9);
     EXPECT_NE(difference.findings.find("E132"), std::string::npos);
     EXPECT_NE(difference.findings.find("DIFFERENCE"), std::string::npos);
+}
+
+// 40 records for 2^20 unions and as many intersections.
+TEST(IfcShapes, BooleansOfSharedOperandsEnd) {
+    std::string text = "#1000=IFCBLOCK(#14,1000.,1000.,1000.);\n";
+    for (int i = 0; i < 40; ++i)
+        text += fmt::format("#{}=IFCBOOLEANRESULT(.{}.,#{},#{});\n", i == 39 ? 200 : 1001 + i,
+                            i % 2 == 0 ? "UNION" : "INTERSECTION", 1000 + i, 1000 + i);
+    EXPECT_NE(readShapeOf(ifcWithItem(text)).findings.find("too often"), std::string::npos);
+    EXPECT_NE(readShapeOf(ifcWithItem("#200=IFCBOOLEANRESULT(.UNION.,#201,#201);\n"
+                                      "#201=IFCBOOLEANRESULT(.INTERSECTION.,#200,#200);\n"))
+                  .findings.find("circle"),
+              std::string::npos);
 }
 
 TEST(IfcShapes, CirclesOfReferencesEnd) {

@@ -10,6 +10,7 @@ namespace {
 using std::string_view;
 
 constexpr std::size_t kMaxText = 4096;
+constexpr int kMaxNesting = 4;  // of complex properties
 
 bool endsWith(string_view text, string_view tail) noexcept { return text.ends_with(tail); }
 
@@ -57,16 +58,18 @@ bool readValue(Value value, const Units& units, Attribute& attribute) {
     return true;
 }
 
+std::string textOf(Value value) {
+    if (auto text = value.string()) return std::move(*text);
+    return std::string(value.inner().text());
+}
+
 // Texts of the values of a list, joined.
 std::string joined(Value list) {
     std::string text;
     step::ValueCursor cursor(list);
     for (Value item; cursor.next(item);) {
         if (!text.empty()) text += ", ";
-        if (const auto string = item.string())
-            text += *string;
-        else
-            text += item.inner().text();
+        text += textOf(item);
         if (text.size() > kMaxText) break;
     }
     return text;
@@ -133,8 +136,8 @@ void Properties::appendSet(RecordIndex set, std::vector<Attribute>& attributes) 
         appendProperty(name.empty() ? std::string() : name + ".", member, attributes);
 }
 
-void Properties::appendProperty(const std::string& prefix, RecordIndex property,
-                                std::vector<Attribute>& attributes) const {
+void Properties::appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes,
+                                int depth) const {
     const Fields fields = file_.fieldsOf(property);
     Attribute attribute{prefix + fields[0].string().value_or(""), std::string(), ""};
     if (attribute.name.size() == prefix.size()) return;
@@ -161,6 +164,22 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
                 Attribute bound{attribute.name + word, std::string(), ""};
                 if (readValue(fields[number], units_, bound)) replaceOrAdd(attributes, std::move(bound));
             }
+            break;
+        case Entity::PropertyTableValue: {
+            const std::vector<Value> from = step::itemsOf(fields[2]), to = step::itemsOf(fields[3]);
+            std::string text;
+            for (std::size_t i = 0; i < std::min(from.size(), to.size()) && text.size() < kMaxText; ++i)
+                text += (i == 0 ? "" : ", ") + textOf(from[i]) + ": " + textOf(to[i]);
+            if (!text.empty()) {
+                attribute.value = std::move(text);
+                replaceOrAdd(attributes, std::move(attribute));
+            }
+            break;
+        }
+        case Entity::ComplexProperty:
+            if (depth < kMaxNesting)
+                for (const RecordIndex part : file_.followAll(fields[3]))
+                    appendProperty(attribute.name + ".", part, attributes, depth + 1);
             break;
         case Entity::QuantityLength: quantity(units_.length, "m"); break;
         case Entity::QuantityArea: quantity(units_.area, "m2"); break;
@@ -205,13 +224,17 @@ void Properties::appendMaterial(RecordIndex material, std::vector<Attribute>& at
     if (!layers.empty()) attributes.push_back({"materialLayers", layers.substr(0, kMaxText), ""});
 }
 
-RecordIndex Properties::materialOf(RecordIndex object) const {
+const std::vector<RecordIndex>& Properties::materialsOf(RecordIndex object) const {
     const Records* materials = &of(materials_, object);
     if (materials->empty())
         for (const RecordIndex type : of(types_, object)) materials = &of(materials_, type);
+    return *materials;
+}
+
+RecordIndex Properties::materialOf(RecordIndex object) const {
     double thickest = -1;
     RecordIndex best = kNoRecord;
-    for (const RecordIndex material : *materials)
+    for (const RecordIndex material : materialsOf(object))
         for (const RecordIndex part : layersOf(material)) {
             const Fields fields = file_.fieldsOf(part);
             const Entity entity = file_.entityOf(part);

@@ -20,6 +20,9 @@ public:
     /// `materialLayers`, `classification`. A property of the object takes the place of one of its type.
     void append(RecordIndex object, std::vector<Attribute>& attributes) const;
 
+    /// Materials, layer sets and usages of an object, else of its type.
+    [[nodiscard]] const std::vector<RecordIndex>& materialsOf(RecordIndex object) const;
+
     /// The material that is nearest to being that of the whole object, for its colour; kNoRecord: none.
     [[nodiscard]] RecordIndex materialOf(RecordIndex object) const;
 
@@ -27,7 +30,8 @@ private:
     using Records = std::vector<RecordIndex>;
 
     void appendSet(RecordIndex set, std::vector<Attribute>& attributes) const;
-    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes) const;
+    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes,
+                        int depth = 0) const;
     void appendMaterial(RecordIndex material, std::vector<Attribute>& attributes) const;
     [[nodiscard]] Records layersOf(RecordIndex material) const;
     [[nodiscard]] static const Records& of(const std::unordered_map<RecordIndex, Records>& map, RecordIndex key);

@@ -5,6 +5,7 @@
 #include <svt/model/building_model.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -14,7 +15,12 @@ struct Styles {
     std::vector<model::Material> materials;
     std::unordered_map<RecordIndex, std::int32_t> ofItem;      ///< representation item -> material
     std::unordered_map<RecordIndex, std::int32_t> ofMaterial;  ///< IfcMaterial -> material
+    /// Face set -> material of each of its faces.
+    std::unordered_map<RecordIndex, std::vector<std::int32_t>> ofFaces;
 };
+
+/// Representation or item -> name of the presentation layer that it is assigned to.
+[[nodiscard]] std::unordered_map<RecordIndex, std::string> readPresentationLayers(const IfcFile& file);
 
 [[nodiscard]] Styles readStyles(const IfcFile& file);
 

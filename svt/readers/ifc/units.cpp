@@ -85,7 +85,8 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
         place.trueNorthDegrees = std::atan2(north->x, north->y) * 180 / std::numbers::pi;
     RecordIndex conversion = kNoRecord;
     for (RecordIndex i = 0; i < file.step().records().size() && conversion == kNoRecord; ++i)
-        if (file.entityOf(i) == Entity::MapConversion || file.entityOf(i) == Entity::MapConversionScaled)
+        if (file.entityOf(i) == Entity::MapConversion || file.entityOf(i) == Entity::MapConversionScaled ||
+            file.entityOf(i) == Entity::RigidOperation)
             conversion = i;
     if (conversion == kNoRecord) return place;
     const Fields fields = file.fieldsOf(conversion);
@@ -95,6 +96,18 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
     // Eastings and heights are in the unit of the map; Scale takes lengths of the project to it, and lengths are metres here.
     double mapUnit = file.lengthUnit;
     if (const auto unit = unitFactor(file, file.follow(crs[6]))) mapUnit = *unit;
+    if (file.entityOf(conversion) == Entity::RigidOperation) {
+        // A shift alone. Angles, which its coordinates may be, make no place in metres.
+        if (fields[2].typeName().ends_with("ANGLEMEASURE") || fields[3].typeName().ends_with("ANGLEMEASURE")) {
+            place.isGiven = false;
+            place.crs.clear();
+            return place;
+        }
+        place.mapFromProject.origin =
+            Vec3d{fields[2].number().value_or(0), fields[3].number().value_or(0), fields[4].number().value_or(0)} *
+            mapUnit;
+        return place;
+    }
     double scale = fields[7].number().value_or(1) * mapUnit / file.lengthUnit;
     // Many writers give 1 although the units of model and map differ.
     if (fields[7].number().value_or(1) == 1) scale = 1;

@@ -1,6 +1,7 @@
 #include <svt/readers/ifc_shape/curved_face.hpp>
 
 #include <svt/readers/ifc_shape/body.hpp>
+#include <svt/readers/ifc_shape/bspline.hpp>
 #include <svt/readers/ifc_shape/curves.hpp>
 #include <svt/readers/ifc_shape/overlay.hpp>
 
@@ -11,20 +12,73 @@
 namespace svt::readers::ifc {
 namespace {
 
+// A B-spline surface with parameters in metres or nearly so, and points of it to begin a search from.
+struct Spline {
+    BSplineSurface surface;
+    double scaleU = 1, scaleV = 1;  // metres to one of the parameter
+    static constexpr int kGrid = 24;
+    std::vector<Vec3d> grid;  // (kGrid + 1) x (kGrid + 1) points, v fastest
+
+    [[nodiscard]] Vec3d at(Vec3d uv) const {
+        return surface.at(surface.u.begin() + uv.x / scaleU, surface.v.begin() + uv.y / scaleV);
+    }
+    [[nodiscard]] double sizeU() const { return (surface.u.end() - surface.u.begin()) * scaleU; }
+    [[nodiscard]] double sizeV() const { return (surface.v.end() - surface.v.begin()) * scaleV; }
+    [[nodiscard]] Vec3d gridParameter(int i, int j) const { return {sizeU() * i / kGrid, sizeV() * j / kGrid, 0}; }
+
+    // The foot of a point on the surface, by Gauss and Newton from the nearest point of the grid; nothing where it is
+    // farther than a centimetre.
+    [[nodiscard]] std::optional<Vec3d> parameters(Vec3d p) const {
+        std::size_t nearest = 0;
+        for (std::size_t n = 1; n < grid.size(); ++n)
+            if (length(grid[n] - p) < length(grid[nearest] - p)) nearest = n;
+        Vec3d uv = gridParameter(int(nearest) / (kGrid + 1), int(nearest) % (kGrid + 1));
+        Vec3d foot = grid[nearest];
+        const double h = 1e-6 * (sizeU() + sizeV());
+        for (int step = 0; step < 40; ++step) {
+            // Differences to the inside, where the surface goes on.
+            const double hu = uv.x + h > sizeU() ? -h : h, hv = uv.y + h > sizeV() ? -h : h;
+            const Vec3d du = (at(uv + Vec3d{hu, 0, 0}) - foot) / hu, dv = (at(uv + Vec3d{0, hv, 0}) - foot) / hv;
+            const Vec3d rest = p - foot;
+            const double a = dot(du, du), b = dot(du, dv), c = dot(dv, dv), e = dot(du, rest), f = dot(dv, rest);
+            const double det = a * c - b * b;
+            if (!(det > 1e-12 * (a * c + 1e-30))) break;
+            Vec3d next{std::clamp(uv.x + (e * c - f * b) / det, 0.0, sizeU()),
+                       std::clamp(uv.y + (f * a - e * b) / det, 0.0, sizeV()), 0};
+            Vec3d nextFoot = at(next);
+            for (int halving = 0; halving < 20 && length(p - nextFoot) > length(rest); ++halving) {
+                next = (next + uv) / 2;
+                nextFoot = at(next);
+            }
+            const double moved = length(next - uv);
+            uv = next;
+            foot = nextFoot;
+            if (moved < 1e-9) break;
+        }
+        return length(p - foot) < 0.01 ? std::optional(uv) : std::nullopt;
+    }
+};
+
 // A surface by its parameters, both in metres or nearly so. A period of 0: not periodic.
 struct Surface {
     Entity kind = Entity::Other;
     Transform axes;
     double radius = 0, second = 0;  // second: of the tube of a torus; tangent of the angle of a cone
     Vec3d sweep{};                  // unit vector of a linear extrusion
-    std::vector<Vec3d> curve;       // of a linear extrusion, in space
+    std::vector<Vec3d> curve;  // of a linear extrusion, in space; of a revolution: distance from the axis, 0, height
+    std::optional<Spline> spline;
     double periodU = 0, periodV = 0, stepU = 0, stepV = 0;  // steps: between lines of equal parameter; 0: none
 
     [[nodiscard]] std::optional<Vec3d> parameters(Vec3d p) const {
+        if (spline) return spline->parameters(p);
         const Vec3d local = p - axes.origin;
         const double x = dot(local, axes.x), y = dot(local, axes.y), z = dot(local, axes.z), reach = std::hypot(x, y);
         if (kind == Entity::SurfaceOfLinearExtrusion) return onCurve(p);
         if (reach < 1e-6) return std::nullopt;
+        if (kind == Entity::SurfaceOfRevolution) {
+            const auto along = onCurve({reach, 0, z});
+            return along ? std::optional(Vec3d{std::atan2(y, x) * radius, along->x, 0}) : std::nullopt;
+        }
         const double u = std::atan2(y, x) * radius;
         switch (kind) {
             case Entity::SphericalSurface: return Vec3d{u, std::atan2(z, reach) * radius, 0};
@@ -34,12 +88,17 @@ struct Surface {
     }
 
     [[nodiscard]] Vec3d at(Vec3d uv) const {
+        if (spline) return spline->at(uv);
         if (kind == Entity::SurfaceOfLinearExtrusion) return pointOfCurve(uv.x) + sweep * uv.y;
         const SineCosine turn = sineCosine(uv.x / radius);
         const auto turned = [&](double reach, double z) {
             return axes.point({reach * turn.cosine, reach * turn.sine, z});
         };
         switch (kind) {
+            case Entity::SurfaceOfRevolution: {
+                const Vec3d across = pointOfCurve(uv.y);
+                return turned(across.x, across.z);
+            }
             case Entity::SphericalSurface: {
                 const auto [sineV, cosineV] = sineCosine(uv.y / radius);
                 return turned(radius * cosineV, radius * sineV);
@@ -129,6 +188,87 @@ std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
+constexpr int kMaxSplineStrips = 64;
+
+// How many equal strips along one parameter, so that chords across them stay within kChordError of the surface.
+int splineStrips(const Spline& spline, bool isAlongU) {
+    constexpr int kLines = 9;
+    for (int count = 1; count < kMaxSplineStrips; count *= 2) {
+        double worst = 0;
+        for (int line = 0; line < kLines; ++line)
+            for (int i = 0; i < count; ++i) {
+                const auto point = [&](double share) {
+                    const double other = double(line) / (kLines - 1);
+                    return spline.at(
+                        {spline.sizeU() * (isAlongU ? share : other), spline.sizeV() * (isAlongU ? other : share), 0});
+                };
+                const Vec3d a = point(double(i) / count), b = point(double(i + 1) / count);
+                for (const double share : {0.25, 0.5, 0.75})
+                    worst = std::max(worst, length(point((i + share) / count) - (a + (b - a) * share)));
+            }
+        // A point a little beside its place along the chord is no error of the shape, so this is on the safe side.
+        if (worst <= kChordError) return count;
+    }
+    return kMaxSplineStrips;
+}
+
+std::optional<Surface> readSpline(const IfcFile& file, RecordIndex record) {
+    auto read = readBSplineSurface(file, record);
+    if (!read) return std::nullopt;
+    Surface surface;
+    surface.kind = file.entityOf(record);
+    Spline& spline = surface.spline.emplace();
+    spline.surface = std::move(*read);
+    constexpr int n = Spline::kGrid;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j) spline.grid.push_back(spline.at(spline.gridParameter(i, j)));
+    const auto at = [&](int i, int j) { return spline.grid[std::size_t(i * (n + 1) + j)]; };
+    double lengthU = 0, lengthV = 0;
+    bool isClosedU = true, isClosedV = true;
+    for (int line = 0; line <= n; ++line) {
+        double alongU = 0, alongV = 0;
+        for (int i = 0; i < n; ++i) {
+            alongU += length(at(i + 1, line) - at(i, line));
+            alongV += length(at(line, i + 1) - at(line, i));
+        }
+        lengthU = std::max(lengthU, alongU);
+        lengthV = std::max(lengthV, alongV);
+        isClosedU = isClosedU && length(at(n, line) - at(0, line)) < 1e-6;
+        isClosedV = isClosedV && length(at(line, n) - at(line, 0)) < 1e-6;
+    }
+    if (!(lengthU > 1e-6 && lengthV > 1e-6) || !std::isfinite(lengthU + lengthV)) return std::nullopt;
+    spline.scaleU = lengthU / (spline.surface.u.end() - spline.surface.u.begin());
+    spline.scaleV = lengthV / (spline.surface.v.end() - spline.surface.v.begin());
+    if (isClosedU) surface.periodU = spline.sizeU();
+    if (isClosedV) surface.periodV = spline.sizeV();
+    surface.stepU = spline.sizeU() / splineStrips(spline, true);
+    surface.stepV = spline.sizeV() / splineStrips(spline, false);
+    return surface;
+}
+
+// The curve is taken to the plane of the axis and turned from there, so that it may lie anywhere around it.
+std::optional<Surface> readRevolution(const IfcFile& file, RecordIndex record) {
+    const Fields fields = file.fieldsOf(record);
+    const Transform position = file.axes(file.follow(fields[1])), own = file.axes(file.follow(fields[2]));
+    Surface surface;
+    surface.kind = Entity::SurfaceOfRevolution;
+    surface.axes = axesFrom(position.point(own.origin), position.direction(own.z), position.x);
+    std::string why;
+    if (!readCurve(file, file.follow(file.fieldsOf(file.follow(fields[0]))[2]), surface.curve, why) ||
+        surface.curve.size() < 2)
+        return std::nullopt;
+    for (Vec3d& p : surface.curve) {
+        const Vec3d local = position.point(p) - surface.axes.origin;
+        const double height = dot(local, surface.axes.z);
+        p = {length(local - surface.axes.z * height), 0, height};
+        surface.radius = std::max(surface.radius, p.x);
+    }
+    if (!(surface.radius > 1e-6)) return std::nullopt;
+    surface.stepU = stepOf(surface.radius);
+    surface.periodU = 2 * kPi * surface.radius;
+    return surface;
+}
+
 struct Layout {
     std::vector<std::vector<Vec3d>> rings;   // in parameters
     std::vector<std::vector<Vec3d>> places;  // the same corners in space
@@ -190,6 +330,14 @@ void addStrips(const Surface& surface, const Layout& layout, std::vector<FlatSeg
     }
     const auto first = [](double low, double step) { return std::floor(low / step / 2) * 2 * step; };
     int count = 0;
+    if (surface.kind == Entity::SurfaceOfRevolution) {
+        double along = 0;
+        for (std::size_t i = 0; i + 1 < surface.curve.size() && i < std::size_t(kMaxStrips); ++i) {
+            const double next = along + length(surface.curve[i + 1] - surface.curve[i]);
+            if (i % 2 == 1) addRectangle(lowU, highU, along, next, 2, segments);
+            along = next;
+        }
+    }
     for (double u = first(layout.lowU, surface.stepU); u < layout.highU && ++count < kMaxStrips; u += 2 * surface.stepU)
         addRectangle(u, u + surface.stepU, lowV, highV, 1, segments);
     if (surface.stepV == 0) return;
@@ -224,9 +372,17 @@ void addCell(std::vector<std::vector<Vec3d>> rings, bool isTurned, std::vector<m
 }  // namespace
 
 bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<std::vector<Vec3d>>& rings,
-                   std::vector<model::Polygon>& faces) {
-    const auto surface = file.entityOf(record) == Entity::SurfaceOfLinearExtrusion ? readExtrusion(file, record)
-                                                                                   : readSurface(file, record);
+                   std::vector<model::Polygon>& faces, std::uint64_t& budget) {
+    const Entity kind = file.entityOf(record);
+    const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
+    // To measure a spline takes about this, more for a high degree.
+    const std::uint64_t measuring = isSpline ? 2'000'000 : 0;
+    if (budget <= measuring) return false;
+    budget -= measuring;
+    const auto surface = isSpline                                   ? readSpline(file, record)
+                         : kind == Entity::SurfaceOfRevolution      ? readRevolution(file, record)
+                         : kind == Entity::SurfaceOfLinearExtrusion ? readExtrusion(file, record)
+                                                                    : readSurface(file, record);
     Layout layout;
     if (!surface || !layOut(*surface, rings, layout)) return false;
     const bool isTurned = twiceArea(layout.rings[0]) < 0;
@@ -244,8 +400,11 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
         return static_cast<std::uint8_t>(1 + (windings[1] > 0 ? 1 : 0) + (windings[2] > 0 ? 2 : 0));
     };
     const std::size_t before = faces.size();
-    std::uint64_t budget = kMaxFaceSteps;
-    for (FlatFace& cell : overlay(segments, 3, stateOf, budget)) {
+    const std::uint64_t granted = std::min(kMaxFaceSteps, budget);
+    std::uint64_t left = granted;
+    std::vector<FlatFace> cells = overlay(segments, 3, stateOf, left);
+    budget -= granted - std::min(left, granted);
+    for (FlatFace& cell : cells) {
         for (auto& ring : cell.rings)
             for (Vec3d& p : ring) p = placeOf(*surface, layout, p);
         addCell(std::move(cell.rings), isTurned, faces);

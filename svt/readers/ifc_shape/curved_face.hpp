@@ -18,10 +18,13 @@ namespace svt::readers::ifc {
 
 /// Appends the polygons of a face. Corners of its rings stay where they are, and so do their edges: what neighbours has the
 /// same chords.
-/// \param surface  cylinder, cone, sphere, torus, or surface of linear extrusion
+/// Chords across a B-spline surface stay within kChordError of it, as far as 64 strips each way do.
+/// \param surface  cylinder, cone, sphere, torus, surface of linear extrusion or revolution, or B-spline surface
 /// \param rings    exterior one first, as the face sees them
-/// \return false where the surface is of another kind, or a ring goes around it or through its pole or apex
+/// \param budget   steps that are left for all faces of a file, some nanoseconds each; taken from
+/// \return false where the surface is of another kind, a ring goes around it or through its pole or apex, or the budget is
+///         spent
 [[nodiscard]] bool addCurvedFace(const IfcFile& file, RecordIndex surface, const std::vector<std::vector<Vec3d>>& rings,
-                                 std::vector<model::Polygon>& faces);
+                                 std::vector<model::Polygon>& faces, std::uint64_t& budget);
 
 }  // namespace svt::readers::ifc

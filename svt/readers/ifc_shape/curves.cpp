@@ -1,5 +1,7 @@
 #include <svt/readers/ifc_shape/curves.hpp>
 
+#include <svt/readers/ifc_shape/bspline.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,8 +109,6 @@ Trim readTrim(const IfcFile& file, Value list) {
     return trim;
 }
 
-bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points);
-
 bool readTrimmedConic(const IfcFile& file, RecordIndex basis, Trim from, Trim to, bool isForward, bool prefersPoints,
                       std::vector<Vec3d>& points) {
     Conic conic;
@@ -159,70 +159,17 @@ bool readTrimmedCurve(const IfcFile& file, const Fields& fields, std::vector<Vec
     }
 }
 
-// Knots and control points of a B-spline curve.
-struct BSpline {
-    std::size_t degree = 0;
-    std::vector<double> knots, weights;
-    std::vector<Vec3d> points;
-
-    // De Boor's algorithm in homogeneous coordinates.
-    [[nodiscard]] Vec3d at(double t) const {
-        std::size_t span = degree;
-        while (span + 1 < points.size() && t >= knots[span + 1]) ++span;
-        std::vector<Vec3d> p(degree + 1);
-        std::vector<double> w(degree + 1);
-        for (std::size_t j = 0; j <= degree; ++j) {
-            w[j] = weights[span - degree + j];
-            p[j] = points[span - degree + j] * w[j];
-        }
-        for (std::size_t level = 1; level <= degree; ++level)
-            for (std::size_t j = degree; j >= level; --j) {
-                const double low = knots[span - degree + j], high = knots[span + 1 + j - level];
-                const double share = high > low ? (t - low) / (high - low) : 0;
-                p[j] = p[j - 1] * (1 - share) + p[j] * share;
-                w[j] = w[j - 1] * (1 - share) + w[j] * share;
-            }
-        return p[degree] / w[degree];
-    }
-};
-
 bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points) {
-    const Fields fields = file.fieldsOf(curve);
-    const auto degree = fields[0].integer();
-    if (!degree || *degree < 1 || *degree > 16) return false;
-    BSpline spline;
-    spline.degree = std::size_t(*degree);
-    for (const RecordIndex record : file.followAll(fields[1])) {
-        const auto point = file.point(record);
-        if (!point) return false;
-        spline.points.push_back(*point);
-    }
-    const std::vector<Value> multiplicities = step::itemsOf(fields[5]), knots = step::itemsOf(fields[6]);
-    if (multiplicities.size() != knots.size()) return false;
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-        const auto count = multiplicities[i].integer();
-        const auto knot = knots[i].number();
-        if (!count || !knot || *count < 1 || *count > 1000 || (i > 0 && *knot < spline.knots.back())) return false;
-        spline.knots.insert(spline.knots.end(), std::size_t(*count), *knot);
-    }
-    if (spline.points.size() <= spline.degree || spline.knots.size() != spline.points.size() + spline.degree + 1)
-        return false;
-    spline.weights.assign(spline.points.size(), 1);
-    if (file.entityOf(curve) == Entity::RationalBSplineCurveWithKnots) {
-        const std::vector<Value> weights = step::itemsOf(fields[8]);
-        if (weights.size() != spline.points.size()) return false;
-        for (std::size_t i = 0; i < weights.size(); ++i) {
-            spline.weights[i] = weights[i].number().value_or(0);
-            if (!(spline.weights[i] > 0)) return false;
-        }
-    }
+    const auto spline = readBSplineCurve(file, curve);
+    if (!spline) return false;
+    const KnotVector& knots = spline->knots;
     std::vector<Vec3d> sampled;
-    for (std::size_t span = spline.degree; span < spline.points.size(); ++span) {
-        const double low = spline.knots[span], high = spline.knots[span + 1];
+    for (std::size_t span = knots.degree; span < knots.count; ++span) {
+        const double low = knots.knots[span], high = knots.knots[span + 1];
         if (high <= low) continue;
-        const int steps = spline.degree == 1 ? 1 : 16;
+        const int steps = knots.degree == 1 ? 1 : 16;
         for (int s = 0; s <= steps; ++s)
-            sampled.push_back(spline.at(s == steps ? high : low + (high - low) * s / steps));
+            sampled.push_back(spline->at(s == steps ? high : low + (high - low) * s / steps));
     }
     appendPart(sampled, points);
     return points.size() >= 2;

@@ -1,6 +1,7 @@
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/readers/ifc_shape/curves.hpp>
 
 #include <fmt/format.h>
 
@@ -177,6 +178,10 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
                     lost = "its place on a grid (of straight axes that meet)";
                 break;
             case Entity::LinearPlacement:
+                if (const auto axes = linearAxes(follow(fields[1]))) {
+                    result = axes->after(result);
+                    break;
+                }
                 if (follow(fields[2]) == kNoRecord) lost = "its place along a curve (without Cartesian position)";
                 result = axes(follow(fields[2])).after(result);
                 break;
@@ -207,6 +212,33 @@ bool IfcFile::readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& 
     along = normalized(fields[2].enumeration() == "F" ? -along : along);
     from = from + Vec3d{-along.y, along.x, 0} * offset;
     return true;
+}
+
+// Axes at a distance along a curve: x along it, z up as far as that allows, unless the placement says otherwise; offsets
+// to the left, upwards and ahead.
+std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
+    if (entityOf(relative) != Entity::Axis2PlacementLinear) return std::nullopt;
+    const Fields fields = fieldsOf(relative), point = fieldsOf(follow(fields[0]));
+    const auto distance = point[0].number();
+    std::vector<Vec3d> line;
+    std::string why;
+    if (!distance || point[0].typeName() == "IFCPARAMETERVALUE" || !readCurve(*this, follow(point[4]), line, why))
+        return std::nullopt;
+    double left = *distance * lengthUnit;
+    std::size_t segment = 0;
+    while (segment + 2 < line.size() && left > length(line[segment + 1] - line[segment])) {
+        left -= length(line[segment + 1] - line[segment]);
+        ++segment;
+    }
+    if (segment + 1 >= line.size()) return std::nullopt;
+    const Vec3d along = normalized(line[segment + 1] - line[segment]);
+    if (!(length(along) > 0.5) || left > length(line[segment + 1] - line[segment]) + 1e-6) return std::nullopt;
+    const Vec3d flat = cross(Vec3d{0, 0, 1}, along);
+    const Vec3d lateral = length(flat) > 1e-9 ? normalized(flat) : Vec3d{0, 1, 0};
+    const Vec3d up = cross(along, lateral);
+    const Vec3d origin =
+        line[segment] + along * (left + metres(point[3])) + lateral * metres(point[1]) + up * metres(point[2]);
+    return axesFrom(origin, direction(fields[1]).value_or(up), direction(fields[2]).value_or(along));
 }
 
 // Where two axes of a grid meet, x along the first one or in the direction that the placement gives.

@@ -27,13 +27,14 @@ using step::Value;
     X(Project) X(UnitAssignment) X(SIUnit) X(ConversionBasedUnit) X(ConversionBasedUnitWithOffset) \
     X(MeasureWithUnit) X(GeometricRepresentationContext) X(GeometricRepresentationSubContext) X(MapConversion) \
     X(MapConversionScaled) X(RigidOperation) X(ProjectedCRS) X(LocalPlacement) X(GridPlacement) X(LinearPlacement) \
-    X(Axis1Placement) X(Axis2Placement2D) X(Axis2Placement3D) X(AxisLinearPlacement) X(CartesianPoint) X(Direction) \
+    X(Axis1Placement) X(Axis2Placement2D) X(Axis2Placement3D) X(Axis2PlacementLinear) X(PointByDistanceExpression) X(CartesianPoint) X(Direction) \
     X(Vector) X(CartesianTransformationOperator2D) X(CartesianTransformationOperator2DnonUniform) \
     X(CartesianTransformationOperator3D) X(CartesianTransformationOperator3DnonUniform) X(ProductDefinitionShape) \
     X(ShapeRepresentation) X(TopologyRepresentation) X(RepresentationMap) X(MappedItem) X(StyledItem) \
-    X(PresentationStyleAssignment) X(SurfaceStyle) X(SurfaceStyleRendering) X(SurfaceStyleShading) X(ColourRgb) \
+    X(PresentationStyleAssignment) X(SurfaceStyle) X(SurfaceStyleRendering) X(SurfaceStyleShading) X(ColourRgb) X(ColourRgbList) X(IndexedColourMap) \
     X(MaterialDefinitionRepresentation) X(StyledRepresentation) X(ExtrudedAreaSolid) X(ExtrudedAreaSolidTapered) \
-    X(RevolvedAreaSolid) X(SweptDiskSolid) X(SweptDiskSolidPolygonal) X(FacetedBrep) X(FacetedBrepWithVoids) \
+    X(RevolvedAreaSolid) X(FixedReferenceSweptAreaSolid) X(DirectrixDerivedReferenceSweptAreaSolid) \
+    X(SurfaceCurveSweptAreaSolid) X(SweptDiskSolid) X(SweptDiskSolidPolygonal) X(FacetedBrep) X(FacetedBrepWithVoids) \
     X(AdvancedBrep) X(AdvancedBrepWithVoids) X(ClosedShell) X(OpenShell) X(ConnectedFaceSet) \
     X(FaceBasedSurfaceModel) X(ShellBasedSurfaceModel) X(Face) X(FaceSurface) X(AdvancedFace) X(FaceBound) \
     X(FaceOuterBound) X(PolyLoop) X(EdgeLoop) X(OrientedEdge) X(EdgeCurve) X(Edge) X(VertexPoint) X(Plane) \
@@ -51,7 +52,7 @@ using step::Value;
     X(CompositeCurve) X(CompositeCurveOnSurface) X(CompositeCurveSegment) X(ReparametrisedCompositeCurveSegment) \
     X(TrimmedCurve) X(Circle) X(Ellipse) X(Line) X(IndexedPolyCurve) X(BSplineCurveWithKnots) \
     X(RationalBSplineCurveWithKnots) X(BezierCurve) X(SurfaceCurve) X(SeamCurve) X(IntersectionCurve) X(PropertySet) \
-    X(PropertySingleValue) X(PropertyEnumeratedValue) X(PropertyListValue) X(PropertyBoundedValue) \
+    X(PropertySingleValue) X(PropertyEnumeratedValue) X(PropertyListValue) X(PropertyBoundedValue) X(ComplexProperty) X(PropertyTableValue) \
     X(ElementQuantity) X(QuantityLength) X(QuantityArea) X(QuantityVolume) X(QuantityCount) X(QuantityWeight) \
     X(QuantityTime) X(RelAggregates) X(RelNests) X(RelContainedInSpatialStructure) X(RelVoidsElement) \
     X(RelFillsElement) X(RelProjectsElement) X(RelDefinesByProperties) X(RelDefinesByType) X(RelAssociatesMaterial) \
@@ -120,8 +121,8 @@ public:
     [[nodiscard]] Transform axes(RecordIndex record) const noexcept;
     /// IfcCartesianTransformationOperator...
     [[nodiscard]] Transform transformation(RecordIndex record) const noexcept;
-    /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its Cartesian position) and those
-    /// above it, in the world of the project.
+    /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its distance along a curve that
+    /// readCurve() knows, else by its Cartesian position) and those above it, in the world of the project.
     /// \param lost  set to what of the way up could not be read, in words; unchanged if all was. There the placement is
     ///              that of the levels that could: a cycle, or more than 256 levels, ends it
     [[nodiscard]] Transform placement(RecordIndex record, std::string& lost) const;
@@ -130,6 +131,7 @@ public:
     double angleUnit = 1;   ///< radians
 
 private:
+    [[nodiscard]] std::optional<Transform> linearAxes(RecordIndex relative) const;
     [[nodiscard]] std::optional<Transform> gridAxes(RecordIndex placement, RecordIndex& above) const;
     bool readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const;
 

@@ -16,6 +16,9 @@ namespace {
 using Polygons = std::vector<model::Polygon>;
 
 constexpr int kMaxItemDepth = 48;
+constexpr std::size_t kMaxChain = 10'000;  // booleans of one kind in a row
+constexpr std::size_t kFreeBooleans = 1000;
+constexpr std::uint64_t kFreeFaceSteps = 1'000'000'000, kFaceStepsPerRecord = 200'000;  // of curved faces
 constexpr std::uint64_t kMaxExpandedPoints =
     200'000'000;  // of mapped items: some bytes of the file stand for a whole shape
 
@@ -52,8 +55,12 @@ void turnLoop(std::vector<Vec3d>& ring, std::vector<std::size_t>& ends) {
 
 }  // namespace
 
-ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem)
-    : file_(file), materialOfItem_(std::move(materialOfItem)) {}
+ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
+                         std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces)
+    : file_(file),
+      materialOfItem_(std::move(materialOfItem)),
+      materialOfFaces_(std::move(materialOfFaces)),
+      faceBudget_(kFreeFaceSteps + kFaceStepsPerRecord * file.step().records().size()) {}
 
 void ShapeReader::leaveOut(std::string what) {
     if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
@@ -103,6 +110,9 @@ void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, int dept
         case Entity::ExtrudedAreaSolid:
         case Entity::ExtrudedAreaSolidTapered:
         case Entity::RevolvedAreaSolid: return readSweep(item, fields, bodies);
+        case Entity::FixedReferenceSweptAreaSolid:
+        case Entity::DirectrixDerivedReferenceSweptAreaSolid:
+        case Entity::SurfaceCurveSweptAreaSolid: return readDirectedSweep(item, fields, bodies);
         case Entity::SweptDiskSolid:
         case Entity::SweptDiskSolidPolygonal: return readDisk(fields, bodies);
         case Entity::FacetedBrep:
@@ -166,6 +176,34 @@ void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodi
         addSolid(
             transformed(isTapered ? extrudeTapered(regions[r], ends[r], sweep) : extrude(regions[r], sweep), position),
             bodies, item);
+}
+
+// A profile along a curve. Its x axis keeps to a direction, or to the normal of a plane that the curve lies on.
+void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    std::vector<Region> regions;
+    std::vector<Vec3d> line;
+    std::string why;
+    if (!readProfile(file_, file_.follow(fields[0]), regions, why) ||
+        !readCurve(file_, file_.follow(fields[2]), line, why))
+        return leaveOut(why);
+    Vec3d reference = file_.direction(fields[5]).value_or(Vec3d{0, 0, 1});
+    if (file_.entityOf(item) == Entity::SurfaceCurveSweptAreaSolid) {
+        const RecordIndex surface = file_.follow(fields[5]);
+        if (file_.entityOf(surface) != Entity::Plane)
+            return leaveOut(fmt::format("a profile swept along a curve on {}", file_.typeName(surface)));
+        reference = file_.axes(file_.follow(file_.fieldsOf(surface)[0])).z;
+    }
+    // Writers give parameters in many ways; all but the whole curve would need the parameter of each kind of curve.
+    const double begin = fields[3].number().value_or(0), end = fields[4].number().value_or(1);
+    double whole = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) whole += length(line[i + 1] - line[i]);
+    const auto isEnd = [&](double value) { return std::abs(end - value) <= 1e-3 * value; };
+    const auto isWhole = begin == 0 && (isEnd(1) || isEnd(double(line.size() - 1)) || isEnd(whole / file_.lengthUnit));
+    if (!isWhole)
+        leaveOut("the ends of a swept profile, which stand at parameters of its curve: it has the whole curve");
+    const Transform position = file_.axes(file_.follow(fields[1]));
+    for (const Region& region : regions)
+        addSolid(transformed(sweepAlong(region, line, reference), position), bodies, item);
 }
 
 void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {
@@ -318,8 +356,12 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
         rings.insert(isOuter ? rings.begin() : rings.end(), std::move(ring));
     }
     if (rings.empty()) return false;
-    if (isCurved && addRuledFace(rings, edgeEnds, faces)) return true;
-    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces)) return true;
+    // Four straight edges say nothing of what a B-spline surface is between them.
+    const Entity surface = file_.entityOf(file_.follow(fields[1]));
+    const bool isSpline =
+        surface == Entity::BSplineSurfaceWithKnots || surface == Entity::RationalBSplineSurfaceWithKnots;
+    if (isCurved && !isSpline && addRuledFace(rings, edgeEnds, faces)) return true;
+    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces, faceBudget_)) return true;
     if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(file_.follow(fields[1]))));
     const auto areaOf = [](const std::vector<Vec3d>& ring) {
         Vec3d sum{};
@@ -397,9 +439,19 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
     const Value closed = fields[1].enumeration().empty() ? fields[2] : fields[1];
     body.isSolid = closed.enumeration() == "T";
     step::ValueCursor cursor(isTriangles ? fields[3] : fields[2]);
+    const auto colors = materialOfFaces_.find(item);
+    std::size_t number = 0;
+    // A face that has no area is left out, and so is its colour.
+    const auto add = [&](const std::vector<std::vector<Vec3d>>& rings) {
+        const std::size_t before = body.faces.size();
+        addFace(body.faces, rings);
+        if (colors != materialOfFaces_.end() && number < colors->second.size() && body.faces.size() > before)
+            body.faces.back().material = colors->second[number];
+        ++number;
+    };
     for (Value face; cursor.next(face);) {
         if (isTriangles) {
-            addFace(body.faces, {ringOf(face)});
+            add({ringOf(face)});
             continue;
         }
         const RecordIndex record = file_.follow(face);
@@ -409,7 +461,7 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
             step::ValueCursor inner(of[1]);
             for (Value ring; inner.next(ring);) rings.push_back(ringOf(ring));
         }
-        addFace(body.faces, rings);
+        add(rings);
     }
     if (isWrong) leaveOut(fmt::format("corners of an {} with an index that is out of range", file_.typeName(item)));
     if (body.faces.empty()) return leaveOut(fmt::format("an {} without faces", file_.typeName(item)));
@@ -452,33 +504,75 @@ bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& b
     return true;
 }
 
-void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
-    Bodies first, second;
-    readItem(file_.follow(fields[1]), depth + 1, first);
-    if (first.empty()) return;
-    Box3d around;
-    for (const Body& body : first) around.add(boundsOf(body.faces));
-    const RecordIndex operand = file_.follow(fields[2]);
-    const std::string_view op = fields[0].enumeration();
-    const auto keepFirst = [&](std::string_view why) {
+// The second operand of a boolean as closed bodies; false, and said, where it is none.
+bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Box3d& around, int depth,
+                              Bodies& bodies) {
+    const auto refuse = [&](std::string_view why) {
         leaveOut(fmt::format("the {} with an {}: {}", op, file_.typeName(operand), why));
-        bodies.insert(bodies.end(), first.begin(), first.end());
+        return false;
     };
     switch (file_.entityOf(operand)) {
         case Entity::HalfSpaceSolid:
         case Entity::BoxedHalfSpace:
         case Entity::PolygonalBoundedHalfSpace:
-            if (!readHalfSpace(operand, around, second)) return keepFirst("it cannot be read");
+            if (around.isEmpty()) return refuse("there is nothing that it could bound");
+            if (!readHalfSpace(operand, around, bodies)) return refuse("it cannot be read");
             break;
         default:
-            readItem(operand, depth + 1, second);
-            if (second.empty()) return keepFirst("it cannot be read");
+            readItem(operand, depth + 1, bodies);
+            if (bodies.empty()) return refuse("it cannot be read");
     }
-    const auto isOpen = [](const Body& body) { return !isClosed(body.faces); };
-    if (std::any_of(second.begin(), second.end(), isOpen)) return keepFirst("it is not closed");
-    if (std::any_of(first.begin(), first.end(), isOpen))
-        return keepFirst("the body that it is applied to is not closed");
-    const std::int32_t material = first.front().material;
+    if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !isClosed(body.faces); }))
+        return refuse("it is not closed");
+    return true;
+}
+
+// ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
+// openings of a wall, is evaluated at once, whatever its depth.
+void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
+    // Each is evaluated once but where results share operands: some 50 records could stand for 2^48 evaluations.
+    if (++booleans_ > kFreeBooleans + 2 * file_.step().records().size())
+        return leaveOut("booleans that use each other's results too often");
+    const std::string_view op = fields[0].enumeration();
+    std::vector<RecordIndex> operands{file_.follow(fields[2])};
+    RecordIndex base = file_.follow(fields[1]);
+    for (std::size_t length = 1; op != "INTERSECTION"; ++length) {
+        const Entity entity = file_.entityOf(base);
+        if (entity != Entity::BooleanResult && entity != Entity::BooleanClippingResult) break;
+        const Fields inner = file_.fieldsOf(base);
+        if (inner[0].enumeration() != op) break;
+        if (length == kMaxChain) return leaveOut("booleans that refer to each other in a circle, or nest too deep");
+        operands.push_back(file_.follow(inner[2]));
+        base = file_.follow(inner[1]);
+    }
+    Bodies first, second;
+    readItem(base, depth + 1, first);
+    if (first.empty() && op != "UNION") return;
+    if (std::any_of(first.begin(), first.end(), [](const Body& body) { return !isClosed(body.faces); })) {
+        leaveOut(fmt::format("the {} with an {}: the body that it is applied to is not closed", op,
+                             file_.typeName(operands.back())));
+        bodies.insert(bodies.end(), first.begin(), first.end());
+        return;
+    }
+    Box3d around;
+    for (const Body& body : first) around.add(boundsOf(body.faces));
+    bool isRead = true;
+    for (auto operand = operands.rbegin(); operand != operands.rend(); ++operand) {
+        Bodies part;
+        if (readOperand(*operand, op, around, depth, part))
+            second.insert(second.end(), part.begin(), part.end());
+        else
+            isRead = false;
+    }
+    // An intersection with a half-space that takes nothing in is nothing; a difference with one is all.
+    if (second.empty() && (op != "INTERSECTION" || !isRead)) {
+        bodies.insert(bodies.end(), first.begin(), first.end());
+        return;
+    }
+    evaluate(op, first, second, bodies);
+}
+
+void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies) {
     std::vector<Polygons> operands;
     for (const Body& body : second) operands.push_back(body.faces);
     if (op == "UNION") {
@@ -488,23 +582,28 @@ void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
             bodies.insert(bodies.end(), second.begin(), second.end());
             bodies.insert(bodies.end(), first.begin(), first.end());
         } else if (!joined->empty()) {
-            bodies.push_back({std::move(*joined), true, material});
+            bodies.push_back({std::move(*joined), true, (first.empty() ? second : first).front().material});
         }
         return;
     }
     // The second operand as one body.
     if (op == "INTERSECTION" && operands.size() > 1) {
         auto joined = evaluateBoolean(BooleanOperator::Union, operands);
-        if (!joined) return keepFirst("its parts cannot be joined");
+        if (!joined) {
+            leaveOut("the INTERSECTION with parts that cannot be joined");
+            bodies.insert(bodies.end(), first.begin(), first.end());
+            return;
+        }
         operands = {std::move(*joined)};
     }
+    if (op == "INTERSECTION" && operands.empty()) return;
     for (const Body& body : first) {
         std::vector<Polygons> all{body.faces};
         all.insert(all.end(), operands.begin(), operands.end());
         auto result =
             evaluateBoolean(op == "INTERSECTION" ? BooleanOperator::Intersection : BooleanOperator::Difference, all);
         if (!result) {
-            leaveOut(fmt::format("the {} with an {}: the result is not closed", op, file_.typeName(operand)));
+            leaveOut(fmt::format("a {}: its result is not closed", op));
             bodies.push_back(body);
         } else if (!result->empty()) {
             bodies.push_back({std::move(*result), true, body.material});

@@ -23,8 +23,10 @@ struct Shape {
 
 class ShapeReader {
 public:
-    /// \param materialOfItem  representation item -> material of its style
-    ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem);
+    /// \param materialOfItem   representation item -> material of its style
+    /// \param materialOfFaces  face set -> material of each of its faces, -1: that of the item
+    ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
+                std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces = {});
 
     /// The body of a product: the representation Body, or what comes nearest to it; a bounding box where there is nothing
     /// else, which is said in `leftOut`.
@@ -43,6 +45,7 @@ private:
     void readKnownItem(RecordIndex item, const Fields& fields, int depth, Bodies& bodies);
     void readMappedItem(const Fields& fields, int depth, Bodies& bodies);
     void readSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readDisk(const Fields& fields, Bodies& bodies);
     void readBrep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readSurfaceModel(const Fields& fields, Bodies& bodies);
@@ -50,6 +53,8 @@ private:
     void readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readBoolean(const Fields& fields, int depth, Bodies& bodies);
     bool readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies);
+    bool readOperand(RecordIndex operand, std::string_view op, const Box3d& around, int depth, Bodies& bodies);
+    void evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies);
     void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);
     void leaveOut(std::string what);
 
@@ -61,11 +66,14 @@ private:
 
     const IfcFile& file_;
     std::unordered_map<RecordIndex, std::int32_t> materialOfItem_;
+    std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces_;
     std::unordered_map<RecordIndex, std::shared_ptr<const Bodies>> mapped_;             // by representation map
     std::unordered_map<RecordIndex, std::vector<std::string>> leftOutOfMap_;            // what was left out of it
     std::unordered_map<RecordIndex, std::shared_ptr<const std::vector<Vec3d>>> edges_;  // points of edge curves
     std::vector<std::string> leftOut_;                                                  // of the shape that is read
     std::uint64_t expanded_ = 0;                                                        // points of mapped items
+    std::uint64_t faceBudget_;  // steps left for curved faces of the file
+    std::size_t booleans_ = 0;  // evaluated in the file
 };
 
 }  // namespace svt::readers::ifc

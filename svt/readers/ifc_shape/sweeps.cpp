@@ -185,6 +185,50 @@ Polygons sweepDisk(Ring line, double radius, double inner) {
     return faces;
 }
 
+Polygons sweepAlong(const Region& region, Ring line, Vec3d reference) {
+    const bool isClosed = line.size() > 3 && length(line.front() - line.back()) < 1e-6;
+    closeRing(line, 1e-6);
+    const std::size_t n = line.size(), segments = isClosed ? n : n - 1;
+    if (n < 2) return {};
+    const auto axesOf = [&](std::size_t segment) {
+        return axesFrom({}, line[(segment + 1) % n] - line[segment % n], reference);
+    };
+    // A point of the profile at a corner of the line, on the plane that halves the angle between two segments: half-way
+    // between where both bring it, which are one place but where the line winds.
+    const auto ringAt = [&](const Ring& profile, std::size_t corner) {
+        const bool isFirst = !isClosed && corner == 0, isLast = !isClosed && corner == segments;
+        const Transform before = axesOf(isFirst ? 0 : (corner + n - 1) % n),
+                        after = axesOf(isLast ? n - 2 : corner % n);
+        const Transform low = isFirst ? after : before, high = isLast ? before : after;
+        const Vec3d sum = low.z + high.z, normal = length(sum) > 1e-6 ? normalized(sum) : low.z;
+        const double along = std::max(dot(low.z, normal), 0.05);
+        Ring ring;
+        for (const Vec3d p : profile) {
+            const Vec3d a = low.direction({p.x, p.y, 0}), b = high.direction({p.x, p.y, 0});
+            ring.push_back(line[corner % n] +
+                           (a - low.z * (dot(a, normal) / along) + b - high.z * (dot(b, normal) / along)) / 2);
+        }
+        return ring;
+    };
+    const auto at = [&](std::size_t corner) {
+        Region result{ringAt(region.outer, corner), {}};
+        for (const Ring& hole : region.holes) result.holes.push_back(ringAt(hole, corner));
+        return result;
+    };
+    Polygons faces;
+    Region low = at(0);
+    const Region first = low;
+    for (std::size_t corner = 1; corner <= segments; ++corner) {
+        const Region high = isClosed && corner == segments ? first : at(corner);
+        addSides(low.outer, high.outer, faces);
+        for (std::size_t h = 0; h < low.holes.size(); ++h) addSides(low.holes[h], high.holes[h], faces);
+        low = high;
+    }
+    if (!isClosed) addCaps(first, low, faces);
+    if (enclosedVolume(faces) < 0) turnOver(faces);
+    return faces;
+}
+
 Polygons block(Vec3d size) {
     if (!(size.x > 0 && size.y > 0 && size.z > 0)) return {};
     return extrude({{{0, 0, 0}, {size.x, 0, 0}, {size.x, size.y, 0}, {0, size.y, 0}}, {}}, {0, 0, size.z});

@@ -27,6 +27,12 @@ namespace svt::readers::ifc {
 /// \param inner   radius of the hollow, 0: none
 [[nodiscard]] std::vector<model::Polygon> sweepDisk(std::vector<Vec3d> line, double radius, double inner);
 
+/// A region carried along a line, its plane across the line and its x axis as near to `reference` as that allows, with
+/// mitred corners.
+/// \param line  at least two points; a closed one ends at its first
+/// \return the closed faces; none where the line has no length
+[[nodiscard]] std::vector<model::Polygon> sweepAlong(const Region& region, std::vector<Vec3d> line, Vec3d reference);
+
 /// Box with one corner at the origin.
 [[nodiscard]] std::vector<model::Polygon> block(Vec3d size);
 /// Square or rectangular pyramid on z = 0, one corner at the origin.

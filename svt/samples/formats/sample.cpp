@@ -75,6 +75,7 @@ Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptio
         case SampleFormat::CityGml2: writeCityGml2(*source, options.thematic, out); break;
         case SampleFormat::CityJson2: writeCityJson(*source, out); break;
         case SampleFormat::CityJsonSeq2: writeCityJsonSeq(*source, out); break;
+        case SampleFormat::Ifc4: writeIfc(*source, out); break;
     }
     out.flush();
     if (out.hasFailed()) return Error(Code::CannotWrite, "the sink took no more of the sample");

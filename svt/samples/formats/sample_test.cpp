@@ -223,8 +223,8 @@ TEST_P(EveryKind, EveryFormatFollowsItsSchema) {
 }
 
 TEST_P(EveryKind, SameArgumentsGiveTheSameBytes) {
-    for (const SampleFormat format :
-         {SampleFormat::CityGml3, SampleFormat::CityGml2, SampleFormat::CityJson2, SampleFormat::CityJsonSeq2})
+    for (const SampleFormat format : {SampleFormat::CityGml3, SampleFormat::CityGml2, SampleFormat::CityJson2,
+                                      SampleFormat::CityJsonSeq2, SampleFormat::Ifc4})
         EXPECT_EQ(text(GetParam(), format, smallOptions()), text(GetParam(), format, smallOptions()));
 }
 
@@ -542,6 +542,46 @@ std::uint64_t hashOf(const std::string& bytes) {
     return hash;
 }
 
+// Every record is used by a later one, has a number of its own, and refers to what comes before it.
+TEST_P(EveryKind, RecordsOfIfcReferBackwards) {
+    const std::string ifc = text(GetParam(), SampleFormat::Ifc4, smallOptions());
+    std::set<std::string> globalIds;
+    int last = 0;
+    for (std::size_t at = ifc.find("DATA;\n") + 6; ifc[at] == '#';) {
+        const std::size_t end = ifc.find('\n', at);
+        const std::string record = ifc.substr(at, end - at);
+        EXPECT_EQ(std::atoi(record.c_str() + 1), ++last);
+        EXPECT_TRUE(record.ends_with(");")) << record;
+        for (std::size_t ref = record.find('#', 1); ref != std::string::npos; ref = record.find('#', ref + 1)) {
+            const int target = std::atoi(record.c_str() + ref + 1);
+            EXPECT_TRUE(target > 0 && target < last) << record;
+        }
+        const std::size_t id = record.find("('");
+        const bool hasGlobalId = id != std::string::npos && record.find("',$,", id) == id + 24;
+        EXPECT_TRUE(!hasGlobalId || globalIds.insert(record.substr(id + 2, 22)).second) << record;
+        at = end + 1;
+    }
+    EXPECT_GT(globalIds.size(), 100u);
+    EXPECT_TRUE(ifc.ends_with("ENDSEC;\nEND-ISO-10303-21;\n"));
+}
+
+TEST(House, IsParametricInIfc) {
+    const std::string ifc = text(SampleKind::House, SampleFormat::Ifc4, {});
+    const auto count = [&](const std::string& word) {
+        std::size_t found = 0;
+        for (std::size_t at = ifc.find(word); at != std::string::npos; at = ifc.find(word, at + 1)) ++found;
+        return found;
+    };
+    EXPECT_EQ(count("=IFCRELFILLSELEMENT("), 30u);  // 16 windows in walls, 2 in roofs, 11 doors, the hatch
+    EXPECT_EQ(count("=IFCRELVOIDSELEMENT("), count("=IFCOPENINGELEMENT("));
+    EXPECT_EQ(count("=IFCMAPPEDITEM("), 2u);
+    EXPECT_EQ(count("=IFCBUILDINGSTOREY("), 3u);
+    EXPECT_EQ(count("=IFCFACETEDBREP("), 0u);
+    // The wall in the west is built from outside to inside.
+    EXPECT_NE(ifc.find("'exterior plaster, mineral wool insulation, brick masonry, interior plaster'"),
+              std::string::npos);
+}
+
 TEST(Sample, BytesAreTheSameOnEveryMachine) {
     SampleOptions turned = smallOptions();
     turned.turnDegrees = 12.5;
@@ -549,6 +589,7 @@ TEST(Sample, BytesAreTheSameOnEveryMachine) {
     EXPECT_EQ(hashOf(text(SampleKind::House, SampleFormat::CityGml2, turned)), 9709734554619383749u);
     EXPECT_EQ(hashOf(text(SampleKind::Tower, SampleFormat::CityJson2, turned)), 15661415079836536294u);
     EXPECT_EQ(hashOf(text(SampleKind::District, SampleFormat::CityGml3, turned)), 3226204104232761395u);
+    EXPECT_EQ(hashOf(text(SampleKind::Tower, SampleFormat::Ifc4, turned)), 6106371490364004107u);
 }
 
 TEST(TextSink, NumbersHaveFixedDecimals) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The writers of the three formats. Each writes one building at a time and keeps nothing of it.
+/// The writers of the formats. Each writes one building at a time and keeps nothing of it.
 
 #include <svt/samples/designs/source.hpp>
 #include <svt/samples/formats/sample_text.hpp>
@@ -14,6 +14,7 @@ void writeCityGml3(SampleSource& source, TextSink& out);
 void writeCityGml2(SampleSource& source, bool isThematic, TextSink& out);
 void writeCityJson(SampleSource& source, TextSink& out);
 void writeCityJsonSeq(SampleSource& source, TextSink& out);
+void writeIfc(SampleSource& source, TextSink& out);  ///< ifc/ifc_writer.cpp
 
 /// GML elements common to both versions. Ids and names of samples need no escaping.
 class GmlText {

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Walls, slabs and roofs split into the layers of their material.
+///
+///     outside          inside        IfcMaterialLayerSetUsage: along which axis of the product the layers follow each
+///       |##|/////////|xxx|          other (AXIS2: y, for walls; AXIS3: z, for slabs), in which sense, and where the first
+///       a  b         c   d          begins; the thickness of each gives the planes a, b, c, d
+///
+/// The body, with openings cut out of it, is intersected with the space between two planes: closed polygons with caps.
+
+#include <svt/readers/ifc/properties.hpp>
+#include <svt/readers/ifc_shape/shape_reader.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace svt::readers::ifc {
+
+/// One layer of a usage.
+struct LayerPart {
+    RecordIndex material = kNoRecord;
+    std::string name;          ///< of the material, else of the layer
+    std::string function;      ///< IfcMaterialLayer.Category, else that of the material: LoadBearing, Insulation, ...
+    double thickness = 0;      ///< metres; 0 for a foil, which has no body
+    std::vector<Body> bodies;  ///< in the axes of the product
+};
+
+struct LayeredShape {
+    std::vector<LayerPart> layers;  ///< in the order of the set
+    std::vector<Body> rest;         ///< what of the shape lies outside of all layers
+    std::string why;                ///< not empty: why the shape cannot be split; there are no layers then
+    double moved = 0;               ///< metres by which the layers were moved onto a body that is as thick as they are
+};
+
+/// Splits a shape by the IfcMaterialLayerSetUsage of its product.
+///
+/// The layers lie parallel to the straight line of the representation Axis where there is one, and those of a slab along
+/// the direction of its extrusion where it is not as thick as the layers along z. A millimetre more than the layers
+/// belongs to the outermost. Where the usage puts the layers beside a body that is as thick as they are, they are moved.
+/// \param definition  IfcProductDefinitionShape of the product, for its axis
+/// \return nothing where the product is not made of two or more layers
+[[nodiscard]] std::optional<LayeredShape> splitIntoLayers(const IfcFile& file, const Properties& properties,
+                                                          RecordIndex product, RecordIndex definition,
+                                                          const Shape& shape);
+
+}  // namespace svt::readers::ifc

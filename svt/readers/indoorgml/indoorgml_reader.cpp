@@ -1,0 +1,364 @@
+#include <svt/readers/indoorgml/indoorgml_reader.hpp>
+
+#include <svt/readers/georeference/far_features.hpp>
+#include <svt/readers/georeference/georeference.hpp>
+#include <svt/readers/gml/gml_numbers.hpp>
+#include <svt/readers/xml/xml_encoding.hpp>
+#include <svt/readers/xml/xml_names.hpp>
+#include <svt/readers/xml/xml_scanner.hpp>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace svt::readers {
+namespace {
+
+using pugi::xml_node;
+using std::string_view;
+
+string_view localName(xml_node node) { return xml::splitName(node.name()).localName; }
+
+bool isCellSpace(string_view name) {
+    constexpr string_view kClasses[] = {"CellSpace",        "NavigableSpace",  "NonNavigableSpace", "GeneralSpace",
+                                        "TransferSpace",    "ConnectionSpace", "TransitionSpace",   "AnchorSpace",
+                                        "UnnavigableSpace", "ObjectSpace",     "NonNaviSpace"};
+    return std::find(std::begin(kClasses), std::end(kClasses), name) != std::end(kClasses);
+}
+
+// Whether what is below a cell space belongs to something else, which has a geometry of its own.
+bool isOther(string_view name) {
+    return isCellSpace(name) || name.ends_with("Boundary") || name == "State" || name == "Node" || name == "Transition";
+}
+
+// The next node in document order; below `top` alone. Not recursive: nesting may be as deep as the file likes.
+xml_node nextNode(xml_node node, xml_node top, bool goesDown = true) {
+    if (goesDown && node.first_child()) return node.first_child();
+    while (node && node != top && !node.next_sibling()) node = node.parent();
+    return node && node != top ? node.next_sibling() : xml_node();
+}
+
+string_view attributeOf(xml_node node, string_view name) {
+    for (const pugi::xml_attribute attribute : node.attributes())
+        if (xml::splitName(attribute.name()).localName == name) return xml::trimmed(attribute.value());
+    return {};
+}
+
+// The id that a reference within the file points to; empty for others.
+std::string target(xml_node node) {
+    string_view href = attributeOf(node, "href");
+    return href.starts_with('#') ? std::string(href.substr(1)) : std::string();
+}
+
+class IndoorReader {
+public:
+    IndoorReader(string_view text, string_view name, const ReadOptions& options, Diagnostics& diagnostics)
+        : text_(text), name_(name), options_(options), diagnostics_(diagnostics) {}
+
+    Result<model::BuildingModel> run() {
+        const pugi::xml_parse_result parsed = document_.load_buffer(
+            text_.data(), text_.size(), pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+        if (!parsed)
+            return Error(Code::BadXml, fmt::format("not well-formed: {}", parsed.description()),
+                         {std::string(name_), xml::lineColumnAt(text_, std::uint64_t(parsed.offset)).line, 0, {}});
+        for (const xml_node child : document_.children())
+            if (child.type() == pugi::node_doctype)
+                return Error(Code::DtdRefused, "the file has a DOCTYPE, which is not read",
+                             {std::string(name_), 0, 0, {}});
+        model_.source = name_;
+        model_.format = "IndoorGML";
+        const xml_node root = document_.document_element();
+        for (xml_node node = root; node; node = nextNode(node, root)) {
+            const string_view id = attributeOf(node, "id");
+            if (!id.empty()) byId_.emplace(std::string(id), node);
+            if (srsName_.empty()) srsName_ = attributeOf(node, "srsName");
+        }
+        for (xml_node node = root; node; node = nextNode(node, root)) {
+            if (Progress::isCancelled(options_.progress))
+                return Error(Code::Cancelled, "stopped while reading", {std::string(name_), 0, 0, {}});
+            const string_view element = localName(node);
+            if (isCellSpace(element)) addCell(node);
+            if (element == "SpaceLayer" || element == "ThematicLayer") layers_.push_back(node);
+            if (element == "State" || element == "Node") readState(node);
+            if (element == "Transition" || element == "Edge") readTransition(node);
+        }
+        if (cells_.empty())
+            return Error(Code::EmptyModel, "the file has no cell space", {std::string(name_), 0, 0, {}});
+        connectCells();
+        addLayers();
+        return placeModel();
+    }
+
+private:
+    // Mostly asked for in the order of the document: counts on from the last one.
+    [[nodiscard]] Place placeOf(xml_node node, std::string id = {}) {
+        const auto offset = std::min(std::size_t(std::max<std::ptrdiff_t>(0, node.offset_debug())), text_.size());
+        if (offset < countedTo_) {
+            countedTo_ = 0;
+            countedLines_ = 0;
+        }
+        countedLines_ += xml::countLines(text_.substr(countedTo_, offset - countedTo_));
+        countedTo_ = offset;
+        return {std::string(name_), countedLines_ + 1, 0, std::move(id)};
+    }
+
+    std::string uniqueId(xml_node node, string_view what) {
+        std::string id(attributeOf(node, "id"));
+        if (id.empty()) {
+            id = fmt::format("{}[{}]", what, ids_.size() + 1);
+            diagnostics_.add(Severity::Warning, Code::MissingId, fmt::format("without gml:id; it is called '{}'", id),
+                             placeOf(node, id));
+        }
+        if (ids_.insert(id).second) return id;
+        const std::string wanted = id;
+        for (int i = 2; !ids_.insert(id).second; ++i) id = fmt::format("{}_{}", wanted, i);
+        diagnostics_.add(Severity::Warning, Code::DuplicateId,
+                         fmt::format("the id '{}' is used again; renamed to '{}'", wanted, id), placeOf(node, id));
+        return id;
+    }
+
+    void addCell(xml_node node) {
+        model::Feature feature;
+        feature.id = uniqueId(node, localName(node));
+        feature.className = "BuildingRoom";
+        feature.line = placeOf(node).line;
+        feature.attributes.push_back({"cellSpaceClass", std::string(localName(node)), ""});
+        for (const xml_node child : node.children()) {
+            const string_view name = localName(child);
+            const std::string text(xml::trimmed(child.text().get()));
+            if (text.empty()) continue;
+            if (name == "name" && feature.name.empty())
+                feature.name = text;
+            else if (name == "description" || name == "function" || name == "class" || name == "usage" ||
+                     name == "level")
+                feature.attributes.push_back({std::string(name), text, ""});
+        }
+        model::Geometry geometry;
+        readSolids(node, feature.id, geometry);
+        if (geometry.solids.empty()) readPolygons(node, feature.id, geometry.surfaces);
+        geometry.kind = geometry.solids.empty() ? model::GeometryKind::Surface : model::GeometryKind::Solid;
+        const std::string id(attributeOf(node, "id"));
+        if (!geometry.solids.empty() || !geometry.surfaces.empty()) feature.geometries.push_back(std::move(geometry));
+        const model::FeatureIndex index = model_.addFeature(std::move(feature), model::kNoFeature);
+        cells_.push_back(index);
+        if (!id.empty()) cellOfId_.emplace(id, index);
+    }
+
+    // All solids of a cell space, but not of what is nested in it.
+    void readSolids(xml_node cell, const std::string& id, model::Geometry& geometry) {
+        for (xml_node node = nextNode(cell, cell); node;) {
+            const string_view name = localName(node);
+            if (name == "Solid") {
+                model::Solid solid;
+                solid.id = attributeOf(node, "id");
+                for (const xml_node shell : node.children()) {
+                    std::vector<model::SurfaceUse> uses;
+                    if (localName(shell) == "exterior") readPolygons(shell, id, solid.exterior);
+                    if (localName(shell) != "interior") continue;
+                    readPolygons(shell, id, uses);
+                    if (!uses.empty()) solid.interiors.push_back(std::move(uses));
+                }
+                if (!solid.exterior.empty()) geometry.solids.push_back(std::move(solid));
+            }
+            node = nextNode(node, cell, name != "Solid" && !isOther(name));
+        }
+    }
+
+    // Polygons below a node, also those that are referred to.
+    void readPolygons(xml_node top, const std::string& id, std::vector<model::SurfaceUse>& uses) {
+        for (xml_node node = nextNode(top, top); node;) {
+            const string_view name = localName(node);
+            const bool isPolygon =
+                name == "Polygon" || name == "PolygonPatch" || name == "Triangle" || name == "Rectangle";
+            if (isPolygon) addPolygon(node, id, isReversed(node, top), uses);
+            if (name == "surfaceMember" || name == "baseSurface") {
+                const std::string reference = target(node);
+                const auto found = byId_.find(reference);
+                if (!reference.empty() && found != byId_.end() && localName(found->second) == "Polygon")
+                    addPolygon(found->second, id, isReversed(node, top), uses);
+                else if (!attributeOf(node, "href").empty())
+                    diagnostics_.add(
+                        Severity::Warning, Code::DanglingReference,
+                        fmt::format("no polygon '{}' is in the file", attributeOf(node, "href").substr(0, 200)),
+                        placeOf(node, id));
+            }
+            node = nextNode(node, top, !isPolygon && !isOther(name));
+        }
+    }
+
+    // Within an OrientableSurface with a negative orientation.
+    static bool isReversed(xml_node node, xml_node top) {
+        bool isTurned = false;
+        for (xml_node at = node; at && at != top; at = at.parent())
+            if (localName(at) == "OrientableSurface" && attributeOf(at, "orientation") == "-") isTurned = !isTurned;
+        return isTurned;
+    }
+
+    void addPolygon(xml_node node, const std::string& id, bool isTurned, std::vector<model::SurfaceUse>& uses) {
+        const auto known = polygonOf_.find(node.internal_object());
+        if (known != polygonOf_.end()) {
+            if (known->second >= 0) uses.push_back({static_cast<model::PolygonIndex>(known->second), isTurned});
+            return;
+        }
+        polygonOf_[node.internal_object()] = -1;
+        model::Polygon polygon;
+        for (const string_view part : {string_view("exterior"), string_view("interior")})
+            for (const xml_node boundary : node.children())
+                if (localName(boundary) == part && !addRing(boundary, id, polygon) && part == "exterior") return;
+        if (polygon.ringEnds.empty()) return;
+        const model::PolygonIndex index = model_.addPolygon(std::move(polygon));
+        polygonOf_[node.internal_object()] = index;
+        uses.push_back({index, isTurned});
+    }
+
+    bool addRing(xml_node boundary, const std::string& id, model::Polygon& polygon) {
+        std::vector<double> numbers;
+        string_view rest;
+        for (xml_node node = nextNode(boundary, boundary); node; node = nextNode(node, boundary)) {
+            const string_view name = localName(node);
+            if (name != "posList" && name != "pos") continue;
+            rest = gml::parseNumbers(node.text().get(), numbers);
+            if (!xml::trimmed(rest).empty()) break;
+        }
+        if (!xml::trimmed(rest).empty() || numbers.size() % 3 != 0) {
+            diagnostics_.add(Severity::Warning, Code::BadCoordinate,
+                             "a ring whose coordinates are not three numbers each; left out", placeOf(boundary, id));
+            return false;
+        }
+        const std::size_t begin = polygon.points.size();
+        for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) {
+            const Vec3d p{numbers[i], numbers[i + 1], numbers[i + 2]};
+            if (polygon.points.size() == begin || p != polygon.points.back()) polygon.points.push_back(p);
+        }
+        while (polygon.points.size() > begin + 1 && polygon.points.back() == polygon.points[begin])
+            polygon.points.pop_back();
+        if (polygon.points.size() < begin + 3) {
+            polygon.points.resize(begin);
+            diagnostics_.add(Severity::Warning, Code::TooFewPoints, "a ring of fewer than three points; left out",
+                             placeOf(boundary, id));
+            return false;
+        }
+        polygon.ringEnds.push_back(static_cast<std::uint32_t>(polygon.points.size()));
+        return true;
+    }
+
+    void readState(xml_node node) {
+        const std::string id(attributeOf(node, "id"));
+        for (const xml_node child : node.children())
+            if (localName(child) == "duality" && !id.empty()) cellOfState_[id] = target(child);
+    }
+
+    void readTransition(xml_node node) {
+        std::vector<std::string> ends;
+        for (const xml_node child : node.children())
+            if (localName(child) == "connects") ends.push_back(target(child));
+        if (ends.size() == 2) transitions_.emplace_back(ends[0], ends[1]);
+    }
+
+    // Of a state; some writers give the cell space itself where a state is meant.
+    [[nodiscard]] model::FeatureIndex cellOfState(const std::string& state) const {
+        const auto dual = cellOfState_.find(state);
+        const auto cell = cellOfId_.find(dual == cellOfState_.end() ? state : dual->second);
+        return cell == cellOfId_.end() ? model::kNoFeature : cell->second;
+    }
+
+    void connectCells() {
+        for (const auto& [state, cell] : cellOfState_)
+            if (const model::FeatureIndex index = cellOfState(state); index != model::kNoFeature)
+                model_.features[index].attributes.push_back({"state", state, ""});
+        std::map<model::FeatureIndex, std::set<std::string>> beyond;
+        for (const auto& [from, to] : transitions_) {
+            const model::FeatureIndex a = cellOfState(from), b = cellOfState(to);
+            if (a == model::kNoFeature || b == model::kNoFeature || a == b) continue;
+            beyond[a].insert(model_.features[b].id);
+            beyond[b].insert(model_.features[a].id);
+        }
+        for (const auto& [cell, ids] : beyond) {
+            std::string text;
+            for (const std::string& id : ids) text += (text.empty() ? "" : "; ") + id;
+            model_.features[cell].attributes.push_back({"connectsTo", std::move(text), ""});
+        }
+    }
+
+    void addLayers() {
+        for (const xml_node layer : layers_) {
+            model::Feature feature;
+            feature.id = uniqueId(layer, localName(layer));
+            feature.className = "CityObjectGroup";
+            feature.line = placeOf(layer).line;
+            for (const xml_node child : layer.children())
+                if (localName(child) == "name") feature.name = xml::trimmed(child.text().get());
+            std::set<model::FeatureIndex> members;
+            for (xml_node node = nextNode(layer, layer); node; node = nextNode(node, layer)) {
+                const string_view name = localName(node);
+                const std::string id(attributeOf(node, "id"));
+                model::FeatureIndex cell = model::kNoFeature;
+                if (name == "State" || name == "Node") cell = cellOfState(id);
+                if (isCellSpace(name))
+                    if (const auto found = cellOfId_.find(id); found != cellOfId_.end()) cell = found->second;
+                if (cell != model::kNoFeature) members.insert(cell);
+            }
+            if (members.empty()) continue;
+            const model::FeatureIndex group = model_.addFeature(std::move(feature), model::kNoFeature);
+            for (const model::FeatureIndex member : members) model_.memberships.push_back({group, member, "member"});
+        }
+    }
+
+    Result<model::BuildingModel> placeModel() {
+        const Place place{std::string(name_), 0, 0, {}};
+        if (options_.crs != 0 || !srsName_.empty()) {
+            const georeference::GivenCrs given{srsName_, "", false, place, {}};
+            if (auto done = georeference::georeference(model_, given, options_, diagnostics_); !done)
+                return done.error();
+        } else if (!options_.keepFarFeatures) {
+            georeference::leaveOutFarFeatures(model_, {1, 1, 1}, place, diagnostics_);
+        }
+        return std::move(model_);
+    }
+
+    string_view text_, name_;
+    std::size_t countedTo_ = 0;
+    std::uint64_t countedLines_ = 0;
+    const ReadOptions& options_;
+    Diagnostics& diagnostics_;
+    pugi::xml_document document_;
+    model::BuildingModel model_;
+    std::string srsName_;
+    std::unordered_map<std::string, xml_node> byId_;
+    std::unordered_map<const void*, std::int64_t> polygonOf_;  // by element; -1: it cannot be read
+    std::unordered_set<std::string> ids_;
+    std::vector<model::FeatureIndex> cells_;
+    std::unordered_map<std::string, model::FeatureIndex> cellOfId_;
+    std::map<std::string, std::string> cellOfState_;
+    std::vector<std::pair<std::string, std::string>> transitions_;
+    std::vector<xml_node> layers_;
+};
+
+}  // namespace
+
+bool looksLikeIndoorGml(std::span<const std::byte> head) noexcept {
+    string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    const xml::Prolog prolog = xml::readProlog(text);
+    return prolog.hasRoot && xml::splitName(prolog.rootName).localName == "IndoorFeatures";
+}
+
+Result<model::BuildingModel> readIndoorGml(std::span<const std::byte> bytes, string_view name,
+                                           const ReadOptions& options, Diagnostics* diagnostics) {
+    if (bytes.size() > options.maxBytes)
+        return Error(Code::InputTooBig,
+                     fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
+                     {std::string(name), 0, 0, {}});
+    const Result<xml::Utf8Text> text = xml::toUtf8(bytes, name);
+    if (!text) return text.error();
+    Diagnostics ignored;
+    return IndoorReader(text->view(), name, options, diagnostics != nullptr ? *diagnostics : ignored).run();
+}
+
+}  // namespace svt::readers

@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// Reads IndoorGML 1.0 and 1.1, and of 2.0 what is written alike.
+///
+/// | in IndoorGML                                    | in the model                                               |
+/// |-------------------------------------------------|------------------------------------------------------------|
+/// | cell space of any class                         | BuildingRoom, its class as the attribute `cellSpaceClass`  |
+/// | Solid of a cell space, else its surfaces        | solid with its hollows, else surfaces                      |
+/// | name, description, function, class, usage, level | name, attributes                                          |
+/// | state (node) of a cell space                    | attribute `state`                                          |
+/// | transitions (edges) of the state                | attribute `connectsTo`: ids of the cell spaces beyond      |
+/// | space layer                                     | CityObjectGroup with its cell spaces as members            |
+/// | boundaries of cell spaces                       | nothing: the solids have them                              |
+///
+/// Elements are told by their local names, so that extensions and both namespaces of version 1 are read alike.
+
+#include <svt/core/diagnostics.hpp>
+#include <svt/core/result.hpp>
+#include <svt/model/building_model.hpp>
+#include <svt/readers/read_options.hpp>
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+namespace svt::readers {
+
+/// True where the text is XML with a root named IndoorFeatures.
+[[nodiscard]] bool looksLikeIndoorGml(std::span<const std::byte> head) noexcept;
+
+/// \return the model, or BadXml with its line, DtdRefused, BadEncoding, EmptyModel (no cell space), InputTooBig,
+///         Cancelled, or what georeference() returns. Findings: BadCoordinate, TooFewPoints, DanglingReference,
+///         DuplicateId, MissingId, and those of georeference().
+/// Cost: O(bytes); the whole document is in memory as a tree, some five times the file.
+[[nodiscard]] Result<model::BuildingModel> readIndoorGml(std::span<const std::byte> bytes, std::string_view name,
+                                                         const ReadOptions& options, Diagnostics* diagnostics);
+
+}  // namespace svt::readers

@@ -1,0 +1,156 @@
+#include <svt/core/file.hpp>
+#include <svt/core/test_data_test.hpp>
+#include <svt/readers/ifc_shape/body.hpp>
+#include <svt/readers/indoorgml/indoorgml_reader.hpp>
+#include <svt/readers/read_model.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace svt::readers {
+namespace {
+
+Result<model::BuildingModel> readText(const std::string& text, Diagnostics* log = nullptr) {
+    return readIndoorGml(std::as_bytes(std::span(text.data(), text.size())), "test.gml", {}, log);
+}
+
+std::string polygon(const std::string& positions, const std::string& id = "") {
+    return "<gml:surfaceMember><gml:Polygon" + (id.empty() ? "" : " gml:id=\"" + id + "\"") +
+           "><gml:exterior><gml:LinearRing><gml:posList>" + positions +
+           "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
+}
+
+// A box of 2 x 3 x 2.5 m from x on; its face at x and that at x + 2 can be those of a neighbour.
+std::string box(double x, const std::string& westFace = "", const std::string& eastId = "") {
+    const auto p = [&](int i) { return fmt::format("{} {} {} ", x + (i & 1) * 2, (i >> 1 & 1) * 3, (i >> 2) * 2.5); };
+    const auto face = [&](int a, int b, int c, int d, const std::string& id = "") {
+        return polygon(p(a) + p(b) + p(c) + p(d) + p(a), id);
+    };
+    return "<gml:Solid><gml:exterior><gml:Shell>" + face(4, 5, 7, 6) + face(0, 2, 3, 1) + face(0, 1, 5, 4) +
+           face(2, 6, 7, 3) + (westFace.empty() ? face(0, 4, 6, 2) : westFace) + face(1, 3, 7, 5, eastId) +
+           "</gml:Shell></gml:exterior></gml:Solid>";
+}
+
+std::string cell(const std::string& id, const std::string& kind, const std::string& solid,
+                 const std::string& rest = "") {
+    return "<core:cellSpaceMember><" + kind + " gml:id=\"" + id + "\">" + rest +
+           "<core:cellSpaceGeometry><core:Geometry3D>" + solid + "</core:Geometry3D></core:cellSpaceGeometry></" +
+           kind + "></core:cellSpaceMember>";
+}
+
+std::string document(const std::string& cells, const std::string& layers = "") {
+    return "<?xml version=\"1.0\"?><core:IndoorFeatures xmlns:core=\"http://www.opengis.net/indoorgml/1.0/core\" "
+           "xmlns:navi=\"http://www.opengis.net/indoorgml/1.0/navigation\" "
+           "xmlns:gml=\"http://www.opengis.net/gml/3.2\" "
+           "xmlns:xlink=\"http://www.w3.org/1999/xlink\"><core:primalSpaceFeatures><core:PrimalSpaceFeatures>" +
+           cells + "</core:PrimalSpaceFeatures></core:primalSpaceFeatures>" + layers + "</core:IndoorFeatures>";
+}
+
+std::string attribute(const model::Feature& feature, const std::string& name) {
+    for (const Attribute& a : feature.attributes)
+        if (a.name == name) return toText(a.value);
+    return "none";
+}
+
+// Signed volume of the first solid; NaN where it is not closed.
+double volumeOf(const model::BuildingModel& model, const model::Feature& feature) {
+    std::vector<model::Polygon> faces;
+    if (feature.geometries.empty() || feature.geometries[0].solids.empty()) return std::nan("");
+    for (const model::SurfaceUse use : feature.geometries[0].solids[0].exterior) {
+        std::vector<model::Polygon> face{model.polygons[use.polygon]};
+        if (use.isReversed) ifc::turnOver(face);
+        faces.push_back(face[0]);
+    }
+    return ifc::isClosed(faces) ? ifc::enclosedVolume(faces) : std::nan("");
+}
+
+TEST(IndoorGml, CellSpacesAreRoomsThatKnowTheirNeighbors) {
+    const std::string shared =
+        "<gml:surfaceMember><gml:OrientableSurface orientation=\"-\"><gml:baseSurface "
+        "xlink:href=\"#wall\"/></gml:OrientableSurface></gml:surfaceMember>";
+    Diagnostics log;
+    const auto model = readText(
+        document(cell("a", "core:CellSpace", box(0, "", "wall"),
+                      "<gml:name>Kitchen</gml:name><core:duality xlink:href=\"#sa\"/>"
+                      "<core:partialboundedBy><core:CellSpaceBoundary gml:id=\"b1\"><core:cellSpaceBoundaryGeometry>"
+                      "<core:Geometry3D>" +
+                          polygon("0 0 0 9 0 0 9 9 0") +
+                          "</core:Geometry3D></core:cellSpaceBoundaryGeometry></core:CellSpaceBoundary></"
+                          "core:partialboundedBy>") +
+                     cell("b", "navi:GeneralSpace", box(2, shared), "<navi:function>corridor</navi:function>") +
+                     cell("c", "navi:TransitionSpace", box(10)),
+                 "<core:SpaceLayer gml:id=\"base\"><core:nodes>"
+                 "<core:State gml:id=\"sa\"><core:duality xlink:href=\"#a\"/></core:State>"
+                 "<core:State gml:id=\"sb\"><core:duality xlink:href=\"#b\"/></core:State></core:nodes>"
+                 "<core:edges><core:Transition gml:id=\"t\"><core:connects xlink:href=\"#sa\"/>"
+                 "<core:connects xlink:href=\"#sb\"/></core:Transition></core:edges></core:SpaceLayer>"),
+        &log);
+    ASSERT_TRUE(model) << model.error().message();
+    ASSERT_EQ(model->features.size(), 4u);
+    const model::Feature &a = model->features[0], &b = model->features[1], &c = model->features[2];
+    EXPECT_EQ(a.className, "BuildingRoom");
+    EXPECT_EQ(a.name, "Kitchen");
+    EXPECT_EQ(attribute(a, "state"), "sa");
+    EXPECT_EQ(attribute(a, "connectsTo"), "b");
+    EXPECT_EQ(attribute(b, "connectsTo"), "a");
+    EXPECT_EQ(attribute(b, "function"), "corridor");
+    EXPECT_EQ(attribute(b, "cellSpaceClass"), "GeneralSpace");
+    EXPECT_EQ(attribute(c, "connectsTo"), "none");
+    for (const model::Feature* room : {&a, &b, &c}) EXPECT_NEAR(volumeOf(*model, *room), 15, 1e-9) << room->id;
+    EXPECT_EQ(model->features[3].className, "CityObjectGroup");
+    ASSERT_EQ(model->memberships.size(), 2u);
+    EXPECT_EQ(model->polygons.size(), 6u + 5u + 6u);  // the wall between a and b is one polygon; boundaries have none
+    EXPECT_EQ(log.items().size(), 0u);
+}
+
+TEST(IndoorGml, WhatIsWrongIsSaidAndTheRestIsRead) {
+    std::string broken = box(2);
+    broken.replace(broken.find("2 0 0 "), 6, "2 x 0 ");
+    Diagnostics log;
+    const auto model =
+        readText(document(cell("a", "core:CellSpace", box(0)) + cell("a", "core:CellSpace", broken) +
+                          cell("", "core:CellSpace", box(4, "<gml:surfaceMember xlink:href=\"#nothing\"/>"))),
+                 &log);
+    ASSERT_TRUE(model);
+    EXPECT_EQ(model->features.size(), 3u);
+    EXPECT_NEAR(volumeOf(*model, model->features[0]), 15, 1e-9);
+    EXPECT_TRUE(std::isnan(volumeOf(*model, model->features[1])));
+    EXPECT_EQ(log.count(Code::DuplicateId), 1u);
+    EXPECT_EQ(log.count(Code::MissingId), 1u);
+    EXPECT_EQ(log.count(Code::BadCoordinate), 1u);
+    EXPECT_EQ(log.count(Code::DanglingReference), 1u);
+}
+
+TEST(IndoorGml, RefusesWhatItCannotRead) {
+    EXPECT_EQ(readText(document("")).error().code(), Code::EmptyModel);
+    EXPECT_EQ(readText(document(cell("a", "core:CellSpace", box(0))).substr(0, 900)).error().code(), Code::BadXml);
+    EXPECT_EQ(readText("<!DOCTYPE a [<!ENTITY b \"c\">]>" + document(cell("a", "core:CellSpace", box(0))).substr(21))
+                  .error()
+                  .code(),
+              Code::DtdRefused);
+    // Nesting far deeper than any stack.
+    std::string deep = "<core:IndoorFeatures xmlns:core=\"x\">";
+    for (int i = 0; i < 300'000; ++i) deep += "<a>";
+    for (int i = 0; i < 300'000; ++i) deep += "</a>";
+    EXPECT_EQ(readText(deep + "</core:IndoorFeatures>").error().code(), Code::EmptyModel);
+}
+
+TEST(IndoorGml, TheFzkHouse) {
+    SVT_NEEDS_DATA(file, "fzk_haus_indoorgml.gml");
+    Diagnostics log;
+    const auto model = readModel(file, {}, &log);
+    ASSERT_TRUE(model) << model.error().message();
+    std::size_t rooms = 0, connected = 0;
+    for (const model::Feature& feature : model->features) {
+        if (feature.className != "BuildingRoom") continue;
+        ++rooms;
+        EXPECT_GT(std::abs(volumeOf(*model, feature)), 0) << feature.id;
+        connected += attribute(feature, "connectsTo") != "none" ? 1 : 0;
+    }
+    EXPECT_EQ(rooms, 24u);
+    EXPECT_EQ(connected, 24u);
+    EXPECT_EQ(log.count(Severity::Error), 0u);
+}
+
+}  // namespace
+}  // namespace svt::readers

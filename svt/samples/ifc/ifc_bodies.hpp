@@ -1,0 +1,55 @@
+#pragma once
+/// \file
+/// Solids of the designs as IFC bodies: a piece is an extrusion, a solid a union or difference of extrusions.
+
+#include <svt/samples/ifc/ifc_records.hpp>
+#include <svt/samples/parts/plan.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace svt::samples {
+
+/// A corner of a piece's section in the plane (v, z) of its half-planes: v / scale, z / scale millimetres.
+struct SectionCorner {
+    std::int64_t v = 0, z = 0, scale = 1;
+};
+
+/// The section of a convex prism, counter-clockwise in (v, z), exact.
+[[nodiscard]] std::vector<SectionCorner> sectionOf(const Piece& piece);
+
+/// Writes representation items; each has the style of its material.
+class IfcBodies {
+public:
+    IfcBodies(IfcRecords& records, int context) : records_(records), context_(context) {}
+
+    /// One piece as an IfcExtrudedAreaSolid: a box stands on a rectangle and goes up, a prism goes along its axis.
+    /// \param frame  axes of the product, in the plan
+    int extrusion(const Frame& frame, Axis axis, const Piece& piece);
+
+    /// A solid without the pieces that `isLeftOut` marks, as one extrusion or a tree of IfcBooleanResult.
+    /// \param isLeftOut  by piece; may be empty
+    int solid(const Frame& frame, const Solid& solid, const std::vector<bool>& isLeftOut, bool& isBoolean);
+
+    /// IfcShapeRepresentation 'Body' of items.
+    int representation(const std::vector<int>& items, std::string_view type);
+    /// IfcProductDefinitionShape of representations.
+    int shape(const std::vector<int>& representations);
+
+    /// Gives an item the colour of a material.
+    void style(int item, Material material);
+    /// IfcSurfaceStyle of a colour, written once.
+    int surfaceStyle(std::string_view name, const std::array<double, 3>& color, double transparency);
+
+    [[nodiscard]] int context() const { return context_; }
+
+private:
+    IfcRecords& records_;
+    int context_;
+};
+
+/// "(#1,#2)"
+[[nodiscard]] std::string stepList(std::span<const int> records);
+
+}  // namespace svt::samples

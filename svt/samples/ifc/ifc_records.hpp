@@ -1,0 +1,61 @@
+#pragma once
+/// \file
+/// Records of a STEP file (ISO 10303-21) as IFC4 text: numbering, numbers, placements. Lengths are millimetres.
+
+#include <svt/core/vec.hpp>
+#include <svt/samples/formats/sample_text.hpp>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace svt::samples {
+
+/// Axes at right angles in the plan: x, y, z are unit vectors, the origin is in millimetres.
+struct Frame {
+    Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{};
+
+    [[nodiscard]] Vec3d local(Vec3d plan) const {
+        const Vec3d d = plan - origin;
+        return {dot(d, x), dot(d, y), dot(d, z)};
+    }
+    [[nodiscard]] Vec3d localDirection(Vec3d plan) const { return {dot(plan, x), dot(plan, y), dot(plan, z)}; }
+};
+
+/// A number with up to `decimals` decimals and the point that STEP wants: "4610.", "195.217215".
+[[nodiscard]] std::string stepNumber(double value, int decimals = 6);
+/// The same of numerator / denominator, rounded without any double.
+[[nodiscard]] std::string stepRatio(std::int64_t numerator, std::int64_t denominator);
+/// 'text'. Texts of samples are ASCII without quotes.
+[[nodiscard]] std::string stepText(std::string_view text);
+/// "#12", or "$" for 0.
+[[nodiscard]] std::string stepReference(int record);
+/// A GlobalId (22 characters) that depends on `key` alone.
+[[nodiscard]] std::string globalId(std::string_view key);
+
+class IfcRecords {
+public:
+    explicit IfcRecords(TextSink& out) : out_(out) {}
+
+    /// Writes `#n=TYPE(values);`. \return n, beginning with 1
+    int add(std::string_view type, std::string_view values);
+    /// The same record for the same text, written once.
+    int shared(std::string_view type, const std::string& values);
+    /// A rooted entity: GlobalId by `key`, no owner history, then `values`.
+    int rooted(std::string_view type, std::string_view key, std::string_view values);
+
+    int point(Vec3d p);
+    int point2(const std::string& x, const std::string& y);
+    int direction(Vec3d d);
+    int axes(const Frame& frame);
+    /// IfcLocalPlacement in another one; 0: in the world.
+    int placement(int above, const Frame& frame);
+
+private:
+    TextSink& out_;
+    int last_ = 0;
+    std::map<std::string, int> shared_;
+};
+
+}  // namespace svt::samples

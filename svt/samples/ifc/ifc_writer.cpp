@@ -1,0 +1,443 @@
+// IFC4. Bodies are parametric: walls, slabs and rooms are extrusions; doors and windows fill openings that void their
+// wall; what passes through another component is a boolean difference. The plan stands in the project by placements in
+// millimetres, and on the map by IfcMapConversion.
+#include <svt/samples/formats/writers.hpp>
+
+#include <svt/samples/ifc/ifc_bodies.hpp>
+#include <svt/samples/ifc/ifc_layers.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+namespace svt::samples {
+namespace {
+
+// Type, and its PredefinedType.
+struct IfcType {
+    std::string_view type, predefined, propertySet;
+};
+
+IfcType typeOf(const Component& component) {
+    struct Row {
+        std::string_view function;
+        IfcType type;
+    };
+    static constexpr Row kElements[] = {{"wall", {"IFCWALL", ".SOLIDWALL.", "Pset_WallCommon"}},
+                                        {"slab", {"IFCSLAB", ".FLOOR.", "Pset_SlabCommon"}},
+                                        {"roof", {"IFCSLAB", ".ROOF.", "Pset_SlabCommon"}},
+                                        {"beam", {"IFCBEAM", ".BEAM.", "Pset_BeamCommon"}},
+                                        {"rafter", {"IFCMEMBER", ".RAFTER.", "Pset_MemberCommon"}},
+                                        {"covering", {"IFCCOVERING", ".CEILING.", "Pset_CoveringCommon"}},
+                                        {"chimney", {"IFCCHIMNEY", ".NOTDEFINED.", "Pset_ChimneyCommon"}}};
+    switch (component.kind) {
+        case Kind::Window: return {"IFCWINDOW", "", "Pset_WindowCommon"};
+        case Kind::Door: return {"IFCDOOR", "", "Pset_DoorCommon"};
+        case Kind::Furniture: return {"IFCFURNITURE", ".NOTDEFINED.", "Pset_FurnitureTypeCommon"};
+        case Kind::Installation:
+            if (component.function == "stair") return {"IFCSTAIR", ".STRAIGHT_RUN_STAIR.", "Pset_StairCommon"};
+            if (component.function == "railing") return {"IFCRAILING", ".GUARDRAIL.", "Pset_RailingCommon"};
+            return {"IFCBUILDINGELEMENTPROXY", ".NOTDEFINED.", "Pset_BuildingElementProxyCommon"};
+        default:
+            for (const Row& row : kElements)
+                if (row.function == component.function) return row.type;
+            return {"IFCBUILDINGELEMENTPROXY", ".NOTDEFINED.", "Pset_BuildingElementProxyCommon"};
+    }
+}
+
+bool overlaps(const Bounds& a, const Bounds& b) {
+    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z &&
+           b.min.z < a.max.z;
+}
+
+bool isSameShape(const Piece& a, const Piece& b) { return a.from == b.from && a.to == b.to && a.sides == b.sides; }
+
+Bounds boundsOf(const Solid& solid, const Piece& piece) {
+    Piece added = piece;
+    added.adds = true;
+    return boundsOf(Solid{solid.axis, solid.material, {added}});
+}
+
+class IfcWriter {
+public:
+    IfcWriter(SampleSource& source, TextSink& out) : source_(source), out_(out), records_(out) {}
+
+    void write() {
+        out_ << "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('ViewDefinition [DesignTransferView]'),'2;1');\nFILE_NAME('"
+             << source_.title()
+             << ".ifc','2026-01-01T00:00:00',(''),(''),'svt','svt sample','');\nFILE_SCHEMA(('IFC4'));\nENDSEC;\n"
+                "DATA;\n";
+        project();
+        std::vector<int> buildings;
+        for (std::int64_t i = 0; i < source_.buildingCount() && !out_.hasFailed(); ++i)
+            buildings.push_back(building(i));
+        aggregate("site", site_, buildings);
+        out_ << "ENDSEC;\nEND-ISO-10303-21;\n";
+    }
+
+private:
+    void project() {
+        const int length = records_.add("IFCSIUNIT", "*,.LENGTHUNIT.,.MILLI.,.METRE.");
+        const int area = records_.add("IFCSIUNIT", "*,.AREAUNIT.,$,.SQUARE_METRE.");
+        const int volume = records_.add("IFCSIUNIT", "*,.VOLUMEUNIT.,$,.CUBIC_METRE.");
+        const int angle = records_.add("IFCSIUNIT", "*,.PLANEANGLEUNIT.,$,.RADIAN.");
+        const int units = records_.add("IFCUNITASSIGNMENT", stepList(std::array{length, area, volume, angle}));
+        const int world = records_.axes({});
+        const int model =
+            records_.add("IFCGEOMETRICREPRESENTATIONCONTEXT", "$,'Model',3,1.E-05," + stepReference(world) + ",$");
+        body_ = records_.add("IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
+                             "'Body','Model',*,*,*,*," + stepReference(model) + ",$,.MODEL_VIEW.,$");
+        axis_ = records_.add("IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
+                             "'Axis','Model',*,*,*,*," + stepReference(model) + ",$,.GRAPH_VIEW.,$");
+        bodies_.emplace(records_, body_);
+        const int metre = records_.add("IFCSIUNIT", "*,.LENGTHUNIT.,$,.METRE.");
+        const int crs = records_.add("IFCPROJECTEDCRS", "'EPSG:25832',$,$,$,$,$," + stepReference(metre));
+        const Point origin = source_.origin();
+        records_.add("IFCMAPCONVERSION", stepReference(model) + "," + stepReference(crs) + "," +
+                                             stepRatio(origin.x, 1000) + "," + stepRatio(origin.y, 1000) + "," +
+                                             stepRatio(origin.z, 1000) + ",1.,0.,0.001");
+        const int project = records_.rooted(
+            "IFCPROJECT", "project",
+            stepText(source_.title()) + ",$,$,$,$,(" + stepReference(model) + ")," + stepReference(units));
+        sitePlace_ = records_.placement(0, {});
+        site_ =
+            records_.rooted("IFCSITE", "site", "'Site',$,$," + stepReference(sitePlace_) + ",$,$,.ELEMENT.,$,$,$,$,$");
+        aggregate("project", project, {site_});
+    }
+
+    void aggregate(const std::string& key, int whole, const std::vector<int>& parts) {
+        if (parts.empty()) return;
+        records_.rooted("IFCRELAGGREGATES", "parts of " + key, "$,$," + stepReference(whole) + "," + stepList(parts));
+    }
+
+    void contain(const std::string& key, int space, const std::vector<int>& elements) {
+        if (elements.empty()) return;
+        records_.rooted("IFCRELCONTAINEDINSPATIALSTRUCTURE", "elements of " + key,
+                        "$,$," + stepList(elements) + "," + stepReference(space));
+    }
+
+    int building(std::int64_t index) {
+        document_ = source_.building(index);
+        const int place = records_.placement(sitePlace_, {});
+        const int building = records_.rooted("IFCBUILDING", document_.id,
+                                             stepText(document_.name) + ",$," + stepText(document_.function) + "," +
+                                                 stepReference(place) + ",$,$,.ELEMENT.,$,$,$");
+        std::vector<int> storeys, outside;
+        for (const PlacedPlan& placed : document_.plans) {
+            placed_ = &placed;
+            std::vector<int> made = plan(place, outside);
+            storeys.insert(storeys.end(), made.begin(), made.end());
+        }
+        aggregate(document_.id, building, storeys);
+        contain(document_.id, building, outside);
+        return building;
+    }
+
+    // Axes of a placed plan in the project.
+    [[nodiscard]] Frame planFrame(double lift) const {
+        const Placement& placement = placed_->placement;
+        const Point origin = source_.origin();
+        Frame frame{placement.worldDirection({1, 0, 0}), placement.worldDirection({0, 1, 0}), {0, 0, 1}, {}};
+        frame.origin =
+            placement.worldPosition({0, 0, lift}) * 1000 - Vec3d{double(origin.x), double(origin.y), double(origin.z)};
+        return frame;
+    }
+
+    // The storeys of a plan with all that they hold.
+    std::vector<int> plan(int buildingPlace, std::vector<int>& outside) {
+        const std::vector<Component>& all = placed_->plan->components;
+        ifc_.assign(all.size(), 0);
+        storeyPlace_.assign(all.size(), 0);
+        storeyLift_.assign(all.size(), 0);
+        instanceMap_ = 0;
+        std::vector<int> storeys;
+        for (std::size_t c = 0; c < all.size(); ++c) {
+            if (all[c].kind != Kind::Storey) continue;
+            for (const Attribute& a : all[c].attributes)
+                if (a.name == "elevation") storeyLift_[c] = std::get<double>(a.value) * 1000;
+            const Frame frame = planFrame(storeyLift_[c]);
+            storeyPlace_[c] = records_.placement(buildingPlace, frame);
+            ifc_[c] = records_.rooted("IFCBUILDINGSTOREY", idOf(c),
+                                      stepText(nameOf(c)) + ",$,$," + stepReference(storeyPlace_[c]) +
+                                          ",$,$,.ELEMENT.," + stepNumber(frame.origin.z));
+            storeys.push_back(ifc_[c]);
+        }
+        planPlace_ = records_.placement(buildingPlace, planFrame(0));
+        for (std::size_t c = 0; c < all.size(); ++c)
+            if (all[c].kind != Kind::Storey && !all[c].isStandIn) component(c);
+        for (std::size_t c = 0; c < all.size(); ++c) relate(c, outside);
+        return storeys;
+    }
+
+    // What stands in a storey or room.
+    void relate(std::size_t space, std::vector<int>& outside) {
+        const std::vector<Component>& all = placed_->plan->components;
+        std::vector<int> spaces, elements;
+        for (std::size_t c = 0; c < all.size(); ++c) {
+            if (ifc_[c] == 0 || all[c].kind == Kind::Storey) continue;
+            const bool isInRoom = all[c].parent >= 0 && all[std::size_t(all[c].parent)].kind == Kind::Room;
+            const int holder = isInRoom ? all[c].parent : all[c].storey;
+            if (holder < 0 && space == 0) outside.push_back(ifc_[c]);
+            if (holder != int(space)) continue;
+            (all[c].kind == Kind::Room || all[c].kind == Kind::Unit ? spaces : elements).push_back(ifc_[c]);
+        }
+        if (ifc_[space] == 0) return;
+        aggregate(idOf(space), ifc_[space], spaces);
+        contain(idOf(space), ifc_[space], elements);
+    }
+
+    [[nodiscard]] std::string idOf(std::size_t c) const { return document_.idOf(*placed_, int(c)); }
+    [[nodiscard]] std::string nameOf(std::size_t c) const { return document_.nameOf(*placed_, int(c)); }
+
+    void component(std::size_t c) {
+        const Component& component = placed_->plan->components[c];
+        LayeredBody layers = layersOf(*placed_->plan, component);
+        Frame frame = layers.frame;
+        if (layers.layers.empty()) frame = Frame{};
+        const auto storey = std::size_t(std::max(component.storey, 0));
+        Frame inStorey = frame;
+        if (component.storey >= 0) inStorey.origin = inStorey.origin - Vec3d{0, 0, storeyLift_[storey]};
+        const int place = records_.placement(component.storey >= 0 ? storeyPlace_[storey] : planPlace_, inStorey);
+        std::vector<bool> isOpening = openingsOf(c);
+        const int shape = shapeOf(component, frame, layers, isOpening);
+        ifc_[c] = product(c, place, shape);
+        if (component.kind == Kind::Window || component.kind == Kind::Door) fill(c);
+        openings(c, frame, place, isOpening);
+        describe(c);
+        if (!layers.layers.empty()) layerUsage(c, layers);
+    }
+
+    // Pieces that are cut out of an element, but for those where another element passes through.
+    std::vector<bool> openingsOf(std::size_t c) const {
+        const std::vector<Component>& all = placed_->plan->components;
+        const Component& component = all[c];
+        std::vector<bool> isOpening;
+        if (component.kind != Kind::Element || component.solids.size() != 1) return isOpening;
+        for (const Piece& piece : component.solids.front().pieces) {
+            const bool isThrough = std::any_of(all.begin(), all.end(), [&](const Component& other) {
+                return other.kind == Kind::Element && !other.solids.empty() &&
+                       isSameShape(other.solids.front().pieces.front(), piece);
+            });
+            isOpening.push_back(!piece.adds && !isThrough);
+        }
+        return isOpening;
+    }
+
+    int shapeOf(const Component& component, const Frame& frame, const LayeredBody& layers,
+                const std::vector<bool>& isOpening) {
+        std::vector<int> representations;
+        if (layers.isWall) {
+            const int from = records_.point2("0.", "0."), to = records_.point2(stepNumber(layers.length), "0.");
+            const int line = records_.add("IFCPOLYLINE", stepList(std::array{from, to}));
+            representations.push_back(records_.add(
+                "IFCSHAPEREPRESENTATION", stepReference(axis_) + ",'Axis','Curve2D'," + stepList(std::array{line})));
+        }
+        if (component.instance) {
+            representations.push_back(mapped(*component.instance));
+        } else {
+            std::vector<int> items;
+            bool isBoolean = false;
+            for (const Solid& solid : component.solids)
+                items.push_back(bodies_->solid(frame, shownSolid(solid), isOpening, isBoolean));
+            if (items.empty()) return 0;
+            representations.push_back(bodies_->representation(items, isBoolean ? "CSG" : "SweptSolid"));
+        }
+        return bodies_->shape(representations);
+    }
+
+    [[nodiscard]] Solid shownSolid(const Solid& solid) const {
+        Solid shown = solid;
+        shown.material = document_.shown(solid.material);
+        return shown;
+    }
+
+    // All instances of a sample share one shape.
+    int mapped(const Instance& instance) {
+        if (instanceMap_ == 0) {
+            bool isBoolean = false;
+            const int item = bodies_->solid({}, shownSolid(instance.solid), {}, isBoolean);
+            const int representation = bodies_->representation({item}, isBoolean ? "CSG" : "SweptSolid");
+            const int origin = records_.axes({});
+            instanceMap_ =
+                records_.add("IFCREPRESENTATIONMAP", stepReference(origin) + "," + stepReference(representation));
+        }
+        const std::array<Vec3d, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
+        const Vec3d x = quarters[std::size_t(instance.quarterTurns)];
+        const int axis1 = records_.direction(x), axis2 = records_.direction(cross({0, 0, 1}, x));
+        const int axis3 = records_.direction({0, 0, 1});
+        const int origin =
+            records_.point({double(instance.shift.x), double(instance.shift.y), double(instance.shift.z)});
+        const int target = records_.add("IFCCARTESIANTRANSFORMATIONOPERATOR3D",
+                                        stepReference(axis1) + "," + stepReference(axis2) + "," +
+                                            stepReference(origin) + ",$," + stepReference(axis3));
+        const int item = records_.add("IFCMAPPEDITEM", stepReference(instanceMap_) + "," + stepReference(target));
+        return bodies_->representation({item}, "MappedRepresentation");
+    }
+
+    int product(std::size_t c, int place, int shape) {
+        const Component& component = placed_->plan->components[c];
+        const std::string id = idOf(c), name = nameOf(c);
+        const std::string head = ",$," + (component.function.empty() ? "$" : stepText(component.function)) + "," +
+                                 stepReference(place) + "," + stepReference(shape);
+        if (component.kind == Kind::Room)
+            return records_.rooted("IFCSPACE", id,
+                                   stepText(id) + head + "," + stepText(name) + ",.ELEMENT.,.INTERNAL.,$");
+        if (component.kind == Kind::Unit)
+            return records_.rooted("IFCSPATIALZONE", id, stepText(id) + head + "," + stepText(name) + ",.OCCUPANCY.");
+        const IfcType type = typeOf(component);
+        std::string tail = "," + std::string(type.predefined);
+        if (component.kind == Kind::Window || component.kind == Kind::Door) {
+            const Bounds bounds = samples::boundsOf(component.solids.front());
+            const double wide = double(std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y));
+            tail = "," + stepNumber(double(bounds.max.z - bounds.min.z)) + "," + stepNumber(wide) + ",.NOTDEFINED.,$,$";
+        }
+        return records_.rooted(type.type, id, stepText(name) + head + "," + stepText(id) + tail);
+    }
+
+    // The opening that a door or window fills: the cut of its wall that it stands in. The wall comes before it.
+    void fill(std::size_t c) {
+        const Component& component = placed_->plan->components[c];
+        const auto host = openingRecords_.find(component.parent);
+        if (host == openingRecords_.end()) return;
+        const Bounds own = samples::boundsOf(component.solids.front());
+        for (const auto& [bounds, opening] : host->second) {
+            if (!overlaps(bounds, own)) continue;
+            records_.rooted("IFCRELFILLSELEMENT", "filling " + idOf(c),
+                            "$,$," + stepReference(opening) + "," + stepReference(ifc_[c]));
+            return;
+        }
+    }
+
+    void openings(std::size_t c, const Frame& frame, int place, const std::vector<bool>& isOpening) {
+        openingRecords_.erase(int(c));
+        for (std::size_t p = 0; p < isOpening.size(); ++p) {
+            if (!isOpening[p]) continue;
+            const Solid& solid = placed_->plan->components[c].solids.front();
+            Piece piece = solid.pieces[p];
+            const int item = bodies_->extrusion(frame, solid.axis, piece);
+            const int shape = bodies_->shape({bodies_->representation({item}, "SweptSolid")});
+            const int where = records_.placement(place, {});
+            const std::string key = idOf(c) + " opening " + std::to_string(p);
+            const int opening = records_.rooted(
+                "IFCOPENINGELEMENT", key,
+                stepText(key) + ",$,$," + stepReference(where) + "," + stepReference(shape) + ",$,.OPENING.");
+            records_.rooted("IFCRELVOIDSELEMENT", "void " + key,
+                            "$,$," + stepReference(ifc_[c]) + "," + stepReference(opening));
+            openingRecords_[int(c)].emplace_back(boundsOf(solid, piece), opening);
+        }
+    }
+
+    int property(std::string_view name, const AttributeValue& value) {
+        std::string text;
+        if (const bool* truth = std::get_if<bool>(&value))
+            text = *truth ? "IFCBOOLEAN(.T.)" : "IFCBOOLEAN(.F.)";
+        else if (const auto* whole = std::get_if<std::int64_t>(&value))
+            text = "IFCINTEGER(" + std::to_string(*whole) + ")";
+        else if (const double* number = std::get_if<double>(&value))
+            text = "IFCREAL(" + stepNumber(*number) + ")";
+        else
+            text = "IFCLABEL(" + stepText(toText(value)) + ")";
+        return records_.shared("IFCPROPERTYSINGLEVALUE", stepText(name) + ",$," + text + ",$");
+    }
+
+    void defineBy(const std::string& key, int set, std::size_t c) {
+        records_.rooted("IFCRELDEFINESBYPROPERTIES", key + " of " + idOf(c),
+                        "$,$,(" + stepReference(ifc_[c]) + ")," + stepReference(set));
+    }
+
+    void describe(std::size_t c) {
+        const Component& component = placed_->plan->components[c];
+        std::vector<int> common, others;
+        for (const Attribute& attribute : document_.attributesOf(*placed_, int(c))) {
+            if (attribute.name == "material") material(c, toText(attribute.value));
+            const bool isCommon = attribute.name == "loadBearing";
+            (isCommon ? common : others)
+                .push_back(property(isCommon ? "LoadBearing" : attribute.name, attribute.value));
+        }
+        if (component.kind == Kind::Element)
+            common.push_back(property(
+                "IsExternal", std::any_of(component.shells.front().faces.begin(), component.shells.front().faces.end(),
+                                          [](const Face& face) { return face.neighbor < 0; })));
+        const std::string set(typeOf(component).propertySet);
+        if (!common.empty())
+            defineBy(
+                "common",
+                records_.rooted("IFCPROPERTYSET", set + " of " + idOf(c), stepText(set) + ",$," + stepList(common)), c);
+        if (!others.empty())
+            defineBy("sample",
+                     records_.rooted("IFCPROPERTYSET", "Sample of " + idOf(c), "'Sample',$," + stepList(others)), c);
+        if (component.solids.empty()) return;
+        const int volume =
+            records_.add("IFCQUANTITYVOLUME", "'NetVolume',$,$," + stepNumber(component.volume, 9) + ",$");
+        defineBy("quantities",
+                 records_.rooted("IFCELEMENTQUANTITY", "BaseQuantities of " + idOf(c),
+                                 "'BaseQuantities',$,$,(" + stepReference(volume) + ")"),
+                 c);
+    }
+
+    // What is built of layers has them as its material instead.
+    void material(std::size_t c, const std::string& name) {
+        if (!layersOf(*placed_->plan, placed_->plan->components[c]).layers.empty()) return;
+        const int material = records_.shared("IFCMATERIAL", stepText(name) + ",$,$");
+        associate(c, material);
+    }
+
+    void associate(std::size_t c, int material) {
+        records_.rooted("IFCRELASSOCIATESMATERIAL", "material of " + idOf(c),
+                        "$,$,(" + stepReference(ifc_[c]) + ")," + stepReference(material));
+    }
+
+    void layerUsage(std::size_t c, const LayeredBody& body) {
+        std::vector<int> layers;
+        std::string setName;
+        for (const LayerSpec& layer : body.layers) {
+            const int material = layerMaterial(layer);
+            layers.push_back(records_.shared("IFCMATERIALLAYER",
+                                             stepReference(material) + "," + stepNumber(layer.thickness) + ",$," +
+                                                 stepText(layer.material) + ",$," + stepText(layer.function) + ",$"));
+            setName += (setName.empty() ? "" : ", ") + std::string(layer.material);
+        }
+        const int set = records_.shared("IFCMATERIALLAYERSET", stepList(layers) + "," + stepText(setName) + ",$");
+        const int usage =
+            records_.shared("IFCMATERIALLAYERSETUSAGE", stepReference(set) + (body.isWall ? ",.AXIS2.," : ",.AXIS3.,") +
+                                                            (body.isPositive ? ".POSITIVE.," : ".NEGATIVE.,") +
+                                                            stepNumber(body.offset) + ",$");
+        associate(c, usage);
+    }
+
+    // A material with its colour.
+    int layerMaterial(const LayerSpec& layer) {
+        const auto known = layerMaterials_.find(layer.material);
+        if (known != layerMaterials_.end()) return known->second;
+        const int material =
+            records_.shared("IFCMATERIAL", stepText(layer.material) + ",$," + stepText(layer.function));
+        const int style = bodies_->surfaceStyle(layer.material, layer.color, 0);
+        const int item = records_.add("IFCSTYLEDITEM", "$,(" + stepReference(style) + "),$");
+        const int styled = records_.add("IFCSTYLEDREPRESENTATION",
+                                        stepReference(body_) + ",'Style','Material',(" + stepReference(item) + ")");
+        records_.add("IFCMATERIALDEFINITIONREPRESENTATION",
+                     "$,$,(" + stepReference(styled) + ")," + stepReference(material));
+        return layerMaterials_[layer.material] = material;
+    }
+
+    SampleSource& source_;
+    TextSink& out_;
+    IfcRecords records_;
+    std::optional<IfcBodies> bodies_;
+    int body_ = 0, axis_ = 0, site_ = 0, sitePlace_ = 0;
+    std::map<std::string_view, int> layerMaterials_;
+
+    // Of the building and plan that are written.
+    Document document_;
+    const PlacedPlan* placed_ = nullptr;
+    std::vector<int> ifc_, storeyPlace_;  // by component
+    std::vector<double> storeyLift_;      // by component, millimetres
+    int planPlace_ = 0, instanceMap_ = 0;
+    std::map<int, std::vector<std::pair<Bounds, int>>> openingRecords_;  // by component
+};
+
+}  // namespace
+
+void writeIfc(SampleSource& source, TextSink& out) { IfcWriter(source, out).write(); }
+
+}  // namespace svt::samples
