@@ -20,7 +20,7 @@ struct ReadOptions {
     int likelyCrs = 0;             ///< where coordinates must be projected: to this code if possible; 0: the usual one
     bool keepFarFeatures = false;  ///< features far away from all others are not left out
     bool extrudeFootprints = false;  ///< footprints with a height as attribute become bodies
-    bool splitLayers = false;      ///< IFC: walls and slabs become the layers of their material
+    bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
 };
 
 }  // namespace svt::readers
