@@ -526,11 +526,11 @@ TEST(IfcShapes, AdvancedBrepsWithSplines) {
         EXPECT_NEAR(read.volume, 1 + 4 * (control - 1000) / 1000.0 / 36, 0.001) << control;  // 1 mm over 1 m2
         EXPECT_GT(read.faces, 20U) << control;
     }
-    // As much as is cut: 64 strips each way, for a spike of 25 m.
+    // As much as is cut: 32 strips each way, for a spike of 25 m.
     const Read spike = readShapeOf(bulgedBlock(100'000));
     EXPECT_TRUE(spike.isClosed);
     EXPECT_EQ(spike.findings, "");
-    EXPECT_NEAR(spike.volume, 1 + 4 * 99 / 36.0, 0.01);
+    EXPECT_NEAR(spike.volume, 1 + 4 * 99 / 36.0, 0.05);
     // Knots that are not in order: the face is a polygon of its edges, and that is said.
     std::string broken = bulgedBlock(1200);
     broken.replace(broken.find("(3,3),(0.,1.),(0.,1.)"), 21, "(3,3),(1.,0.),(0.,1.)");

@@ -188,7 +188,7 @@ std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
-constexpr int kMaxSplineStrips = 64;
+constexpr int kMaxSplineStrips = 32;
 
 // How many equal strips along one parameter, so that chords across them stay within kChordError of the surface.
 int splineStrips(const Spline& spline, bool isAlongU) {

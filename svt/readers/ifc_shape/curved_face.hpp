@@ -18,7 +18,7 @@ namespace svt::readers::ifc {
 
 /// Appends the polygons of a face. Corners of its rings stay where they are, and so do their edges: what neighbours has the
 /// same chords.
-/// Chords across a B-spline surface stay within kChordError of it, as far as 64 strips each way do.
+/// Chords across a B-spline surface stay within kChordError of it, as far as 32 strips each way do.
 /// \param surface  cylinder, cone, sphere, torus, surface of linear extrusion or revolution, or B-spline surface
 /// \param rings    exterior one first, as the face sees them
 /// \param budget   steps that are left for all faces of a file, some nanoseconds each; taken from
