@@ -26,11 +26,13 @@ TEST(Hatches, MaterialWinsOverNameAndNameOverClass) {
                     label("BuildingConstructiveElement", "Sparren-3", "steel"),
                     label("BuildingConstructiveElement", "something"),
                     label("BuildingRoom", "room"),
-                    label("BuildingConstructiveElement", "layer", "insulation")};
+                    label("BuildingConstructiveElement", "layer", "insulation"),
+                    label("BuildingConstructiveElement", "wall", "plaster, brick, insulation, plaster"),
+                    label("BuildingConstructiveElement", "floor", "screed, insulation, concrete")};
     EXPECT_EQ(labelHatches(table),
               (std::vector<Hatch>{Hatch::Masonry, Hatch::ReinforcedConcrete, Hatch::ReinforcedConcrete,
                                   Hatch::ReinforcedConcrete, Hatch::Timber, Hatch::Steel, Hatch::General, Hatch::None,
-                                  Hatch::Insulation}));
+                                  Hatch::Insulation, Hatch::Masonry, Hatch::ReinforcedConcrete}));
 }
 
 TEST(Hatches, HaveNames) {
