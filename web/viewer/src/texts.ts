@@ -270,6 +270,9 @@ const kTexts = {
  * declared does not compile, so that a help text that changes cannot leave an old translation behind.
  */
 export const kGermanHelp = {
+  "draw a scale bar; parallel projection only, since no other picture has one scale": "zeichnet einen Maßstab; nur bei Parallelprojektion, denn kein anderes Bild hat einen einzigen Maßstab",
+  "draw an arrow to grid north (+y)": "zeichnet einen Pfeil nach Gitternord (+y)",
+  "colour what is seen by class, name, storey, volume, voxels or an attribute, with a legend": "färbt, was zu sehen ist, nach class, name, storey, volume, voxels oder einem Attribut, mit Legende",
   "width and height": "Breite und Höhe",
   "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
     "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",
