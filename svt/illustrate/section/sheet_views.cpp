@@ -68,7 +68,8 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
     double best = low + 0.5 * size, most = -kInfinity;
     for (int n = 0; n < 9; ++n) {
         // From the middle outwards, beside round parts of the extent, where walls often stand.
-        const double at = low + (0.487 + (n % 2 == 0 ? 1 : -1) * spread * ((n + 1) / 2)) * size;
+        const int step = (n + 1) / 2;
+        const double at = low + (0.487 + (n % 2 == 0 ? 1 : -1) * spread * step) * size;
         const auto drawing =
             drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
         if (!drawing) return drawing.error();

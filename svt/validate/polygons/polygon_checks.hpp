@@ -6,6 +6,7 @@
 #include <svt/model/building_model.hpp>
 #include <svt/validate/exact/lattice.hpp>
 #include <svt/validate/polygons/defect.hpp>
+#include <svt/validate/polygons/triangulate.hpp>
 
 #include <array>
 #include <cstdint>
@@ -18,8 +19,6 @@ struct PolygonTolerances {
     double planarity = 0.01;
     double normalsDegrees = 20;
 };
-
-using Corners = std::array<std::uint32_t, 3>;
 
 struct CheckedPolygon {
     std::vector<Defect> defects;  ///< empty: valid

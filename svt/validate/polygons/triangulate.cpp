@@ -11,8 +11,6 @@
 namespace svt::validate {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
 // The border that is still to be cut, as a closed chain.
 struct Link {
     RingCorner corner;

@@ -11,6 +11,9 @@
 
 namespace svt::validate {
 
+/// Corners of a triangle: indices of points.
+using Corners = std::array<std::uint32_t, 3>;
+
 /// A corner of a ring: where it lies, and by which index it is known. Equal places have equal indices.
 struct RingCorner {
     Point2 at;
@@ -24,7 +27,7 @@ struct RingCorner {
 /// \param points  in space, by index
 /// \return corners by index, counter-clockwise
 /// Cost: O(n^2) in the worst case; near O(n) for convex polygons, and for many small holes.
-[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<std::vector<RingCorner>>& rings,
-                                                                    const std::vector<Vec3d>& points);
+[[nodiscard]] std::vector<Corners> triangulate(const std::vector<std::vector<RingCorner>>& rings,
+                                               const std::vector<Vec3d>& points);
 
 }  // namespace svt::validate
