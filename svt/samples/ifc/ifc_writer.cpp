@@ -208,7 +208,7 @@ private:
     }
 
     // Pieces that are cut out of an element, but for those where another element passes through.
-    std::vector<bool> openingsOf(std::size_t c) const {
+    [[nodiscard]] std::vector<bool> openingsOf(std::size_t c) const {
         const std::vector<Component>& all = placed_->plan->components;
         const Component& component = all[c];
         std::vector<bool> isOpening;
