@@ -133,6 +133,20 @@ const Result<Cairo>& loadedCairo() {
 constexpr double kPointsPerMillimetre = 72 / 25.4;
 constexpr double kTileUnits = 100;  // of a tile's surface per millimetre: its extent is rounded to whole units
 
+// One for the whole program, never released: cairo keeps fonts that were used, and may look at them until the program ends.
+FT_Face embeddedFace() {
+    static FT_Library library = nullptr;
+    static const FT_Face face = [] {
+        const auto font = image::embeddedFont();
+        FT_Face opened = nullptr;
+        const bool isOpen = FT_Init_FreeType(&library) == 0 &&
+                            FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(font.data()),
+                                               static_cast<FT_Long>(font.size()), 0, &opened) == 0;
+        return isOpen ? opened : nullptr;
+    }();
+    return face;
+}
+
 class CairoCanvas : public PdfCanvas {
 public:
     explicit CairoCanvas(const Cairo& cairo, const std::string& title) : cairo_(cairo) {
@@ -142,11 +156,8 @@ public:
         // The same bytes each time.
         cairo_.pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
         context_ = cairo_.create(surface_);
-        const auto font = image::embeddedFont();
-        if (FT_Init_FreeType(&library_) == 0 &&
-            FT_New_Memory_Face(library_, reinterpret_cast<const FT_Byte*>(font.data()),
-                               static_cast<FT_Long>(font.size()), 0, &face_) == 0) {
-            font_ = cairo_.ft_font_face_create_for_ft_face(face_, FT_LOAD_NO_HINTING);
+        if (FT_Face face = embeddedFace()) {
+            font_ = cairo_.ft_font_face_create_for_ft_face(face, FT_LOAD_NO_HINTING);
             cairo_.set_font_face(context_, font_);
         }
     }
@@ -155,7 +166,6 @@ public:
         if (font_ != nullptr) cairo_.font_face_destroy(font_);
         cairo_.destroy(context_);
         cairo_.surface_destroy(surface_);
-        // The face of FreeType stays: cairo keeps fonts that were used, and may look at them until the program ends.
     }
     CairoCanvas(const CairoCanvas&) = delete;
     CairoCanvas& operator=(const CairoCanvas&) = delete;
@@ -289,8 +299,6 @@ private:
     std::string bytes_;
     cairo_surface_t* surface_ = nullptr;
     cairo_t* context_ = nullptr;
-    FT_Library library_ = nullptr;
-    FT_Face face_ = nullptr;
     cairo_font_face_t* font_ = nullptr;
     std::map<render::Hatch, cairo_pattern_t*> patterns_;
     int page_ = 0;
