@@ -116,10 +116,17 @@ model::Solid prismOver(model::BuildingModel& model, const Polygon& source, doubl
 }  // namespace
 
 std::size_t extrudeFootprints(model::BuildingModel& model, Diagnostics* diagnostics) {
+    // Walls, roofs or parts below a building tell more of it than its footprint. Parents stand before their children.
+    std::vector<bool> hasGeometryBelow(model.features.size());
+    for (std::size_t f = model.features.size(); f-- > 0;) {
+        const Feature& feature = model.features[f];
+        if (feature.parent != model::kNoFeature && (!feature.geometries.empty() || hasGeometryBelow[f]))
+            hasGeometryBelow[feature.parent] = true;
+    }
     std::size_t extruded = 0, unknown = 0;
     FeatureIndex firstUnknown = 0;
     for (FeatureIndex f = 0; f < model.features.size(); ++f) {
-        if (model::insideOf(model.features[f].className) == model::Inside::Never) continue;
+        if (hasGeometryBelow[f] || model::insideOf(model.features[f].className) == model::Inside::Never) continue;
         const std::vector<model::PolygonIndex> footprint = footprintOf(model, model.features[f]);
         if (footprint.empty()) continue;
         const auto height = heightOf(model, f);

@@ -7,7 +7,7 @@
 
 namespace svt::readers {
 
-/// Gives each feature whose only geometry is flat, and that tells its height by the attribute measuredHeight or height (its
+/// Gives each feature whose only geometry is flat, with no geometry below it in the tree, and that tells its height by the attribute measuredHeight or height (its
 /// own, else that of a parent), a solid of level of detail 1: its lowest horizontal polygons, raised by the height. What
 /// it had stays. Feet (a unit with "ft" or "foot" in it) are understood; heights that are not above 0 are none.
 /// \param diagnostics  is told how many got a body, and how many have no height; may be null

@@ -87,6 +87,13 @@ TEST(ExtrudeFootprints, WhatHasABodyOrNoHeightOrSlopesStays) {
     slope[0].z = 6;
     BuildingModel roof = modelWith(slope, {4}, {{"measuredHeight", 2.0, "m"}});
     EXPECT_EQ(extrudeFootprints(roof, nullptr), 0u);
+    BuildingModel withWalls = modelWith(kRing, {4}, {{"measuredHeight", 2.0, "m"}});
+    model::Feature wall;
+    wall.id = "w";
+    wall.className = "WallSurface";
+    wall.geometries = withWalls.features[0].geometries;
+    withWalls.addFeature(wall, 0);
+    EXPECT_EQ(extrudeFootprints(withWalls, nullptr), 0u) << "its walls tell more";
     BuildingModel twice = modelWith(kRing, {4}, {{"measuredHeight", 2.0, "m"}});
     EXPECT_EQ(extrudeFootprints(twice, nullptr), 1u);
     EXPECT_EQ(extrudeFootprints(twice, nullptr), 0u) << "it has a body now";

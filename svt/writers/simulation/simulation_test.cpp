@@ -138,6 +138,24 @@ TEST(Fds, HolesStandBehindAllObstaclesAndVentsOnBothSides) {
     }
 }
 
+TEST(Fds, HolesStayApartWhereComponentsAreMerged) {
+    const SemanticVolume volume = roomWithADoor();
+    VolumeWriteOptions options;
+    options.mergeBy = MergeBy::Class;
+    options.holes = {1};  // the second of two walls of one class
+    const auto text = makeFds(volume, "h", options);
+    ASSERT_TRUE(text);
+    double holes = 0, walls = 0;
+    for (const FdsBox& box : readFds(*text)) {
+        const auto& b = box.bounds;
+        const double size = (b[1] - b[0]) * (b[3] - b[2]) * (b[5] - b[4]);
+        if (box.kind == "HOLE") holes += size;
+        if (box.surface == "BuildingConstructiveElement") walls += size;
+    }
+    EXPECT_NEAR(holes, double(volume.labels.labels[1].voxels) * 0.001, 1e-9);
+    EXPECT_NEAR(walls, double(volume.labels.labels[0].voxels) * 0.001, 1e-9);
+}
+
 TEST(Boxes, TableAndJsonHoldEachSolidVoxelOnce) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 namespace svt::writers {
 namespace {
@@ -55,13 +56,18 @@ Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const Volume
         for (std::size_t l = 0; l < labels.size(); ++l) isSolid[l] = labels[l].voxels > 0;
 
     SolidBoxes result;
-    std::map<std::string, std::uint32_t> known;
+    std::map<std::tuple<std::string, bool, bool>, std::uint32_t> known;
+    const auto isAmong = [](const std::vector<std::uint32_t>& chosen, std::uint32_t label) {
+        return std::find(chosen.begin(), chosen.end(), label) != chosen.end();
+    };
     std::vector<std::uint32_t> groupOfScalar(volume.labels.scalarCount(), volume::kNoLabel);
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
         if (!isSolid[l]) continue;
         std::string name = groupName(labels[l], options.mergeBy);
         auto group = static_cast<std::uint32_t>(result.groups.size());
-        if (options.mergeBy != MergeBy::Label) group = known.try_emplace(name, group).first->second;
+        if (options.mergeBy != MergeBy::Label)
+            group =
+                known.try_emplace({name, isAmong(options.holes, l), isAmong(options.vents, l)}, group).first->second;
         if (group == result.groups.size()) result.groups.push_back({std::move(name), l, labels[l].color});
         for (volume::Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s) groupOfScalar[s] = group;
     }

@@ -20,6 +20,7 @@ struct SolidGroup {
     friend bool operator==(const SolidGroup&, const SolidGroup&) = default;
 };
 
+/// What is a hole or has vents (options.holes, options.vents) is never in one group with what is not.
 struct SolidBoxes {
     std::vector<SolidGroup> groups;        ///< in the order of their first labels
     std::vector<analyze::GroupBox> boxes;  ///< GroupBox::group: index into groups
