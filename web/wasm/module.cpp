@@ -151,8 +151,9 @@ Result<Reply> compose(const Arguments& arguments) {
     return Reply(illustrate::writeScene(*scene));
 }
 
+// (x, y, metres within which to snap to corners and edges of the model) -> Pick or null
 Result<Reply> pick(const Arguments& arguments) {
-    return Reply(pickOf(*session, arguments.number(0), arguments.number(1)));
+    return Reply(pickOf(*session, arguments.number(0), arguments.number(1), arguments.number(2)));
 }
 
 Result<Reply> replyOf(Result<std::string> text) {
@@ -164,6 +165,9 @@ Result<Reply> along(const Arguments& arguments) {
     return replyOf(intervalsOf(*session, arguments.number(0), arguments.number(1)));
 }
 Result<Reply> select(const Arguments& arguments) { return replyOf(selectionOf(*session, arguments.text(0))); }
+Result<Reply> findInAttributes(const Arguments& arguments) {
+    return Reply(attributesFoundIn(*session, arguments.text(0)));
+}
 Result<Reply> properties(const Arguments& arguments) { return replyOf(propertiesOf(*session, arguments.text(0))); }
 
 // (query, preset or null, camera) -> camera
@@ -220,10 +224,21 @@ struct Call {
     Result<Reply> (*run)(const Arguments& arguments);
     bool needsVolume = true;
 };
-constexpr Call kCalls[] = {{"open", open, false}, {"font", font, false},       {"draw", draw}, {"drawGl", drawGl},
-                           {"dropGl", dropGl},    {"compose", compose, false}, {"pick", pick}, {"along", along},
-                           {"select", select},    {"properties", properties},  {"view", view}, {"picture", picture},
-                           {"labels", labels},    {"drawing", drawing}};
+constexpr Call kCalls[] = {{"open", open, false},
+                           {"font", font, false},
+                           {"draw", draw},
+                           {"drawGl", drawGl},
+                           {"dropGl", dropGl},
+                           {"compose", compose, false},
+                           {"pick", pick},
+                           {"along", along},
+                           {"select", select},
+                           {"findInAttributes", findInAttributes},
+                           {"properties", properties},
+                           {"view", view},
+                           {"picture", picture},
+                           {"labels", labels},
+                           {"drawing", drawing}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);

@@ -1,6 +1,7 @@
 #include "replies.hpp"
 
 #include <svt/analyze/selection.hpp>
+#include <svt/core/text.hpp>
 #include <svt/illustrate/section_plane.hpp>
 
 #include <fmt/format.h>
@@ -8,6 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <vector>
 
 namespace svt::web {
 namespace {
@@ -103,6 +108,32 @@ Json neighborsJson(Session& session, std::uint32_t index) {
     return list;
 }
 
+struct Snapped {
+    Vec3d point;
+    bool isCorner = false;
+};
+
+// The nearest corner of the model's edges within reach of a point, else the nearest point of an edge. Points are metres
+// from the grid's lower corner. Cost: O(edges).
+std::optional<Snapped> snapTo(const volume::VectorParts& parts, Vec3d from, double reach) {
+    std::optional<Snapped> found;
+    double corner = reach, edge = reach;
+    for (const volume::VectorParts::Segment& segment : parts.segments) {
+        const Vec3d a = parts.position(segment.ends[0], {}), b = parts.position(segment.ends[1], {});
+        const Vec3d along = b - a;
+        const double square = dot(along, along);
+        const double share = square > 0 ? std::clamp(dot(from - a, along) / square, 0.0, 1.0) : 0;
+        const Vec3d nearest = a + along * share;
+        if (length(nearest - from) > edge && length(nearest - from) > corner) continue;
+        for (const Vec3d end : {a, b})
+            if (length(end - from) < corner) corner = length(end - from), found = Snapped{end, true};
+        if ((found && found->isCorner) || length(nearest - from) >= edge) continue;
+        edge = length(nearest - from);
+        found = Snapped{nearest, false};
+    }
+    return found;
+}
+
 }  // namespace
 
 std::string infoOf(const Session& session) {
@@ -145,12 +176,14 @@ Result<std::string> propertiesOf(Session& session, const std::string& id) {
     return textOf(json);
 }
 
-std::string pickOf(Session& session, double x, double y) {
+std::string pickOf(Session& session, double x, double y, double reach) {
     const auto picked = session.pick(x, y);
     if (!picked) return "null";
     Json json{{"scalar", picked->scalar}};
     json.update(namesOf(session.volume().labels.labels[picked->label]));
     json["point"] = pointOf(picked->point);
+    if (const auto snapped = snapTo(session.volume().vectors, picked->point, reach); reach > 0 && snapped)
+        json["snapped"] = {{"point", pointOf(snapped->point)}, {"to", snapped->isCorner ? "corner" : "edge"}};
     return textOf(json);
 }
 
@@ -173,6 +206,21 @@ Result<std::string> selectionOf(const Session& session, const std::string& query
     if (!selected) return selected.error();
     Json list = Json::array();
     for (const std::uint32_t l : *selected) list.push_back(table.labels[l].id);
+    return textOf(list);
+}
+
+std::string attributesFoundIn(const Session& session, const std::string& words) {
+    std::istringstream stream(lowerAscii(words));
+    const std::vector<std::string> wanted{std::istream_iterator<std::string>(stream), {}};
+    Json list = Json::array();
+    const auto hasAll = [&](const Attribute& attribute) {
+        const std::string text = lowerAscii(attribute.name + " " + toText(attribute.value));
+        return std::all_of(wanted.begin(), wanted.end(),
+                           [&](const std::string& word) { return text.find(word) != std::string::npos; });
+    };
+    for (const volume::Label& label : session.volume().labels.labels)
+        if (!wanted.empty() && std::any_of(label.attributes.begin(), label.attributes.end(), hasAll))
+            list.push_back(label.id);
     return textOf(list);
 }
 
