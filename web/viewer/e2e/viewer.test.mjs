@@ -145,7 +145,7 @@ describe("files", () => {
     for (const [name, bytes, expected] of [
       ["broken.svt", readFileSync(at("house.svt")).subarray(0, 5000), /E4\d\d/],
       ["noise.gml", Buffer.from("this is no XML"), /E1\d\d/],
-      ["picture.png", Buffer.from("x"), /neither a .svt/],
+      ["picture.png", Buffer.from("x"), /no volume and no building model.*\.ifc/],
     ]) {
       await drop(name, bytes);
       await page.locator("#message").waitFor();
@@ -162,6 +162,75 @@ describe("files", () => {
     await settled(60_000);
     assert.equal(await inPage("s.info.features.length"), JSON.parse(svt("info", at("house.gml"), "--json", "--tree")).features.length + (await inPage("s.index.firstScalars.length")));
   });
+
+  it("of IFC are built in the page, plain or compressed", async (t) => {
+    svt("sample", "house", "--format", "ifc", "-o", at("house.ifc"));
+    const files = [["house.ifc", readFileSync(at("house.ifc"))], ["again.ifc.gz", gzipSync(readFileSync(at("house.ifc")))]];
+    const real = join(dataDir, "fzk_haus.ifc");
+    if (existsSync(real)) files.push(["fzk_haus.ifc", readFileSync(real)]);
+    for (const [name, bytes] of files) {
+      const start = Date.now();
+      await drop(name, bytes);
+      await page.waitForFunction((wanted) => document.querySelector("svt-app").session.modelFile === wanted && document.querySelector("svt-app").session.report, name, { timeout: 60_000 });
+      t.diagnostic(`${name}: from dropped to picture in ${Date.now() - start} ms`);
+      const rooms = await inPage("(await s.engine.select('ifcType=IfcSpace')).length");
+      assert.ok(rooms > 3, `${name}: ${rooms} rooms`);
+    }
+  });
+
+  it("that take long are cancelled, and what was open stays", async () => {
+    svt("sample", "district", "--columns", "12", "--rows", "12", "-o", at("district.gml"));
+    await open();
+    await inPage("s.set({ hide: ['class=BuildingRoom'] })");
+    const before = await inPage("[s.info.name, s.state.hide]");
+    for (const cancel of [() => page.locator("#cancel").dispatchEvent("click"), () => page.keyboard.press("Escape")]) {
+      await drop("district.gml", readFileSync(at("district.gml")));
+      await page.locator("#cancel").waitFor();
+      await page.waitForTimeout(300);
+      await cancel();
+      await page.locator("#message").getByText("district.gml was not opened: cancelled.").waitFor();
+      assert.equal(await page.locator("#cancel").count(), 0);
+      assert.deepEqual(await inPage("[s.info.name, s.state.hide]"), before);
+      await settled();
+      assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0);
+    }
+    assert.deepEqual(problems, []);
+  });
+
+  it("are kept on request, and found by a reload and by links, which say what they need", async () => {
+    await open();
+    await drop("own.svt", readFileSync(at("house.svt")));
+    await page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "own.svt");
+    await inPage("s.set({ hide: ['class=BuildingRoom'] })");
+    await tool("share");
+    await page.click("#copy-link");
+    await page.locator("#message").getByText("the file itself is not part of it").waitFor();
+    const link = page.url();
+    assert.match(link, /[?&]file=own\.svt/);
+    // Not kept: the link says what it needs, and shows the view once it has that.
+    await page.goto("about:blank");
+    await page.goto(link);
+    await page.locator("#message").getByText("own.svt, a file that is not part of it").waitFor();
+    await firstImage();
+    assert.equal(await inPage("s.modelName"), "house");
+    await drop("own.svt", readFileSync(at("house.svt")));
+    await page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "own.svt");
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
+    // Kept: a reload finds it.
+    await tool("share");
+    await page.check("#keep-file");
+    await page.waitForFunction(() => document.querySelector("svt-app").shadowRoot.querySelector("svt-share-tool").isFileKept);
+    await eventually(async () => assert.match(page.url(), /file=own\.svt.*view=/));
+    await page.reload();
+    await firstImage();
+    assert.deepEqual(await inPage("[s.modelFile, s.isLocal, s.state.hide]"), ["own.svt", true, ["class=BuildingRoom"]]);
+    await tool("share");
+    await eventually(async () => assert.ok(await page.isChecked("#keep-file")));
+    await page.uncheck("#keep-file");
+    await page.waitForFunction(() => !document.querySelector("svt-app").shadowRoot.querySelector("svt-share-tool").isFileKept);
+    await page.reload();
+    await page.locator("#message").getByText("own.svt, a file that is not part of it").waitFor();
+  });
 });
 
 describe("tree and query", () => {
@@ -174,6 +243,17 @@ describe("tree and query", () => {
     await page.getByRole("heading", { name: "Hidden beam" }).waitFor();
     const [row] = JSON.parse(svt("query", at("house.svt"), "id=house_hidden_beam", "--with", "volume,surface", "--json"));
     await page.getByText(`${row.voxelVolume.toFixed(3)} m³`).waitFor();
+    await page.fill("#search", "");
+  });
+
+  it("finds by what attributes say, and in German", async () => {
+    const names = async () => (await page.getByRole("treeitem").allInnerTexts()).join("|");
+    await page.fill("#search", "concrete");
+    const found = await inPage("s.engine.findInAttributes('concrete')");
+    assert.ok(found.length > 0);
+    await eventually(async () => assert.match(await page.locator("svt-tree [role=status]").first().innerText(), new RegExp(`^${found.length} found`)));
+    await page.fill("#search", "fenster");
+    assert.match(await names(), /Window|window/);
     await page.fill("#search", "");
   });
 
@@ -524,13 +604,45 @@ describe("tools", () => {
     const places = [[0.45, 0.5], [0.5, 0.55], [0.55, 0.5]];
     for (const [n, [x, y]] of places.entries()) {
       await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
-      await page.waitForFunction((count) => document.querySelector("svt-app").session.measured.length === count, n + 1);
+      await page.waitForFunction((count) => document.querySelector("svt-app").session.state.measured.length === count, n + 1);
     }
-    const [a, b, c] = await inPage("s.measured");
+    const [a, b, c] = await inPage("s.state.measured");
     const apart = (p, q) => Math.hypot(...p.map((v, i) => v - q[i]));
     assert.equal(await page.locator("#measured-length").innerText(), `${(apart(a, b) + apart(b, c)).toFixed(3)} m`);
     assert.match(await page.locator("#measured-area").innerText(), /^\d+\.\d{3} m²$/);
+    await eventually(async () => assert.match(page.url(), /view=/));
+    const { inflateRawSync } = await import("node:zlib");
+    await eventually(async () => assert.deepEqual(JSON.parse(inflateRawSync(Buffer.from(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), "base64url"))).measured, [a, b, c]));
     await page.getByRole("button", { name: "Clear" }).click();
+  });
+
+  it("measure from corner to corner of the model", async () => {
+    await inPage("s.set({ measured: [] })");
+    await inPage("s.goTo('', 'front')");
+    await page.waitForTimeout(600);
+    await settled();
+    // Near the place where a corner of the outer wall is seen, a few pixels beside it.
+    const box = await stage();
+    const corner = await inPage(`(async () => {
+      for (let y = 0.3; y < 0.9; y += 0.01)
+        for (let x = 0.1; x < 0.9; x += 0.01) {
+          const pick = await s.engine.pick(x, y, 0.25);
+          if (pick?.snapped?.to === "corner") return { x, y, point: pick.snapped.point, on: pick.point };
+        }
+      return null;
+    })()`);
+    assert.ok(corner, "some corner of the model is seen");
+    const off = Math.hypot(...corner.point.map((v, i) => v - corner.on[i]));
+    assert.ok(off <= 0.25 && off > 0);
+    const click = (modifiers) => page.mouse.click(box.x + box.width * corner.x, box.y + box.height * corner.y, modifiers);
+    await page.keyboard.down("Control");
+    await click();
+    await page.keyboard.up("Control");
+    await page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 1);
+    const plain = (await state()).measured[0];
+    assert.ok(Math.hypot(...plain.map((v, i) => v - corner.on[i])) < 0.05, "with Ctrl the point is where the ray hits");
+    assert.equal(await inPage("s.engine.pick(0.5, 0.5).then((p) => p?.snapped ?? null)"), null);
+    await inPage("s.set({ measured: [] })");
   });
 
   it("colour a class and make it glass", async () => {
@@ -615,7 +727,76 @@ describe("keeping", () => {
     await page.getByRole("button", { name: "Remove View 1" }).click();
   });
 
+  it("keeps views with pictures and names, in an order, and passes them on as a file", async () => {
+    const list = page.locator("svt-bookmark-list li");
+    await page.click("#keep-view");
+    await eventually(async () => assert.equal(await list.count(), 1));
+    await inPage(`s.set({ look: "paper" })`);
+    await settled();
+    await page.click("#keep-view");
+    await eventually(async () => assert.equal(await list.count(), 2));
+    const picture = await list.nth(1).locator("img").getAttribute("src");
+    const small = readPng(Buffer.from(picture.split(",")[1], "base64"));
+    assert.deepEqual([small.width, small.height], [112, 70]);
+    assert.ok(new Set(small.data).size > 20, "the picture shows something");
+    await list.nth(1).locator("input").fill("On paper");
+    await list.nth(1).locator("input").press("Enter");
+    await page.getByRole("button", { name: "On paper one place up" }).click();
+    const names = () => list.locator("input").evaluateAll((inputs) => inputs.map((input) => input.value));
+    assert.deepEqual(await names(), ["On paper", "View 1"]);
+    const { name, bytes } = await saved(() => page.click("#export-views"));
+    assert.equal(name, "views.json");
+    await page.getByRole("button", { name: "Remove On paper" }).click();
+    await page.getByRole("button", { name: "Remove View 1" }).click();
+    await page.locator("#views-file").setInputFiles({ name: "views.json", mimeType: "application/json", buffer: bytes });
+    await page.locator("#message").getByText("2 views added").waitFor();
+    assert.deepEqual(await names(), ["On paper", "View 1"]);
+    await page.locator("#views-file").setInputFiles({ name: "other.json", mimeType: "application/json", buffer: Buffer.from("{}") });
+    await page.locator("#message").getByText("other.json contains no kept views.").waitFor();
+    await page.reload();
+    await firstImage();
+    await tool("share");
+    assert.deepEqual(await names(), ["On paper", "View 1"]);
+    await page.getByRole("button", { name: "On paper", exact: true }).click();
+    await eventually(async () => assert.equal((await state()).look, "paper"));
+    await inPage(`s.set({ look: "plain" })`);
+  });
+
+  it("takes back and repeats what changed the picture", async () => {
+    await open();
+    assert.ok(await page.locator("#undo").isDisabled());
+    await inPage("s.select(['house_hidden_beam'])");
+    assert.ok(await page.locator("#undo").isDisabled(), "a selection is no step");
+    await page.keyboard.press("h");
+    await page.keyboard.press("x");
+    await page.click("#add-plane");
+    await page.keyboard.press("Escape");
+    const cut = (await state()).sections;
+    assert.equal(await page.locator("#undo").getAttribute("title"), "Undo: Section");
+    await page.keyboard.press("Control+z");
+    assert.deepEqual((await state()).sections, []);
+    await page.click("#undo");
+    assert.deepEqual((await state()).hide, []);
+    assert.ok(await page.locator("#undo").isDisabled());
+    await page.keyboard.press("Control+y");
+    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    assert.equal(await page.locator("#redo").getAttribute("title"), "Redo: Section");
+    await page.keyboard.press("Control+Shift+z");
+    assert.deepEqual((await state()).sections, cut);
+    const eye = (await state()).camera.eye;
+    const box = await stage();
+    await page.mouse.move(box.x + 200, box.y + 200);
+    await page.mouse.down();
+    for (let n = 0; n < 10; ++n) await page.mouse.move(box.x + 200 + 12 * n, box.y + 200);
+    await page.mouse.up();
+    assert.notDeepEqual((await state()).camera.eye, eye);
+    await page.keyboard.press("Control+z");
+    assert.deepEqual((await state()).camera.eye, eye, "a drag is one step");
+    assert.deepEqual((await state()).sections, cut);
+  });
+
   it("shows the scene as JSON, takes it changed, and says what is wrong", async () => {
+    await tool("share");
     await page.click("#show-scene");
     const text = await page.locator("#scene-json").inputValue();
     const scene = JSON.parse(text);
@@ -680,6 +861,28 @@ describe("access", () => {
     assert.notDeepEqual((await state()).camera.eye, before);
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => document.querySelector("svt-app").session.state.selection[0] !== "house_hidden_beam");
+  });
+
+  it("moves along the tools by arrow keys, ends what Escape closes, and leaves walking by 0", async () => {
+    await open();
+    await page.locator("#tool-section").focus();
+    await page.keyboard.press("ArrowRight");
+    const focused = () => page.evaluate(() => document.querySelector("svt-app").shadowRoot.activeElement?.id);
+    assert.equal(await focused(), "tool-lens");
+    await page.keyboard.press("End");
+    assert.equal(await focused(), "tool-share");
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await focused(), "tool-section");
+    assert.equal(await page.locator("#tool-section").getAttribute("tabindex"), "0");
+    assert.equal(await page.locator("#tool-lens").getAttribute("tabindex"), "-1");
+    await page.keyboard.press("c");
+    assert.equal((await state()).effect, "lens");
+    await page.keyboard.press("Escape");
+    assert.equal((await state()).effect, "none");
+    await page.keyboard.press("g");
+    assert.equal(await inPage("s.isWalking"), true);
+    await page.keyboard.press("0");
+    assert.equal(await inPage("s.isWalking"), false);
   });
 
   for (const [colorScheme, width, height] of [["light", 1440, 900], ["dark", 1440, 900], ["light", 360, 740], ["dark", 360, 740]])

@@ -11,7 +11,9 @@ import "./panels/properties_panel";
 import "./panels/start_panel";
 import "./panels/tree_panel";
 import type { TreePanel } from "./panels/tree_panel";
-import type { Tool } from "./session";
+import { stepText, type Tool } from "./session";
+import { kFileKinds } from "./opening";
+import type { Changed } from "./state/history";
 import "./tools/focus_tool";
 import "./tools/lens_tool";
 import "./tools/look_tool";
@@ -47,7 +49,7 @@ export class App extends Part {
   static override properties = {
     ...Part.properties, canvas: { attribute: false },
     isNarrow: { state: true }, isSmall: { state: true }, isTreeShown: { state: true }, isSelectionShown: { state: true },
-    isDropping: { state: true }, spoken: { state: true },
+    isDropping: { state: true }, spoken: { state: true }, dockAt: { state: true },
   };
   declare canvas: HTMLCanvasElement;
   declare isNarrow: boolean;
@@ -56,6 +58,8 @@ export class App extends Part {
   declare isSelectionShown: boolean;
   declare isDropping: boolean;
   declare spoken: string;
+  /** The tool that the Tab key reaches. */
+  declare dockAt: number;
   /** Handlers for a file, and for a model of the list. */
   onFile: (file: File) => void = () => {};
   onModel: (name: string) => void = () => {};
@@ -71,6 +75,7 @@ export class App extends Part {
     this.isSelectionShown = true;
     this.isDropping = false;
     this.spoken = "";
+    this.dockAt = 0;
   }
 
   override connectedCallback(): void {
@@ -100,7 +105,7 @@ export class App extends Part {
     const { state } = s;
     return [
       s.status, s.progress, s.message, s.models, s.modelName, s.info, s.tool, s.along, state.selection, s.report, s.isServerOnly, s.isLegendShown, state.custom,
-      state.sections.length, state.effect, state.shell, state.wireframe, state.look, s.measured.length, s.isWalking, s.engine,
+      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening,
     ];
   }
 
@@ -134,7 +139,7 @@ export class App extends Part {
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
       </main>
       <div class="visually-hidden" role="status" aria-live="polite" id="said">${this.spoken}</div>
-      <input type="file" id="file" hidden accept=".svt,.gml,.xml,.json,.citygml,.cityjson,.ifc" aria-label=${t("openHint")} @change=${this.chosen} />
+      <input type="file" id="file" hidden accept=${[...kFileKinds, ".gz"].join(",")} aria-label=${t("openHint")} @change=${this.chosen} />
       <svt-help .session=${session}></svt-help>
     `;
   }
@@ -157,6 +162,7 @@ export class App extends Part {
         ? html`${this.toggle("tree", t("panelTree"), this.isTreeShown, () => this.showSheet("tree"))}
             ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (this.hasSelection || !this.isSmall), () => this.showSheet("selection"))}`
         : nothing}
+      ${hasModel && !session.isServerOnly ? html`${this.stepButton("undo", session.history.last, () => session.undo())}${this.stepButton("redo", session.history.next, () => session.redo())}` : nothing}
       <button class="bare" id="open" aria-label=${t("openHint")} title=${t("openHint")} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
       <button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>
@@ -166,6 +172,11 @@ export class App extends Part {
 
   private toggle(name: IconName, panel: string, isOn: boolean, act: () => void) {
     return html`<button class="bare" aria-pressed=${isOn} aria-label=${t("showPanel", { panel })} title=${panel} @click=${act}>${icon(name)}</button>`;
+  }
+
+  private stepButton(which: "undo" | "redo", changed: Changed | null, act: () => void) {
+    const text = changed ? t(which, { what: stepText(changed) }) : t(`${which}Nothing`);
+    return html`<button class="bare" id=${which} ?disabled=${!changed} aria-label=${text} title=${text} @click=${act}>${icon(which)}</button>`;
   }
 
   private showSheet(which: "tree" | "selection"): void {
@@ -235,15 +246,26 @@ export class App extends Part {
       lens: state.effect === "lens",
       focus: state.effect === "highlight" || state.effect === "cutaway" || state.shell !== null,
       look: state.wireframe !== null,
-      measure: session.measured.length > 0,
+      measure: state.measured.length > 0,
       views: session.isWalking,
       share: false,
     };
-    return html`<div class="dock" role="toolbar" aria-label=${t("tools")}>${kTools.map(
-      ({ tool, icon: name, key }) => html`<button id="tool-${tool}" class=${used[tool] ? "used" : ""} aria-expanded=${session.tool === tool} aria-keyshortcuts=${key}
+    return html`<div class="dock" role="toolbar" aria-label=${t("tools")} @keydown=${this.dockKey} @focusin=${(e: Event) => (this.dockAt = kTools.findIndex(({ tool }) => (e.target as HTMLElement).id === `tool-${tool}`))}>${kTools.map(
+      ({ tool, icon: name, key }, n) => html`<button id="tool-${tool}" tabindex=${n === this.dockAt ? 0 : -1} class=${used[tool] ? "used" : ""} aria-expanded=${session.tool === tool} aria-keyshortcuts=${key}
         title="${session.toolText(tool)} (${key.toUpperCase()})" @click=${() => this.useTool(tool)}>${icon(name, 22)}<span>${session.toolText(tool)}</span></button>`,
     )}</div>`;
   }
+
+  /** Arrow keys move along the tools, which are one stop of the Tab key. */
+  private readonly dockKey = (event: KeyboardEvent): void => {
+    const last = kTools.length - 1;
+    const next = { ArrowRight: this.dockAt + 1, ArrowLeft: this.dockAt - 1, Home: 0, End: last }[event.key];
+    if (next === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const { tool } = kTools[next > last ? 0 : next < 0 ? last : next]!;
+    this.renderRoot.querySelector<HTMLElement>(`#tool-${tool}`)?.focus();
+  };
 
   private card(tool: Tool) {
     const { session } = this;
@@ -271,9 +293,17 @@ export class App extends Part {
     session.changed();
   }
 
+  /** Closes a tool, and ends what it does by itself: a lens that follows the mouse. */
+  private endTool(tool: Tool): void {
+    const { state } = this.session;
+    this.useTool(tool);
+    if (tool === "lens" && state.effect === "lens" && !state.lens.pinned) this.session.set({ effect: "none" });
+  }
+
   private progress() {
     const { text, share } = this.session.progress!;
-    return html`<div class="progress"><div role="status">${text}<progress aria-label=${text} max="1" .value=${share >= 0 ? share : 0}></progress></div></div>`;
+    return html`<div class="progress"><div><div role="status">${text}<progress aria-label=${text} max="1" value=${share >= 0 ? share : nothing}></progress></div>
+      ${this.session.opening ? html`<button id="cancel" @click=${() => this.session.cancelOpening()}>${t("cancel")}</button>` : nothing}</div></div>`;
   }
 
   private message() {
@@ -334,10 +364,20 @@ export class App extends Part {
     const target = event.composedPath()[0] as HTMLElement;
     const isTyping = target.matches?.("input:not([type=checkbox]), textarea, select") || target.isContentEditable;
     if (event.key === "Escape") return this.leave(isTyping ? target : null);
+    if (!isTyping && (event.ctrlKey || event.metaKey) && !event.altKey && this.stepKey(event)) return event.preventDefault();
     if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (event.key === "?") this.help();
     else if (!this.session.info || !this.shortcut(event)) return;
     event.preventDefault();
+  }
+
+  private stepKey(event: KeyboardEvent): boolean {
+    const key = event.key.toLowerCase();
+    const { session } = this;
+    if (!session.info || (key !== "z" && key !== "y")) return false;
+    if (key === "y" || event.shiftKey) session.redo();
+    else session.undo();
+    return true;
   }
 
   private shortcut(event: KeyboardEvent): boolean {
@@ -347,7 +387,10 @@ export class App extends Part {
     const view = kViews[Number(key) - 1];
     if (tool) this.useTool(tool);
     else if (view) void session.goTo("", view);
-    else if (key === "0") void session.goTo("", null);
+    else if (key === "0") {
+      session.isWalking = false;
+      void session.goTo("", null);
+    }
     else if (key === "f") void session.goTo(session.state.selection.map(ofSubtree).join(" or "), null);
     else if (key === "g") setWalking(session, !session.isWalking);
     else if (key === "h") this.hideSelection(event.shiftKey);
@@ -375,8 +418,9 @@ export class App extends Part {
   private leave(typing: HTMLElement | null): void {
     const { session } = this;
     if (typing) typing.blur();
+    else if (session.opening) session.cancelOpening();
     else if (session.message) this.dismiss();
-    else if (session.tool) this.useTool(session.tool);
+    else if (session.tool) this.endTool(session.tool);
     else if (session.isWalking) setWalking(session, false);
     else if (this.hasSelection) {
       session.along = null;

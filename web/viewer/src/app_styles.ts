@@ -46,6 +46,7 @@ export const appStyles = css`
   .message div { overflow-wrap: anywhere; max-height: 40vh; overflow: auto; }
   .progress { position: absolute; inset: 0; display: grid; place-items: center; z-index: 7; pointer-events: none; }
   .progress > div { width: min(320px, calc(100% - 40px)); padding: 16px 18px; border-radius: 14px; background: var(--panel); border: 1px solid var(--line); box-shadow: var(--shadow); font-size: 13px; display: grid; gap: 8px; }
+  .progress button { pointer-events: auto; justify-self: end; }
   progress { width: 100%; height: 6px; accent-color: var(--accent); }
   .dropping { position: absolute; inset: 10px; border: 3px dashed var(--accent); border-radius: 18px; display: grid; place-items: center; background: color-mix(in srgb, var(--panel) 75%, transparent); font-size: 20px; font-weight: 600; z-index: 9; pointer-events: none; }
   .skip { position: absolute; left: 8px; top: -60px; z-index: 20; }

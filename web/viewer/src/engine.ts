@@ -135,6 +135,8 @@ export interface Pick {
   name: string;
   /** Where the ray hits it. */
   point: Point;
+  /** The corner, or else the point of an edge of the model, within the reach that was asked for. */
+  snapped?: { point: Point; to: "corner" | "edge" };
 }
 
 /** An interval of a ray inside one object. */
@@ -163,6 +165,9 @@ export interface EngineError {
   message: string;
 }
 
+/** The code of an opening that was cancelled. */
+export const kCancelled = "cancelled";
+
 /** Rejected promises carry an EngineError. One volume is open at a time. */
 export interface Engine {
   readonly kind: EngineKind;
@@ -179,13 +184,21 @@ export interface Engine {
   /** The scene with effects, as `svt render --lens/--highlight/--cutaway` make it. */
   compose(scene: Scene, effects: Effects): Promise<Scene>;
 
-  /** x and y in 0..1 of the last picture. */
-  pick(x: number, y: number): Promise<Pick | null>;
+  /** Ends an opening; its promise is rejected with kCancelled. No volume is open then. */
+  cancel(): void;
+
+  /**
+   * x and y in 0..1 of the last picture.
+   * @param reach  metres within which to snap to corners and edges of the model; 0: no snapping
+   */
+  pick(x: number, y: number, reach?: number): Promise<Pick | null>;
   /** Everything along the ray through a pixel, nearest first, hidden or not. */
   along(x: number, y: number): Promise<Stretch[]>;
 
   /** Ids of the features that a query selects. */
   select(query: string): Promise<string[]>;
+  /** Ids of the features one of whose attributes contains all the words, in its name or value. */
+  findInAttributes(words: string): Promise<string[]>;
   properties(id: string): Promise<FeatureProperties>;
   /**
    * Eye and target that show the features selected by a query (empty: all), from a named view or else from the

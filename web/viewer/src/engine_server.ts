@@ -43,9 +43,11 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
       return { width, height, milliseconds: performance.now() - start, engine: "cpu" };
     },
     compose: (scene) => Promise.resolve(scene),
+    cancel: () => undefined,
     pick: () => Promise.resolve(null),
     along: () => Promise.resolve([]),
     select: refuse,
+    findInAttributes: () => Promise.resolve([]),
     properties: refuse,
     view: refuse,
     picture: async (scene) => (await drawn(scene)).arrayBuffer(),

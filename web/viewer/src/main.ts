@@ -4,7 +4,7 @@ import "./ui/theme.css";
 import "./app";
 import type { App } from "./app";
 import { createEngine } from "./engine/client";
-import { openModel, openFile, readModels } from "./opening";
+import { openKept, openModel, openFile, readModels } from "./opening";
 import { Session } from "./session";
 import { stateOfHash } from "./state/link";
 import { initialState, type ViewState } from "./state/view_state";
@@ -81,8 +81,15 @@ async function start(): Promise<void> {
     return session.fail({ message: `${t("cannotRun")} ${(error as EngineError).message ?? ""}` });
   }
   session.start(engine);
-  if (list.chosen) await openModel(session, list.chosen.name, await linked, list.bytes);
+  const file = new URLSearchParams(location.search).get("file");
+  if (file !== null) {
+    const state = await linked;
+    if (await openKept(session, file, state)) return;
+    session.awaited = { file, state };
+  }
+  if (list.chosen) await openModel(session, list.chosen.name, file === null ? await linked : null, list.bytes);
   if (list.note) session.tell(list.note);
+  if (file !== null) session.tell(t("awaitsFile", { name: file }));
 }
 
 async function linkedState(): Promise<ViewState | null> {

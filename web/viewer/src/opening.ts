@@ -1,6 +1,7 @@
 /** Opens listed models and user files. */
 
 import type { ListedModel, Session } from "./session";
+import { keptFile } from "./state/kept_files";
 import type { ViewState } from "./state/view_state";
 import { bytes as bytesText, t } from "./texts";
 
@@ -38,34 +39,41 @@ export async function openModel(session: Session, name: string, state: ViewState
   const model = session.models.find((m) => m.name === name);
   if (!model) return;
   const title = model.title || model.name;
+  const opening = session.startOpening(title);
+  const { signal } = opening.abort;
   let data: ArrayBuffer;
   try {
-    const response = await (coming ?? fetch(model.file));
+    const response = await (coming ?? fetch(model.file, { signal }));
     if (!response.ok) throw { message: t("notLoaded", { name: model.file, status: response.status }) };
-    data = await received(response, model.bytes, (done) => {
+    data = await received(response, model.bytes, signal, (done) => {
       const text = `${t("loadingFile", { name: title })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(model.bytes || done) })}`;
       session.progress = { text, share: model.bytes ? done / model.bytes : -1 };
       session.changed();
     });
   } catch (error) {
-    session.progress = null;
+    if (session.opening !== opening) return;
+    session.opening = session.progress = null;
     if (session.status === "loading") session.status = "empty";
     return session.fail(error, t("failedTitle"));
   }
   const fileName = model.file.split("/").pop()!.split("?")[0]!;
   const again = async () => (await fetch(model.file)).arrayBuffer();
-  if (await session.open(data, fileName, again, state)) session.modelName = model.name;
+  if (await session.open(opening, data, fileName, again, state)) {
+    session.modelName = model.name;
+    session.isLocal = false;
+  }
   session.changed();
 }
 
 /** The bytes of a response, with progress for slow downloads. */
-async function received(response: Response, expected: number, progress: (done: number) => void): Promise<ArrayBuffer> {
+async function received(response: Response, expected: number, signal: AbortSignal, progress: (done: number) => void): Promise<ArrayBuffer> {
   if (!response.body || !(expected > 1e6)) return response.arrayBuffer();
   const reader = response.body.getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
   let done = 0, told = 0;
   for (;;) {
     const { done: isEnd, value } = await reader.read();
+    if (signal.aborted) throw signal.reason;
     if (isEnd) return new Blob(parts).arrayBuffer();
     parts.push(value as Uint8Array<ArrayBuffer>);
     done += value.length;
@@ -76,16 +84,39 @@ async function received(response: Response, expected: number, progress: (done: n
   }
 }
 
+/** What the library reads: volumes, CityGML and IndoorGML, CityJSON and its sequences, IFC; each also compressed by gzip. */
+export const kFileKinds = [".svt", ".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson", ".ifc", ".ifczip"];
+
 export async function openFile(session: Session, file: File): Promise<void> {
-  if (!/\.(svt|gml|xml|json|citygml|cityjson)(\.gz)?$/i.test(file.name)) return session.fail({ message: t("wrongKind", { name: file.name }) }, t("failedTitle"));
-  session.progress = { text: t("loadingFile", { name: file.name }), share: -1 };
+  const name = file.name.toLowerCase().replace(/\.gz$/, "");
+  if (!kFileKinds.some((kind) => name.endsWith(kind))) return session.fail({ message: t("wrongKind", { name: file.name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
+  await openLocal(session, file.name, file);
+}
+
+/** Opens a file that was kept in this browser; false if it is not there any more. */
+export async function openKept(session: Session, name: string, state: ViewState | null): Promise<boolean> {
+  const data = await keptFile(name);
+  if (!data) return false;
+  session.awaited = { file: name, state };
+  await openLocal(session, name, data);
+  return true;
+}
+
+async function openLocal(session: Session, name: string, file: Blob): Promise<void> {
+  const opening = session.startOpening(name);
+  const state = session.awaited?.file === name ? session.awaited.state : null;
+  session.progress = { text: t("loadingFile", { name }), share: -1 };
   session.changed();
   try {
     const data = await file.arrayBuffer();
-    if (await session.open(data, file.name, () => file.arrayBuffer())) session.modelName = "";
+    if (await session.open(opening, data, name, () => file.arrayBuffer(), state)) {
+      session.modelName = "";
+      session.isLocal = true;
+      session.awaited = null;
+    }
   } catch (error) {
     session.fail(error, t("failedTitle"));
   }
-  session.progress = null;
+  if (session.opening === opening) session.opening = session.progress = null;
   session.changed();
 }

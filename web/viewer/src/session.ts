@@ -2,9 +2,11 @@
 
 import { boxOf, withProjection, between, type Box } from "./camera/camera";
 import { PictureLoop, type Quality } from "./canvas/picture_loop";
-import type { Engine, EngineError, FeatureProperties, FrameReport, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo } from "./engine";
+import { kCancelled } from "./engine";
+import type { Engine, EngineError, FeatureProperties, FrameReport, Pick, Samples, SceneCamera, Stretch, VolumeInfo } from "./engine";
 import { kSceneMembers } from "./generated/scene_members";
 import { indexFeatures, labelOf, type FeatureIndex } from "./state/feature_index";
+import { History, type Changed } from "./state/history";
 import { hashOf } from "./state/link";
 import { ofId } from "./state/queries";
 import { sceneCamera, sceneOf, type Described } from "./state/scene_of";
@@ -26,6 +28,13 @@ export interface Progress {
   text: string;
   /** 0 to 1; negative: unknown. */
   share: number;
+}
+
+/** A model that is being fetched and opened. */
+export interface Opening {
+  name: string;
+  /** Stops its download. */
+  abort: AbortController;
 }
 
 /** A message at the lower border of the page. */
@@ -62,10 +71,16 @@ export class Session extends EventTarget {
   state: ViewState = initialState();
   tool: Tool | null = null;
   isWalking = false;
-  measured: Point[] = [];
+  readonly history = new History();
   along: AlongList | null = null;
   properties: FeatureProperties | null = null;
   report: FrameReport | null = null;
+  /** null: nothing is being opened. */
+  opening: Opening | null = null;
+  /** The open model is a file of this computer, which no link leads to. */
+  isLocal = false;
+  /** A view whose model is a file that is not here yet. */
+  awaited: { file: string; state: ViewState | null } | null = null;
   quality: Quality | null = null;
   /** Camera of the visible picture, which lags the state by a frame. */
   shownCamera: Camera | null = null;
@@ -116,16 +131,51 @@ export class Session extends EventTarget {
   /** Changes the view; the picture follows. */
   set(change: Partial<ViewState>): void {
     const before = this.state;
-    this.state = { ...before, ...change };
-    if ("hide" in change) this.hidden = hiddenFlags(this.index, this.state.hide);
-    if ("selection" in change) void this.readProperties();
-    if (isDrawnDifferently(before, this.state)) this.redraw();
+    this.put(change);
+    this.history.record(before, this.state, performance.now());
     this.changed();
+  }
+
+  /** Changes the view by what is no choice of the user: no step to take back. */
+  private put(change: Partial<ViewState>): void {
+    const before = this.state;
+    this.state = { ...before, ...change };
+    this.follow(before);
+  }
+
+  private follow(before: ViewState): void {
+    if (before.hide !== this.state.hide) this.hidden = hiddenFlags(this.index, this.state.hide);
+    if (before.selection !== this.state.selection) void this.readProperties();
+    if (isDrawnDifferently(before, this.state)) this.redraw();
+    else if (before.measured !== this.state.measured) this.linkSoon();
+    this.changed();
+  }
+
+  /** Takes the last step back, or repeats it. */
+  undo(): void {
+    this.step("undone", this.history.last, (now) => this.history.undo(now));
+  }
+  redo(): void {
+    this.step("redone", this.history.next, (now) => this.history.redo(now));
+  }
+
+  private step(said: "undone" | "redone", changed: Changed | null, find: (now: ViewState) => ViewState | null): void {
+    cancelAnimationFrame(this.move);
+    const before = this.state;
+    const found = find(before);
+    if (!found || !changed) return;
+    this.state = found;
+    this.say(t(said, { what: stepText(changed) }));
+    this.follow(before);
   }
 
   redraw(): void {
     this.quality = null;
     this.loop?.invalidate();
+    this.linkSoon();
+  }
+
+  private linkSoon(): void {
     clearTimeout(this.linkTimer);
     this.linkTimer = window.setTimeout(() => void this.writeLink(), 500);
   }
@@ -163,6 +213,7 @@ export class Session extends EventTarget {
 
   fail(error: unknown, title?: string): void {
     const { code, message } = error as Partial<EngineError>;
+    if (code === kCancelled) return;
     const text = message ?? String(error);
     this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true };
     this.changed();
@@ -182,28 +233,63 @@ export class Session extends EventTarget {
   private source: (() => Promise<ArrayBuffer>) | null = null;
   private restartedAt = -Infinity;
 
+  /** The bytes of the open model; null if they cannot be had again. */
+  async bytesAgain(): Promise<ArrayBuffer | null> {
+    return (await this.source?.().catch(() => null)) ?? null;
+  }
+
   /** The library has crashed and lost the volume: reopens it, unless that just failed. */
   private async reopen(error: EngineError): Promise<void> {
-    if (!this.source || !this.engine || performance.now() - this.restartedAt < 20_000) return;
+    if (performance.now() - this.restartedAt < 20_000) return;
     this.restartedAt = performance.now();
+    if (await this.bringBack()) this.tell(t("reopened", { error: error.message }));
+  }
+
+  /** Opens the model again that the library has lost. */
+  private async bringBack(): Promise<boolean> {
+    if (!this.source || !this.engine) return false;
     try {
       await this.engine.open(await this.source(), this.modelFile, () => undefined);
-      this.tell(t("reopened", { error: error.message }));
       this.redraw();
+      return true;
     } catch (again) {
       this.fail(again);
+      return false;
     }
   }
 
+  /** Announces a model that is fetched and opened next; one that is still coming is given up. */
+  startOpening(name: string): Opening {
+    this.cancelOpening();
+    this.opening = { name, abort: new AbortController() };
+    return this.opening;
+  }
+
+  /** Gives up what is being opened; what was open before stays. */
+  cancelOpening(): void {
+    const { opening } = this;
+    if (!opening) return;
+    this.opening = null;
+    opening.abort.abort();
+    this.progress = null;
+    if (this.isReading) this.engine?.cancel();
+    this.isReading = false;
+    if (this.status === "loading") this.status = this.info ? "ready" : "empty";
+    this.tell(t("cancelled", { name: opening.name }));
+  }
+  /** The library is reading the model that is being opened. */
+  private isReading = false;
+
   /**
-   * Opens a model; on failure the previous one stays open.
+   * Opens a model; on failure, or when it is cancelled, the previous one stays open.
+   * @param opening  from startOpening()
    * @param source  fetches the bytes again
    */
-  async open(bytes: ArrayBuffer, fileName: string, source: () => Promise<ArrayBuffer>, state: ViewState | null = null): Promise<boolean> {
-    if (!this.engine) return false;
-    const before = this.status;
+  async open(opening: Opening, bytes: ArrayBuffer, fileName: string, source: () => Promise<ArrayBuffer>, state: ViewState | null = null): Promise<boolean> {
+    if (!this.engine || this.opening !== opening) return false;
     this.status = "loading";
     this.message = null;
+    this.isReading = true;
     try {
       const info = await this.engine.open(bytes, fileName, (step, share) => this.tellProgress(step, share));
       this.modelFile = fileName;
@@ -211,12 +297,21 @@ export class Session extends EventTarget {
       this.take(info, state ?? { ...initialState(this.state.look), wireframe: null });
       return true;
     } catch (error) {
-      this.status = before === "loading" ? "empty" : before;
+      if ((error as EngineError).code === kCancelled) {
+        // Another opening that was begun meanwhile replaces the volume anyway.
+        if (!this.opening) await this.bringBack();
+        return false;
+      }
+      this.status = this.info ? "ready" : "empty";
       this.fail(error, t("failedTitle"));
       if (isFatal(error)) await this.reopen(error as EngineError);
       return false;
     } finally {
-      this.progress = null;
+      if (this.opening === opening) {
+        this.opening = null;
+        this.isReading = false;
+        this.progress = null;
+      }
       this.changed();
     }
   }
@@ -232,7 +327,7 @@ export class Session extends EventTarget {
     this.index = indexFeatures(info.features);
     this.state = { ...state, selection: state.selection.filter((id) => this.index.byId.has(id)) };
     this.hidden = hiddenFlags(this.index, state.hide);
-    this.measured = [];
+    this.history.clear();
     this.along = null;
     this.properties = null;
     this.report = null;
@@ -263,8 +358,10 @@ export class Session extends EventTarget {
   /** Animated, unless the user prefers reduced motion. */
   moveTo(camera: Camera, isFollowed = true): void {
     cancelAnimationFrame(this.move);
+    if (!isFollowed) return this.put({ camera });
+    this.history.seal();
     const from = this.state.camera;
-    if (!from || !isFollowed || matchMedia("(prefers-reduced-motion: reduce)").matches) return this.set({ camera });
+    if (!from || matchMedia("(prefers-reduced-motion: reduce)").matches) return this.set({ camera });
     const start = performance.now(), duration = 350;
     const step = () => {
       const share = Math.min(1, (performance.now() - start) / duration);
@@ -341,11 +438,13 @@ export class Session extends EventTarget {
     return this.engine.compose(described.scene, described.effects);
   }
 
-  /** The address of the page with the open model, if there are several; a local file has no address. */
+  /** The address of the page with the open model, if there are several; of a local file only its name. */
   private address(): string {
     const url = new URL(location.href);
     if (this.modelName && this.models.length > 1) url.searchParams.set("model", this.modelName);
     else url.searchParams.delete("model");
+    if (this.isLocal) url.searchParams.set("file", this.modelFile);
+    else url.searchParams.delete("file");
     return url.pathname + url.search;
   }
 
@@ -371,6 +470,16 @@ export class Session extends EventTarget {
   }
 }
 
+/** The name of a step: what it changed, the foremost of it. */
+export function stepText(changed: Changed): string {
+  return t(kStepNames[changed.find((key) => key !== "camera") ?? "camera"] ?? "look");
+}
+
+const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
+  camera: "stepCamera", hide: "stepVisibility", show: "stepVisibility", styles: "stepStyles", sections: "section", effect: "focusEffect", lens: "lens", focus: "focus",
+  shell: "shell", wireframe: "wireframe", names: "names", colorBy: "colorBy", scaleBar: "scaleBar", northArrow: "northArrow", hatches: "hatches", measured: "measure", custom: "sceneJson",
+};
+
 /** Errors after which the worker is replaced and has no volume. */
 function isFatal(error: unknown): boolean {
   return (error as EngineError).code === "E999";
@@ -379,6 +488,7 @@ function isFatal(error: unknown): boolean {
 function isDrawnDifferently(a: ViewState, b: ViewState): boolean {
   for (const key of Object.keys(b) as (keyof ViewState)[]) {
     if (a[key] === b[key]) continue;
+    if (key === "measured") continue;
     if (key !== "selection" || b.names || ((b.effect === "highlight" || b.effect === "cutaway") && b.focus.query === "")) return true;
   }
   return false;

@@ -62,19 +62,31 @@ export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
 }
 
 export function measure(view: View): SVGTemplateResult | typeof nothing {
-  const points = view.session.measured;
+  const points = view.session.state.measured;
   if (!points.length) return nothing;
   const path = pathOf(view, points, points.length > 2);
   const dots = points.map((p) => place(view, p)).filter((p) => p !== null);
-  const labels = points.slice(1).map((p, i) => label(view, [points[i]!, p], `${number(distance(points[i]!, p), 3)} m`));
-  const area = points.length > 2 ? label(view, points, `${number(polygonArea(points), 2)} m²`) : nothing;
+  const texts = points.slice(1).map((p, i) => ({ of: [points[i]!, p], text: `${number(distance(points[i]!, p), 3)} m` }));
+  if (points.length > 2) texts.push({ of: points, text: `${number(polygonArea(points), 2)} m²` });
   return svg`${path ? svg`<path class="measure" d=${path}></path>` : nothing}
-    ${dots.map((p) => svg`<circle class="dot" cx=${p.x} cy=${p.y} r="4"></circle>`)}${labels}${area}`;
+    ${dots.map((p) => svg`<circle class="dot" cx=${p.x} cy=${p.y} r="4"></circle>`)}${labels(view, texts)}`;
 }
 
-function label(view: View, of: Point[], text: string): SVGTemplateResult {
-  const at = place(view, middleOf(of));
-  return at ? svg`<text x=${at.x} y=${at.y - 7} text-anchor="middle">${text}</text>` : svg``;
+/** Room that the text of a label takes, pixels. */
+const kLabelWidth = 68, kLabelHeight = 16;
+
+/** Each at the middle of its points, below those that stand there already. */
+function labels(view: View, texts: { of: Point[]; text: string }[]): SVGTemplateResult[] {
+  const taken: Seen[] = [];
+  return texts.map(({ of, text }) => {
+    const middle = place(view, middleOf(of));
+    if (!middle) return svg``;
+    const at = { x: middle.x, y: middle.y - 7 };
+    for (const other of [...taken].sort((a, b) => a.y - b.y))
+      if (Math.abs(other.x - at.x) < kLabelWidth && Math.abs(other.y - at.y) < kLabelHeight) at.y = other.y + kLabelHeight;
+    taken.push(at);
+    return svg`<text x=${at.x} y=${at.y} text-anchor="middle">${text}</text>`;
+  });
 }
 
 /** The grid's axes as arrows in the corner. */

@@ -1,7 +1,9 @@
 /** The picture: the engine's canvas, its overlays, and mouse, touch and key input. */
 
 import { css, html, nothing, svg } from "lit";
+import { halfHeight } from "../camera/camera";
 import { Controls } from "../camera/controls";
+import { distance } from "../camera/vec";
 import type { Pick } from "../engine";
 import { t } from "../texts";
 import { controls, Part } from "../ui/part";
@@ -11,6 +13,8 @@ import { dragged, rangeOf } from "../tools/plane_outline";
 import { compass, handleOf, measure, place, planes, selectionBox, type View } from "./overlay";
 
 const kHoverEvery = 80;
+/** Corners and edges so near to a click are meant by it. */
+const kSnapPixels = 9;
 
 export class PictureView extends Part {
   static override properties = { ...Part.properties, canvas: { attribute: false }, hover: { state: true } };
@@ -103,16 +107,26 @@ export class PictureView extends Part {
     if (state.effect === "lens" && !state.lens.pinned && session.tool === "lens")
       return session.set({ lens: { ...state.lens, x, y, pinned: true } });
     try {
-      const pick = await session.engine.pick(x, y);
+      const isMeasuring = session.tool === "measure";
+      const pick = await session.engine.pick(x, y, isMeasuring && !event.ctrlKey && !event.metaKey ? this.snapReach() : 0);
       if (session.tool === "measure") {
-        if (pick) session.measured = [...session.measured, pick.point];
-        else session.say(t("pickedNothing"));
-        return session.changed();
+        if (!pick) return session.say(t("pickedNothing"));
+        session.history.seal();
+        session.say(t(pick.snapped ? (pick.snapped.to === "corner" ? "atCorner" : "atEdge") : "onFace"));
+        return session.set({ measured: [...session.state.measured, pick.snapped?.point ?? pick.point] });
       }
       session.picked(pick, event.ctrlKey || event.metaKey || event.shiftKey);
     } catch (error) {
       session.fail(error);
     }
+  }
+
+  /** Metres that a few pixels are where the camera looks. */
+  private snapReach(): number {
+    const camera = this.session.state.camera;
+    if (!camera) return 0;
+    const depth = camera.parallel ? 1 : distance(camera.eye, camera.target);
+    return (kSnapPixels * 2 * halfHeight(camera) * depth) / Math.max(1, this.clientHeight);
   }
 
   private async framed(x: number, y: number): Promise<void> {

@@ -1,4 +1,5 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
+import { kCancelled } from "../engine";
 import type {
   DrawingFormat, Effects, Engine, EngineError, EngineKind, FeatureProperties, FrameReport, Pick, Scene, SceneCamera,
   Stretch, VolumeInfo,
@@ -62,14 +63,21 @@ class WorkerEngine implements Engine {
   compose(scene: Scene, effects: Effects): Promise<Scene> {
     return this.ask("compose", [scene, effects]);
   }
-  pick(x: number, y: number): Promise<Pick | null> {
-    return this.ask("pick", [x, y]);
+  /** The worker cannot be interrupted: it is replaced. */
+  cancel(): void {
+    this.restart({ code: kCancelled, message: kCancelled });
+  }
+  pick(x: number, y: number, reach = 0): Promise<Pick | null> {
+    return this.ask("pick", [x, y, reach]);
   }
   along(x: number, y: number): Promise<Stretch[]> {
     return this.ask("along", [x, y]);
   }
   select(query: string): Promise<string[]> {
     return this.ask("select", [query]);
+  }
+  findInAttributes(words: string): Promise<string[]> {
+    return this.ask("findInAttributes", [words]);
   }
   properties(id: string): Promise<FeatureProperties> {
     return this.ask("properties", [id]);

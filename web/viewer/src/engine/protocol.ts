@@ -8,9 +8,10 @@ export interface Calls {
   open: { args: [bytes: ArrayBuffer, fileName: string]; result: VolumeInfo };
   draw: { args: [scene: Scene, width: number, height: number]; result: Drawn };
   compose: { args: [scene: Scene, effects: Effects]; result: Scene };
-  pick: { args: [x: number, y: number]; result: Pick | null };
+  pick: { args: [x: number, y: number, reach: number]; result: Pick | null };
   along: { args: [x: number, y: number]; result: Stretch[] };
   select: { args: [query: string]; result: string[] };
+  findInAttributes: { args: [words: string]; result: string[] };
   properties: { args: [id: string]; result: FeatureProperties };
   view: { args: [query: string, preset: string | null, camera: SceneCamera]; result: SceneCamera };
   picture: { args: [scene: Scene]; result: ArrayBuffer };

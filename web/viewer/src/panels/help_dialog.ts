@@ -7,7 +7,7 @@ import { controls, Part } from "../ui/part";
 const kRows = [
   ["keyOrbit", "keyOrbitHow"], ["keyPan", "keyPanHow"], ["keyZoom", "keyZoomHow"], ["keyPick", "keyPickHow"], ["keyAlong", "keyAlongHow"],
   ["keyFrame", "keyFrameHow"], ["keyFit", "keyFitHow"], ["keyViews", "keyViewsHow"], ["keyTools", "keyToolsHow"], ["keyHide", "keyHideHow"],
-  ["keySearch", "keySearchHow"], ["keyTree", "keyTreeHow"], ["walk", "walkHint"], ["keyLeave", "keyLeaveHow"],
+  ["keyUndo", "keyUndoHow"], ["keySearch", "keySearchHow"], ["keyTree", "keyTreeHow"], ["walk", "walkHint"], ["keyLeave", "keyLeaveHow"],
 ] as const;
 
 export class HelpDialog extends Part {

@@ -15,18 +15,23 @@ import { firstOpen, rowsOf, type Rows } from "./tree_rows";
 
 const kRow = 30;
 const kSpare = 6;
+/** Milliseconds after the last key. */
+const kAttributesAfter = 150;
 
 export class TreePanel extends Part {
   static override properties = {
     ...Part.properties,
     tab: { state: true }, search: { state: true }, query: { state: true }, answer: { state: true }, error: { state: true },
-    active: { state: true }, edited: { state: true }, top: { state: true }, listHeight: { state: true },
+    byAttribute: { state: true }, active: { state: true }, edited: { state: true }, top: { state: true }, listHeight: { state: true },
   };
   declare tab: "structure" | "classes";
   declare search: string;
   declare query: string;
   declare answer: string;
   declare error: string;
+  /** Features that the search finds by their attributes; they come a little later. */
+  declare byAttribute: ReadonlySet<number>;
+  private attributeTimer = 0;
   /** Feature with keyboard focus. */
   declare active: number;
   /** Query whose style is edited below the list. */
@@ -81,6 +86,7 @@ export class TreePanel extends Part {
     super();
     this.tab = "structure";
     this.search = this.query = this.answer = this.error = "";
+    this.byAttribute = new Set();
     this.active = 0;
     this.edited = null;
     this.top = 0;
@@ -107,6 +113,7 @@ export class TreePanel extends Part {
       this.seenIndex = index;
       this.open = firstOpen(index);
       this.search = this.answer = this.error = "";
+      this.byAttribute = new Set();
       this.edited = null;
       this.active = this.top = 0;
     }
@@ -118,7 +125,7 @@ export class TreePanel extends Part {
         this.active = last;
       }
     }
-    this.rows = rowsOf(index, this.open, this.search);
+    this.rows = rowsOf(index, this.open, this.search, this.byAttribute);
   }
 
   override updated(changed: Map<string, unknown>): void {
@@ -251,8 +258,18 @@ export class TreePanel extends Part {
 
   private find(text: string): void {
     this.search = text;
+    this.byAttribute = new Set();
+    clearTimeout(this.attributeTimer);
+    if (text.trim().length > 1) this.attributeTimer = window.setTimeout(() => void this.findInAttributes(text), kAttributesAfter);
     this.top = 0;
     this.renderRoot.querySelector(".list")?.scrollTo(0, 0);
+  }
+
+  private async findInAttributes(text: string): Promise<void> {
+    const ids = await this.session.engine?.findInAttributes(text).catch(() => []);
+    if (this.search !== text || !ids?.length) return;
+    const { byId } = this.session.index;
+    this.byAttribute = new Set(ids.map((id) => byId.get(id)!));
   }
 
   private picked(i: number, event: MouseEvent | KeyboardEvent): void {

@@ -1,5 +1,6 @@
 /** Expanded or matching rows of the tree: indices into the feature index, in tree order. */
 
+import { classWords } from "../state/class_words";
 import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
 
 export interface Rows {
@@ -30,21 +31,22 @@ export function childCount(index: FeatureIndex, i: number): number {
   return n;
 }
 
-export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: string): Rows {
+/** @param also  features that a search finds by what is not in the index: their attributes */
+export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: string, also: ReadonlySet<number> = new Set()): Rows {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
-  if (words.length) return found(index, words);
+  if (words.length) return found(index, words, also);
   const shown: number[] = [];
   for (let i = 0; i < index.features.length; i = open.has(i) ? i + 1 : index.end[i]!) shown.push(i);
   return { shown, matches: null, isOpen: (i) => open.has(i) };
 }
 
-/** Features whose name, class or id contains all the words, with their ancestors. */
-function found(index: FeatureIndex, words: string[]): Rows {
+/** Features whose name, class (also in German) or id contains all the words, with their ancestors. */
+function found(index: FeatureIndex, words: string[], also: ReadonlySet<number>): Rows {
   const kept = new Set<number>();
   let matches = 0;
   index.features.forEach((feature, i) => {
-    const text = `${labelOf(feature)} ${feature.class} ${feature.id}`.toLowerCase();
-    if (!words.every((word) => text.includes(word))) return;
+    const text = `${labelOf(feature)} ${feature.class} ${classWords(feature.class)} ${feature.id}`.toLowerCase();
+    if (!also.has(i) && !words.every((word) => text.includes(word))) return;
     ++matches;
     kept.add(i);
     for (const above of ancestors(index, i)) kept.add(above);

@@ -1,25 +1,57 @@
 /** Saved views, in the browser's local storage; each model has its own list. */
 
+import type { Scene } from "../engine";
 import { restored } from "./link";
 import type { ViewState } from "./view_state";
 
 export interface Bookmark {
   name: string;
   state: ViewState;
+  /** A small picture as a data URL. */
+  picture?: string;
 }
 
 const keyOf = (model: string) => `svt-bookmarks:${model}`;
 
 export function loadBookmarks(model: string, store: Storage = localStorage): Bookmark[] {
   try {
-    const value: unknown = JSON.parse(store.getItem(keyOf(model)) ?? "[]");
-    if (!Array.isArray(value)) return [];
-    return value
-      .filter((item): item is { name: string; state: unknown } => typeof item?.name === "string")
-      .map(({ name, state }) => ({ name, state: restored(state) }));
+    return bookmarksOf(JSON.parse(store.getItem(keyOf(model)) ?? "[]"));
   } catch {
     return [];
   }
+}
+
+/** Those of a list from outside that are any. */
+function bookmarksOf(value: unknown): Bookmark[] {
+  if (!Array.isArray(value)) return [];
+  return value
+    .filter((item): item is { name: string; state: unknown; picture?: unknown } => typeof item?.name === "string")
+    .map(({ name, state, picture }) => ({ name, state: restored(state), ...(typeof picture === "string" && kPicture.test(picture) ? { picture } : {}) }));
+}
+
+const kPicture = /^data:image\/(jpeg|png|webp);base64,[A-Za-z0-9+/=]+$/;
+
+/** Kept views as a file, for other browsers and people. */
+export function bookmarkFile(model: string, views: Bookmark[]): string {
+  return `${JSON.stringify({ format: "svt-views", version: 1, model, views }, null, 1)}\n`;
+}
+
+/** The views of such a file; null if it is none. */
+export function bookmarksOfFile(text: string): Bookmark[] | null {
+  try {
+    const file = JSON.parse(text) as { format?: unknown; views?: unknown };
+    return file.format === "svt-views" ? bookmarksOf(file.views) : null;
+  } catch {
+    return null;
+  }
+}
+
+/** The list with its n-th view one place earlier. */
+export function movedUp(views: Bookmark[], n: number): Bookmark[] {
+  if (n < 1 || n >= views.length) return views;
+  const moved = [...views];
+  [moved[n - 1], moved[n]] = [moved[n]!, moved[n - 1]!];
+  return moved;
 }
 
 /** False if the browser stores nothing. */
@@ -31,3 +63,6 @@ export function saveBookmarks(model: string, bookmarks: Bookmark[], store: Stora
     return false;
   }
 }
+
+/** Points on one line, everything else in the usual layout. */
+export const pretty = (scene: Scene) => `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;

@@ -78,15 +78,17 @@ const kNullable: Record<string, string> = { camera: "object", hatches: "boolean"
 
 function isLike(initial: unknown, given: unknown, key: string): boolean {
   if (key in kNullable) return given === null || (typeof given === kNullable[key] && (key !== "camera" || isCamera(given)));
+  if (key === "measured") return Array.isArray(given) && given.every(isPoint);
   if (Array.isArray(initial)) return Array.isArray(given) && given.every((item) => typeof item === (key === "styles" || key === "sections" ? "object" : "string"));
   if (typeof initial === "object" && initial !== null)
     return typeof given === "object" && given !== null && Object.entries(initial).every(([k, v]) => typeof (given as Record<string, unknown>)[k] === typeof v);
   return typeof given === typeof initial;
 }
 
+const isPoint = (p: unknown) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
+
 function isCamera(given: unknown): boolean {
   const { eye, target, height, fieldOfView } = given as Record<string, unknown>;
-  const isPoint = (p: unknown) => Array.isArray(p) && p.length === 3 && p.every(Number.isFinite);
   return isPoint(eye) && isPoint(target) && Number(height) > 0 && isAllowed("/camera/fieldOfView", Number(fieldOfView));
 }
 

@@ -78,6 +78,8 @@ export interface ViewState {
   northArrow: boolean;
   /** Ids. */
   selection: string[];
+  /** Points measured between, metres from the grid's lower corner. */
+  measured: Point[];
   /** A scene given as JSON: its passes are drawn unchanged, and the tools change only the rest. */
   custom: Scene | null;
 }
@@ -102,6 +104,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     scaleBar: kSceneMembers["/scaleBar"].default,
     northArrow: kSceneMembers["/northArrow"].default,
     selection: [],
+    measured: [],
     custom: null,
   };
 }

@@ -15,16 +15,13 @@ export class MeasureTool extends Part {
   `];
 
   protected override uses() {
-    return [this.session.measured];
+    return [this.session.state.measured];
   }
 
   override render() {
     const { session } = this;
-    const points = session.measured;
-    const set = (measured: typeof points) => {
-      session.measured = measured;
-      session.changed();
-    };
+    const points = session.state.measured;
+    const set = (measured: typeof points) => session.set({ measured });
     return html`
       <p class="quiet">${t("measureHint")}</p>
       <dl aria-live="polite">

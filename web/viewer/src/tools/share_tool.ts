@@ -1,35 +1,33 @@
-/** Saving a view: bookmarks, link, command, scene file, picture. */
+/** Saving a view: kept views, link, command, scene file, picture. */
 
 import { css, html, nothing } from "lit";
 import type { Scene } from "../engine";
-import { loadBookmarks, saveBookmarks, type Bookmark } from "../state/bookmarks";
+import { pretty } from "../state/bookmarks";
 import { commandOf } from "../state/command";
+import { forgetFile, isKept, keepFile } from "../state/kept_files";
 import { ofScene } from "../state/link";
 import { kOtherFirstValues, kRanges, rangeOfControl } from "../state/member_controls";
-import { sceneOf } from "../state/scene_of";
 import { initialState, type ViewState } from "../state/view_state";
 import { help, t } from "../texts";
 import { copy, save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
+import "./bookmark_list";
 
 export class ShareTool extends Part {
   static override properties = {
     ...Part.properties,
-    size: { state: true }, isDrawing: { state: true }, sceneText: { state: true }, error: { state: true },
+    size: { state: true }, isDrawing: { state: true }, sceneText: { state: true }, error: { state: true }, isFileKept: { state: true },
   };
   declare size: [number, number];
   declare isDrawing: boolean;
   /** null: hidden. */
   declare sceneText: string | null;
   declare error: string;
-  private bookmarks: Bookmark[] = [];
-  private bookmarksOf = "";
+  declare isFileKept: boolean;
+  private seenFile = "";
 
   static override styles = [controls, css`
-    ul { list-style: none; margin: 0; padding: 0; }
-    li { display: flex; gap: 4px; align-items: center; }
-    li .go { flex: 1; justify-content: flex-start; min-width: 0; overflow: hidden; text-overflow: ellipsis; border-color: transparent; }
     .size { display: grid; grid-template-columns: 1fr auto 1fr auto; gap: 6px; align-items: center; }
     textarea { width: 100%; height: 220px; margin-top: 6px; }
     .row { margin-top: 6px; }
@@ -42,23 +40,24 @@ export class ShareTool extends Part {
     this.isDrawing = false;
     this.sceneText = null;
     this.error = "";
+    this.isFileKept = false;
   }
 
   protected override uses() {
-    return [this.session.modelFile, this.session.state.custom];
+    return [this.session.modelFile, this.session.isLocal, this.session.state.custom];
   }
 
   override willUpdate(): void {
-    if (this.bookmarksOf === this.session.modelFile) return;
-    this.bookmarksOf = this.session.modelFile;
-    this.bookmarks = loadBookmarks(this.bookmarksOf);
+    const file = this.session.isLocal ? this.session.modelFile : "";
+    if (this.seenFile === file) return;
+    this.seenFile = file;
+    this.isFileKept = false;
+    if (file) void isKept(file).then((kept) => (this.isFileKept = kept));
   }
 
   override render() {
     return html`
-      <h3>${t("bookmarks")}</h3>
-      <ul>${this.bookmarks.map((bookmark, n) => this.bookmark(bookmark, n))}</ul>
-      <button id="keep-view" @click=${() => this.keep()}>${icon("bookmark", 16)}${t("keepView")}</button>
+      <svt-bookmark-list .session=${this.session} .size=${this.size}></svt-bookmark-list>
       <h3>${t("passOn")}</h3>
       <div class="row">
         <button id="copy-link" @click=${() => void this.copyLink()}>${icon("copy", 16)}${t("copyLink")}</button>
@@ -66,20 +65,14 @@ export class ShareTool extends Part {
         <button id="show-scene" aria-expanded=${this.sceneText !== null} @click=${() => void this.toggleScene()}>${t("sceneJson")}</button>
       </div>
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
+      ${this.session.isLocal ? html`<label class="check" title=${t("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
+        ${t("keepFile", { name: this.session.modelFile })}</label>` : nothing}
       <h3>${t("picture")}</h3>
       <div class="size">
         ${this.side(t("pictureWidth"), 0)}<span aria-hidden="true">×</span>${this.side(t("pictureHeight"), 1)}
         <button id="save-picture" class="loud" ?disabled=${this.isDrawing} @click=${() => void this.savePicture()}>${icon("image", 16)}${this.isDrawing ? t("pictureWorking") : t("pictureSave")}</button>
       </div>
     `;
-  }
-
-  private bookmark({ name, state }: Bookmark, n: number) {
-    return html`<li>
-      <button class="go" @click=${() => this.go(state)}>${name}</button>
-      <button class="bare" aria-label=${t("bookmarkExport", { name })} title=${t("bookmarkExport", { name })} @click=${() => void this.exportBookmark(name, state)}>${icon("code", 16)}</button>
-      <button class="bare" aria-label=${t("bookmarkRemove", { name })} title=${t("bookmarkRemove", { name })} @click=${() => this.store(this.bookmarks.filter((_, i) => i !== n))}>${icon("bin", 16)}</button>
-    </li>`;
   }
 
   private side(label: string, axis: 0 | 1) {
@@ -107,35 +100,19 @@ export class ShareTool extends Part {
     return this.renderRoot.querySelector<HTMLTextAreaElement>("#scene-json")!.value;
   }
 
-  private go(state: ViewState): void {
-    const { camera, ...rest } = state;
-    this.session.set(rest);
-    if (camera) this.session.moveTo(camera);
-  }
-
-  private keep(): void {
-    this.store([...this.bookmarks, { name: t("bookmarkName", { n: this.bookmarks.length + 1 }), state: this.session.state }]);
-  }
-
-  private store(bookmarks: Bookmark[]): void {
-    this.bookmarks = bookmarks;
-    if (!saveBookmarks(this.bookmarksOf, bookmarks)) this.session.tell(t("notKept"));
-    this.requestUpdate();
-  }
-
-  private async exportBookmark(name: string, state: ViewState): Promise<void> {
+  private async keepFile(isWanted: boolean): Promise<void> {
     const { session } = this;
-    const { scene, effects } = sceneOf(state, session.box, this.size);
-    try {
-      save(pretty(await session.engine!.compose(scene, effects)), `${name.replace(/[^\p{L}\p{N}_-]+/gu, "_")}.scene.json`);
-    } catch (error) {
-      session.fail(error);
-    }
+    if (!isWanted) await forgetFile(session.modelFile);
+    const bytes = isWanted ? await session.bytesAgain() : null;
+    this.isFileKept = bytes !== null && (await keepFile(session.modelFile, bytes));
+    if (isWanted && !this.isFileKept) session.tell(t("notKept"));
   }
 
   private async copyLink(): Promise<void> {
-    await this.session.writeLink();
-    this.session.tell(t((await copy(location.href)) ? "copied" : "notCopied"));
+    const { session } = this;
+    await session.writeLink();
+    const isCopied = await copy(location.href);
+    session.tell(isCopied && session.isLocal ? t("linkNeedsFile", { name: session.modelFile }) : t(isCopied ? "copied" : "notCopied"));
   }
 
   private async copyCommand(): Promise<void> {
@@ -185,9 +162,6 @@ export class ShareTool extends Part {
   }
 }
 customElements.define("svt-share-tool", ShareTool);
-
-/** Points on one line, everything else in the usual layout. */
-const pretty = (scene: Scene) => `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;
 
 /** Leaves a scene that was written by hand. */
 export function leaveCustom(state: ViewState): Partial<ViewState> {

@@ -1,0 +1,87 @@
+/** Undo and redo of the view. States never change, so a step is two references. */
+
+import type { ViewState } from "./view_state";
+
+/** What a step changed, for its name: the members of the view that were given. */
+export type Changed = (keyof ViewState)[];
+
+interface Step {
+  before: ViewState;
+  after: ViewState;
+  changed: Changed;
+  /** Milliseconds; changes of the same members that follow soon belong to the same step: a drag, a slider. */
+  at: number;
+}
+
+const kSameStep = 800;
+const kMaxSteps = 200;
+/** Not steps of their own: the selection draws nothing, the picture's first camera is no choice. */
+const kUncounted = new Set<keyof ViewState>(["selection", "preset"]);
+
+export class History {
+  private done: Step[] = [];
+  private undone: Step[] = [];
+  private isSealed = true;
+
+  /** @param now  milliseconds, on any clock that only grows */
+  record(before: ViewState, after: ViewState, now: number): void {
+    const changed = (Object.keys(after) as Changed).filter((key) => before[key] !== after[key] && !kUncounted.has(key));
+    if (!changed.length || before.camera === null || isHovering(before, after, changed)) return;
+    const last = this.done.at(-1);
+    this.undone = [];
+    if (last && !this.isSealed && now - last.at < kSameStep && last.changed.join() === changed.join()) {
+      last.after = after;
+      last.at = now;
+      return;
+    }
+    this.isSealed = false;
+    this.done.push({ before, after, changed, at: now });
+    if (this.done.length > kMaxSteps) this.done.shift();
+  }
+
+  /** What comes next is a step of its own. */
+  seal(): void {
+    this.isSealed = true;
+  }
+
+  clear(): void {
+    this.done = [];
+    this.undone = [];
+    this.isSealed = true;
+  }
+
+  /** What undo() and redo() would take back or repeat; null: nothing. */
+  get last(): Changed | null {
+    return this.done.at(-1)?.changed ?? null;
+  }
+  get next(): Changed | null {
+    return this.undone.at(-1)?.changed ?? null;
+  }
+
+  /** The view before the last step, but with what no step counts as it is now; null if there is none. */
+  undo(now: ViewState): ViewState | null {
+    const step = this.done.pop();
+    if (!step) return null;
+    this.undone.push(step);
+    this.isSealed = true;
+    return restoredTo(step.before, step.changed, now);
+  }
+
+  redo(now: ViewState): ViewState | null {
+    const step = this.undone.pop();
+    if (!step) return null;
+    this.done.push(step);
+    this.isSealed = true;
+    return restoredTo(step.after, step.changed, now);
+  }
+}
+
+/** Only what the step changed: a lens that followed the mouse meanwhile stays where it is. */
+function restoredTo(state: ViewState, changed: Changed, now: ViewState): ViewState {
+  return { ...now, ...Object.fromEntries(changed.map((key) => [key, state[key]])) };
+}
+
+/** A lens that follows the mouse: each movement would be a step. */
+function isHovering(before: ViewState, after: ViewState, changed: Changed): boolean {
+  return changed.length === 1 && changed[0] === "lens" && !before.lens.pinned && !after.lens.pinned && before.lens.radius === after.lens.radius;
+}
