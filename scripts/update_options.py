@@ -140,6 +140,8 @@ def member_schema(members: dict[str, dict], pointer: str) -> dict:
     if "otherwise" in member:
         said += f"; default: {member['otherwise']}"
     schema = {"description": said} if said else {}
+    if member["kind"] == "object" and pointer == "/motion/keys/*/scene":
+        return schema | {"$ref": "#"}  # members of the scene itself
     if member["kind"] == "object":
         return schema | object_schema(members, pointer)
     if member["kind"] == "list":

@@ -86,6 +86,24 @@ enum class Look : std::uint8_t {
     Dark        ///< for slides: colours on near black
 };
 
+/// How a scene changes with time, see motion.hpp.
+struct Motion {
+    /// How a member goes from key to key.
+    enum class Pace : std::uint8_t { Smooth, Even };
+    struct Key {
+        double at = 0;      ///< seconds
+        std::string scene;  ///< JSON object: the members of the scene that have these values then
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+
+    double seconds = 6;
+    int rate = 25;    ///< pictures a second
+    double turn = 0;  ///< degrees by which the camera goes around meanwhile, counter-clockwise from above
+    Pace pace = Pace::Smooth;
+    std::vector<Key> keys;  ///< times ascend
+    friend bool operator==(const Motion&, const Motion&) = default;
+};
+
 struct Scene {
     std::int32_t width = 1280, height = 720;  ///< pixels
     int samples = 4;                          ///< rays per pixel
@@ -105,6 +123,7 @@ struct Scene {
     bool hasScaleBar = false;        ///< parallel cameras only
     bool hasNorthArrow = false;
     std::vector<ScenePass> passes{ScenePass{}};
+    std::optional<Motion> motion;
 
     friend bool operator==(const Scene&, const Scene&) = default;
 };

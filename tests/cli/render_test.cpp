@@ -4,12 +4,17 @@
 // SVT_UPDATE_GOLDEN=1 rewrites the pictures; look at each before committing it.
 #include "run_command.hpp"
 
+#include <svt/core/file.hpp>
 #include <svt/core/test_data_test.hpp>
 #include <svt/image/image.hpp>
 #include <svt/image/png.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <initializer_list>
+#include <utility>
 
 namespace svt::test {
 namespace {
@@ -290,6 +295,108 @@ TEST_F(SmallHouse, LastOfTwoColorsWins) {
     const auto image = draw({"--color", "all:red", "--color", "all:blue", "--opacity", "all:1"});
     EXPECT_EQ(std::count_if(image.pixels().begin(), image.pixels().end(), isRed), 0);
     EXPECT_GT(std::count_if(image.pixels().begin(), image.pixels().end(), isBlue), 500);
+}
+
+// Films, of which ffprobe tells what a player sees.
+class Films : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
+            GTEST_SKIP() << "ffmpeg is not installed (scripts/setup.sh readers)";
+        runSvtWell(folder_.path(), {"sample", "house", "-o", "house.gml"});
+        runSvtWell(folder_.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
+    }
+    [[nodiscard]] std::string streamOf(const std::string& film) const {
+        const std::string command =
+            "ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,r_frame_rate,nb_read_frames "
+            "-of csv=p=0 '" +
+            (folder_.path() / film).string() + "'";
+        std::string text;
+        if (FILE* pipe = popen(command.c_str(), "r")) {
+            for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+            pclose(pipe);
+        }
+        return text.substr(0, text.find('\n'));
+    }
+    [[nodiscard]] std::string bytesOf(const std::string& file) const {
+        const auto mapped = MappedFile::open(folder_.path() / file);
+        return mapped ? std::string(mapped->text()) : std::string();
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(Films, HaveTheSizeRateAndNumberOfPicturesThatWereAskedFor) {
+    const Limits limits{.seconds = 120, .memoryBytes = std::uint64_t{8} << 30};
+    for (const auto& [film, stream] :
+         std::initializer_list<std::pair<std::string, std::string>>{{"turn.webm", "vp9,162,90,5/1,10"},
+                                                                    {"turn.mp4", "h264,162,90,5/1,10"},
+                                                                    {"turn.gif", "gif,161,90,5/1,10"}}) {
+        const CommandResult made = runSvt(
+            folder_.path(),
+            {"render", "house.svt", "-o", film, "--turn", "360", "--seconds", "2", "--rate", "5", "--size", "161x90"},
+            limits);
+        EXPECT_EQ(made.exitCode, 0) << made.toString();
+        EXPECT_EQ(streamOf(film), stream);
+    }
+}
+
+TEST_F(Films, AreTheSameBytesEachTimeAndRepeatAsWebP) {
+    const Limits limits{.seconds = 120, .memoryBytes = std::uint64_t{8} << 30};
+    for (const char* film : {"a.webm", "b.webm", "a.webp", "b.webp"}) {
+        const CommandResult made = runSvt(folder_.path(),
+                                          {"render", "house.svt", "-o", film, "--section", "z=6..1", "--seconds", "1",
+                                           "--rate", "6", "--size", "160x90"},
+                                          limits);
+        EXPECT_EQ(made.exitCode, 0) << made.toString();
+    }
+    EXPECT_FALSE(bytesOf("a.webm").empty());
+    EXPECT_EQ(bytesOf("a.webm"), bytesOf("b.webm"));
+    EXPECT_EQ(bytesOf("a.webp"), bytesOf("b.webp"));
+    EXPECT_NE(bytesOf("a.webp").find("ANIM"), std::string::npos);
+}
+
+TEST(Motion, PicturesOfASeriesAreThoseOfTheScene) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
+    {
+        std::ofstream scene(folder.path() / "move.scene.json");
+        scene
+            << R"({"size":[160,90],"camera":{"fit":"all"},"passes":[{"cut":"z>6"}],"motion":{"seconds":2,"pace":"even",
+            "keys":[{"at":2,"scene":{"passes":[{"cut":"z>1"}]}}]}})";
+    }
+    runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--scene", "move.scene.json", "--frames", "3"});
+    const auto same = [&](const char* a, const char* b) {
+        const auto first = MappedFile::open(folder.path() / a), second = MappedFile::open(folder.path() / b);
+        return first && second && first->text() == second->text();
+    };
+    for (const auto& [file, plane] :
+         {std::pair("p_0000.png", "z>6"), std::pair("p_0001.png", "z>3.5"), std::pair("p_0002.png", "z>1")}) {
+        runSvtWell(folder.path(),
+                   {"render", "house.svt", "-o", "one.png", "--cut", plane, "--size", "160x90", "--fit", "all"});
+        EXPECT_TRUE(same(file, "one.png")) << file;
+    }
+}
+
+TEST(Motion, FilmsThatCannotBeAreRefusedBeforeTheWork) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    const auto refused = [&](const std::vector<std::string>& more, const char* text) {
+        std::vector<std::string> words{"render", "house.gml", "-o", "film.webm", "--size", "160x90"};
+        words.insert(words.end(), more.begin(), more.end());
+        const CommandResult result = runSvt(folder.path(), words);
+        EXPECT_NE(result.exitCode, 0);
+        EXPECT_NE(result.err.find(text), std::string::npos) << result.toString();
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "film.webm"));
+    };
+    refused({}, "nothing moves in this film");
+    refused({"--turn", "360", "--frames", "5"}, "--seconds and --rate");
+    refused({"--turn", "360", "--labels", "l.png"}, "not for films");
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", "/nowhere", 1);
+    refused({"--turn", "360"}, "ffmpeg, which is not installed");
+    setenv("PATH", path.c_str(), 1);
 }
 
 }  // namespace

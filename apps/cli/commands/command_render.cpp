@@ -1,12 +1,14 @@
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/scene_options.hpp>
+#include <apps/cli/output/film.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/image/png.hpp>
 #include <svt/render/frame_buffers.hpp>
@@ -15,8 +17,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace svt::cli {
 namespace {
@@ -68,6 +72,41 @@ void takeFinest(illustrate::Scene& scene) {
         if (!pass.form.level) pass.form.level = 0;
 }
 
+// What is drawn of a scene, and when: pictures one by one, or a film.
+struct Series {
+    int count = 1;
+    double seconds = 0;  ///< between two pictures
+    std::optional<Film> film;
+};
+
+// \param first  the scene at the beginning
+Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scene& first) {
+    Series series;
+    const illustrate::Motion motion = first.motion.value_or(illustrate::Motion{});
+    if (!isFilm(arguments.output)) {
+        series.count = arguments.frames;
+        // The last picture shows the end; of a camera that only goes around it would be the first again.
+        const int steps = motion.keys.empty() && motion.turn != 0 ? series.count : std::max(1, series.count - 1);
+        series.seconds = motion.seconds / steps;
+        return series;
+    }
+    if (arguments.frames != 1)
+        return Error(Code::BadArgument,
+                     "--frames is for pictures one by one; --seconds and --rate say how many a film has");
+    if (!arguments.labelOutput.empty() || !arguments.depthOutput.empty())
+        return Error(Code::BadArgument, "--labels and --depth are for PNG, not for films");
+    if (!arguments.scene.hasMovingSection() && motion.turn == 0 && motion.keys.empty())
+        return Error(Code::BadArgument,
+                     "nothing moves in this film; let the camera go around (--turn 360), a section move "
+                     "(--section z=6..1), or give a scene with motion");
+    series.count = illustrate::pictureCount(motion);
+    series.seconds = 1.0 / motion.rate;
+    auto film = Film::begin(arguments.output, motion.rate);
+    if (!film) return film.error();
+    series.film.emplace(std::move(*film));
+    return series;
+}
+
 Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arguments, int number) {
     const auto at = [&](const std::filesystem::path& file) { return numberedFile(file, number, arguments.frames); };
     if (auto written = image::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()); !written)
@@ -109,8 +148,10 @@ void noteNames(const illustrate::Painting::Names& names) {
 
 int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
-    const auto first = arguments.scene.toScene(0, arguments.frames);
+    const auto first = arguments.scene.toScene(0, isFilm(arguments.output) ? 2 : arguments.frames);
     if (!first) return fail(first.error());
+    auto series = seriesOf(arguments, *first);
+    if (!series) return fail(series.error());
     Diagnostics diagnostics;
     TerminalProgress progress;
     const auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
@@ -131,17 +172,23 @@ int runRender(const RenderArguments& arguments) {
         return gl.draw(volumes, spec);
     };
     int empty = 0;
-    for (int frame = 0; frame < arguments.frames; ++frame) {
-        progress.beginPart(frame, arguments.frames);
-        auto scene = arguments.scene.toScene(frame, arguments.frames);
+    for (int frame = 0; frame < series->count; ++frame) {
+        progress.beginPart(frame, series->count);
+        const auto still = arguments.scene.toScene(frame, series->count);
+        if (!still) return fail(still.error());
+        auto scene = illustrate::sceneAt(*still, frame * series->seconds, *volume);
         if (!scene) return fail(scene.error());
         if (arguments.gl) takeFinest(*scene);
         const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
         if (!painting) return fail(painting.error());
         empty += isEmpty(painting->frame);
         if (frame == 0) noteNames(painting->names);
-        if (auto written = writeBuffers(painting->frame, arguments, frame); !written) return fail(written.error());
+        const auto written =
+            series->film ? series->film->add(painting->frame.color) : writeBuffers(painting->frame, arguments, frame);
+        if (!written) return fail(written.error());
     }
+    if (series->film)
+        if (auto written = series->film->finish(progress.get()); !written) return fail(written.error());
     if (!arguments.sceneOutput.empty()) {
         const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
         if (!written) return fail(written.error());
@@ -149,7 +196,7 @@ int runRender(const RenderArguments& arguments) {
     for (const std::string& message : nothing) note(message);
     if (empty != 0)
         note(fmt::format("nothing is visible{}: all is hidden, cut away, fully transparent or outside of the view",
-                         arguments.frames == 1 ? "" : fmt::format(" in {} of {} pictures", empty, arguments.frames)));
+                         series->count == 1 ? "" : fmt::format(" in {} of {} pictures", empty, series->count)));
     return kDone;
 }
 

@@ -71,8 +71,11 @@ Result<std::string> movedSection(const std::string& text, int frame, int frames)
     const double to = std::strtod(last.c_str(), &rest);
     if (last.empty() || *rest != '\0') return bad();
     if (frames < 2)
-        return Error(Code::BadArgument,
-                     fmt::format("--section '{}' moves; --frames says in how many pictures, 2 or more", text));
+        return Error(
+            Code::BadArgument,
+            fmt::format("--section '{}' moves; --frames says in how many pictures, 2 or more; a film (-o P.webm) "
+                        "has them anyway",
+                        text));
     return fmt::format("{}{:.6g}", text.substr(0, begin + 1), from + (to - from) * frame / (frames - 1));
 }
 
@@ -218,7 +221,21 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (!colorBy.empty()) scene.colorBy = colorBy;
     scene.names.insert(scene.names.end(), names.begin(), names.end());
     if (auto added = addPass(*this, frame, frames, scene); !added) return added.error();
+    if (turn || seconds || rate) {
+        if (!scene.motion) scene.motion.emplace();
+        if (turn) scene.motion->turn = *turn;
+        if (seconds) scene.motion->seconds = *seconds;
+        if (rate) scene.motion->rate = *rate;
+        if (!scene.motion->keys.empty() && scene.motion->keys.back().at > scene.motion->seconds)
+            return Error(Code::BadArgument, fmt::format("--seconds {} ends before the last key of the scene, at {} s",
+                                                        scene.motion->seconds, scene.motion->keys.back().at));
+    }
     return scene;
+}
+
+bool SceneArguments::hasMovingSection() const {
+    return std::any_of(sections.begin(), sections.end(),
+                       [](const std::string& text) { return text.find("..") != std::string::npos; });
 }
 
 void SceneArguments::connect(Command& command) {
@@ -227,6 +244,9 @@ void SceneArguments::connect(Command& command) {
     command.set("--around", around);
     command.set("--fit", fit);
     command.set("--ortho", isParallel);
+    command.set("--turn", turn);
+    command.set("--seconds", seconds);
+    command.set("--rate", rate);
     command.set("--eye", eye);
     command.set("--target", target);
     command.set("--fov", fov);

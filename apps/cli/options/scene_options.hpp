@@ -24,8 +24,8 @@ struct SceneArguments {
     std::optional<double> wireWidth;
     std::string cut, keep, lens, cutaway, around, context, shell;
     std::vector<double> eye, target;
-    std::optional<int> samples, dpi, level, contextLevel;
-    std::optional<double> edges, lineWidth, cutWidth, hatchSpacing, fov, zoom;
+    std::optional<int> samples, dpi, level, contextLevel, rate;
+    std::optional<double> edges, lineWidth, cutWidth, hatchSpacing, fov, zoom, turn, seconds;
     int dpiByDefault = 0;
     bool isParallel = false, isTransparent = false, hasHatches = false;
 
@@ -34,6 +34,8 @@ struct SceneArguments {
     [[nodiscard]] int printedDpi() const;
     /// The scene of frame `frame` of `frames`: sections such as z=0..6 move from one end to the other.
     [[nodiscard]] Result<illustrate::Scene> toScene(int frame, int frames) const;
+    /// Whether some section moves.
+    [[nodiscard]] bool hasMovingSection() const;
 };
 
 }  // namespace svt::cli

@@ -22,6 +22,10 @@ constexpr FileFormat kFormats[] = {
     {"svt", ".svt", FileContent::Volume},
     {"svg", ".svg", FileContent::Svg},
     {"pdf", ".pdf", FileContent::Pdf},
+    {"webm", ".webm", FileContent::Webm},
+    {"mp4", ".mp4", FileContent::Mp4},
+    {"gif", ".gif", FileContent::Gif},
+    {"webp", ".webp", FileContent::Webp},
     {"dxf", ".dxf", FileContent::Dxf},
     {"geojson", ".geojson", FileContent::GeoJson},
     {"scene", ".json", FileContent::PlainJson},
@@ -102,6 +106,10 @@ FileContent contentOf(std::string_view head) {
     if (head.starts_with("PK\3\4"sv) || head.starts_with("PK\5\6"sv)) return FileContent::Zip;
     if (head.starts_with("\x1f\x8b"sv)) return FileContent::Gzip;
     if (head.starts_with("%PDF-"sv)) return FileContent::Pdf;
+    if (head.starts_with("\x1a\x45\xdf\xa3"sv)) return FileContent::Webm;
+    if (head.substr(0, 8).ends_with("ftyp"sv)) return FileContent::Mp4;
+    if (head.starts_with("GIF8"sv)) return FileContent::Gif;
+    if (head.starts_with("RIFF"sv) && head.substr(0, 12).ends_with("WEBP"sv)) return FileContent::Webp;
     if (head.starts_with("glTF"sv)) return FileContent::Gltf;
     if (head.starts_with("NRRD000"sv)) return FileContent::Nrrd;
     if (head.starts_with("ply\n"sv)) return FileContent::Ply;
@@ -148,6 +156,10 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Tiff: return "a TIFF";
         case FileContent::Svg: return "an SVG drawing";
         case FileContent::Pdf: return "a PDF";
+        case FileContent::Webm: return "a WebM film";
+        case FileContent::Mp4: return "an MP4 film";
+        case FileContent::Gif: return "a GIF";
+        case FileContent::Webp: return "a WebP picture";
         case FileContent::Html: return "an HTML page";
         case FileContent::CityGml: return "a CityGML model";
         case FileContent::Xml: return "an XML file";

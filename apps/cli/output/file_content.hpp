@@ -24,6 +24,10 @@ enum class FileContent : std::uint8_t {
     Tiff,
     Svg,
     Pdf,
+    Webm,
+    Mp4,
+    Gif,
+    Webp,
     Html,
     CityGml,
     Xml,  ///< another XML

@@ -1,5 +1,6 @@
 #include <svt/illustrate/scene.hpp>
 
+#include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/image/color_text.hpp>
 
@@ -22,6 +23,8 @@ constexpr std::size_t kMaxPasses = render::FrameSpec::kMaxPasses;
 constexpr std::pair<render::HiddenLines, std::string_view> kHidden[] = {{render::HiddenLines::None, "none"},
                                                                         {render::HiddenLines::Faint, "faint"},
                                                                         {render::HiddenLines::Dashed, "dashed"}};
+constexpr std::pair<Motion::Pace, std::string_view> kPaces[] = {{Motion::Pace::Smooth, "smooth"},
+                                                                {Motion::Pace::Even, "even"}};
 constexpr std::pair<Join, std::string_view> kJoins[] = {
     {Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}};
 
@@ -205,6 +208,40 @@ void readHatches(Reader& read, const Json& json, Scene& scene) {
     }
 }
 
+void readKey(Reader& read, const Json& json, const std::string& path, Motion& motion) {
+    if (!read.object(json, path)) return;
+    if (!json.contains("at") || !json.contains("scene"))
+        return read.fail(path, "needs \"at\", seconds, and \"scene\", the members that have other values then");
+    Motion::Key key;
+    read.number(json["at"], path + "/at", key.at);
+    if (!json["scene"].is_object() || json["scene"].contains("motion"))
+        return read.fail(path + "/scene", "expected an object with members of a scene, but no motion");
+    key.scene = json["scene"].dump();
+    if (!motion.keys.empty() && key.at <= motion.keys.back().at)
+        return read.fail(path + "/at", "expected a later time than that of the key before");
+    motion.keys.push_back(std::move(key));
+}
+
+void readMotion(Reader& read, const Json& json, Motion& motion) {
+    if (!read.object(json, "/motion")) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = "/motion/" + key;
+        if (key == "seconds") read.number(value, at, motion.seconds);
+        if (key == "rate") read.number(value, at, motion.rate);
+        if (key == "turn") read.number(value, at, motion.turn);
+        if (key == "pace") read.choice(value, at, "pace", kPaces, motion.pace);
+        if (key == "keys") {
+            if (!value.is_array()) return read.fail(at, "expected an array of keys");
+            for (std::size_t n = 0; n < value.size() && read.isFine(); ++n)
+                readKey(read, value[n], fmt::format("{}/{}", at, n), motion);
+        }
+    }
+    if (read.isFine() && !motion.keys.empty() && motion.keys.back().at > motion.seconds)
+        read.fail("/motion/keys", fmt::format("the last key is at {} s, after the end of the motion at {} s; change "
+                                              "\"seconds\"",
+                                              motion.keys.back().at, motion.seconds));
+}
+
 void readScene(Reader& read, const Json& json, Scene& scene) {
     if (!read.object(json, "")) return;
     for (const auto& [key, value] : json.items()) {
@@ -231,6 +268,7 @@ void readScene(Reader& read, const Json& json, Scene& scene) {
         if (key == "hatches") readHatches(read, value, scene);
         if (key == "ambientOcclusion") read.number(value, at, scene.ambientOcclusion.emplace());
         if (key == "names") read.texts(value, at, scene.names);
+        if (key == "motion") readMotion(read, value, scene.motion.emplace());
         if (key == "passes") {
             if (!value.is_array() || value.empty() || value.size() > kMaxPasses)
                 return read.fail(at, fmt::format("expected an array of 1 to {} passes", kMaxPasses));
@@ -253,6 +291,18 @@ Json jsonOf(const SceneCamera& camera) {
     if (camera.zoom != plain.zoom) json["zoom"] = camera.zoom;
     if (camera.eye) json["eye"] = {camera.eye->x, camera.eye->y, camera.eye->z};
     if (camera.target) json["target"] = {camera.target->x, camera.target->y, camera.target->z};
+    return json;
+}
+
+Json jsonOf(const Motion& motion) {
+    const Motion plain;
+    Json json = Json::object();
+    if (motion.seconds != plain.seconds) json["seconds"] = motion.seconds;
+    if (motion.rate != plain.rate) json["rate"] = motion.rate;
+    if (motion.turn != plain.turn) json["turn"] = motion.turn;
+    if (motion.pace == Motion::Pace::Even) json["pace"] = "even";
+    for (const Motion::Key& key : motion.keys)
+        json["keys"].push_back(Json{{"at", key.at}, {"scene", Json::parse(key.scene, nullptr, false)}});
     return json;
 }
 
@@ -303,6 +353,7 @@ Result<Scene> parseScene(std::string_view json, const std::string& name) {
     Scene scene;
     readScene(read, parsed, scene);
     if (!read.isFine()) return read.error();
+    if (auto checked = checkMotion(scene, name); !checked) return checked.error();
     return scene;
 }
 
@@ -329,6 +380,7 @@ std::string writeScene(const Scene& scene) {
     if (!scene.names.empty()) json["names"] = scene.names;
     json["passes"] = Json::array();
     for (const ScenePass& pass : scene.passes) json["passes"].push_back(jsonOf(pass));
+    if (scene.motion) json["motion"] = jsonOf(*scene.motion);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

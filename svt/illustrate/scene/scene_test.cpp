@@ -405,6 +405,10 @@ std::string jsonWith(std::string_view pointer, std::string value) {
             value = "[" + value + "]";
         else if (pointer.find("/styles/") != std::string_view::npos && name != "select")
             value = R"({"select": "all", ")" + std::string(name) + "\": " + value + "}";
+        else if (name == "at")
+            value = R"({"scene": {}, "at": )" + value + "}";
+        else if (name == "keys")
+            value = R"({"seconds": 3600, "keys": )" + value + "}";
         else
             value = "{\"" + std::string(name) + "\": " + value + "}";
         pointer = pointer.substr(0, slash);
@@ -429,6 +433,7 @@ TEST(SceneMembers, DefaultsAreThoseOfTheStructures) {
         if (member.name.find("/lines/*") != std::string_view::npos) plain.passes[0].lines.emplace_back();
         if (member.name.find("/styles/*") != std::string_view::npos)
             plain.passes[0].styles.emplace_back().select = "all";
+        if (member.name.starts_with("/motion/")) plain.motion.emplace();
         if (member.name == "/ambientOcclusion") plain.ambientOcclusion = 0.6f;
         EXPECT_EQ(*scene, plain) << json;
     }

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// A scene at a time: what moves between its key frames, and the camera that goes around.
+
+#include <svt/illustrate/scene.hpp>
+
+#include <string>
+
+namespace svt::illustrate {
+
+/// The scene at a time of its motion, without motion itself. Each member that some key gives goes from its value at the
+/// key before to that at the key after; what the scene itself says holds at time 0. Numbers, points and colours go
+/// through all that lies between; so do the numbers of cuts and keeps whose text is else the same ("z>6" to "z>1"). An
+/// eye goes around its target, on a great circle. What cannot be between changes at its key. With Motion::turn the
+/// camera also goes around a vertical axis, evenly; a named view is then so far away that all that the scene
+/// draws at its beginning stays in the picture.
+/// \param seconds  less than 0 is 0, more than the motion lasts is its end
+/// \return the scene, or BadScene where the members of that moment do not fit together; BadQuery, NothingSelected or
+///         BadCamera where a named view that turns cannot be made
+/// Cost: O(members of the scene and its keys); where a named view turns, also that of visiblePoints().
+[[nodiscard]] Result<Scene> sceneAt(const Scene& scene, double seconds, const volume::SemanticVolume& volume);
+
+/// Checks that the scene can be made at each of its keys.
+/// \return success, or BadScene that names the member as "/motion/keys/N/scene/..."
+[[nodiscard]] Result<void> checkMotion(const Scene& scene, const std::string& name);
+
+/// Number of pictures of a motion: one at time 0, and so on at its rate; at least 1.
+[[nodiscard]] int pictureCount(const Motion& motion) noexcept;
+
+}  // namespace svt::illustrate

@@ -1,0 +1,93 @@
+#include <svt/illustrate/motion/interpolate.hpp>
+
+#include <svt/image/color_text.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <vector>
+
+namespace svt::illustrate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A text cut at its numbers: the words around them, one more than there are numbers.
+struct Pieces {
+    std::vector<std::string> words;
+    std::vector<double> numbers;
+};
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+// A number begins with a digit, or with a sign or point before one, where no name goes on.
+bool beginsNumber(std::string_view text, std::size_t at) {
+    const auto digitAt = [&](std::size_t n) { return n < text.size() && isDigit(text[n]); };
+    const char before = at == 0 ? ' ' : text[at - 1];
+    const bool isInName = isDigit(before) || before == '_' || before == '.' || before == '"' || before == '\'' ||
+                          (before >= 'a' && before <= 'z') || (before >= 'A' && before <= 'Z');
+    if (isInName) return false;
+    if (text[at] == '-' || text[at] == '+')
+        return digitAt(at + 1) || (at + 1 < text.size() && text[at + 1] == '.' && digitAt(at + 2));
+    return isDigit(text[at]) || (text[at] == '.' && digitAt(at + 1));
+}
+
+Pieces cutAtNumbers(const std::string& text) {
+    Pieces pieces;
+    std::string word;
+    for (std::size_t at = 0; at < text.size();) {
+        if (!beginsNumber(text, at)) {
+            word += text[at++];
+            continue;
+        }
+        char* end = nullptr;
+        pieces.numbers.push_back(std::strtod(text.c_str() + at, &end));
+        pieces.words.push_back(std::exchange(word, {}));
+        at = static_cast<std::size_t>(end - text.c_str());
+    }
+    pieces.words.push_back(word);
+    return pieces;
+}
+
+double mix(double from, double to, double share) { return share == 1 ? to : from + (to - from) * share; }
+
+bool endsWith(std::string_view pointer, std::string_view name) {
+    return pointer.size() > name.size() && pointer.substr(pointer.size() - name.size()) == name &&
+           pointer[pointer.size() - name.size() - 1] == '/';
+}
+
+std::string colorBetween(const std::string& from, const std::string& to, double share) {
+    const auto a = image::parseColor(from), b = image::parseColor(to);
+    if (!a || !b) return from;
+    const auto channel = [&](float x, float y) { return static_cast<float>(mix(x, y, share)); };
+    return image::colorText({channel(a->x, b->x), channel(a->y, b->y), channel(a->z, b->z)});
+}
+
+}  // namespace
+
+std::string textBetween(const std::string& from, const std::string& to, double share) {
+    const Pieces a = cutAtNumbers(from), b = cutAtNumbers(to);
+    if (a.words != b.words) return from;
+    std::string text;
+    for (std::size_t n = 0; n < a.words.size(); ++n) {
+        text += a.words[n];
+        if (n < a.numbers.size()) text += fmt::format("{:.6g}", mix(a.numbers[n], b.numbers[n], share));
+    }
+    return text;
+}
+
+Json valueBetween(const Json& from, const Json& to, double share, std::string_view pointer) {
+    if (share >= 1) return to;
+    if (from.is_number() && to.is_number()) {
+        const double value = mix(from.get<double>(), to.get<double>(), share);
+        const bool isWhole = from.is_number_integer() && to.is_number_integer() && value == double(long(value));
+        return isWhole ? Json(long(value)) : Json(value);
+    }
+    if (!from.is_string() || !to.is_string()) return from;
+    const auto &a = from.get_ref<const std::string&>(), &b = to.get_ref<const std::string&>();
+    if (endsWith(pointer, "color") || endsWith(pointer, "background")) return colorBetween(a, b, share);
+    if (endsWith(pointer, "cut") || endsWith(pointer, "keep")) return textBetween(a, b, share);
+    return from;
+}
+
+}  // namespace svt::illustrate
