@@ -144,6 +144,7 @@ std::string infoOf(const Session& session) {
                    {"crs", volume.crsName},
                    {"dimension", pointOf(volume.grid.dimension())},
                    {"spacing", pointOf(volume.grid.spacing())},
+                   {"origin", pointOf(volume.grid.origin())},
                    {"size", pointOf(worldSize(volume.grid))},
                    {"axes", Json::array({pointOf(axes[0]), pointOf(axes[1]), pointOf(axes[2])})},
                    {"storeys", storeysJson(volume)},

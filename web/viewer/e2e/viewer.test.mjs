@@ -504,6 +504,29 @@ describe("tools", () => {
     await page.getByRole("button", { name: "Remove plane 1" }).click();
   });
 
+  it("are typed in metres or in the model's coordinates, and new ones lie beside old ones", async () => {
+    const { sections } = await state();
+    await inPage("s.set({ sections: [] })");
+    await tool("section");
+    for (let n = 0; n < 5; ++n) await page.click("#add-plane");
+    const free = (await state()).sections.filter((section) => section.axis === "free").map((section) => section.at);
+    assert.equal(new Set(free).size, free.length, `planes lie on each other: ${free}`);
+    await inPage("s.set({ sections: [{ axis: 'z', at: 1, flip: false, turn: 0, tilt: 90 }] })");
+    await page.locator(".plane input.at").fill("2.5");
+    await page.locator(".plane input.at").press("Enter");
+    assert.equal((await state()).sections[0].at, 2.5);
+    const lower = await inPage("s.info.origin[2]");
+    const world = page.locator(".plane input.world");
+    assert.equal(Number(await world.inputValue()), Number((2.5 + lower).toFixed(2)));
+    await world.fill((lower + 1.25).toFixed(2));
+    await world.press("Enter");
+    assert.ok(Math.abs((await state()).sections[0].at - 1.25) < 0.006);
+    await page.locator(".plane input.at").fill("999");
+    await page.locator(".plane input.at").press("Enter");
+    assert.ok((await state()).sections[0].at < 20, "no further than the building");
+    await inPage("s.set({ sections: v })", sections);
+  });
+
   it("export drawings as the command makes them", async () => {
     const { at: height } = (await state()).sections[0];
     for (const format of ["SVG", "DXF", "GEOJSON", "CSV"]) {

@@ -99,6 +99,8 @@ export interface VolumeInfo {
   crs: string;
   dimension: Point;
   spacing: Point;
+  /** The grid's lower corner in the coordinates of the model. */
+  origin: Point;
   /** Edge lengths of the grid's box in world axes. */
   size: Point;
   /** The grid's axes in world axes; absent if they coincide. Sections along x, y and z follow the grid. */

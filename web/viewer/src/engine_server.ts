@@ -32,7 +32,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     async open(_, fileName) {
       model = fileName.replace(/\.[^.]+$/, "");
       return {
-        name: fileName, source: fileName, crs: "", dimension: [2, 2, 2], spacing: [1, 1, 1], size: [10, 10, 10],
+        name: fileName, source: fileName, crs: "", dimension: [2, 2, 2], spacing: [1, 1, 1], origin: [0, 0, 0], size: [10, 10, 10],
         storeys: [], features: [], hasEdges: true, hasMeshes: false, findings: [],
       };
     },

@@ -150,6 +150,10 @@ const kTexts = {
   axisZ: ["z, from above", "z, von oben"],
   axisFree: ["Free", "Frei"],
   position: ["Position", "Lage"],
+  positionTyped: ["Position in metres from the lower corner", "Lage in Metern von der unteren Ecke"],
+  positionInTheWorld: ["In {crs}", "In {crs}"],
+  heightInTheWorld: ["Height in {crs}", "Höhe in {crs}"],
+  theModel: ["the model", "dem Modell"],
   turn: ["Turn", "Drehung"],
   tilt: ["Tilt", "Neigung"],
   flip: ["Other side", "Andere Seite"],
@@ -329,7 +333,7 @@ export const kGermanHelp = {
 type HelpOf<Name extends SceneMember> = (typeof kSceneMembers)[Name]["help"];
 type HelpedMember = { [Name in SceneMember]: HelpOf<Name> extends keyof typeof kGermanHelp ? Name : never }[SceneMember];
 
-const kUnitSigns: Record<Unit, string> = { pixels: " px", degrees: "°", metres: " m" };
+const kUnitSigns: Record<Unit, string> = { pixels: " px", degrees: "°", metres: " m", seconds: " s" };
 
 export type TextKey = keyof typeof kTexts;
 export type Language = "en" | "de";

@@ -8,7 +8,7 @@ import { help, number, t } from "../texts";
 import { save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
-import { rangeOf } from "./plane_outline";
+import { keptApart, rangeOf } from "./plane_outline";
 
 const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
 const kFormats: DrawingFormat[] = ["svg", "dxf", "geojson", "csv"];
@@ -20,8 +20,10 @@ export class SectionTool extends Part {
     controls,
     css`
       .plane { border-top: 1px solid var(--line); padding: 10px 0; display: grid; gap: 6px; }
-      .line { display: grid; grid-template-columns: 64px 1fr 74px; gap: 10px; align-items: center; }
-      output { text-align: right; font-variant-numeric: tabular-nums; }
+      .line { display: grid; grid-template-columns: 64px 1fr auto; gap: 10px; align-items: center; }
+      output { text-align: right; min-width: 74px; font-variant-numeric: tabular-nums; }
+      .typed { display: flex; gap: 4px; align-items: center; justify-content: flex-end; }
+      .typed input { width: 82px; text-align: right; padding: 2px 4px; min-height: 28px; font-variant-numeric: tabular-nums; }
       .head { display: flex; gap: 6px; align-items: center; }
       .head .segments { flex: 1; }
       .drawings { gap: 4px; }
@@ -68,7 +70,9 @@ export class SectionTool extends Part {
         <button aria-pressed=${section.flip} aria-label=${t("flip")} title=${t("flip")} @click=${() => this.change(n, { flip: !section.flip })}>${icon("flip", 16)}</button>
         <button class="bare" aria-label=${t("removePlane", { n: n + 1 })} title=${t("removePlane", { n: n + 1 })} @click=${() => this.removePlane(n)}>${icon("bin", 16)}</button>
       </div>
-      ${this.slider(t("position"), section.at, low, high, 0.01, `${number(section.at, 2)} m`, (at) => this.change(n, { at }))}
+      ${this.slider(t("position"), section.at, low, high, 0.01, html`<span class="typed"><input type="number" class="at" step="0.01" aria-label=${t("positionTyped")} .value=${section.at.toFixed(2)}
+        @change=${(e: Event) => this.typed(n, (e.target as HTMLInputElement).valueAsNumber)} />m</span>`, (at) => this.change(n, { at }))}
+      ${this.inTheWorld(section, n)}
       ${section.axis === "free"
         ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
             ${this.slider(t("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
@@ -79,17 +83,36 @@ export class SectionTool extends Part {
     </div>`;
   }
 
-  private slider(label: string, value: number, low: number, high: number, step: number, text: string, change: (value: number) => void) {
+  private slider(label: string, value: number, low: number, high: number, step: number, text: unknown, change: (value: number) => void) {
     return html`<div class="line"><span class="quiet">${label}</span>
       <wa-slider size="s" label=${label} aria-label=${label} min=${low.toFixed(3)} max=${high.toFixed(3)} step=${step} .value=${value}
         @input=${(e: Event) => change(Number((e.target as HTMLInputElement).value))}></wa-slider>
-      <output>${text}</output></div>`;
+      ${typeof text === "string" ? html`<output>${text}</output>` : text}</div>`;
+  }
+
+  /** The position in the model's own coordinates, where the plane is at right angles to one of their axes. */
+  private inTheWorld(section: Section, n: number) {
+    const { info } = this.session;
+    const axis = { x: 0, y: 1, z: 2, free: -1 }[section.axis];
+    const offset = info?.origin[axis];
+    const isAlong = info && axis >= 0 && (!info.axes || Math.abs(info.axes[axis]![axis]! - 1) < 1e-9);
+    if (!isAlong || offset === undefined || Math.abs(offset) < 1e-6) return nothing;
+    const text = t(section.axis === "z" ? "heightInTheWorld" : "positionInTheWorld", { crs: info.crs ? crsText(info.crs) : t("theModel") });
+    return html`<div class="typed small"><span class="quiet grow">${text}</span><input type="number" class="world" step="0.01" aria-label=${text} .value=${(section.at + offset).toFixed(2)}
+      @change=${(e: Event) => this.typed(n, (e.target as HTMLInputElement).valueAsNumber - offset)} />m</div>`;
+  }
+
+  private typed(n: number, value: number): void {
+    const [low, high] = rangeOf(this.session.state.sections[n]!, this.session.box);
+    if (Number.isFinite(value)) this.change(n, { at: Math.min(high, Math.max(low, value)) });
+    this.requestUpdate();  // what was typed and not taken is put back
   }
 
   private add(): void {
     const { sections } = this.session.state;
     const axis = (["y", "z", "x"] as const).find((wanted) => !sections.some((section) => section.axis === wanted)) ?? "free";
-    this.session.set({ sections: [...sections, this.middle({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 })] });
+    const plane = this.middle({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 });
+    this.session.set({ sections: [...sections, keptApart(plane, sections, this.session.box)] });
   }
 
   /** Removes everything in front of the centre. */
@@ -127,6 +150,12 @@ export class SectionTool extends Part {
   }
 }
 customElements.define("svt-section-tool", SectionTool);
+
+/** The code of the first part of a CRS, which is the horizontal one: EPSG:25832. */
+function crsText(crs: string): string {
+  const found = /EPSG:+(?:[\d.]*:)?(\d+)/i.exec(crs);
+  return found ? `EPSG:${found[1]}` : crs;
+}
 
 function axisText(axis: SectionAxis): string {
   return t(({ x: "axisX", y: "axisY", z: "axisZ", free: "axisFree" } as const)[axis]);

@@ -28,6 +28,7 @@ export class ShareTool extends Part {
   private seenFile = "";
 
   static override styles = [controls, css`
+    .size input { padding: 4px 6px; }
     .size { display: grid; grid-template-columns: 1fr auto 1fr auto; gap: 6px; align-items: center; }
     textarea { width: 100%; height: 220px; margin-top: 6px; }
     .row { margin-top: 6px; }

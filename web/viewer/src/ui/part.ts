@@ -37,6 +37,8 @@ export const controls = css`
   *, *::before, *::after { box-sizing: border-box; }
   [hidden] { display: none !important; }
   button, input, select, textarea { font: inherit; color: inherit; }
+  input[type="number"] { appearance: textfield; }
+  input[type="number"]::-webkit-inner-spin-button { appearance: none; margin: 0; }
   button {
     display: inline-flex; align-items: center; justify-content: center; gap: 6px; min-height: 32px; padding: 4px 10px;
     border: 1px solid var(--line); border-radius: 8px; background: var(--panel); cursor: pointer; white-space: nowrap;
