@@ -50,6 +50,7 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
     auto painting = isDraft ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions());
     if (!painting) return painting.error();
     lastSpec_ = std::move(painting->spec);
+    lastForms_ = illustrate::volumeForms(scene);
     lastFrame_ = std::move(painting->frame);
     return &*lastFrame_;
 }
@@ -71,6 +72,7 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     if (auto drawn = gl_->draw(*spec); !drawn) return drawn;
     if (purpose == Purpose::Trial) return {};
     lastSpec_ = std::move(*spec);
+    lastForms_ = forms;
     lastFrame_.reset();
     return {};
 }
@@ -101,18 +103,58 @@ std::optional<Picked> Session::pick(double x, double y) {
     const auto [width, height] = std::pair(lastSpec_->width, lastSpec_->height);
     const auto column = std::min(width - 1, static_cast<std::int32_t>(x * width));
     const auto row = std::min(height - 1, static_cast<std::int32_t>(y * height));
-    render_gl::PickedPixel pixel;
-    if (lastFrame_) {
-        pixel = {lastFrame_->label.at(column, row), lastFrame_->depth.at(column, row)};
-    } else if (const auto seen = gl_->pick(*lastSpec_, column, row)) {
-        pixel = *seen;
+    // Label and depth are those at the centre of the pixel.
+    const auto ray = render::viewRay(*lastSpec_, volume_.grid, (column + 0.5) / width, (row + 0.5) / height);
+    const auto first = firstAt(column, row);
+    if (isSeenThrough(first.label))
+        if (auto behind = behindGlass(ray)) return behind;
+    return pickedAt(first, ray);
+}
+
+render_gl::PickedPixel Session::firstAt(std::int32_t column, std::int32_t row) {
+    if (lastFrame_) return {lastFrame_->label.at(column, row), lastFrame_->depth.at(column, row)};
+    const auto seen = gl_->pick(*lastSpec_, column, row);
+    return seen ? *seen : render_gl::PickedPixel{};
+}
+
+bool Session::isSeenThrough(volume::Scalar scalar) const {
+    const auto isGlass = [&](const render::Pass& pass) {
+        return scalar < pass.styles.size() && pass.styles[scalar].opacity > 0 && pass.styles[scalar].opacity < 1;
+    };
+    return scalar != 0 && std::any_of(lastSpec_->passes.begin(), lastSpec_->passes.end(), isGlass);
+}
+
+// Casts the ray alone. Its clips are those of the picture: regions of the picture, such as a lens, are cones in space.
+std::optional<Picked> Session::behindGlass(const render::ViewRay& ray) {
+    render::FrameSpec spec = *lastSpec_;
+    for (render::Pass& pass : spec.passes) pass.lines.clear();
+    spec.width = spec.height = spec.samplesPerPixel = 1;
+    spec.light.ambientOcclusion = 0;
+    render::Camera& camera = spec.camera;
+    const bool isUpright = length(cross(ray.direction, camera.up)) > 1e-6 * length(ray.direction);
+    if (!isUpright) camera.up = {camera.up.y, camera.up.z, camera.up.x};
+    camera.eye = ray.origin;
+    camera.target = ray.origin + ray.direction;
+    camera.verticalFovDegrees = 0.001;
+    camera.orthographicHeight = 1e-4;
+    std::vector<render::DrawnVolume> drawn;
+    for (const illustrate::VolumeForm& wanted : lastForms_) {
+        const auto made = painter_.form(wanted, *lastSpec_);
+        if (!made) return {};
+        drawn.push_back(*made);
     }
+    render::CastOptions options;
+    options.labelAt = 0.5f;
+    const auto frame = render::castRays(drawn, spec, options);
+    if (!frame) return {};
+    return pickedAt({frame->label.at(0, 0), frame->depth.at(0, 0)}, render::viewRay(spec, volume_.grid, 0.5, 0.5));
+}
+
+std::optional<Picked> Session::pickedAt(const render_gl::PickedPixel& pixel, const render::ViewRay& ray) const {
     const volume::Scalar scalar = pixel.label;
     if (scalar == 0 || scalar >= labelOfScalar_.size() || labelOfScalar_[scalar] == volume::kNoLabel ||
         !std::isfinite(pixel.depth))
         return {};
-    // Label and depth are those at the centre of the pixel.
-    const auto ray = render::viewRay(*lastSpec_, volume_.grid, (column + 0.5) / width, (row + 0.5) / height);
     return Picked{scalar, labelOfScalar_[scalar],
                   ray.origin + ray.direction * double(pixel.depth) - volume_.grid.origin()};
 }

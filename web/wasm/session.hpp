@@ -8,6 +8,7 @@
 #include <svt/core/progress.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/render/ray_labels.hpp>
+#include <svt/render/view_ray.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
 
 #include <cstddef>
@@ -58,7 +59,8 @@ public:
     [[nodiscard]] Result<std::vector<std::byte>> labels(const illustrate::Scene& scene);
 
     /// \param x, y  fractions of the last picture's width and height
-    /// \return the hit there, or nothing
+    /// \return what the eye takes there: the first object behind which less than half of what lies further is seen, or
+    ///         the first of all where there is none; or nothing
     [[nodiscard]] std::optional<Picked> pick(double x, double y);
     /// All intervals along the ray through a position of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::LabelInterval>> along(double x, double y);
@@ -71,10 +73,16 @@ private:
     Session(volume::SemanticVolume volume, Diagnostics findings)
         : volume_(std::move(volume)), findings_(std::move(findings)), painter_(volume_) {}
 
+    [[nodiscard]] render_gl::PickedPixel firstAt(std::int32_t column, std::int32_t row);
+    [[nodiscard]] bool isSeenThrough(volume::Scalar scalar) const;
+    [[nodiscard]] std::optional<Picked> behindGlass(const render::ViewRay& ray);
+    [[nodiscard]] std::optional<Picked> pickedAt(const render_gl::PickedPixel& pixel, const render::ViewRay& ray) const;
+
     volume::SemanticVolume volume_;
     Diagnostics findings_;
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
+    std::vector<illustrate::VolumeForm> lastForms_;
     std::optional<render::Frame> lastFrame_;  // none if drawn with WebGL2
     std::optional<render_gl::GlRenderer> gl_;
     std::vector<std::uint32_t> labelOfScalar_;

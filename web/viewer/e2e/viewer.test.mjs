@@ -330,6 +330,35 @@ describe("picture", () => {
     assert.ok(checked > 20, `only ${checked} places`);
   });
 
+  it("picks what the eye takes: behind air and glass that is hardly seen, and the glass where nothing is behind it", async () => {
+    const shown = await state();
+    const scene = async (change) => (await inPage("s.set(v)", change), settled());
+    // Cut open, the air of the rooms stands before furniture and walls.
+    await scene({ hide: [], sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }] });
+    const seen = await inPage(`(async () => {
+      const rooms = new Set(await s.engine.select("class=BuildingRoom"));
+      let first = 0, picked = 0;
+      for (let y = 0.35; y < 0.75; y += 0.02)
+        for (let x = 0.3; x < 0.7; x += 0.02) {
+          const pick = await s.engine.pick(x, y);
+          if (!pick) continue;
+          ++picked;
+          if (rooms.has(pick.id)) ++first;
+        }
+      return { first, picked };
+    })()`);
+    assert.ok(seen.picked > 100, JSON.stringify(seen));
+    assert.equal(seen.first, 0, JSON.stringify(seen));
+    // Alone, the same air is what there is.
+    await scene({ show: ["class=BuildingRoom"], sections: [] });
+    await inPage("s.goTo('', 'front')");
+    await page.waitForTimeout(600);
+    await settled();
+    const alone = await inPage("s.engine.pick(0.5, 0.55)");
+    assert.equal(alone.class, "BuildingRoom");
+    await scene({ ...shown, selection: [] });
+  });
+
   it("selects by click and lists by Alt-click", async () => {
     const box = await stage();
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
