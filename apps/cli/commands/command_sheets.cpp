@@ -18,11 +18,15 @@ namespace {
 
 struct SheetsArguments {
     std::filesystem::path input, output, folder;
-    std::string scale, paper;
+    std::string scale, paper, language;
     std::vector<std::string> hide;
-    bool noAbove = false, verbose = false;
+    bool noAbove = false, noDimensions = false, noTables = false, verbose = false;
     BuildArguments build;
 };
+
+writers::SheetLanguage languageOf(const std::string& name) {
+    return name == "de" ? writers::SheetLanguage::German : writers::SheetLanguage::English;
+}
 
 Result<writers::SheetContent> drawViews(const SheetsArguments& arguments, const volume::SemanticVolume& volume) {
     auto chosen = illustrate::chooseSheetViews(volume, arguments.build.threads);
@@ -37,10 +41,16 @@ Result<writers::SheetContent> drawViews(const SheetsArguments& arguments, const 
         options.threads = arguments.build.threads;
         options.beyond = view.beyond;
         if (arguments.noAbove) options.beyond.above = false;
+        options.dimensions = view.kind == illustrate::ViewKind::Plan && !arguments.noDimensions;
         if (content.views.empty()) options.nothing = &nothing;
         auto drawing = illustrate::drawSection(volume, view.plane, options);
         if (!drawing) return drawing.error();
         content.views.push_back({std::move(view), std::move(*drawing)});
+    }
+    if (!arguments.noTables) {
+        const auto areas = illustrate::measureFloorAreas(volume, content.levels, arguments.build.threads);
+        if (!areas) return areas.error();
+        content.tables = writers::makeAreaTables(*areas, content.levels, languageOf(arguments.language));
     }
     for (const std::string& message : nothing) note(message);
     return content;
@@ -61,6 +71,7 @@ int runSheets(const SheetsArguments& arguments) {
         return fail(Error(Code::BadArgument, "nothing to write; give -o P.pdf or --svg DIR"));
     writers::SheetOptions options;
     options.paper = arguments.paper;
+    options.language = languageOf(arguments.language);
     if (!arguments.scale.empty()) {
         const auto scale = parseScale(arguments.scale);
         if (!scale) return fail(scale.error());
@@ -109,6 +120,9 @@ Action connectSheets(Command& command) {
     command.set("--paper", arguments->paper);
     command.set("--hide", arguments->hide);
     command.set("--no-above", arguments->noAbove);
+    command.set("--no-dimensions", arguments->noDimensions);
+    command.set("--no-tables", arguments->noTables);
+    command.set("--language", arguments->language);
     command.set("--verbose", arguments->verbose);
     arguments->build.connect(command);
     return [arguments] { return runSheets(*arguments); };

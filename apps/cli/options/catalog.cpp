@@ -451,6 +451,10 @@ constexpr Option kSection[] = {
      .kind = Flag,
      .help = "also draw what is cut away, as seen from the plane, dashed and dotted",
      .group = "Drawing"},
+    {.name = "--dimensions",
+     .kind = Flag,
+     .help = "plans: chains of dimensions around the building: openings, rooms, overall",
+     .group = "Drawing"},
     {.name = "--scale",
      .value = "1:N",
      .byDefault = "1:100",
@@ -749,6 +753,9 @@ constexpr Option kSheets[] = {
      .group = "Sheets",
      .mayRepeat = true},
     {.name = "--no-above", .kind = Flag, .help = "plans without what is above the cut", .group = "Sheets"},
+    {.name = "--no-dimensions", .kind = Flag, .help = "plans without chains of dimensions", .group = "Sheets"},
+    {.name = "--no-tables", .kind = Flag, .help = "no tables of rooms, floor areas and components", .group = "Sheets"},
+    {.name = "--language", .choices = "en|de", .byDefault = "en", .help = "of the words on sheets", .group = "Sheets"},
     {.name = "--verbose", .kind = Flag, .help = "show all findings", .group = "Output"},
 };
 

@@ -2,6 +2,7 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/illustrate/beyond/lines_beyond.hpp>
+#include <svt/illustrate/dimension/dimension_chains.hpp>
 #include <svt/illustrate/exact/body_cells.hpp>
 #include <svt/illustrate/section/exact_section.hpp>
 #include <svt/illustrate/section/section_rings.hpp>
@@ -266,6 +267,7 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
         if (!drawing) return drawing.error();
         if (*drawing) {
             addLinesBeyond(**drawing, volume, *isDrawn, options.beyond, options.threads);
+            if (options.dimensions) (*drawing)->dimensions = findDimensions(**drawing, volume);
             return std::move(**drawing);
         }
     }
@@ -280,6 +282,7 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
     drawing.isUnsettled = isCut;
     drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
     addLinesBeyond(drawing, volume, *isDrawn, options.beyond, options.threads);
+    if (options.dimensions) drawing.dimensions = findDimensions(drawing, volume);
     return drawing;
 }
 
