@@ -16,6 +16,7 @@ using volume::kNoLabel;
 constexpr double kSameStop = 1e-3;        // metres
 constexpr double kStep = 0.05;            // metres: smaller steps of a face have no stop
 constexpr double kThickestFace = 1;       // metres
+constexpr double kThinnestFace = 0.3;     // metres: walls of a side differ by a factor of two at most, from here on
 constexpr double kNarrowestRoom = 0.3;    // metres, across the face
 constexpr double kShortestPart = 0.015;   // metres
 constexpr double kOblique = 0.035;        // slope of a face across the line of sight, 2 degrees
@@ -63,6 +64,7 @@ struct SeenPart {
     Matter face = Matter::Air;
     double near = 0, far = 0;  // depth of the face at the beginning and the end of the part
     bool isOblique = false;
+    double thickness = 0;  // of the face before the room
     std::uint32_t room = kNoLabel;  // label of the room behind the face; kInWall, kOpenRoom, or none
 };
 constexpr std::uint32_t kInWall = kNoLabel - 1, kOpenRoom = kNoLabel - 2;
@@ -162,8 +164,14 @@ private:
         return true;
     }
 
-    // What is too narrow for a room is the niche of a window in a wall that runs away from the eye.
+    // Behind more than the usual thickness lies the niche of a window in a wall that runs away from the eye; so does what
+    // is too narrow for a room.
     void closeNiches() {
+        double thinnest = kThickestFace;
+        for (const SeenPart& part : parts_)
+            if (part.thickness > 0) thinnest = std::min(thinnest, part.thickness);
+        for (SeenPart& part : parts_)
+            if (part.thickness > 2 * std::max(thinnest, kThinnestFace)) part.room = kInWall;
         for (std::size_t first = 0, end = 0; first < parts_.size(); first = end) {
             for (end = first + 1; end < parts_.size() && parts_[end].room == parts_[first].room;) ++end;
             if (parts_[first].room == kNoLabel || stops_[end] - stops_[first] >= kNarrowestRoom) continue;
@@ -185,14 +193,14 @@ private:
             part.near = edge.depthAt(from);
             part.far = edge.depthAt(to);
             part.isOblique = std::abs(edge.slope()) > kOblique;
-            part.room = roomBehind(std::span(crossed).subspan(n), middle);
+            part.room = roomBehind(std::span(crossed).subspan(n), middle, part.thickness);
             break;
         }
         return part;
     }
 
     // The first room behind a face that is wide enough; `crossed` begins with the face.
-    std::uint32_t roomBehind(std::span<const std::uint32_t> crossed, double at) const {
+    std::uint32_t roomBehind(std::span<const std::uint32_t> crossed, double at, double& thickness) const {
         const double face = edges_[crossed.front()].depthAt(at);
         for (std::size_t n = 1; n + 1 < crossed.size();) {
             const SeenEdge& edge = edges_[crossed[n]];
@@ -205,8 +213,10 @@ private:
                 if (room == kInWall && matterOf(edges_[crossed[end]].behind) == Matter::Space)
                     room = edges_[crossed[end]].behind;
             if (room != kInWall && end > n && end < crossed.size() &&
-                edges_[crossed[end]].depthAt(at) - depth >= kNarrowestRoom)
+                edges_[crossed[end]].depthAt(at) - depth >= kNarrowestRoom) {
+                thickness = depth - face;
                 return room;
+            }
             end = std::max(end, n + 1);
             n = end;
         }

@@ -53,6 +53,16 @@ bool isStair(const volume::Label& label) {
     return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
 }
 
+// The floor that a storey of IFC has as its elevation, metres above the grid's lower corner: where its foundations or the
+// terrain belong to it, its voxels begin below.
+std::optional<double> saidFloor(const volume::Label& storey, const volume::Grid& grid) {
+    for (const Attribute& attribute : storey.attributes)
+        if (attribute.name == "elevation")
+            if (const auto* height = std::get_if<double>(&attribute.value))
+                return *height - dot(grid.origin(), grid.axes()[2]);
+    return std::nullopt;
+}
+
 // Of nine planes across an axis, through the stair or the middle half of the building, the one that cuts most of rooms
 // and least of walls along their length.
 Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const Box3d& all,
@@ -111,9 +121,11 @@ std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
             return std::abs(a - storey.floor) < std::abs(b - storey.floor);
         });
         if (nearest != floors.end() && std::abs(*nearest - floor) <= 1.01 * volume.grid.spacing().z) floor = *nearest;
+        else if (const auto said = saidFloor(label, volume.grid); said && *said > storey.floor && *said < storey.ceiling)
+            floor = *said;
         // Storeys of several buildings or parts may share a floor.
         if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;
-        levels.push_back({label.name.empty() ? label.id : label.name, floor});
+        levels.push_back({label.name, floor});
     }
     if (!levels.empty()) return levels;
     for (const double floor : floors)

@@ -17,7 +17,7 @@ using illustrate::PlanePoint;
 
 // Millimetres on paper.
 constexpr double kFirst = 7, kPitch = 9, kFoot = 1.5, kTick = 1.1, kBeyondLast = 3;
-constexpr double kGap = 0.7;  // between numbers
+constexpr double kGap = 0.7, kBesideTick = 1.3;  // between numbers, and beside the tick at the beginning of a part
 // Baselines above the line on which numbers are tried, in this order; the lower edge of the last is clear of the feet.
 constexpr double kBaselines[] = {0.7, 2.5, -3.3};
 constexpr double kSizes[] = {2, 1.6};
@@ -36,7 +36,7 @@ public:
             const double half = 0.5 * textWidthOf(text, size);
             for (int level = 0; level < 3; ++level) {
                 double& taken = taken_[static_cast<std::size_t>(level)];
-                if (level == 0 ? 2 * half + kGap > length : middle - half - kGap < taken) continue;
+                if (level == 0 ? 2 * (half + kBesideTick) > length : middle - half - kGap < taken) continue;
                 taken = std::max(taken, middle + half);
                 return {level, size};
             }
