@@ -16,7 +16,7 @@ struct LineViewOptions {
 
 /// A line drawing: polygons of the cut, its borders, and lines, in the plane through the camera's target across the view.
 struct LineView {
-    SectionDrawing drawing;  ///< u to the right, v upwards, metres in that plane; areas are those of the picture
+    SectionDrawing drawing;        ///< u to the right, v upwards, metres in that plane; areas are those of the picture
     double width = 0, height = 0;  ///< of the picture, metres in that plane; its middle is the drawing's zero
 };
 

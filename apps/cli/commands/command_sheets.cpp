@@ -141,8 +141,8 @@ const std::filesystem::path& writtenName(const SheetsArguments& arguments) {
 int runSheets(const SheetsArguments& arguments) {
     if (arguments.output.empty() && arguments.folder.empty() && arguments.dxfFolder.empty() &&
         arguments.setOutput.empty())
-        return fail(Error(Code::BadArgument,
-                          "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR or --write-sheets FILE"));
+        return fail(
+            Error(Code::BadArgument, "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR or --write-sheets FILE"));
     auto set = readSet(arguments);
     if (!set) return fail(set.error());
     const writers::SheetOptions options{set->scale, set->paper, languageOf(set->language), set->title};
@@ -178,8 +178,8 @@ int runSheets(const SheetsArguments& arguments) {
             return fail(written.error());
     TerminalProgress::hide();
     if (!isQuiet())
-        fmt::print("{}: {} sheets with {} views\n",
-                   writtenName(arguments).string(), sheets->size(), content->views.size());
+        fmt::print("{}: {} sheets with {} views\n", writtenName(arguments).string(), sheets->size(),
+                   content->views.size());
     return kDone;
 }
 

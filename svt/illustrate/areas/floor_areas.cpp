@@ -17,24 +17,24 @@
 namespace svt::illustrate {
 namespace {
 
-constexpr double kLeastRoomHeight = 1.5;   // metres: lower spaces are voids
-constexpr double kLevelReach = 0.3;  // metres
-constexpr double kBelowSills = 0.15;  // metres above the floor: below the sills of windows
+constexpr double kLeastRoomHeight = 1.5;  // metres: lower spaces are voids
+constexpr double kLevelReach = 0.3;       // metres
+constexpr double kBelowSills = 0.15;      // metres above the floor: below the sills of windows
 
-constexpr std::string_view kTechnical[] = {"technik",    "technical", "heizung",  "boiler",     "plant room", "server",
-                                           "hausanschl", "mechanical", "electric", "elektro",    "lüftung",    "luftung",
-                                           "machine room"};
-constexpr std::string_view kTraffic[] = {"flur",   "diele",      "treppe",  "korridor",    "corridor", "eingang",
-                                         "foyer",  "stair",      "lobby",   "aufzug",      "elevator", "vestibul",
-                                         "windfang", "circulation", "hallway", "passage",    "entrance", "landing",
-                                         "rampe",  "schleuse",   "laubengang"};
-constexpr std::string_view kUse[] = {"living",  "wohn",   "schlaf",  "bed",     "kitchen",  "küche",  "kueche",
-                                     "bath",    "toilet", "office",  "büro",    "buero",    "study",  "storage",
-                                     "store",   "lager",  "abstell", "keller",  "cellar",   "garage", "dining",
-                                     "kind",    "child",  "arbeit",  "zimmer",  "galerie",  "gallery", "class",
-                                     "sanit",   "umkleide", "utility", "hauswirt", "meeting", "besprech", "laundry",
-                                     "workshop", "werkstatt", "shop", "laden",   "lounge",   "closet", "pantry",
-                                     "laboratory", "labor", "conference", "archiv", "gast", "guest", "archive"};
+constexpr std::string_view kTechnical[] = {"technik", "technical",  "heizung",     "boiler",   "plant room",
+                                           "server",  "hausanschl", "mechanical",  "electric", "elektro",
+                                           "lüftung", "luftung",    "machine room"};
+constexpr std::string_view kTraffic[] = {"flur",     "diele",       "treppe",    "korridor", "corridor", "eingang",
+                                         "foyer",    "stair",       "lobby",     "aufzug",   "elevator", "vestibul",
+                                         "windfang", "circulation", "hallway",   "passage",  "entrance", "landing",
+                                         "rampe",    "schleuse",    "laubengang"};
+constexpr std::string_view kUse[] = {
+    "living",    "wohn",   "schlaf",   "bed",     "kitchen",  "küche",   "kueche",     "bath",    "toilet",
+    "office",    "büro",   "buero",    "study",   "storage",  "store",   "lager",      "abstell", "keller",
+    "cellar",    "garage", "dining",   "kind",    "child",    "arbeit",  "zimmer",     "galerie", "gallery",
+    "class",     "sanit",  "umkleide", "utility", "hauswirt", "meeting", "besprech",   "laundry", "workshop",
+    "werkstatt", "shop",   "laden",    "lounge",  "closet",   "pantry",  "laboratory", "labor",   "conference",
+    "archiv",    "gast",   "guest",    "archive"};
 // Whole words only.
 constexpr std::string_view kTrafficWords[] = {"hall", "gang", "lift", "vf"};
 constexpr std::string_view kTechnicalWords[] = {"tf", "hvac"};
@@ -198,8 +198,8 @@ private:
     const volume::SemanticVolume& volume_;
     const std::vector<BuildingLevel>& levels_;
     int threads_;
-    std::vector<MeshSum> meshes_;                // by label
-    std::vector<std::vector<double>> areaAt_;    // by level and label, m2
+    std::vector<MeshSum> meshes_;              // by label
+    std::vector<std::vector<double>> areaAt_;  // by level and label, m2
     FloorAreas areas_;
 };
 

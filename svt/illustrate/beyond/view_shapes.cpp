@@ -194,8 +194,7 @@ private:
         for (std::uint32_t n = 0; n < count; ++n) {
             const ClippedPoint &a = from[n], &b = from[n + 1 < count ? n + 1 : 0];
             if (a.height >= 0) to[kept++] = a;
-            if ((a.height < 0) != (b.height < 0) && a.height != 0 && b.height != 0)
-                to[kept++] = {crossing(a, b), 0};
+            if ((a.height < 0) != (b.height < 0) && a.height != 0 && b.height != 0) to[kept++] = {crossing(a, b), 0};
         }
         return kept;
     }
@@ -304,10 +303,10 @@ private:
     const volume::VectorParts& parts_;
     const ViewOptions& options_;
     std::vector<LabelView> views_;
-    double handedness_ = 1;      // of u, v and depth
-    const EyeView* eye_ = nullptr;  // or the plane's
-    std::vector<Vec3d> points_;     // view space
-    std::vector<double> heights_;   // of points behind the plane that cuts; below zero is cut away
+    double handedness_ = 1;              // of u, v and depth
+    const EyeView* eye_ = nullptr;       // or the plane's
+    std::vector<Vec3d> points_;          // view space
+    std::vector<double> heights_;        // of points behind the plane that cuts; below zero is cut away
     std::vector<TriangleView> normals_;  // of the label's triangles behind the plane
     std::vector<HalfEdge> halfEdges_;
     ViewShapes shapes_;

@@ -57,11 +57,11 @@ struct ViewOptions {
 /// so that lines are lines, planes are planes, what is nearer has less depth, and nothing changes where d is zero.
 struct EyeView {
     PlaneAxes axes;
-    Vec3d away{0, 1, 0};        ///< unit vector from the eye along the view
-    double distance = 0;        ///< of a perspective eye, metres; 0: parallel
-    double nearest = -1e300;    ///< d of the near plane; above -distance
+    Vec3d away{0, 1, 0};      ///< unit vector from the eye along the view
+    double distance = 0;      ///< of a perspective eye, metres; 0: parallel
+    double nearest = -1e300;  ///< d of the near plane; above -distance
     bool hasCut = false;
-    SectionPlane cut;           ///< what is cut away, if any
+    SectionPlane cut;  ///< what is cut away, if any
 
     /// View space of the picture from that of the model; the point is behind the near plane.
     [[nodiscard]] Vec3d pictured(Vec3d p) const noexcept {

@@ -13,16 +13,16 @@ namespace {
 
 using volume::kNoLabel;
 
-constexpr double kSameStop = 1e-3;        // metres
-constexpr double kStep = 0.05;            // metres: smaller steps of a face have no stop
-constexpr double kThickestFace = 1;       // metres
-constexpr double kThinnestFace = 0.3;     // metres: walls of a side differ by a factor of two at most, from here on
-constexpr double kNarrowestRoom = 0.3;    // metres, across the face
-constexpr double kShortestPart = 0.015;   // metres
-constexpr double kOblique = 0.035;        // slope of a face across the line of sight, 2 degrees
-constexpr double kAlong = 0.0175;         // sine of 1 degree: walls along an axis
-constexpr double kLeastAlong = 0.6;       // share of the length of walls
-constexpr std::size_t kMostParts = 80;    // of a chain
+constexpr double kSameStop = 1e-3;       // metres
+constexpr double kStep = 0.05;           // metres: smaller steps of a face have no stop
+constexpr double kThickestFace = 1;      // metres
+constexpr double kThinnestFace = 0.3;    // metres: walls of a side differ by a factor of two at most, from here on
+constexpr double kNarrowestRoom = 0.3;   // metres, across the face
+constexpr double kShortestPart = 0.015;  // metres
+constexpr double kOblique = 0.035;       // slope of a face across the line of sight, 2 degrees
+constexpr double kAlong = 0.0175;        // sine of 1 degree: walls along an axis
+constexpr double kLeastAlong = 0.6;      // share of the length of walls
+constexpr std::size_t kMostParts = 80;   // of a chain
 constexpr std::size_t kMostCrossings = 50'000'000;
 
 enum class Matter : std::uint8_t { Air, Space, Filling, Wall };
@@ -43,10 +43,10 @@ std::vector<Matter> mattersOf(const volume::LabelTable& table) {
         const bool isFilling = rank == model::ClassRank::Filling || isFillingOfIfc(label);
         const bool isNothing = rank == model::ClassRank::Furniture || rank == model::ClassRank::Installation ||
                                rank == model::ClassRank::Other || label.className == "ClosureSurface";
-        matters.push_back(model::isSpace(label.className)  ? Matter::Space
-                          : isNothing                      ? Matter::Air
-                          : isFilling                      ? Matter::Filling
-                                                              : Matter::Wall);
+        matters.push_back(model::isSpace(label.className) ? Matter::Space
+                          : isNothing                     ? Matter::Air
+                          : isFilling                     ? Matter::Filling
+                                                          : Matter::Wall);
     }
     return matters;
 }
@@ -64,7 +64,7 @@ struct SeenPart {
     Matter face = Matter::Air;
     double near = 0, far = 0;  // depth of the face at the beginning and the end of the part
     bool isOblique = false;
-    double thickness = 0;  // of the face before the room
+    double thickness = 0;           // of the face before the room
     std::uint32_t room = kNoLabel;  // label of the room behind the face; kInWall, kOpenRoom, or none
 };
 constexpr std::uint32_t kInWall = kNoLabel - 1, kOpenRoom = kNoLabel - 2;
@@ -111,9 +111,8 @@ public:
         });
     }
     [[nodiscard]] std::vector<double> rooms() const {
-        return stopsWhere([](const SeenPart& a, const SeenPart& b) {
-            return a.room != b.room && !(a.isOblique && b.isOblique);
-        });
+        return stopsWhere(
+            [](const SeenPart& a, const SeenPart& b) { return a.room != b.room && !(a.isOblique && b.isOblique); });
     }
 
 private:
@@ -150,7 +149,8 @@ private:
         std::size_t crossings = 0;
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
             // Edges reach over the middle of a part or do not.
-            auto n = static_cast<std::size_t>(std::lower_bound(stops_.begin(), stops_.end(), edges_[e].s0) - stops_.begin());
+            auto n =
+                static_cast<std::size_t>(std::lower_bound(stops_.begin(), stops_.end(), edges_[e].s0) - stops_.begin());
             for (n = n == 0 ? 0 : n - 1; n + 1 < stops_.size(); ++n) {
                 const double middle = 0.5 * (stops_[n] + stops_[n + 1]);
                 if (middle > edges_[e].s1) break;
@@ -260,9 +260,8 @@ double shareAlongAxes(const SectionDrawing& drawing, const std::vector<Matter>& 
 }
 
 bool isSame(const std::vector<double>& a, const std::vector<double>& b) {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
-               return std::abs(x - y) < 0.5 * kShortestPart;
-           });
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
+                                              [](double x, double y) { return std::abs(x - y) < 0.5 * kShortestPart; });
 }
 
 // The extent of what is cut: where there are no borders, that of lines.

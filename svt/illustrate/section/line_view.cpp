@@ -113,7 +113,8 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
     std::vector<std::uint8_t> isDrawn(volume.labels.labels.size(), 0);
     for (std::size_t l = 0; l < isDrawn.size(); ++l) {
         const volume::Label& label = volume.labels.labels[l];
-        isDrawn[l] = label.count > 0 && label.first < pass.styles.size() && pass.styles[label.first].opacity > 0 ? 1 : 0;
+        isDrawn[l] =
+            label.count > 0 && label.first < pass.styles.size() && pass.styles[label.first].opacity > 0 ? 1 : 0;
     }
     EyeView eye = eyeOf(frame.camera);
     LineView view;

@@ -120,8 +120,10 @@ std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
         const auto nearest = std::min_element(floors.begin(), floors.end(), [&](double a, double b) {
             return std::abs(a - storey.floor) < std::abs(b - storey.floor);
         });
-        if (nearest != floors.end() && std::abs(*nearest - floor) <= 1.01 * volume.grid.spacing().z) floor = *nearest;
-        else if (const auto said = saidFloor(label, volume.grid); said && *said > storey.floor && *said < storey.ceiling)
+        if (nearest != floors.end() && std::abs(*nearest - floor) <= 1.01 * volume.grid.spacing().z)
+            floor = *nearest;
+        else if (const auto said = saidFloor(label, volume.grid);
+                 said && *said > storey.floor && *said < storey.ceiling)
             floor = *said;
         // Storeys of several buildings or parts may share a floor.
         if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;

@@ -40,9 +40,9 @@ Result<SheetView> viewOf(const SetView& view, const SheetSet& set, const volume:
     const Vec3d up = volume.grid.axes()[2];
     const double upright = dot(plane->normal, up);
     if (isPlan ? std::abs(upright) < 1 - 1e-9 : std::abs(upright) > 1 - 1e-9)
-        return Error(Code::BadSection, fmt::format("the plane '{}' is {}", isPlan ? view.plan : view.section,
-                                                   isPlan ? "not horizontal; give it as a section"
-                                                          : "horizontal; give it as a plan"));
+        return Error(Code::BadSection,
+                     fmt::format("the plane '{}' is {}", isPlan ? view.plan : view.section,
+                                 isPlan ? "not horizontal; give it as a section" : "horizontal; give it as a plan"));
     made.kind = isPlan ? ViewKind::Plan : ViewKind::Section;
     made.plane = *plane;
     if (!isPlan) return made;

@@ -488,8 +488,8 @@ private:
         for (const MarkLine& foot : mark.feet) line(foot);
         for (const MarkLine& tick : mark.ticks) line(tick);
         const bool isUpright = mark.line.from.u == mark.line.to.u;
-        const PlanePoint middle = inMetres({0.5 * (mark.line.from.u + mark.line.to.u),
-                                            0.5 * (mark.line.from.v + mark.line.to.v)});
+        const PlanePoint middle =
+            inMetres({0.5 * (mark.line.from.u + mark.line.to.u), 0.5 * (mark.line.from.v + mark.line.to.v)});
         const PlanePoint at = mark.text.text.empty() ? middle : inMetres(mark.text.at);
         if (!mark.text.text.empty()) dimensionNumber(mark, at);
         block.entities = std::move(dxf_);

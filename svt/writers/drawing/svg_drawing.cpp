@@ -269,10 +269,9 @@ private:
             svg_ += "\"/>\n";
             if (mark.text.text.empty()) continue;
             const auto [x, y] = at(mark.text.at);
-            const std::string turn =
-                mark.text.isUpright
-                    ? fmt::format(" transform=\"rotate(-90 {} {})\"", shortNumber(x, 3), shortNumber(y, 3))
-                    : std::string();
+            const std::string turn = mark.text.isUpright ? fmt::format(" transform=\"rotate(-90 {} {})\"",
+                                                                       shortNumber(x, 3), shortNumber(y, 3))
+                                                         : std::string();
             addText(x, y, mark.text.size, mark.text.text, turn.c_str());
         }
         svg_ += "</g>\n";

@@ -133,8 +133,8 @@ private:
         canvas_.stroke(ticks, {kTick});
         for (const DimensionMark& mark : placed.marks)
             if (!mark.text.text.empty())
-                canvas_.text({at(mark.text.at), mark.text.size, mark.text.text, TextAnchor::Middle, false,
-                              mark.text.isUpright});
+                canvas_.text(
+                    {at(mark.text.at), mark.text.size, mark.text.text, TextAnchor::Middle, false, mark.text.isUpright});
     }
 
     const illustrate::SectionDrawing& drawing_;

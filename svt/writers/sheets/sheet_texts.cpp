@@ -91,9 +91,15 @@ std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
     std::vector<SheetTable> tables;
     if (!areas.rooms.empty()) {
         SheetTable rooms{word(W::Rooms),
-                         {{word(W::Number)}, {word(W::Room)}, {word(W::Storey)}, {word(W::Use)}, {word(W::Area), true},
-                          {word(W::Height), true}, {word(W::Volume), true}},
-                         {}, 1};
+                         {{word(W::Number)},
+                          {word(W::Room)},
+                          {word(W::Storey)},
+                          {word(W::Use)},
+                          {word(W::Area), true},
+                          {word(W::Height), true},
+                          {word(W::Volume), true}},
+                         {},
+                         1};
         double area = 0, volume = 0;
         for (const illustrate::RoomArea& room : areas.rooms) {
             rooms.rows.push_back({room.number, room.name, levelName(levels[room.level], datum, language),
@@ -105,9 +111,16 @@ std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
         rooms.rows.push_back({"", word(W::Total), "", "", number(area), "", number(volume)});
         tables.push_back(std::move(rooms));
         SheetTable floors{word(W::FloorAreas),
-                          {{word(W::Storey)}, {"NUF", true}, {"TF", true}, {"VF", true}, {"?", true}, {"NRF", true},
-                           {"KGF", true}, {"BGF", true}},
-                          {}, 1};
+                          {{word(W::Storey)},
+                           {"NUF", true},
+                           {"TF", true},
+                           {"VF", true},
+                           {"?", true},
+                           {"NRF", true},
+                           {"KGF", true},
+                           {"BGF", true}},
+                          {},
+                          1};
         const auto add = [&](const std::string& name, const illustrate::LevelArea& level) {
             floors.rows.push_back({name, number(level.use), number(level.technical), number(level.traffic),
                                    number(level.unknown), number(level.net), number(level.construction),
@@ -121,7 +134,8 @@ std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
         SheetTable components{
             word(W::Components),
             {{word(W::Class)}, {word(W::Type)}, {word(W::Count), true}, {word(W::Area), true}, {word(W::Volume), true}},
-            {}, 0};
+            {},
+            0};
         for (const illustrate::ComponentSum& sum : areas.components)
             components.rows.push_back({sum.className, sum.type, fmt::format("{}", sum.count),
                                        sum.area > 0 ? number(sum.area) : "\u2013",

@@ -16,9 +16,9 @@ enum class SheetWord : std::uint8_t {
     Scale,
     Sheet,
     Paper,
-    SheetOf,        ///< "1 of 3"
-    Plan,           ///< "Plan", before the name of a storey
-    Level,          ///< "level", before its height
+    SheetOf,  ///< "1 of 3"
+    Plan,     ///< "Plan", before the name of a storey
+    Level,    ///< "level", before its height
     Plans,
     Section,
     Sections,
@@ -28,7 +28,7 @@ enum class SheetWord : std::uint8_t {
     South,
     West,
     LowestFloor,
-    HeightsAbove,   ///< "Heights above", before the name of the lowest storey
+    HeightsAbove,  ///< "Heights above", before the name of the lowest storey
     InModelHeights,
     NorthLetter,
     Rooms,

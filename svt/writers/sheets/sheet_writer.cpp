@@ -121,7 +121,9 @@ private:
                 const double width = placed.columns[c];
                 const std::string text = shortened(textOf(c), kText, width - 2);
                 const bool isNumber = table.columns[c].isNumber;
-                canvas_.text({{isNumber ? x + width - 1 : x + 1, y + 3.5}, kText, text,
+                canvas_.text({{isNumber ? x + width - 1 : x + 1, y + 3.5},
+                              kText,
+                              text,
                               isNumber ? TextAnchor::End : TextAnchor::Start});
                 x += width;
             }
@@ -153,8 +155,7 @@ private:
             const double y = placed.place.onPaper({0, axes.planeFromWorld(corner + up * height).v}).y;
             if (y > placed.place.corner.y || y < placed.place.corner.y - placed.height) continue;
             canvas_.stroke({{{x - 12, y}, {x - 1, y}}}, {0.25, LineType::LongDashDotted});
-            if (!plan.view.name.empty())
-                canvas_.text({{x - 12, y - 0.8}, 2, shortened(plan.view.name, 2, 11)});
+            if (!plan.view.name.empty()) canvas_.text({{x - 12, y - 0.8}, 2, shortened(plan.view.name, 2, 11)});
         }
     }
 
@@ -163,8 +164,7 @@ private:
         constexpr double kOff = 3, kLength = 6;
         const ViewMargins& margins = placed.margins;
         const PaperPoint corner = placed.place.corner, low{corner.x - margins.left, corner.y + margins.below},
-                                          high{corner.x + placed.width + margins.right,
-                                               corner.y - placed.height - margins.above};
+                         high{corner.x + placed.width + margins.right, corner.y - placed.height - margins.above};
         for (const DrawnView& view : content_.views) {
             if (view.view.kind != ViewKind::Section) continue;
             const illustrate::PlaneAxes& axes = plan.drawing.axes;
@@ -227,8 +227,7 @@ private:
         const double room = column - left - 4;
         const std::string scale = sheet.views.empty() ? std::string(word(SheetWord::NoScale))
                                                       : fmt::format("1:{}", shortNumber(sheet.scale, 2));
-        const auto field = [&](double x, double y, SheetWord what, const std::string& text, double size,
-                               double width) {
+        const auto field = [&](double x, double y, SheetWord what, const std::string& text, double size, double width) {
             canvas_.text({{x + 2, y + 3}, 1.8, std::string(word(what))});
             canvas_.text({{x + 2, y + 4.2 + size * 1.25}, size, shortened(text, size, width)});
         };
@@ -236,12 +235,14 @@ private:
         field(left, middle, SheetWord::Drawing, titleOf(sheet), 3.5, room);
         field(left, lower, SheetWord::Model, sourceText(), 2.5, room);
         field(column, top, SheetWord::Scale, scale, 5, 41);
-        field(column, middle, SheetWord::Sheet, fmt::format("{} {} {}", number + 1, word(SheetWord::SheetOf), layout_.sheets.size()), 3.5, 41);
+        field(column, middle, SheetWord::Sheet,
+              fmt::format("{} {} {}", number + 1, word(SheetWord::SheetOf), layout_.sheets.size()), 3.5, 41);
         field(column, lower, SheetWord::Paper, paper.name, 2.5, 41);
         if (sheet.views.empty()) return;
         addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
         if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
-        if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan) addNorth(sheet, {left - 18, paper.bottom - 18});
+        if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan)
+            addNorth(sheet, {left - 18, paper.bottom - 18});
     }
 
     [[nodiscard]] std::string sourceText() const {
@@ -295,7 +296,10 @@ private:
                      "#000000");
         canvas_.stroke({{tip, foot(-3), {at.x - 0.45 * kRadius * along.x, at.y - 0.45 * kRadius * along.y}, tip}},
                        kFine);
-        canvas_.text({{tip.x + 3 * along.x, tip.y + 3 * along.y + 1.1}, 3, std::string(word(SheetWord::NorthLetter)), TextAnchor::Middle});
+        canvas_.text({{tip.x + 3 * along.x, tip.y + 3 * along.y + 1.1},
+                      3,
+                      std::string(word(SheetWord::NorthLetter)),
+                      TextAnchor::Middle});
     }
 
     const SheetContent& content_;

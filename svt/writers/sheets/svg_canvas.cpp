@@ -85,9 +85,8 @@ void SvgCanvas::text(const PaperText& text) {
                                                           : " text-anchor=\"middle\"";
     const std::string x = shortNumber(text.at.x, 3), y = shortNumber(text.at.y, 3);
     const std::string turn = text.isUpright ? fmt::format(" transform=\"rotate(-90 {} {})\"", x, y) : std::string();
-    body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}{}{}>{}</text>\n", x, y,
-                         shortNumber(text.size, 2), anchor, text.hasHalo ? " class=\"halo\"" : "", turn,
-                         xmlAttribute(text.text));
+    body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}{}{}>{}</text>\n", x, y, shortNumber(text.size, 2),
+                         anchor, text.hasHalo ? " class=\"halo\"" : "", turn, xmlAttribute(text.text));
 }
 
 }  // namespace svt::writers
