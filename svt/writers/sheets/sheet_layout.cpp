@@ -53,6 +53,16 @@ public:
     LayoutMaker(const SheetPaper& paper, std::vector<ViewSize> sizes, const SheetContent& content)
         : paper_(paper), sizes_(std::move(sizes)), content_(content) {}
 
+    // The scale of a group whose views do not fit onto the paper; 0: all fit.
+    [[nodiscard]] double tooLargeScale() const {
+        for (const ViewSize& size : sizes_) {
+            const double scale = scaleOf(size, 0);
+            if (scale > 0 && (outerWidth(size, scale) > areaWidth() || outerHeight(size, scale) > areaHeight()))
+                return scale;
+        }
+        return 0;
+    }
+
     // Whether each view fits onto a sheet of its own.
     [[nodiscard]] bool fits(double common) const {
         return std::all_of(sizes_.begin(), sizes_.end(), [&](const ViewSize& size) {
@@ -172,6 +182,11 @@ Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions&
             sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n].drawing)});
     }
     const LayoutMaker maker(*paper, sizes, content);
+    if (const double scale = maker.tooLargeScale(); scale > 0)
+        return Error(Code::BadArgument,
+                     fmt::format("the views of a sheet do not fit onto {} at its scale of 1:{}; give "
+                                 "a larger paper, or this sheet a smaller scale",
+                                 paper->name, shortNumber(scale, 2)));
     if (options.scale == 0) {
         const auto* scale =
             std::find_if(std::begin(kScales), std::end(kScales), [&](double s) { return maker.fits(s); });

@@ -251,6 +251,10 @@ TEST(SheetGroups, HaveAScaleAndTitleOfTheirOwn) {
     const auto sheets = makeSvgSheets(content, wallVolume(), {});
     EXPECT_NE(sheets->front().find(">Details<"), std::string::npos);
     EXPECT_NE(sheets->front().find(">1:20<"), std::string::npos);
+    content.groups[0].scale = 5;
+    const auto tooLarge = layOutSheets(content, {});
+    ASSERT_FALSE(tooLarge);
+    EXPECT_NE(tooLarge.error().message().find("its scale of 1:5"), std::string::npos) << tooLarge.error().message();
 }
 
 TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
