@@ -223,14 +223,30 @@ private:
         return kInWall;
     }
 
+    // Whether a narrow part goes on in its neighbours: what it belongs to is wider.
+    [[nodiscard]] bool isPiece(std::size_t n) const noexcept {
+        const auto goesOn = [&](const SeenPart& other) {
+            return other.face == parts_[n].face && other.room == parts_[n].room;
+        };
+        double from = stops_[n], to = stops_[n + 1];
+        for (std::size_t m = n; m > 0 && goesOn(parts_[m - 1]) && to - from < kShortestPart; --m) from = stops_[m - 1];
+        for (std::size_t m = n + 1; m < parts_.size() && goesOn(parts_[m]) && to - from < kShortestPart; ++m)
+            to = stops_[m + 1];
+        return to - from >= kShortestPart;
+    }
+
     template <class IsStop>
     [[nodiscard]] std::vector<double> stopsWhere(const IsStop& isStop) const {
         const std::vector<double> ends = overall();
         std::vector<double> stops{ends[0]};
-        for (std::size_t n = 1; n < parts_.size(); ++n)
-            if (stops_[n] > ends[0] + kShortestPart && stops_[n] < ends[1] - kShortestPart &&
-                isStop(parts_[n - 1], parts_[n]) && stops_[n] - stops.back() > kShortestPart)
+        const SeenPart* before = nullptr;  // the last part that is wide enough
+        for (std::size_t n = 0; n < parts_.size(); ++n) {
+            if (stops_[n + 1] - stops_[n] < kShortestPart && !isPiece(n)) continue;
+            if (before != nullptr && stops_[n] > ends[0] + kShortestPart && stops_[n] < ends[1] - kShortestPart &&
+                isStop(*before, parts_[n]) && stops_[n] - stops.back() > kShortestPart)
                 stops.push_back(stops_[n]);
+            before = &parts_[n];
+        }
         stops.push_back(ends[1]);
         return stops;
     }

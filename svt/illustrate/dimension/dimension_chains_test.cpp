@@ -69,6 +69,14 @@ TEST(Dimensions, NichesInWallsAlongTheSightAreNoRooms) {
     EXPECT_EQ(chainsOf(drawing, DimensionSide::Left).front(), (std::vector<long>{300, 5400, 300}));
 }
 
+// A handle of a door that reaches into the room is no wall.
+TEST(Dimensions, WhatIsNarrowDividesNothing) {
+    Boxes boxes = house();
+    boxes.addBox("handle", "Window", {1.6, 0.2, 0}, {1.61, 5.7, 3});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below),
+              (Chains{{1000, 1200, 5800}, {300, 2700, 200, 4500, 300}, {8000}}));
+}
+
 TEST(Dimensions, StepsOfTheFaceHaveStops) {
     Boxes boxes;
     boxes.addBox("a", "Building", {0, 0, 0}, {3, 4, 3});
