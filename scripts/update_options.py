@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
-the table of formats in docs/user/convert.md, docs/formats/scene.schema.json, and web/viewer/src/generated/scene_members.ts, from which the viewer page has the
+the table of formats in docs/user/convert.md, docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and web/viewer/src/generated/scene_members.ts, from which the viewer page has the
 ranges, choices, defaults and help of its controls.
 
     scripts/update_options.py [--svt build/release/bin/svt] [--check]
@@ -176,6 +176,17 @@ def scene_schema(described: dict) -> str:
     return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"
 
 
+def sheets_schema(described: dict) -> str:
+    members = {member["name"]: member for member in described["sheetMembers"]}
+    schema = {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "SVT sheets",
+        "description": "Which drawings stand on which sheets of paper. `svt sheets --from` draws them, `--write-sheets` "
+        "writes one. Lengths are metres.",
+    }
+    return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"
+
+
 def page_member(member: dict) -> str:
     """The line of a member for the page."""
     values = {"type": member["kind"]}
@@ -204,6 +215,7 @@ def main() -> int:
 
     wanted = {
         ROOT / "docs/formats/scene.schema.json": scene_schema(described),
+        ROOT / "docs/formats/sheets.schema.json": sheets_schema(described),
         ROOT / "web/viewer/src/generated/scene_members.ts": page_members(described),
     }
     for command in described["commands"]:

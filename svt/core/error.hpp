@@ -110,6 +110,7 @@ enum class Code : std::uint16_t {
     DrawnByVoxels = 508,  ///< a cut object that is drawn by its voxels beside exact ones
     NoMeshes = 509,       ///< lines beyond a cut were asked of a volume that keeps no meshes
     NoCairo = 510,        ///< no cairo library, so no PDF
+    BadSheets = 511,      ///< a file of sheets that does not follow its schema
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

@@ -55,6 +55,7 @@ struct Option {
     bool mayRepeat = false;  ///< may be given several times; an array in a file
     FileUse file = FileUse::None;
     std::string_view formats{};     ///< of an output: what may be written, "svg|dxf|geojson", told by the file's ending
+    bool mayLackEnding = false;     ///< of an output: without an ending, or as a device, it is the first of its formats
     std::string_view numberedBy{};  ///< of an output: the option that says how many files there are, P_0000.png, ...
     bool isForModels = false;       ///< says how a model becomes a volume; without meaning where only volumes are read
 };

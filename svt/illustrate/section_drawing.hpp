@@ -102,6 +102,17 @@ struct BeyondLine {
     friend bool operator==(const BeyondLine&, const BeyondLine&) = default;
 };
 
+/// The side of a plan on which a chain of dimensions stands.
+enum class DimensionSide : std::uint8_t { Below, Right, Above, Left };
+
+/// A chain of dimensions along a side of a plan, as builders read it: what one sees from there.
+struct DimensionChain {
+    DimensionSide side = DimensionSide::Below;
+    int row = 0;                ///< 0 is nearest to the building
+    std::vector<double> stops;  ///< ascending, two or more: u where it stands below or above, else v; metres
+    friend bool operator==(const DimensionChain&, const DimensionChain&) = default;
+};
+
 /// Total of one class.
 struct ClassArea {
     std::string className;
@@ -114,12 +125,13 @@ struct SectionDrawing {
     PlaneAxes axes;
     std::vector<SectionComponent> components;  ///< by label, ascending; only those that the plane cuts
     std::vector<SectionBorder> borders;
-    std::vector<SectionLine> lines;  ///< by label
-    std::vector<BeyondLine> beyond;  ///< by kind, then label
-    std::vector<ClassArea> classes;  ///< by name
-    double area = 0;                 ///< of all components, m2
-    double drawingUnit = 0;          ///< all coordinates are integer multiples of it, metres
-    double tolerance = 0;            ///< the one used, metres
+    std::vector<SectionLine> lines;          ///< by label
+    std::vector<BeyondLine> beyond;          ///< by kind, then label
+    std::vector<DimensionChain> dimensions;  ///< by side and row; only where asked for, and of plans
+    std::vector<ClassArea> classes;          ///< by name
+    double area = 0;                         ///< of all components, m2
+    double drawingUnit = 0;                  ///< all coordinates are integer multiples of it, metres
+    double tolerance = 0;                    ///< the one used, metres
     /// Edges of the meshes that lie in the plane as asked for (to 0.2 mm). What is drawn is what stands just before it,
     /// on the kept side.
     std::size_t edgesInPlane = 0;
@@ -146,7 +158,9 @@ struct SectionOptions {
     /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing, or, where meshes
     /// are cut, four micrometres.
     double tolerance = -1;
-    BeyondOptions beyond;   ///< what stands behind the plane, and above it
+    BeyondOptions beyond;  ///< what stands behind the plane, and above it
+    bool dimensions =
+        false;  ///< chains of dimensions around plans, see findDimensions() in dimension/dimension_chains.hpp
     bool useMeshes = true;  ///< cut the meshes that the volume keeps; false: always the voxels
     int threads = 0;        ///< 0: all cores; the result does not depend on it
     /// If given, queries of show and hide that select nothing are no error, but are told here.

@@ -10,6 +10,7 @@
 ///     +--+------------------+--------------+
 
 #include <svt/core/result.hpp>
+#include <svt/illustrate/floor_areas.hpp>
 #include <svt/illustrate/sheet_views.hpp>
 
 #include <cstdint>
@@ -24,17 +25,47 @@ namespace svt::writers {
 struct DrawnView {
     illustrate::SheetView view;
     illustrate::SectionDrawing drawing;
+    int group = -1;  ///< of SheetContent::groups: these share sheets; -1: with others of its kind
+};
+
+/// Views that share sheets.
+struct SheetGroup {
+    std::string title;  ///< empty: of its views
+    double scale = 0;   ///< 0: that of all
+};
+
+enum class SheetLanguage : std::uint8_t { English, German };
+
+/// A table on sheets of its own.
+struct SheetTable {
+    struct Column {
+        std::string heading;
+        bool isNumber = false;  ///< stands at the right
+    };
+    std::string title;
+    std::vector<Column> columns;
+    std::vector<std::vector<std::string>> rows;  ///< a text for each column
+    std::size_t sums = 0;                        ///< so many rows at the end are sums
 };
 
 struct SheetContent {
     std::vector<illustrate::BuildingLevel> levels;  ///< marks of heights are above the lowest
     std::vector<DrawnView> views;
+    std::vector<SheetGroup> groups;
+    std::vector<SheetTable> tables;  ///< after the views; those that fit share sheets
 };
 
 struct SheetOptions {
     double scale = 0;          ///< 100 draws 1 m as 10 mm; 0: 1:100, or the next standard scale at which all views fit
     std::string paper = "A3";  ///< A4 to A0, landscape
+    SheetLanguage language = SheetLanguage::English;
+    std::string title;  ///< of the building; empty: the name of the model
 };
+
+/// The tables of rooms, floor areas and components; without rooms that of components alone.
+[[nodiscard]] std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
+                                                     const std::vector<illustrate::BuildingLevel>& levels,
+                                                     SheetLanguage language);
 
 /// The sheets as SVG documents, in order. `volume` is the volume the drawings were made from. Equal drawings give equal
 /// bytes.

@@ -25,16 +25,16 @@ TEST(Sheets, TheHouseHasPlansSectionsAndElevations) {
     runSvtWell(folder.path(), {"sheets", "house.svt", "-o", "house.pdf", "--svg", "sheets"});
     runSvtWell(folder.path(), {"sheets", "house.svt", "-o", "again.pdf", "--threads", "1"});
     EXPECT_EQ(readText(folder / "house.pdf"), readText(folder / "again.pdf"));
-    for (int n = 1; n <= 5; ++n) EXPECT_TRUE(fs::exists(folder / "sheets" / ("sheet-" + std::to_string(n) + ".svg")));
-    EXPECT_FALSE(fs::exists(folder / "sheets" / "sheet-6.svg"));
+    for (int n = 1; n <= 7; ++n) EXPECT_TRUE(fs::exists(folder / "sheets" / ("sheet-" + std::to_string(n) + ".svg")));
+    EXPECT_FALSE(fs::exists(folder / "sheets" / "sheet-8.svg"));
     if (!hasPoppler()) GTEST_SKIP() << "no poppler";
     const std::string info = outputOf(folder.path(), "pdfinfo house.pdf");
-    EXPECT_TRUE(std::regex_search(info, std::regex("Pages: +5"))) << info;
+    EXPECT_TRUE(std::regex_search(info, std::regex("Pages: +7"))) << info;
     EXPECT_TRUE(std::regex_search(info, std::regex("Title: +Sample house"))) << info;
     EXPECT_TRUE(std::regex_search(info, std::regex("1190\\.55 x 841\\.89 pts \\(A3\\)"))) << info;
     const std::string text = outputOf(folder.path(), "pdftotext house.pdf -");
     for (const char* part : {"Living room", "Plan Ground floor, level \u00B10.00", "Section A\u2013A",
-                             "Elevation from the west", "1:100", "5 of 5"})
+                             "Elevation from the west", "1:100", "7 of 7", "Floor areas after DIN 277-1", "36\u2075"})
         EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
@@ -48,7 +48,36 @@ TEST(Sheets, WhatDoesNotFitIsRefusedWithWhatWould) {
     EXPECT_FALSE(fs::exists(folder / "s.pdf"));
     const auto nothing = runSvt(folder.path(), {"sheets", "boxes.gml"});
     EXPECT_EQ(nothing.exitCode, 2);
-    EXPECT_NE(nothing.err.find("give -o P.pdf or --svg DIR"), std::string::npos) << nothing.err;
+    EXPECT_NE(nothing.err.find("give -o P.pdf, --svg DIR"), std::string::npos) << nothing.err;
+}
+
+TEST(Sheets, ASetThatWasWrittenGivesTheSameSheets) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    runSvtWell(folder.path(), {"sheets", "boxes.gml", "--svg", "a", "--dxf", "cad", "--write-sheets", "s.sheets.json"});
+    runSvtWell(folder.path(), {"sheets", "boxes.gml", "--svg", "b", "--from", "s.sheets.json"});
+    for (int n = 1; fs::exists(folder / "a" / ("sheet-" + std::to_string(n) + ".svg")); ++n) {
+        const std::string name = "sheet-" + std::to_string(n) + ".svg";
+        EXPECT_EQ(readText(folder / "a" / name), readText(folder / "b" / name)) << name;
+    }
+    EXPECT_TRUE(fs::exists(folder / "cad" / "plan-1.dxf"));
+    EXPECT_TRUE(fs::exists(folder / "cad" / "elevation-west.dxf"));
+    runSvtWell(folder.path(),
+               {"sheets", "boxes.gml", "--svg", "c", "--from", "s.sheets.json", "--language", "de", "--paper", "A4"});
+    EXPECT_NE(readText(folder / "c" / "sheet-1.svg").find(">Zeichnung<"), std::string::npos);
+    EXPECT_NE(readText(folder / "c" / "sheet-1.svg").find("width=\"297mm\""), std::string::npos);
+}
+
+TEST(LineDrawings, AreWrittenAsSvgAndPdfTheSameEachTime) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    runSvtWell(folder.path(), {"render", "boxes.gml", "-o", "a.svg", "--section", "z=1"});
+    runSvtWell(folder.path(), {"render", "boxes.gml", "-o", "b.svg", "--section", "z=1", "--threads", "1"});
+    EXPECT_EQ(readText(folder / "a.svg"), readText(folder / "b.svg"));
+    EXPECT_NE(readText(folder / "a.svg").find("inkscape:label=\"Beyond: visible\""), std::string::npos);
+    const auto gl = runSvt(folder.path(), {"render", "boxes.gml", "-o", "c.svg", "--labels", "l.png"});
+    EXPECT_EQ(gl.exitCode, 2);
+    EXPECT_NE(gl.err.find("are for PNG"), std::string::npos) << gl.err;
 }
 
 // A model without rooms and storeys has a plan at half its height.

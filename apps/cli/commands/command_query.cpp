@@ -18,12 +18,13 @@ struct QueryArguments {
     std::string query;
     std::string with, along;
     std::filesystem::path owners, parcels;
-    bool neighbors = false, overlaps = false, gaps = false;
+    bool neighbors = false, overlaps = false, gaps = false, areas = false;
     BuildArguments build;
     bool json = false, csv = false;
 
     [[nodiscard]] int reportCount() const {
-        return !with.empty() + !along.empty() + !owners.empty() + !parcels.empty() + neighbors + overlaps + gaps;
+        return !with.empty() + !along.empty() + !owners.empty() + !parcels.empty() + neighbors + overlaps + gaps +
+               areas;
     }
 };
 
@@ -61,6 +62,7 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
     if (arguments.neighbors) return neighborTable(volume, selected, threads);
     if (arguments.overlaps) return overlapTable(volume, selected);
     if (arguments.gaps) return gapTable(volume, selected);
+    if (arguments.areas) return areaTable(volume, selected, threads);
     if (!arguments.along.empty()) {
         const auto ray = illustrate::parsePickRay(arguments.along, volume.grid);
         if (!ray) return ray.error();
@@ -113,16 +115,18 @@ int printOwners(const volume::SemanticVolume& volume, const Labels& selected, co
 int runQuery(const QueryArguments& arguments) {
     if (auto parsed = model::Query::parse(arguments.query); !parsed) return fail(parsed.error());
     if (arguments.reportCount() > 1)
-        return fail(
-            Error(Code::BadArgument,
-                  "--with, --neighbours, --along, --overlaps, --gaps, --owners and --parcels exclude each other; "
-                  "give one of them"));
+        return fail(Error(
+            Code::BadArgument,
+            "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels exclude each other; "
+            "give one of them"));
     if (arguments.json && arguments.csv)
         return fail(Error(Code::BadArgument, "--json and --csv exclude each other; give one of them"));
     Diagnostics diagnostics;
     Result<volume::SemanticVolume> volume = [&] {
         const TerminalProgress progress;
-        return loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+        BuildArguments build = arguments.build;
+        if (arguments.areas) build.vectors.meshes = true;
+        return loadVolume(arguments.input, build, progress.get(), diagnostics);
     }();
     printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
@@ -149,6 +153,7 @@ Action connectQuery(Command& command) {
     command.set("--along", arguments->along);
     command.set("--overlaps", arguments->overlaps);
     command.set("--gaps", arguments->gaps);
+    command.set("--areas", arguments->areas);
     command.set("--owners", arguments->owners);
     command.set("--parcels", arguments->parcels);
     command.set("--json", arguments->json);

@@ -8,12 +8,14 @@
 
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/illustrate/line_view.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/image/png.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render_gl/egl_context.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
+#include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
 
@@ -146,12 +148,69 @@ void noteNames(const illustrate::Painting::Names& names) {
                          names.withoutRoom));
 }
 
+bool isLineDrawing(const std::filesystem::path& output) {
+    const std::string ending = endingOf(output);
+    return ending == ".svg" || ending == ".pdf";
+}
+
+Result<void> writeLineView(const RenderArguments& arguments, const illustrate::LineView& view,
+                           const volume::SemanticVolume& volume, int pixels, int number) {
+    const int dpi = arguments.scene.printedDpi() > 0 ? arguments.scene.printedDpi() : 96;
+    const double width = 25.4 * pixels / dpi;
+    const auto path = numberedFile(arguments.output, number, arguments.frames);
+    if (endingOf(path) == ".svg") {
+        if (auto written = writeFileAtomically(path, writers::makeViewSvg(view, volume, width)); !written)
+            return written.error();
+        return {};
+    }
+    const auto pdf = writers::makeViewPdf(view, volume, width);
+    if (!pdf) return pdf.error();
+    if (auto written = writeFileAtomically(path, *pdf); !written) return written.error();
+    return {};
+}
+
+// Lines instead of pixels: the scene's camera, what it shows, and the plane that cuts it.
+int runLineDrawing(const RenderArguments& arguments, const Series& series) {
+    if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
+        return fail(Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings"));
+    Diagnostics diagnostics;
+    TerminalProgress progress;
+    BuildArguments build = arguments.build;
+    build.vectors.meshes = true;
+    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
+    printDiagnostics(diagnostics, arguments.verbose);
+    if (!volume) return fail(volume.error());
+    illustrate::LineViewOptions options;
+    options.hidden = arguments.scene.hiddenLines == "dashed";
+    options.threads = arguments.build.threads;
+    for (int frame = 0; frame < arguments.frames; ++frame) {
+        progress.beginPart(frame, arguments.frames);
+        Progress::tell(progress.get(), "lines", 0);
+        const auto still = arguments.scene.toScene(frame, arguments.frames);
+        if (!still) return fail(still.error());
+        const auto scene = illustrate::sceneAt(*still, frame * series.seconds, *volume);
+        if (!scene) return fail(scene.error());
+        const auto spec = illustrate::makeFrameSpec(*scene, *volume);
+        if (!spec) return fail(spec.error());
+        const auto view = illustrate::drawLineView(*volume, *spec, options);
+        if (!view) return fail(view.error());
+        if (auto written = writeLineView(arguments, *view, *volume, scene->width, frame); !written)
+            return fail(written.error());
+        if (view->drawing.beyond.empty() && view->drawing.components.empty()) note("nothing is visible");
+        if (frame == 0 && !arguments.sceneOutput.empty())
+            if (auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*still)); !written)
+                return fail(written.error());
+    }
+    return kDone;
+}
+
 int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     const auto first = arguments.scene.toScene(0, isFilm(arguments.output) ? 2 : arguments.frames);
     if (!first) return fail(first.error());
     auto series = seriesOf(arguments, *first);
     if (!series) return fail(series.error());
+    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series);
     Diagnostics diagnostics;
     TerminalProgress progress;
     const auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);

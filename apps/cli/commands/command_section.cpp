@@ -24,7 +24,7 @@ struct SectionArguments {
     std::vector<std::string> show, hide;
     double minArea = 0;
     illustrate::BeyondOptions beyond;
-    bool noRooms = false, json = false, verbose = false;
+    bool dimensions = false, noRooms = false, json = false, verbose = false;
     BuildArguments build;
 };
 
@@ -66,6 +66,7 @@ int runSection(const SectionArguments& arguments) {
     options.spaces = !arguments.noRooms;
     options.smallestArea = arguments.minArea;
     options.beyond = arguments.beyond;
+    options.dimensions = arguments.dimensions;
     if (!arguments.elevation.empty()) options.beyond.visible = true;
     options.threads = arguments.build.threads;
     std::vector<std::string> nothing;
@@ -107,6 +108,7 @@ Action connectSection(Command& command) {
     command.set("--beyond", arguments->beyond.visible);
     command.set("--hidden", arguments->beyond.hidden);
     command.set("--above", arguments->beyond.above);
+    command.set("--dimensions", arguments->dimensions);
     command.set("--scale", arguments->scale);
     command.set("--hide", arguments->hide);
     command.set("--show", arguments->show);

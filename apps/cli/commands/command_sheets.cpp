@@ -6,66 +6,146 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
-#include <svt/illustrate/sheet_views.hpp>
+#include <svt/illustrate/sheet_set.hpp>
+#include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <system_error>
 
 namespace svt::cli {
 namespace {
 
+writers::SheetLanguage languageOf(const std::string& name) {
+    return name == "de" ? writers::SheetLanguage::German : writers::SheetLanguage::English;
+}
+
 struct SheetsArguments {
-    std::filesystem::path input, output, folder;
-    std::string scale, paper;
+    std::filesystem::path input, output, folder, dxfFolder, setFile, setOutput;
+    std::string scale;
+    std::optional<std::string> paper, language;
     std::vector<std::string> hide;
-    bool noAbove = false, verbose = false;
+    bool noAbove = false, noDimensions = false, noTables = false, verbose = false;
     BuildArguments build;
 };
 
-Result<writers::SheetContent> drawViews(const SheetsArguments& arguments, const volume::SemanticVolume& volume) {
-    auto chosen = illustrate::chooseSheetViews(volume, arguments.build.threads);
+// The set of the file, if one is given, changed by the options; its sheets are empty where the program is to choose.
+Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
+    illustrate::SheetSet set;
+    if (!arguments.setFile.empty()) {
+        const auto file = MappedFile::open(arguments.setFile);
+        if (!file) return file.error();
+        auto parsed = illustrate::parseSheetSet(file->text(), arguments.setFile.string());
+        if (!parsed) return parsed.error();
+        set = std::move(*parsed);
+    }
+    if (arguments.paper) set.paper = *arguments.paper;
+    if (arguments.language) set.language = *arguments.language;
+    set.hide.insert(set.hide.end(), arguments.hide.begin(), arguments.hide.end());
+    set.above = set.above && !arguments.noAbove;
+    set.dimensions = set.dimensions && !arguments.noDimensions;
+    set.tables = set.tables && !arguments.noTables;
+    if (arguments.scale.empty()) return set;
+    const auto scale = parseScale(arguments.scale);
+    if (!scale) return scale.error();
+    set.scale = *scale;
+    return set;
+}
+
+// Fills in the sheets that the program chooses.
+Result<illustrate::SheetViews> chooseViews(illustrate::SheetSet& set, const volume::SemanticVolume& volume,
+                                           int threads) {
+    if (!set.sheets.empty()) return illustrate::viewsOfSet(set, volume);
+    auto chosen = illustrate::chooseSheetViews(volume, threads);
+    if (!chosen) return chosen.error();
+    set.sheets = illustrate::sheetSetOf(*chosen, volume).sheets;
+    for (illustrate::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
+    return chosen;
+}
+
+Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsArguments& arguments,
+                                        const volume::SemanticVolume& volume) {
+    auto chosen = chooseViews(set, volume, arguments.build.threads);
     if (!chosen) return chosen.error();
     writers::SheetContent content;
     content.levels = std::move(chosen->levels);
     std::vector<std::string> nothing;
+    std::vector<int> groups;  // by view
+    for (const illustrate::SetSheet& sheet : set.sheets) {
+        groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
+        content.groups.push_back({sheet.title, sheet.scale});
+    }
     for (illustrate::SheetView& view : chosen->views) {
         illustrate::SectionOptions options;
-        options.hide = arguments.hide;
+        options.hide = set.hide;
         options.smallestArea = 1e-4;
         options.threads = arguments.build.threads;
         options.beyond = view.beyond;
-        if (arguments.noAbove) options.beyond.above = false;
+        options.dimensions = view.kind == illustrate::ViewKind::Plan && set.dimensions;
         if (content.views.empty()) options.nothing = &nothing;
         auto drawing = illustrate::drawSection(volume, view.plane, options);
         if (!drawing) return drawing.error();
-        content.views.push_back({std::move(view), std::move(*drawing)});
+        content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
+    }
+    if (set.tables) {
+        const auto areas = illustrate::measureFloorAreas(volume, content.levels, arguments.build.threads);
+        if (!areas) return areas.error();
+        content.tables = writers::makeAreaTables(*areas, content.levels, languageOf(set.language));
     }
     for (const std::string& message : nothing) note(message);
     return content;
 }
 
-Result<void> writeSvgFolder(const std::vector<std::string>& sheets, const std::filesystem::path& folder) {
+Result<void> makeFolder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) return Error(Code::CannotWrite, fmt::format("{}: {}", folder.string(), error.message()));
+    return {};
+}
+
+// "plan-1", "section-A", "elevation-north"; names of storeys may hold anything.
+std::string fileNameOf(const writers::SheetContent& content, std::size_t number) {
+    const illustrate::SheetView& view = content.views[number].view;
+    if (view.kind == illustrate::ViewKind::Elevation) return "elevation-" + view.name;
+    std::size_t ofKind = 0;
+    for (std::size_t n = 0; n <= number; ++n) ofKind += content.views[n].view.kind == view.kind ? 1 : 0;
+    return fmt::format("{}-{}", view.kind == illustrate::ViewKind::Plan ? "plan" : "section", ofKind);
+}
+
+Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
+                            const std::filesystem::path& folder) {
+    if (auto made = makeFolder(folder); !made) return made;
+    for (std::size_t n = 0; n < content.views.size(); ++n) {
+        const auto path = folder / (fileNameOf(content, n) + ".dxf");
+        if (auto written = writers::writeDxf(content.views[n].drawing, volume, path); !written) return written.error();
+    }
+    return {};
+}
+
+Result<void> writeSvgFolder(const std::vector<std::string>& sheets, const std::filesystem::path& folder) {
+    if (auto made = makeFolder(folder); !made) return made;
     for (std::size_t n = 0; n < sheets.size(); ++n)
         if (auto written = writeFileAtomically(folder / fmt::format("sheet-{}.svg", n + 1), sheets[n]); !written)
             return written.error();
     return {};
 }
 
+const std::filesystem::path& writtenName(const SheetsArguments& arguments) {
+    for (const auto* path : {&arguments.output, &arguments.folder, &arguments.dxfFolder})
+        if (!path->empty()) return *path;
+    return arguments.setOutput;
+}
+
 int runSheets(const SheetsArguments& arguments) {
-    if (arguments.output.empty() && arguments.folder.empty())
-        return fail(Error(Code::BadArgument, "nothing to write; give -o P.pdf or --svg DIR"));
-    writers::SheetOptions options;
-    options.paper = arguments.paper;
-    if (!arguments.scale.empty()) {
-        const auto scale = parseScale(arguments.scale);
-        if (!scale) return fail(scale.error());
-        options.scale = *scale;
-    }
+    if (arguments.output.empty() && arguments.folder.empty() && arguments.dxfFolder.empty() &&
+        arguments.setOutput.empty())
+        return fail(
+            Error(Code::BadArgument, "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR or --write-sheets FILE"));
+    auto set = readSet(arguments);
+    if (!set) return fail(set.error());
+    const writers::SheetOptions options{set->scale, set->paper, languageOf(set->language), set->title};
     Diagnostics diagnostics;
     const TerminalProgress progress;
     BuildArguments build = arguments.build;
@@ -74,7 +154,7 @@ int runSheets(const SheetsArguments& arguments) {
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
     Progress::tell(progress.get(), "sheets", 0);
-    const auto content = drawViews(arguments, *volume);
+    const auto content = drawViews(*set, arguments, *volume);
     if (!content) return fail(content.error());
     if (content->views.front().drawing.lacksMeshes) {
         Diagnostics findings;
@@ -90,10 +170,15 @@ int runSheets(const SheetsArguments& arguments) {
     }
     if (!arguments.folder.empty())
         if (auto written = writeSvgFolder(*sheets, arguments.folder); !written) return fail(written.error());
+    if (!arguments.dxfFolder.empty())
+        if (auto written = writeDxfFolder(*content, *volume, arguments.dxfFolder); !written)
+            return fail(written.error());
+    if (!arguments.setOutput.empty())
+        if (auto written = writeFileAtomically(arguments.setOutput, illustrate::writeSheetSet(*set)); !written)
+            return fail(written.error());
     TerminalProgress::hide();
     if (!isQuiet())
-        fmt::print("{}: {} sheets with {} views\n",
-                   (arguments.output.empty() ? arguments.folder : arguments.output).string(), sheets->size(),
+        fmt::print("{}: {} sheets with {} views\n", writtenName(arguments).string(), sheets->size(),
                    content->views.size());
     return kDone;
 }
@@ -105,10 +190,16 @@ Action connectSheets(Command& command) {
     command.set("input", arguments->input);
     command.set("--output", arguments->output);
     command.set("--svg", arguments->folder);
+    command.set("--dxf", arguments->dxfFolder);
+    command.set("--from", arguments->setFile);
+    command.set("--write-sheets", arguments->setOutput);
     command.set("--scale", arguments->scale);
     command.set("--paper", arguments->paper);
     command.set("--hide", arguments->hide);
     command.set("--no-above", arguments->noAbove);
+    command.set("--no-dimensions", arguments->noDimensions);
+    command.set("--no-tables", arguments->noTables);
+    command.set("--language", arguments->language);
     command.set("--verbose", arguments->verbose);
     arguments->build.connect(command);
     return [arguments] { return runSheets(*arguments); };

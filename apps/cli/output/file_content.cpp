@@ -29,6 +29,7 @@ constexpr FileFormat kFormats[] = {
     {"dxf", ".dxf", FileContent::Dxf},
     {"geojson", ".geojson", FileContent::GeoJson},
     {"scene", ".json", FileContent::PlainJson},
+    {"sheets", ".json", FileContent::PlainJson},
     {"json", ".json", FileContent::PlainJson},
     {"html", ".html", FileContent::Html},
     {"csv", ".csv", FileContent::Text},

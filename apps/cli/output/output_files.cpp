@@ -30,6 +30,7 @@ struct OutputFile {
     std::string_view option;
     std::vector<const FileFormat*> formats;  // empty: a folder
     bool isFirst = true;                     // of files with numbers
+    bool mayLackEnding = false;              // it is the first of its formats then
 };
 
 Error errorAt(const fs::path& path, Code code, std::string message) {
@@ -77,7 +78,8 @@ std::vector<OutputFile> outputsOf(std::span<const GivenOption> given) {
         const int count = number.empty() ? 1 : std::max(1, std::atoi(std::string(number).c_str()));
         for (const std::string& value : values)
             for (int n = 0; n < count; ++n)
-                outputs.push_back({numberedFile(userPath(value), n, count), longName(*option), formats, n == 0});
+                outputs.push_back({numberedFile(userPath(value), n, count), longName(*option), formats, n == 0,
+                                   formats.size() == 1 || option->mayLackEnding});
     }
     return outputs;
 }
@@ -114,10 +116,8 @@ Result<void> checkEnding(const OutputFile& output, bool mayChooseFormat) {
     if (output.formats.empty()) return {};
     const std::vector<std::string_view> endings = endingsOf(output);
     const std::string ending = endingOf(output.path, endings);
-    // A single format needs no ending to tell it.
-    if (std::ranges::find(endings, ending) != endings.end() || (ending.empty() && output.formats.size() == 1))
-        return {};
-    if (output.formats.size() == 1 && isStream(output.path)) return {};
+    if (std::ranges::find(endings, ending) != endings.end()) return {};
+    if (output.mayLackEnding && (ending.empty() || isStream(output.path))) return {};
     return Error(Code::BadArgument, fmt::format("{} '{}': cannot write '{}'; possible {} {}{}", output.option,
                                                 output.path.string(), ending, endings.size() == 1 ? "is" : "are",
                                                 fmt::join(endings, ", "), mayChooseFormat ? ", or --format" : ""));
@@ -162,7 +162,8 @@ Result<void> checkContent(const OutputFile& output) {
     std::string_view wanted;
     for (const FileFormat* format : output.formats) {
         const auto endings = splitChoices(format->endings);
-        if (output.formats.size() > 1 && std::ranges::find(endings, ending) == endings.end()) continue;
+        const bool isTold = std::ranges::find(endings, ending) != endings.end();
+        if (!isTold && !(output.mayLackEnding && format == output.formats.front())) continue;
         if (format->content == content) return {};
         wanted = contentName(format->content);
     }

@@ -2,6 +2,7 @@
 
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/label_measures.hpp>
+#include <svt/illustrate/floor_areas.hpp>
 #include <svt/render/ray_labels.hpp>
 
 #include <fmt/format.h>
@@ -206,6 +207,55 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
         row.push_back(std::move(around));
         table.rows.push_back(std::move(row));
     }
+    return table;
+}
+
+Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads) {
+    const auto levels = illustrate::findLevels(volume);
+    const auto areas = illustrate::measureFloorAreas(volume, levels, threads);
+    if (!areas) return areas.error();
+    Table table{{{"kind", "kind"},
+                 {"id", "id"},
+                 {"number", "number"},
+                 {"name", "name"},
+                 {"storey", "storey"},
+                 {"floor", "floor m", 2},
+                 {"use", "use"},
+                 {"area", "m2", 2},
+                 {"height", "height m", 2},
+                 {"volume", "m3", 2},
+                 {"nuf", "NUF", 2},
+                 {"tf", "TF", 2},
+                 {"vf", "VF", 2},
+                 {"unknownUse", "?", 2},
+                 {"nrf", "NRF", 2},
+                 {"kgf", "KGF", 2},
+                 {"bgf", "BGF", 2}},
+                {}};
+    for (const illustrate::RoomArea& room : areas->rooms) {
+        if (!isIn(selected, room.label)) continue;
+        const auto use = illustrate::roomUseName(room.use);
+        std::vector<Json> row{"room",
+                              volume.labels.labels[room.label].id,
+                              room.number.empty() ? Json(nullptr) : Json(room.number),
+                              room.name,
+                              levels[room.level].name,
+                              levels[room.level].floor,
+                              use.empty() ? Json(nullptr) : Json(use),
+                              room.area,
+                              room.height,
+                              room.volume};
+        row.insert(row.end(), 7, nullptr);
+        table.rows.push_back(std::move(row));
+    }
+    const auto addSums = [&](const char* kind, const illustrate::LevelArea& sums, Json name, Json floor) {
+        table.rows.push_back({kind, nullptr, nullptr, nullptr, std::move(name), std::move(floor), nullptr, nullptr,
+                              nullptr, nullptr, sums.use, sums.technical, sums.traffic, sums.unknown, sums.net,
+                              sums.construction, sums.gross});
+    };
+    for (std::size_t n = 0; n < levels.size(); ++n)
+        addSums("storey", areas->levels[n], levels[n].name, levels[n].floor);
+    if (!levels.empty()) addSums("total", areas->total(), nullptr, nullptr);
     return table;
 }
 

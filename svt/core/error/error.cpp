@@ -104,6 +104,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(DrawnByVoxels);
         SVT_CASE(NoMeshes);
         SVT_CASE(NoCairo);
+        SVT_CASE(BadSheets);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

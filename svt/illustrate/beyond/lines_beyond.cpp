@@ -206,4 +206,17 @@ void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volum
         std::erase_if(drawing.beyond, [](const BeyondLine& line) { return line.kind == BeyondKind::Visible; });
 }
 
+void addLinesOfView(SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                    std::span<const std::uint8_t> isDrawn, const EyeView& eye, bool isHidden, int threads) {
+    if (volume.vectors.triangles.empty()) return;
+    const CutRegion cut(drawing, volume.labels);
+    const std::vector<JointKind> kinds = jointKinds(volume.labels);
+    const ViewShapes shapes = projectMeshes(volume, eye, isDrawn, isHidden);
+    const LineClipper clipper(shapes, cut, kinds, isHidden);
+    std::vector<BeyondLine> lines;
+    clipEdges(shapes.edges, clipper, BeyondKind::Visible, threads, lines);
+    clipEdges(findPiercingLines(shapes.faces, clipper.index()), clipper, BeyondKind::Visible, threads, lines);
+    drawing.beyond = mergeLines(std::move(lines), drawing, volume.labels, threads);
+}
+
 }  // namespace svt::illustrate

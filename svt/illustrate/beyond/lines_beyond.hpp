@@ -11,6 +11,7 @@
 ///     cut                    [---------]
 ///     visible   -----                       ----------
 
+#include <svt/illustrate/beyond/view_shapes.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 
 #include <cstdint>
@@ -28,5 +29,10 @@ namespace svt::illustrate {
 /// Cost: O(faces + edges * faces that a grid cell along them meets). FZK-Haus, 21,740 triangles: 20 to 60 ms.
 void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volume,
                     std::span<const std::uint8_t> isDrawn, const BeyondOptions& options, int threads);
+
+/// Adds what an eye sees to a drawing whose cut is in the coordinates of the picture, see EyeView.
+/// \param isHidden  also edges that are hidden
+void addLinesOfView(SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                    std::span<const std::uint8_t> isDrawn, const EyeView& eye, bool isHidden, int threads);
 
 }  // namespace svt::illustrate

@@ -65,6 +65,19 @@ public:
             const Vec3d p = base + toDouble(point) * parts_.unit;
             const double depth = dot(p, away);
             points_.push_back({dot(p, axes.u), dot(p, axes.v), std::abs(depth) <= kOnViewPlane ? 0 : depth});
+            heights_.push_back(points_.back().z);
+        }
+    }
+
+    MeshProjector(const volume::SemanticVolume& volume, const EyeView& eye, std::span<const std::uint8_t> isDrawn,
+                  const ViewOptions& options)
+        : parts_(volume.vectors), options_(options), views_(viewsOf(volume.labels, isDrawn)), eye_(&eye) {
+        handedness_ = dot(cross(eye.axes.u, eye.axes.v), eye.away) > 0 ? 1 : -1;
+        for (const Vec3i& point : parts_.points) {
+            const Vec3d world = volume.grid.origin() + toDouble(point) * parts_.unit;
+            points_.push_back(eye.viewed(world));
+            const double height = eye.hasCut ? dot(eye.cut.point - world, eye.cut.normal) : 1;
+            heights_.push_back(std::abs(height) <= kOnViewPlane ? 0 : height);
         }
     }
 
@@ -80,6 +93,11 @@ public:
     }
 
 private:
+    struct TriangleView {
+        Vec3d normal;
+        double facing = 0;  // see facingOf()
+        std::uint32_t triangle = 0;
+    };
     struct HalfEdge {
         std::uint32_t low = 0, high = 0;  // points
         std::uint32_t triangle = 0;       // of normals_
@@ -101,10 +119,11 @@ private:
         for (std::size_t t = first; t < end; ++t) {
             const auto& triangle = parts_.triangles[t];
             const auto& c = triangle.corners;
-            const bool isBehind = points_[c[0]].z > 0 || points_[c[1]].z > 0 || points_[c[2]].z > 0;
+            const bool isBehind = heights_[c[0]] > 0 || heights_[c[1]] > 0 || heights_[c[2]] > 0;
             if (!isBehind) continue;
-            normals_.push_back({normalOf(triangle, view.turn), static_cast<std::uint32_t>(t)});
-            addFace(triangle, normals_.back().first, view);
+            const Vec3d normal = normalOf(triangle, view.turn);
+            normals_.push_back({normal, facingOf(triangle, normal), static_cast<std::uint32_t>(t)});
+            addFace(triangle, normals_.back(), view);
             for (std::size_t n = 0; n < 3; ++n) {
                 const std::uint32_t a = c[n], b = c[(n + 1) % 3];
                 halfEdges_.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(normals_.size() - 1)});
@@ -123,31 +142,67 @@ private:
         }
     }
 
+    // The cosine between a normal and the line of sight: that of a perspective eye goes to the middle of the face.
+    [[nodiscard]] double facingOf(const volume::VectorParts::Triangle& triangle, Vec3d normal) const noexcept {
+        if (!isPerspective()) return normal.z;
+        const auto& c = triangle.corners;
+        const Vec3d middle = (points_[c[0]] + points_[c[1]] + points_[c[2]]) * (1.0 / 3);
+        return dot(normal, normalized(middle + Vec3d{0, 0, eye_->distance}));
+    }
+    [[nodiscard]] bool isPerspective() const noexcept { return eye_ != nullptr && eye_->distance > 0; }
+    [[nodiscard]] Vec3d pictured(Vec3d p) const noexcept { return eye_ != nullptr ? eye_->pictured(p) : p; }
+    // The normal of a face in the picture, from one of its points; pointing away from the eye.
+    [[nodiscard]] Vec3d picturedNormal(Vec3d normal, double facing, Vec3d point) const noexcept {
+        Vec3d n = facing > 0 ? normal : -normal;
+        if (isPerspective()) n = normalized(n + Vec3d{0, 0, dot(n, point) / eye_->distance});
+        return n;
+    }
+
+    struct ClippedPoint {
+        Vec3d at;
+        double height = 0;  // over the plane that clips
+    };
     // What lies behind the plane of a triangle that is not seen from the side.
-    void addFace(const volume::VectorParts::Triangle& triangle, Vec3d normal, const LabelView& view) {
-        if (std::abs(normal.z) < kFromTheSide || (view.isClosed && normal.z > 0)) return;
+    void addFace(const volume::VectorParts::Triangle& triangle, const TriangleView& seen, const LabelView& view) {
+        if (std::abs(seen.facing) < kFromTheSide || (view.isClosed && seen.facing > 0)) return;
+        std::array<ClippedPoint, 8> corners{}, clipped{};
+        std::uint32_t count = 0;
+        for (const std::uint32_t c : triangle.corners) corners[count++] = {points_[c], heights_[c]};
+        count = clipCorners(corners, count, clipped);
+        if (eye_ != nullptr) {
+            for (std::uint32_t n = 0; n < count; ++n) clipped[n].height = clipped[n].at.z - eye_->nearest;
+            count = clipCorners(clipped, count, corners);
+            clipped = corners;
+        }
+        if (count < 3) return;
         ViewFace face;
         face.label = triangle.label;
-        face.normal = normal.z > 0 ? normal : -normal;
+        face.normal = picturedNormal(seen.normal, seen.facing, points_[triangle.corners[0]]);
         face.leastDepth = 1e300;
-        const auto add = [&](Vec3d p) {
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Vec3d p = pictured(clipped[n].at);
             face.corners[face.cornerCount++] = p;
             face.leastDepth = std::min(face.leastDepth, p.z);
-        };
-        for (std::size_t n = 0; n < 3; ++n) {
-            const Vec3d a = points_[triangle.corners[n]], b = points_[triangle.corners[(n + 1) % 3]];
-            if (a.z >= 0) add(a);
-            if ((a.z < 0) != (b.z < 0) && a.z != 0 && b.z != 0) add(onPlane(a, b));
         }
-        if (face.cornerCount < 3) return;
         if (areaOf(face) < 0) std::reverse(face.corners.begin(), face.corners.begin() + face.cornerCount);
         shapes_.faces.push_back(face);
     }
+    // The part of a convex polygon with heights from zero up.
+    std::uint32_t clipCorners(const std::array<ClippedPoint, 8>& from, std::uint32_t count,
+                              std::array<ClippedPoint, 8>& to) const noexcept {
+        std::uint32_t kept = 0;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const ClippedPoint &a = from[n], &b = from[n + 1 < count ? n + 1 : 0];
+            if (a.height >= 0) to[kept++] = a;
+            if ((a.height < 0) != (b.height < 0) && a.height != 0 && b.height != 0) to[kept++] = {crossing(a, b), 0};
+        }
+        return kept;
+    }
     // The same bits from both sides.
-    static Vec3d onPlane(Vec3d a, Vec3d b) noexcept {
-        if (b < a) std::swap(a, b);
-        Vec3d p = a + (b - a) * (a.z / (a.z - b.z));
-        p.z = 0;
+    [[nodiscard]] Vec3d crossing(ClippedPoint a, ClippedPoint b) const noexcept {
+        if (b.at < a.at) std::swap(a, b);
+        Vec3d p = a.at + (b.at - a.at) * (a.height / (a.height - b.height));
+        if (eye_ == nullptr) p.z = 0;
         return p;
     }
     static double areaOf(const ViewFace& face) noexcept {
@@ -165,34 +220,46 @@ private:
         bool isCrease = false;
         int count = 0;
         for (const HalfEdge& half : around) {
-            const Vec3d normal = normals_[half.triangle].first;
+            const auto& [normal, facing, t] = normals_[half.triangle];
             if (dot(normal, normal) == 0) continue;
             if (count++ == 0) first = normal;
             const double cosine = dot(first, normal);
             isCrease = isCrease || (view.isClosed ? cosine : std::abs(cosine)) < kCosineOfCrease;
-            nearest = std::min(nearest, normal.z);
-            farthest = std::max(farthest, normal.z);
+            nearest = std::min(nearest, facing);
+            farthest = std::max(farthest, facing);
         }
         if (count == 0) return;
         // Where a round surface turns away from the eye: beside a face that is seen there is one that is not.
         const bool isOutline = view.isClosed ? nearest < -kSeen && farthest > -kSeen : count == 2 && isFold(around);
         if (count > 1 && !isCrease && !isOutline) return;
         if (view.isClosed && !options_.everyEdge && nearest > kFromTheSide) return;
-        Vec3d from = points_[around[0].low], to = points_[around[0].high];
-        if (!(from.z > 0) && !(to.z > 0)) return;
-        if (from.z < 0) from = onPlane(from, to);
-        if (to.z < 0) to = onPlane(from, to);
-        ViewEdge edge{from, to, label, {}, 0, false};
+        ClippedPoint from{points_[around[0].low], heights_[around[0].low]},
+            to{points_[around[0].high], heights_[around[0].high]};
+        if (!clipEdge(from, to)) return;
+        if (eye_ != nullptr) {
+            from.height = from.at.z - eye_->nearest;
+            to.height = to.at.z - eye_->nearest;
+            if (!clipEdge(from, to)) return;
+        }
+        ViewEdge edge{pictured(from.at), pictured(to.at), label, {}, 0, false};
         findFace(around, view, edge);
         shapes_.edges.push_back(edge);
+    }
+
+    // Whether an edge has a part above zero, and that part.
+    bool clipEdge(ClippedPoint& from, ClippedPoint& to) const noexcept {
+        if (!(from.height > 0) && !(to.height > 0)) return false;
+        if (from.height < 0) from = {crossing(from, to), 0};
+        if (to.height < 0) to = {crossing(from, to), 0};
+        return true;
     }
 
     // Whether the two faces of a sheet lie on one side of their edge, or one is seen from the side.
     [[nodiscard]] bool isFold(std::span<const HalfEdge> around) const noexcept {
         int sides = 0;
         for (const HalfEdge& half : around) {
-            const auto& [normal, t] = normals_[half.triangle];
-            if (std::abs(normal.z) > kSeen) sides += sideOf(half, t);
+            const auto& [normal, facing, t] = normals_[half.triangle];
+            if (std::abs(facing) > kSeen) sides += sideOf(half, t);
         }
         return sides != 0;
     }
@@ -202,20 +269,22 @@ private:
         for (const std::uint32_t corner : parts_.triangles[triangle].corners)
             if (corner != half.low && corner != half.high) third = points_[corner];
         const Vec3d along = points_[half.high] - points_[half.low], across = third - points_[half.low];
+        if (isPerspective())
+            return dot(points_[half.low] + Vec3d{0, 0, eye_->distance}, cross(along, across)) > 0 ? 1 : -1;
         return along.x * across.y - along.y * across.x > 0 ? 1 : -1;
     }
 
     // The face that looks to the eye, where it is the only one.
     void findFace(std::span<const HalfEdge> around, const LabelView& view, ViewEdge& edge) const {
         for (const HalfEdge& half : around) {
-            const auto& [normal, t] = normals_[half.triangle];
-            if (std::abs(normal.z) < kFromTheSide || (view.isClosed && normal.z > 0)) continue;
+            const auto& [normal, facing, t] = normals_[half.triangle];
+            if (std::abs(facing) < kFromTheSide || (view.isClosed && facing > 0)) continue;
             if (edge.faceSide != 0) {
                 edge.faceSide = 0;
                 return;
             }
             edge.faceSide = sideOf(half, t);
-            edge.normal = normal.z > 0 ? normal : -normal;
+            edge.normal = picturedNormal(normal, facing, points_[half.low]);
         }
     }
 
@@ -234,10 +303,11 @@ private:
     const volume::VectorParts& parts_;
     const ViewOptions& options_;
     std::vector<LabelView> views_;
-    double handedness_ = 1;      // of u, v and depth
-    std::vector<Vec3d> points_;  // view space
-    std::vector<std::pair<Vec3d, std::uint32_t>>
-        normals_;  // of the label's triangles behind the plane, and their numbers
+    double handedness_ = 1;              // of u, v and depth
+    const EyeView* eye_ = nullptr;       // or the plane's
+    std::vector<Vec3d> points_;          // view space
+    std::vector<double> heights_;        // of points behind the plane that cuts; below zero is cut away
+    std::vector<TriangleView> normals_;  // of the label's triangles behind the plane
     std::vector<HalfEdge> halfEdges_;
     ViewShapes shapes_;
 };
@@ -247,6 +317,12 @@ private:
 ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
                          std::span<const std::uint8_t> isDrawn, const ViewOptions& options) {
     return MeshProjector(volume, plane, axes, isDrawn, options).run();
+}
+
+ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
+                         std::span<const std::uint8_t> isDrawn, bool everyEdge) {
+    const ViewOptions options{false, everyEdge};
+    return MeshProjector(volume, eye, isDrawn, options).run();
 }
 
 }  // namespace svt::illustrate

@@ -21,7 +21,7 @@ namespace svt::illustrate {
 
 /// A triangle, or what the plane leaves of it: convex, in view space.
 struct ViewFace {
-    std::array<Vec3d, 4> corners;  ///< counter-clockwise in u and v
+    std::array<Vec3d, 5> corners;  ///< counter-clockwise in u and v
     std::uint32_t cornerCount = 0;
     Vec3d normal;  ///< unit vector that points away from the eye
     double leastDepth = 0;
@@ -49,6 +49,31 @@ struct ViewOptions {
     bool everyEdge = false;   ///< also edges of closed shells between faces that look away
 };
 
+/// An eye anywhere, for pictures. Points of view space are (u, v, d) of `axes`, d being the depth behind its origin. A
+/// perspective eye is `distance` before that; its view space is that of the picture, with the same u and v, and the depth
+///
+///     u' = u D / (D + d)    v' = v D / (D + d)    d' = d D / (D + d)
+///
+/// so that lines are lines, planes are planes, what is nearer has less depth, and nothing changes where d is zero.
+struct EyeView {
+    PlaneAxes axes;
+    Vec3d away{0, 1, 0};      ///< unit vector from the eye along the view
+    double distance = 0;      ///< of a perspective eye, metres; 0: parallel
+    double nearest = -1e300;  ///< d of the near plane; above -distance
+    bool hasCut = false;
+    SectionPlane cut;  ///< what is cut away, if any
+
+    /// View space of the picture from that of the model; the point is behind the near plane.
+    [[nodiscard]] Vec3d pictured(Vec3d p) const noexcept {
+        return distance > 0 ? p * (distance / (distance + p.z)) : p;
+    }
+    /// (u, v, d) of a point in world space.
+    [[nodiscard]] Vec3d viewed(Vec3d world) const noexcept {
+        const Vec3d p = world - axes.origin;
+        return {dot(p, axes.u), dot(p, axes.v), dot(p, away)};
+    }
+};
+
 /// Projects the meshes of `volume`. Faces that are seen from the side, and what is in front of the plane, are left out.
 /// What hides: objects that are drawn, but spaces and closure surfaces. A room that is a hole in a closed building and
 /// has no surfaces of its own shows its shell from within.
@@ -57,5 +82,9 @@ struct ViewOptions {
 [[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                        const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn,
                                        const ViewOptions& options);
+
+/// The same as an eye sees them, from which a cut takes away what is before its plane.
+[[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
+                                       std::span<const std::uint8_t> isDrawn, bool everyEdge);
 
 }  // namespace svt::illustrate

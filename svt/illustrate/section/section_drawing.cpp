@@ -2,7 +2,9 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/illustrate/beyond/lines_beyond.hpp>
+#include <svt/illustrate/dimension/dimension_chains.hpp>
 #include <svt/illustrate/exact/body_cells.hpp>
+#include <svt/illustrate/section/draw_labels.hpp>
 #include <svt/illustrate/section/exact_section.hpp>
 #include <svt/illustrate/section/section_rings.hpp>
 #include <svt/model/classes.hpp>
@@ -258,14 +260,23 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
         return Error(Code::BadArgument,
                      fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
                                  options.smallestArea, options.tolerance));
-    const auto isDrawn = drawnLabels(volume.labels, options);
-    if (!isDrawn) return isDrawn.error();
+    const auto drawn = drawnLabels(volume.labels, options);
+    if (!drawn) return drawn.error();
+    return drawLabels(volume, bricks, plane, *drawn, options);
+}
+
+}  // namespace
+
+Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
+                                  const SectionPlane& plane, const std::vector<std::uint8_t>& isDrawn,
+                                  const SectionOptions& options) {
     const bool isCut = options.useMeshes && hasMeshes(volume);
     if (isCut) {
-        auto drawing = drawMeshes(volume, bricks, plane, *isDrawn, options);
+        auto drawing = drawMeshes(volume, bricks, plane, isDrawn, options);
         if (!drawing) return drawing.error();
         if (*drawing) {
-            addLinesBeyond(**drawing, volume, *isDrawn, options.beyond, options.threads);
+            addLinesBeyond(**drawing, volume, isDrawn, options.beyond, options.threads);
+            if (options.dimensions) (*drawing)->dimensions = findDimensions(**drawing, volume);
             return std::move(**drawing);
         }
     }
@@ -276,14 +287,13 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
         if (!made) return made.error();
         own.emplace(std::move(*made));
     }
-    SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, *isDrawn, options);
+    SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, isDrawn, options);
     drawing.isUnsettled = isCut;
     drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
-    addLinesBeyond(drawing, volume, *isDrawn, options.beyond, options.threads);
+    addLinesBeyond(drawing, volume, isDrawn, options.beyond, options.threads);
+    if (options.dimensions) drawing.dimensions = findDimensions(drawing, volume);
     return drawing;
 }
-
-}  // namespace
 
 PlaneAxes makePlaneAxes(const SectionPlane& plane, const volume::Grid& grid) {
     PlaneAxes axes;

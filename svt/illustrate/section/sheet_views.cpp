@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 namespace svt::illustrate {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr double kCutHeight = 1.1;     // metres above the floor
 constexpr double kLeastRoom = 1.5;     // metres: lower spaces are voids
 constexpr double kSameLevel = 1.2;     // metres
+constexpr double kSameFloor = 0.01;    // metres
 constexpr double kLeastFloorArea = 1;  // m2
 
 // The extent of labels along the grid's axes, metres from its lower corner: of the meshes, else of the voxels.
@@ -51,6 +53,38 @@ bool isStair(const volume::Label& label) {
             if (const auto* text = std::get_if<std::string>(&attribute.value)) words += " " + *text;
     for (char& c : words) c = lowerAscii(c);
     return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
+}
+
+struct RoomFloor {
+    double at = 0;    // metres above the grid's lower corner
+    double area = 0;  // m2, of the box around the room
+};
+
+// The height from `low` up to below `high` on which the most area of rooms stands; shafts and stairwells begin lower.
+// \param floors  the lowest first
+std::optional<double> mainFloor(const std::vector<RoomFloor>& floors, double low, double high) {
+    std::optional<double> best;
+    double most = 0;
+    for (std::size_t n = 0; n < floors.size(); ++n) {
+        if (floors[n].at < low || floors[n].at >= high) continue;
+        double area = 0;
+        for (std::size_t m = n; m < floors.size() && floors[m].at < floors[n].at + kSameFloor; ++m)
+            area += floors[m].area;
+        if (area <= most) continue;
+        most = area;
+        best = floors[n].at;
+    }
+    return best;
+}
+
+// The floor that a storey of IFC has as its elevation, metres above the grid's lower corner: where its foundations or the
+// terrain belong to it, its voxels begin below.
+std::optional<double> saidFloor(const volume::Label& storey, const volume::Grid& grid) {
+    for (const Attribute& attribute : storey.attributes)
+        if (attribute.name == "elevation")
+            if (const auto* height = std::get_if<double>(&attribute.value))
+                return *height - dot(grid.origin(), grid.axes()[2]);
+    return std::nullopt;
 }
 
 // Of nine planes across an axis, through the stair or the middle half of the building, the one that cuts most of rooms
@@ -94,30 +128,33 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
 }  // namespace
 
 std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
-    std::vector<double> floors;
+    std::vector<RoomFloor> floors;
     const std::vector<Box3d> boxes = boxesOf(volume);
     for (std::size_t l = 0; l < boxes.size(); ++l) {
         const Vec3d size = boxes[l].size();
         if (isRoom(volume.labels.labels[l]) && size.z >= kLeastRoom && size.x * size.y >= kLeastFloorArea)
-            floors.push_back(boxes[l].min.z);
+            floors.push_back({boxes[l].min.z, size.x * size.y});
     }
-    std::sort(floors.begin(), floors.end());
+    std::sort(floors.begin(), floors.end(),
+              [](const RoomFloor& a, const RoomFloor& b) { return std::tie(a.at, a.area) < std::tie(b.at, b.area); });
     std::vector<BuildingLevel> levels;
     for (const StoreyHeights& storey : findStoreys(volume)) {
         const volume::Label& label = volume.labels.labels[storey.label];
-        // Heights of storeys are those of voxels; the floor of a room within a voxel tells the true one.
+        // Heights of storeys are those of voxels; the floors of rooms tell the true one.
         double floor = storey.floor;
-        const auto nearest = std::min_element(floors.begin(), floors.end(), [&](double a, double b) {
-            return std::abs(a - storey.floor) < std::abs(b - storey.floor);
-        });
-        if (nearest != floors.end() && std::abs(*nearest - floor) <= 1.01 * volume.grid.spacing().z) floor = *nearest;
+        if (const auto ofRooms = mainFloor(floors, floor - 1.01 * volume.grid.spacing().z, floor + kSameLevel))
+            floor = *ofRooms;
+        else if (const auto said = saidFloor(label, volume.grid);
+                 said && *said > storey.floor && *said < storey.ceiling)
+            floor = *said;
         // Storeys of several buildings or parts may share a floor.
         if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;
-        levels.push_back({label.name.empty() ? label.id : label.name, floor});
+        levels.push_back({label.name, floor});
     }
     if (!levels.empty()) return levels;
-    for (const double floor : floors)
-        if (levels.empty() || floor - levels.back().floor >= kSameLevel) levels.push_back({"", floor});
+    for (const RoomFloor& room : floors)
+        if (levels.empty() || room.at - levels.back().floor >= kSameLevel)
+            levels.push_back({"", *mainFloor(floors, room.at, room.at + kSameLevel)});
     return levels;
 }
 

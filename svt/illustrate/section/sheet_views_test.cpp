@@ -33,6 +33,14 @@ TEST(SheetViews, LevelsAreFloorsOfRoomsButNotOfVoids) {
     EXPECT_NEAR(levels[1].floor, 3.05, 1e-5);
 }
 
+TEST(SheetViews, AShaftThatBeginsBelowIsNotTheFloor) {
+    Boxes boxes = threeRooms();
+    boxes.addBox("shaft", "BuildingRoom", {0.3, 0.3, 2.8}, {1.8, 1.8, 5.5});
+    const auto levels = findLevels(boxes.volume);
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_NEAR(levels[1].floor, 3.05, 1e-5);
+}
+
 TEST(SheetViews, PlansSectionsAndElevationsInTheirOrder) {
     const Boxes boxes = threeRooms();
     const auto chosen = chooseSheetViews(boxes.volume);

@@ -15,8 +15,10 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <tuple>
 
@@ -293,6 +295,19 @@ INSTANTIATE_TEST_SUITE_P(Shared, ExactSectionOfFile,
                          testing::Values("fzk_haus_citygml3.gml", "fzk_haus.city.json", "sig3d_lod4_citygml2.gml",
                                          "berlin_lod2_citygml1.gml", "100_buildings_lod2_citygml3.gml",
                                          "cityjson_fake_complete.city.json"));
+
+// Any further files, separated by colons: see scripts/check_sections.sh.
+TEST(ExactSectionOfFiles, AgreeWithTheirTriangles) {
+    const char* files = std::getenv("SVT_SECTION_FILES");
+    if (files == nullptr) GTEST_SKIP() << "SVT_SECTION_FILES names no files";
+    std::stringstream list(files);
+    for (std::string name; std::getline(list, name, ':');) {
+        const std::filesystem::path file = name;
+        auto model = readModels(std::span(&file, 1), {}, nullptr);
+        ASSERT_TRUE(model) << name;
+        expectExact(file.filename().string(), compareModel(std::move(*model)));
+    }
+}
 
 TEST(ExactSectionOfSample, HouseAndTowerAgreeWithTheirTriangles) {
     for (const auto kind : {samples::SampleKind::House, samples::SampleKind::Tower}) {

@@ -1,6 +1,7 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 
@@ -79,7 +80,17 @@ constexpr BeyondStyle kBeyondStyles[] = {
 constexpr int kBeyondWidth = 18;            // hundredths of a millimetre
 constexpr double kDashUnit = 1.8e-4 * 100;  // metres: the width of the line at a scale of 1:100
 
+// Dimensions are placed for a scale of 1:100.
+constexpr double kDimensionScale = 10;  // millimetres on paper per metre
+constexpr const char* kDimensionLayer = "DIMENSIONS";
+
 class DxfWriter {
+    // The looks of a dimension.
+    struct DimensionBlock {
+        std::string record, begin, end;  // handles
+        std::string name, entities;
+    };
+
 public:
     DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume)
         : drawing_(drawing), volume_(volume) {
@@ -105,6 +116,12 @@ public:
             hasKind_[static_cast<std::size_t>(line.kind)] = true;
         }
         if (drawing.components.empty() && drawing.beyond.empty()) low_ = high_ = {};
+        dimensions_ = placeDimensions(drawing, {low_, high_}, kDimensionScale);
+        for (const DimensionMark& mark : dimensions_.marks)
+            for (const PlanePoint p : {inMetres(mark.line.from), inMetres(mark.line.to)}) {
+                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
+                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
+            }
     }
 
     std::string write() {
@@ -269,7 +286,7 @@ private:
 
     void layerTable() {
         const auto kinds = static_cast<int>(std::count(std::begin(hasKind_), std::end(hasKind_), true));
-        table("LAYER", "3", static_cast<int>(layers_.size()) + 2 + kinds);
+        table("LAYER", "3", static_cast<int>(layers_.size()) + 2 + kinds + (blocks_.empty() ? 0 : 1));
         const auto layer = [&](std::string_view handle, std::string_view name, int color,
                                const char* lineType = "Continuous", int width = -3) {
             record("LAYER", handle, "3", "AcDbLayerTableRecord", name);
@@ -280,6 +297,7 @@ private:
         };
         layer("25", "0", 7);
         layer("26", "TEXT", 7);
+        if (!blocks_.empty()) layer(newHandle(), kDimensionLayer, 7, "Continuous", 13);
         for (const auto& [name, className] : layers_) layer(newHandle(), name, colorOf(className));
         for (const BeyondStyle& style : kBeyondStyles)
             if (hasKind_[static_cast<std::size_t>(style.kind)])
@@ -301,7 +319,7 @@ private:
     }
 
     void blockRecordTable() {
-        table("BLOCK_RECORD", "9", 2);
+        table("BLOCK_RECORD", "9", 2 + static_cast<int>(blocks_.size()));
         for (const auto& [handle, name] : {std::pair("1A", "*Model_Space"), std::pair("1B", "*Paper_Space")}) {
             tag(0, "BLOCK_RECORD");
             tag(5, handle);
@@ -311,33 +329,46 @@ private:
             tag(2, name);
             tag(340, "0");
         }
+        for (const DimensionBlock& block : blocks_) {
+            tag(0, "BLOCK_RECORD");
+            tag(5, block.record);
+            tag(330, "9");
+            tag(100, "AcDbSymbolTableRecord");
+            tag(100, "AcDbBlockTableRecord");
+            tag(2, block.name);
+            tag(340, "0");
+        }
         endTable();
     }
 
     void blocks() {
         section("BLOCKS");
-        for (const auto& [record, begin, end, name] :
-             {std::tuple("1A", "2A", "2B", "*Model_Space"), std::tuple("1B", "2C", "2D", "*Paper_Space")}) {
-            tag(0, "BLOCK");
-            tag(5, begin);
-            tag(330, record);
-            tag(100, "AcDbEntity");
-            tag(8, "0");
-            tag(100, "AcDbBlockBegin");
-            tag(2, name);
-            tag(70, 0);
-            point(10, {0, 0});
-            tag(30, "0");
-            tag(3, name);
-            tag(1, "");
-            tag(0, "ENDBLK");
-            tag(5, end);
-            tag(330, record);
-            tag(100, "AcDbEntity");
-            tag(8, "0");
-            tag(100, "AcDbBlockEnd");
-        }
+        addBlock({"1A", "2A", "2B", "*Model_Space", ""}, 0);
+        addBlock({"1B", "2C", "2D", "*Paper_Space", ""}, 0);
+        for (const DimensionBlock& block : blocks_) addBlock(block, 1);  // anonymous
         endSection();
+    }
+
+    void addBlock(const DimensionBlock& block, int flags) {
+        tag(0, "BLOCK");
+        tag(5, block.begin);
+        tag(330, block.record);
+        tag(100, "AcDbEntity");
+        tag(8, "0");
+        tag(100, "AcDbBlockBegin");
+        tag(2, block.name);
+        tag(70, flags);
+        point(10, {0, 0});
+        tag(30, "0");
+        tag(3, block.name);
+        tag(1, "");
+        dxf_ += block.entities;
+        tag(0, "ENDBLK");
+        tag(5, block.end);
+        tag(330, block.record);
+        tag(100, "AcDbEntity");
+        tag(8, "0");
+        tag(100, "AcDbBlockEnd");
     }
 
     static std::string objectsText() {
@@ -354,7 +385,7 @@ private:
     void entity(const char* type, std::string_view layer) {
         tag(0, type);
         tag(5, newHandle());
-        tag(330, "1A");
+        tag(330, owner_);
         tag(100, "AcDbEntity");
         tag(8, layer);
     }
@@ -433,7 +464,70 @@ private:
             if (model::isSpace(label.className)) name(component, shownName(label));
         }
         for (const illustrate::BeyondLine& line : drawing_.beyond) beyond(line);
+        for (const DimensionMark& mark : dimensions_.marks) dimension(mark);
         endSection();
+    }
+
+    void line(const MarkLine& drawn) {
+        entity("LINE", kDimensionLayer);
+        tag(100, "AcDbLine");
+        point(10, inMetres(drawn.from));
+        tag(30, "0");
+        point(11, inMetres(drawn.to));
+        tag(31, "0");
+    }
+    static PlanePoint inMetres(PlanePoint p) noexcept { return {p.u / kDimensionScale, p.v / kDimensionScale}; }
+
+    // A DIMENSION, and the block that says how it looks, as programs write both.
+    void dimension(const DimensionMark& mark) {
+        DimensionBlock block{newHandle(), newHandle(), newHandle(), fmt::format("*D{}", blocks_.size() + 1), {}};
+        const std::string before = std::move(dxf_);
+        dxf_.clear();
+        owner_ = block.record;
+        line(mark.line);
+        for (const MarkLine& foot : mark.feet) line(foot);
+        for (const MarkLine& tick : mark.ticks) line(tick);
+        const bool isUpright = mark.line.from.u == mark.line.to.u;
+        const PlanePoint middle =
+            inMetres({0.5 * (mark.line.from.u + mark.line.to.u), 0.5 * (mark.line.from.v + mark.line.to.v)});
+        const PlanePoint at = mark.text.text.empty() ? middle : inMetres(mark.text.at);
+        if (!mark.text.text.empty()) dimensionNumber(mark, at);
+        block.entities = std::move(dxf_);
+        dxf_ = before;
+        owner_ = "1A";
+        entity("DIMENSION", kDimensionLayer);
+        tag(100, "AcDbDimension");
+        tag(2, block.name);
+        point(10, inMetres(mark.line.to));
+        tag(30, "0");
+        point(11, at);
+        tag(31, "0");
+        tag(70, 32 + 128);  // linear; its block is its own; the place of the text is set
+        tag(1, mark.text.text.empty() ? " " : dxfText(mark.text.text));
+        tag(3, "Standard");
+        tag(100, "AcDbAlignedDimension");
+        point(13, inMetres(mark.line.from));
+        tag(33, "0");
+        point(14, inMetres(mark.line.to));
+        tag(34, "0");
+        tag(50, isUpright ? "90" : "0");
+        tag(100, "AcDbRotatedDimension");
+        blocks_.push_back(std::move(block));
+    }
+
+    void dimensionNumber(const DimensionMark& mark, PlanePoint at) {
+        entity("TEXT", kDimensionLayer);
+        tag(100, "AcDbText");
+        point(10, at);
+        tag(30, "0");
+        number(40, 0.73 * mark.text.size / kDimensionScale);  // height of capitals
+        tag(1, dxfText(mark.text.text));
+        if (mark.text.isUpright) tag(50, "90");
+        tag(72, 1);  // centred on the baseline at the second point
+        point(11, at);
+        tag(31, "0");
+        tag(100, "AcDbText");
+        tag(73, 0);
     }
 
     void name(const illustrate::SectionComponent& component, const std::string& shown) {
@@ -459,8 +553,10 @@ private:
     PlanePoint low_, high_;
     std::vector<Layer> layers_;
     bool hasKind_[3] = {};  // of lines beyond the cut
+    DimensionMarks dimensions_;
+    std::vector<DimensionBlock> blocks_;
     unsigned nextHandle_ = 0x100;
-    std::string dxf_;
+    std::string owner_ = "1A", dxf_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <svt/core/rounding.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
@@ -37,9 +38,14 @@ public:
         std::tie(low_, high_) = drawnBox(drawing);
         drawnWidth_ = (high_.u - low_.u) * millimetres_;
         drawnHeight_ = (high_.v - low_.v) * millimetres_;
-        width_ = std::max(drawnWidth_, kMinWidth) + 2 * kMargin;
-        left_ = 0.5 * (width_ - drawnWidth_);
-        height_ = drawnHeight_ + 2 * kMargin + kTitleHeight;
+        using illustrate::DimensionSide;
+        const double left = dimensionReach(drawing, DimensionSide::Left),
+                     right = dimensionReach(drawing, DimensionSide::Right),
+                     below = dimensionReach(drawing, DimensionSide::Below);
+        width_ = std::max(drawnWidth_ + left + right, kMinWidth) + 2 * kMargin;
+        left_ = 0.5 * (width_ - drawnWidth_ - left - right) + left;
+        top_ = kMargin + dimensionReach(drawing, DimensionSide::Above);
+        height_ = top_ + drawnHeight_ + below + kMargin + kTitleHeight;
     }
 
     std::string write() {
@@ -49,6 +55,7 @@ public:
         addBorders();
         addLines();
         addNames();
+        addDimensions();
         addTitle();
         svg_ += "</svg>\n";
         return std::move(svg_);
@@ -62,7 +69,7 @@ private:
 
     [[nodiscard]] std::string pointText(PlanePoint p) const {
         return shortNumber(left_ + (p.u - low_.u) * millimetres_, 3) + " " +
-               shortNumber(kMargin + (high_.v - p.v) * millimetres_, 3);
+               shortNumber(top_ + (high_.v - p.v) * millimetres_, 3);
     }
     void addLine(const std::vector<PlanePoint>& points) {
         for (std::size_t n = 0; n < points.size(); ++n)
@@ -91,6 +98,10 @@ private:
                 ".hidden { stroke-linecap: butt; stroke-dasharray: 2.16 0.54 }\n"
                 ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n"
                 ".names text { paint-order: stroke; stroke: #fff; stroke-width: 0.6; stroke-linejoin: round }\n";
+        if (!drawing_.dimensions.empty())
+            svg_ +=
+                ".dimensions { text-anchor: middle }\n"
+                ".tick { fill: none; stroke: #000; stroke-width: 0.35; stroke-linecap: round }\n";
         svg_ += "</style>\n<defs>\n";
         for (const HatchTile& style : hatchTiles()) {
             if (!isUsed(style.hatch)) continue;
@@ -228,9 +239,40 @@ private:
             if (!place) continue;
             const double size = place->size;
             const double x = left_ + (place->center.u - low_.u) * millimetres_;
-            const double y = kMargin + (high_.v - place->center.v) * millimetres_;
+            const double y = top_ + (high_.v - place->center.v) * millimetres_;
             addText(x, y + size * (area.empty() ? 0.35 : -0.25), size, name);
             if (!area.empty()) addText(x, y + size * 1.05, size, area);
+        }
+        svg_ += "</g>\n";
+    }
+
+    // Chains of dimensions: a group each, with its lines, ticks and numbers.
+    void addDimensions() {
+        if (drawing_.dimensions.empty()) return;
+        const DimensionMarks placed = placeDimensions(drawing_, {low_, high_}, millimetres_);
+        const auto at = [&](PlanePoint p) {
+            return std::pair(left_ + p.u - low_.u * millimetres_, top_ + high_.v * millimetres_ - p.v);
+        };
+        const auto lineText = [&](const MarkLine& line) {
+            const auto [x0, y0] = at(line.from);
+            const auto [x1, y1] = at(line.to);
+            return fmt::format("M{} {}L{} {}", shortNumber(x0, 3), shortNumber(y0, 3), shortNumber(x1, 3),
+                               shortNumber(y1, 3));
+        };
+        svg_ += "<g class=\"dimensions\">\n";
+        for (const DimensionMark& mark : placed.marks) {
+            svg_ += fmt::format("<path class=\"thin\" data-length=\"{}\" d=\"{}", shortNumber(mark.metres, 4),
+                                lineText(mark.line));
+            for (const MarkLine& foot : mark.feet) svg_ += lineText(foot);
+            svg_ += "\"/>\n<path class=\"tick\" d=\"";
+            for (const MarkLine& tick : mark.ticks) svg_ += lineText(tick);
+            svg_ += "\"/>\n";
+            if (mark.text.text.empty()) continue;
+            const auto [x, y] = at(mark.text.at);
+            const std::string turn = mark.text.isUpright ? fmt::format(" transform=\"rotate(-90 {} {})\"",
+                                                                       shortNumber(x, 3), shortNumber(y, 3))
+                                                         : std::string();
+            addText(x, y, mark.text.size, mark.text.text, turn.c_str());
         }
         svg_ += "</g>\n";
     }
@@ -267,7 +309,7 @@ private:
     double scale_, millimetres_;  // millimetres on paper per metre
     DrawingStyle style_;
     PlanePoint low_, high_;
-    double drawnWidth_ = 0, drawnHeight_ = 0, width_ = 0, height_ = 0, left_ = 0;
+    double drawnWidth_ = 0, drawnHeight_ = 0, width_ = 0, height_ = 0, left_ = 0, top_ = 0;
     std::string svg_;
 };
 

@@ -1,5 +1,6 @@
 #include <svt/writers/sheets/drawing_painter.hpp>
 
+#include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
 
@@ -13,7 +14,7 @@ namespace {
 using illustrate::PlanePoint;
 using render::Hatch;
 
-constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18;  // millimetres: widths of ISO 128-2
+constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35;  // millimetres: widths of ISO 128-2
 
 class DrawingPainter {
 public:
@@ -32,6 +33,7 @@ public:
             addBeyond(kind);
         inLayer("Outlines", [&] { addBorders(); });
         inLayer("Names", [&] { addNames(); });
+        if (!drawing_.dimensions.empty()) inLayer("Dimensions", [&] { addDimensions(); });
     }
 
 private:
@@ -114,6 +116,25 @@ private:
                 {{p.x, p.y + at->size * (area.empty() ? 0.35 : -0.25)}, at->size, name, TextAnchor::Middle, true});
             if (!area.empty()) canvas_.text({{p.x, p.y + at->size * 1.05}, at->size, area, TextAnchor::Middle, true});
         }
+    }
+
+    void addDimensions() {
+        const DimensionMarks placed = placeDimensions(drawing_, drawnBox(drawing_), place_.millimetres);
+        const auto at = [&](PlanePoint p) {
+            return place_.onPaper({p.u / place_.millimetres, p.v / place_.millimetres});
+        };
+        std::vector<PaperPath> thin, ticks;
+        for (const DimensionMark& mark : placed.marks) {
+            thin.push_back({at(mark.line.from), at(mark.line.to)});
+            for (const MarkLine& foot : mark.feet) thin.push_back({at(foot.from), at(foot.to)});
+            for (const MarkLine& tick : mark.ticks) ticks.push_back({at(tick.from), at(tick.to)});
+        }
+        canvas_.stroke(thin, {kThin});
+        canvas_.stroke(ticks, {kTick});
+        for (const DimensionMark& mark : placed.marks)
+            if (!mark.text.text.empty())
+                canvas_.text(
+                    {at(mark.text.at), mark.text.size, mark.text.text, TextAnchor::Middle, false, mark.text.isUpright});
     }
 
     const illustrate::SectionDrawing& drawing_;

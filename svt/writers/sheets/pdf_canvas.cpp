@@ -35,6 +35,8 @@ struct Cairo {
     decltype(&::cairo_save) save = nullptr;
     decltype(&::cairo_restore) restore = nullptr;
     decltype(&::cairo_scale) scale = nullptr;
+    decltype(&::cairo_translate) translate = nullptr;
+    decltype(&::cairo_rotate) rotate = nullptr;
     decltype(&::cairo_show_page) show_page = nullptr;
     decltype(&::cairo_new_path) new_path = nullptr;
     decltype(&::cairo_move_to) move_to = nullptr;
@@ -91,6 +93,8 @@ Result<Cairo> loadCairo() {
     SVT_FIND(save);
     SVT_FIND(restore);
     SVT_FIND(scale);
+    SVT_FIND(translate);
+    SVT_FIND(rotate);
     SVT_FIND(show_page);
     SVT_FIND(new_path);
     SVT_FIND(move_to);
@@ -211,6 +215,17 @@ public:
         cairo_.stroke(context_);
     }
     void text(const PaperText& text) override {
+        if (text.isUpright) {
+            cairo_.save(context_);
+            cairo_.translate(context_, text.at.x, text.at.y);
+            cairo_.rotate(context_, -0.5 * 3.14159265358979323846);
+            PaperText flat = text;
+            flat.isUpright = false;
+            flat.at = {0, 0};
+            this->text(flat);
+            cairo_.restore(context_);
+            return;
+        }
         const double width = text.anchor == TextAnchor::Start ? 0 : widthOnPaper(text.text, text.size);
         const double x = text.at.x - (text.anchor == TextAnchor::Middle ? 0.5 * width : width);
         cairo_.set_font_size(context_, text.size);

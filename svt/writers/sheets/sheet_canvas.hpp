@@ -37,7 +37,8 @@ struct PaperText {
     double size = 2.5;  ///< font size, millimetres
     std::string text;   ///< UTF-8
     TextAnchor anchor = TextAnchor::Start;
-    bool hasHalo = false;  ///< white around the letters, over lines
+    bool hasHalo = false;    ///< white around the letters, over lines
+    bool isUpright = false;  ///< turned by 90 degrees, read from the right
 };
 /// Width of a text in DejaVu Sans, millimetres.
 [[nodiscard]] double widthOnPaper(std::string_view text, double size);

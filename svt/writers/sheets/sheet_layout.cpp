@@ -1,6 +1,7 @@
 #include <svt/writers/sheets/sheet_layout.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 
 #include <fmt/format.h>
@@ -32,7 +33,14 @@ struct ViewSize {
     std::size_t view = 0;
     PlanePoint low;
     double width = 0, height = 0;  // metres
+    ViewMargins margins;
 };
+
+ViewMargins marginsOf(const illustrate::SectionDrawing& drawing) {
+    using illustrate::DimensionSide;
+    return {dimensionReach(drawing, DimensionSide::Left), dimensionReach(drawing, DimensionSide::Right),
+            dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
+}
 
 // Of rows of a sheet: the views [first, end) and the height with all margins.
 struct SheetRow {
@@ -45,80 +53,110 @@ public:
     LayoutMaker(const SheetPaper& paper, std::vector<ViewSize> sizes, const SheetContent& content)
         : paper_(paper), sizes_(std::move(sizes)), content_(content) {}
 
+    // The scale of a group whose views do not fit onto the paper; 0: all fit.
+    [[nodiscard]] double tooLargeScale() const {
+        for (const ViewSize& size : sizes_) {
+            const double scale = scaleOf(size, 0);
+            if (scale > 0 && (outerWidth(size, scale) > areaWidth() || outerHeight(size, scale) > areaHeight()))
+                return scale;
+        }
+        return 0;
+    }
+
     // Whether each view fits onto a sheet of its own.
-    [[nodiscard]] bool fits(double scale) const {
+    [[nodiscard]] bool fits(double common) const {
         return std::all_of(sizes_.begin(), sizes_.end(), [&](const ViewSize& size) {
+            const double scale = scaleOf(size, common);
             return outerWidth(size, scale) <= areaWidth() && outerHeight(size, scale) <= areaHeight();
         });
     }
 
-    [[nodiscard]] SheetLayout make(double scale) const {
-        SheetLayout layout{paper_, scale, {}};
+    [[nodiscard]] SheetLayout make(double common) const {
+        SheetLayout layout{paper_, common, {}};
         std::size_t perRow = 0, endOfKind = 0;
         for (std::size_t first = 0; first < sizes_.size();) {
-            const auto kind = kindOf(first);
+            const auto kind = keyOf(first);
+            const double scale = scaleOf(sizes_[first], common);
             if (first >= endOfKind) perRow = evenRow(first, scale, endOfKind);
             std::vector<SheetRow> rows;
             double height = 0;
             std::size_t next = first;
-            while (next < sizes_.size() && kindOf(next) == kind) {
+            while (next < sizes_.size() && keyOf(next) == kind) {
                 const SheetRow row = rowFrom(next, kind, scale, perRow);
                 if (!rows.empty() && height + row.height > areaHeight()) break;
                 rows.push_back(row);
                 height += row.height;
                 next = row.end;
             }
-            layout.sheets.push_back(place(rows, height, kind, scale));
+            layout.sheets.push_back(place(rows, height, scale));
             first = next;
         }
         return layout;
     }
 
 private:
-    [[nodiscard]] illustrate::ViewKind kindOf(std::size_t n) const { return content_.views[sizes_[n].view].view.kind; }
+    // Views with one key share sheets: those of a group, or of a kind.
+    [[nodiscard]] int keyOf(std::size_t n) const {
+        const DrawnView& view = content_.views[sizes_[n].view];
+        return view.group >= 0 ? view.group : -1 - static_cast<int>(view.view.kind);
+    }
+    [[nodiscard]] double scaleOf(const ViewSize& size, double common) const {
+        const int group = content_.views[size.view].group;
+        if (group < 0 || !(content_.groups[static_cast<std::size_t>(group)].scale > 0)) return common;
+        return content_.groups[static_cast<std::size_t>(group)].scale;
+    }
     [[nodiscard]] double areaWidth() const { return paper_.right - paper_.left; }
     [[nodiscard]] double areaHeight() const { return paper_.bottom - SheetPaper::kTitleHeight - paper_.top; }
-    static double outerWidth(const ViewSize& size, double scale) { return size.width * 1000 / scale + 2 * kBeside; }
+    static double outerWidth(const ViewSize& size, double scale) {
+        return size.width * 1000 / scale + 2 * kBeside + size.margins.left + size.margins.right;
+    }
     static double outerHeight(const ViewSize& size, double scale) {
-        return size.height * 1000 / scale + kAbove + kBelow;
+        return size.height * 1000 / scale + kAbove + kBelow + size.margins.above + size.margins.below;
     }
 
     // How many views of a kind a row has at most, so that all rows have about as many: 2 and 2 rather than 3 and 1.
     std::size_t evenRow(std::size_t first, double scale, std::size_t& endOfKind) const {
-        const auto kind = kindOf(first);
+        const auto kind = keyOf(first);
         std::size_t rows = 0;
-        for (endOfKind = first; endOfKind < sizes_.size() && kindOf(endOfKind) == kind; ++rows)
+        for (endOfKind = first; endOfKind < sizes_.size() && keyOf(endOfKind) == kind; ++rows)
             endOfKind = rowFrom(endOfKind, kind, scale, sizes_.size()).end;
         return (endOfKind - first + rows - 1) / rows;
     }
 
-    [[nodiscard]] SheetRow rowFrom(std::size_t first, illustrate::ViewKind kind, double scale, std::size_t most) const {
+    [[nodiscard]] SheetRow rowFrom(std::size_t first, int kind, double scale, std::size_t most) const {
         SheetRow row{first, first, 0, 0};
-        for (; row.end < sizes_.size() && row.end < first + most && kindOf(row.end) == kind; ++row.end) {
+        double above = 0, below = 0;  // a row stands on one line: the highest part above it, the lowest below
+        for (; row.end < sizes_.size() && row.end < first + most && keyOf(row.end) == kind; ++row.end) {
             const double width = outerWidth(sizes_[row.end], scale);
             if (row.end > first && row.width + width > areaWidth()) break;
             row.width += width;
-            row.height = std::max(row.height, outerHeight(sizes_[row.end], scale));
+            above = std::max(above, outerHeight(sizes_[row.end], scale) - sizes_[row.end].margins.below);
+            below = std::max(below, sizes_[row.end].margins.below);
+            row.height = above + below;
         }
         return row;
     }
 
     // Rows and views with equal distances; the drawings of a row stand on one line.
-    [[nodiscard]] Sheet place(const std::vector<SheetRow>& rows, double height, illustrate::ViewKind kind,
-                              double scale) const {
-        Sheet sheet{kind, {}};
+    [[nodiscard]] Sheet place(const std::vector<SheetRow>& rows, double height, double scale) const {
+        const DrawnView& view = content_.views[sizes_[rows.front().first].view];
+        Sheet sheet{view.view.kind, view.group, scale, {}, {}};
         const double gap = (areaHeight() - height) / static_cast<double>(rows.size() + 1);
         double y = paper_.top + gap;
         for (const SheetRow& row : rows) {
             const double between = (areaWidth() - row.width) / static_cast<double>(row.end - row.first + 1);
             double x = paper_.left + between;
+            double below = 0;
+            for (std::size_t n = row.first; n < row.end; ++n) below = std::max(below, sizes_[n].margins.below);
             for (std::size_t n = row.first; n < row.end; ++n) {
                 const ViewSize& size = sizes_[n];
                 const double mm = 1000 / scale;
-                sheet.views.push_back({size.view,
-                                       {{x + kBeside, y + row.height - kBelow}, size.low, mm},
-                                       size.width * mm,
-                                       size.height * mm});
+                sheet.views.push_back(
+                    {size.view,
+                     {{x + kBeside + size.margins.left, y + row.height - kBelow - below}, size.low, mm},
+                     size.width * mm,
+                     size.height * mm,
+                     size.margins});
                 x += outerWidth(size, scale) + between;
             }
             y += row.height + gap;
@@ -131,9 +169,7 @@ private:
     const SheetContent& content_;
 };
 
-}  // namespace
-
-Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions& options) {
+Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions& options) {
     const auto paper = paperOf(options.paper);
     if (!paper) return paper.error();
     if (options.scale != 0 && !(options.scale >= 0.01 && options.scale <= 1e7))
@@ -142,9 +178,15 @@ Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions
     std::vector<ViewSize> sizes;
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto [low, high] = drawnBox(content.views[n].drawing);
-        if (high.u > low.u || high.v > low.v) sizes.push_back({n, low, high.u - low.u, high.v - low.v});
+        if (high.u > low.u || high.v > low.v)
+            sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n].drawing)});
     }
     const LayoutMaker maker(*paper, sizes, content);
+    if (const double scale = maker.tooLargeScale(); scale > 0)
+        return Error(Code::BadArgument,
+                     fmt::format("the views of a sheet do not fit onto {} at its scale of 1:{}; give "
+                                 "a larger paper, or this sheet a smaller scale",
+                                 paper->name, shortNumber(scale, 2)));
     if (options.scale == 0) {
         const auto* scale =
             std::find_if(std::begin(kScales), std::end(kScales), [&](double s) { return maker.fits(s); });
@@ -161,6 +203,73 @@ Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions
     return Error(Code::BadArgument, fmt::format("the views do not fit onto any paper at 1:{}; on {} 1:{} would do",
                                                 shortNumber(options.scale, 2), paper->name,
                                                 scale != std::end(kScales) ? *scale : kScales[8]));
+}
+
+constexpr double kBetweenTables = 10, kLeastColumn = 10, kWidestColumn = 70;  // millimetres
+
+std::vector<double> columnsOf(const SheetTable& table) {
+    std::vector<double> widths;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        double width = std::max(kLeastColumn, widthOnPaper(table.columns[c].heading, PlacedTable::kText) + 3);
+        for (const auto& row : table.rows) width = std::max(width, widthOnPaper(row[c], PlacedTable::kText) + 3);
+        widths.push_back(std::min(width, kWidestColumn));
+    }
+    return widths;
+}
+
+// From the upper left downwards, then to the right; a table begins where its title and three rows fit.
+void layOutTables(const SheetContent& content, SheetLayout& layout) {
+    const SheetPaper& paper = layout.paper;
+    const double top = paper.top + 10, bottom = paper.bottom - SheetPaper::kTitleHeight - 6;
+    double x = paper.left + 10, y = top, widest = 0;
+    bool isOpen = false;  // the last sheet has tables
+    const auto toNextColumn = [&](double width) {
+        x += widest == 0 ? 0 : widest + kBetweenTables;
+        if (isOpen && x + width > paper.right - 5) isOpen = false;
+        if (!isOpen) x = paper.left + 10;
+        y = top;
+        widest = 0;
+    };
+    for (std::size_t t = 0; t < content.tables.size(); ++t) {
+        const SheetTable& table = content.tables[t];
+        std::vector<double> columns = columnsOf(table);
+        for (std::size_t first = 0; first == 0 || first < table.rows.size();) {
+            PlacedTable placed{t, first, first, x, y, columns};
+            const double width = placed.width();
+            const auto rowsFit = [&] {
+                const double room = (bottom - y - PlacedTable::kTitle) / PlacedTable::kRow - 1;
+                return room < 1 ? std::size_t{0} : static_cast<std::size_t>(room);
+            };
+            const std::size_t left = table.rows.size() - first;
+            if (!isOpen || x + width > paper.right - 5 || rowsFit() < std::min<std::size_t>(3, left))
+                toNextColumn(width);
+            if (!isOpen) layout.sheets.push_back({illustrate::ViewKind::Plan, -1, 0, {}, {}});
+            isOpen = true;
+            placed.left = x;
+            placed.top = y;
+            placed.endRow = first + std::min(left, std::max<std::size_t>(1, rowsFit()));
+            first = placed.endRow;
+            y += PlacedTable::kTitle + PlacedTable::kRow * static_cast<double>(placed.endRow - placed.firstRow + 1) +
+                 kBetweenTables;
+            widest = std::max(widest, width);
+            layout.sheets.back().tables.push_back(std::move(placed));
+            if (table.rows.empty()) break;
+        }
+    }
+}
+
+}  // namespace
+
+double PlacedTable::width() const noexcept {
+    double width = 0;
+    for (const double column : columns) width += column;
+    return width;
+}
+
+Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions& options) {
+    auto layout = layOutViews(content, options);
+    if (layout) layOutTables(content, *layout);
+    return layout;
 }
 
 }  // namespace svt::writers

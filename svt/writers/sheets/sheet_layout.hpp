@@ -20,22 +20,42 @@ struct SheetPaper {
     static constexpr double kTitleWidth = 180, kTitleHeight = 36;
 };
 
+/// Room around a drawing that dimensions take, millimetres.
+struct ViewMargins {
+    double left = 0, right = 0, above = 0, below = 0;
+};
+
 struct PlacedView {
     std::size_t view = 0;  ///< of SheetContent
     DrawingPlace place;
     double width = 0, height = 0;  ///< of the drawing, millimetres
+    ViewMargins margins;
 };
+/// Rows of a table on a sheet, below its title and headings.
+struct PlacedTable {
+    std::size_t table = 0;  ///< of SheetContent
+    std::size_t firstRow = 0, endRow = 0;
+    double left = 0, top = 0;     ///< millimetres, of the title
+    std::vector<double> columns;  ///< widths, millimetres
+    static constexpr double kTitle = 8, kRow = 5, kText = 2.5;
+    [[nodiscard]] double width() const noexcept;
+};
+
 struct Sheet {
     illustrate::ViewKind kind = illustrate::ViewKind::Plan;
+    int group = -1;  ///< see DrawnView
+    double scale = 100;
     std::vector<PlacedView> views;
+    std::vector<PlacedTable> tables;  ///< instead of views
 };
 struct SheetLayout {
     SheetPaper paper;
-    double scale = 100;
+    double scale = 100;  ///< of views whose group has none of its own
     std::vector<Sheet> sheets;
 };
 
-/// Lays out views in rows, each kind on sheets of its own. Views without lines are left out.
+/// Lays out views in rows, each kind or group on sheets of its own. Views without lines are left out. Then tables from the top in
+/// columns; long ones go on beside or on the next sheet.
 /// \return the layout, or BadArgument, see makeSvgSheets()
 [[nodiscard]] Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions& options);
 

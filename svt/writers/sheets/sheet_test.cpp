@@ -1,5 +1,6 @@
 /// Sheets of boxes whose places on paper are known.
 
+#include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
@@ -161,6 +162,99 @@ TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
                              ">house.gml, EPSG:25832<", "url(#masonry)", "inkscape:label=\"Outlines\""})
         EXPECT_NE(svg.find(text), std::string::npos) << text;
     EXPECT_EQ(*sheets, *makeSvgSheets(content, volume, {50, "A4"}));
+}
+
+TEST(DimensionText, IsThatOfArchitects) {
+    EXPECT_EQ(dimensionText(3.26), "3.26");
+    EXPECT_EQ(dimensionText(3.2649), "3.26\u2075");
+    EXPECT_EQ(dimensionText(0.365), "36\u2075");
+    EXPECT_EQ(dimensionText(0.24), "24");
+    EXPECT_EQ(dimensionText(0.9996), "1.00");
+    EXPECT_EQ(dimensionText(12.005), "12.00\u2075");
+}
+
+// Numbers of any chain stand apart from each other, and inside of the room that the chains take.
+TEST(DimensionMarks, NoNumberStandsOnAnother) {
+    illustrate::SectionDrawing drawing;
+    unsigned state = 7;
+    const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 16; };
+    for (const auto side : {illustrate::DimensionSide::Below, illustrate::DimensionSide::Left})
+        for (int row = 0; row < 3; ++row) {
+            illustrate::DimensionChain chain{side, row, {0}};
+            while (chain.stops.back() < 20) chain.stops.push_back(chain.stops.back() + 0.02 + 0.001 * (next() % 1500));
+            drawing.dimensions.push_back(chain);
+        }
+    for (const double millimetres : {2.0, 5.0, 10.0, 20.0}) {
+        const DimensionMarks placed = placeDimensions(drawing, {{0, 0}, {20, 20}}, millimetres);
+        std::vector<std::array<double, 5>> boxes;
+        for (const DimensionMark& mark : placed.marks) {
+            if (mark.text.text.empty()) continue;
+            const double half = 0.5 * widthOnPaper(mark.text.text, mark.text.size), high = 0.73 * mark.text.size;
+            const auto at = mark.text.at;
+            const std::array<double, 5> box = mark.text.isUpright
+                                                  ? std::array{1.0, at.u - high, at.v - half, at.u, at.v + half}
+                                                  : std::array{0.0, at.u - half, at.v, at.u + half, at.v + high};
+            for (const auto& other : boxes)
+                EXPECT_TRUE(box[0] != other[0] || box[1] >= other[3] || box[3] <= other[1] || box[2] >= other[4] ||
+                            box[4] <= other[2])
+                    << millimetres << " " << mark.text.text;
+            boxes.push_back(box);
+            const double reach = dimensionReach(drawing, illustrate::DimensionSide::Below);
+            EXPECT_GT(mark.text.isUpright ? box[1] : box[2], -reach - 1.5);
+        }
+        EXPECT_GT(boxes.size(), 20u);
+        EXPECT_EQ(boxes.size() + placed.withoutPlace, placed.marks.size());
+    }
+}
+
+// A table longer than a sheet goes on beside it; the last row is a sum.
+TEST(SheetTables, GoOnBesideThemselvesAndOnTheNextSheet) {
+    SheetContent content;
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
+    SheetTable table{"Rooms", {{"No.", false}, {"Area", true}}, {}, 1};
+    for (int n = 0; n < 400; ++n) table.rows.push_back({fmt::format("{}", n), fmt::format("{}.00", 3 * n)});
+    content.tables.push_back(table);
+    const auto layout = layOutSheets(content, {});
+    ASSERT_TRUE(layout);
+    std::size_t next = 0;
+    for (const Sheet& sheet : layout->sheets)
+        for (const PlacedTable& placed : sheet.tables) {
+            EXPECT_EQ(placed.firstRow, next);
+            next = placed.endRow;
+            EXPECT_LE(placed.left + placed.width(), layout->paper.right);
+            const double rows = static_cast<double>(placed.endRow - placed.firstRow + 1);
+            EXPECT_LE(placed.top + PlacedTable::kTitle + rows * PlacedTable::kRow,
+                      layout->paper.bottom - SheetPaper::kTitleHeight);
+        }
+    EXPECT_EQ(next, 400u);
+    EXPECT_GT(layout->sheets[1].tables.size(), 1u);
+    const auto german = makeSvgSheets(content, wallVolume(), {0, "A3", SheetLanguage::German, "Haus am See"});
+    ASSERT_TRUE(german);
+    EXPECT_NE(german->front().find(">Haus am See<"), std::string::npos);
+    EXPECT_NE(german->front().find(">Ma\u00DFstab<"), std::string::npos);
+    EXPECT_NE(german->back().find(">1197.00<"), std::string::npos);
+}
+
+TEST(SheetGroups, HaveAScaleAndTitleOfTheirOwn) {
+    SheetContent content;
+    content.groups = {{"Details", 20}, {"", 0}};
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
+    content.views.push_back(wallView(ViewKind::Section, "A", 4, 3));
+    content.views.push_back(wallView(ViewKind::Plan, "OG", 4, 3));
+    for (std::size_t n = 0; n < 3; ++n) content.views[n].group = n < 2 ? 0 : 1;
+    const auto layout = layOutSheets(content, {});
+    ASSERT_TRUE(layout);
+    ASSERT_EQ(layout->sheets.size(), 3u);  // two drawings of 200 mm do not fit beside each other
+    EXPECT_EQ(layout->sheets[0].scale, 20);
+    EXPECT_NEAR(layout->sheets[0].views[0].width, 200, 1e-9);
+    EXPECT_EQ(layout->sheets[2].scale, 100);
+    const auto sheets = makeSvgSheets(content, wallVolume(), {});
+    EXPECT_NE(sheets->front().find(">Details<"), std::string::npos);
+    EXPECT_NE(sheets->front().find(">1:20<"), std::string::npos);
+    content.groups[0].scale = 5;
+    const auto tooLarge = layOutSheets(content, {});
+    ASSERT_FALSE(tooLarge);
+    EXPECT_NE(tooLarge.error().message().find("its scale of 1:5"), std::string::npos) << tooLarge.error().message();
 }
 
 TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {

@@ -5,6 +5,7 @@
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
+#include <svt/writers/sheets/sheet_texts.hpp>
 #include <svt/writers/sheets/svg_canvas.hpp>
 
 #include <fmt/format.h>
@@ -21,17 +22,16 @@ using illustrate::ViewKind;
 constexpr LineStyle kFrame{0.7}, kBox{0.35}, kFine{0.18};
 
 // Heights as architects write them: "+2.70", "±0.00".
-std::string heightText(double height) {
+std::string heightText(double height, SheetLanguage language) {
     const double rounded = std::round(height * 100) / 100;
-    if (rounded == 0) return "\u00B10.00";
-    return fmt::format("{}{:.2f}", rounded > 0 ? "+" : "\u2212", std::abs(rounded));
+    return (rounded > 0 ? "+" : rounded < 0 ? "\u2212" : "\u00B1") + numberText(std::abs(rounded), 2, language);
 }
 
 class SheetPainter {
 public:
     SheetPainter(const SheetContent& content, const volume::SemanticVolume& volume, const SheetLayout& layout,
-                 SheetCanvas& canvas)
-        : content_(content), volume_(volume), layout_(layout), canvas_(canvas) {}
+                 const SheetOptions& options, SheetCanvas& canvas)
+        : content_(content), volume_(volume), layout_(layout), options_(options), canvas_(canvas) {}
 
     void paint() {
         for (std::size_t n = 0; n < layout_.sheets.size(); ++n) {
@@ -42,11 +42,17 @@ public:
                 const DrawnView& view = content_.views[placed.view];
                 paintDrawing(view.drawing, volume_, placed.place, canvas_);
                 canvas_.beginLayer("Marks");
-                addCaption(placed, view);
+                addCaption(placed, view, sheet.scale);
                 if (view.view.kind == ViewKind::Plan)
                     addSectionMarks(placed, view);
                 else
                     addHeights(placed, view);
+                if (view.view.kind == ViewKind::Section) addPlanMarks(placed, view);
+                canvas_.endLayer();
+            }
+            if (!sheet.tables.empty()) {
+                canvas_.beginLayer("Tables");
+                for (const PlacedTable& placed : sheet.tables) addTable(placed);
                 canvas_.endLayer();
             }
             canvas_.beginLayer("Frame");
@@ -57,26 +63,38 @@ public:
     }
 
 private:
+    [[nodiscard]] std::string_view word(SheetWord w) const noexcept { return sheetWord(w, options_.language); }
     [[nodiscard]] const std::string& modelName() const noexcept {
+        if (!options_.title.empty()) return options_.title;
         return volume_.modelName.empty() ? volume_.source : volume_.modelName;
     }
     [[nodiscard]] double datum() const noexcept { return content_.levels.empty() ? 0 : content_.levels.front().floor; }
 
     [[nodiscard]] std::string captionOf(const DrawnView& view) const {
         switch (view.view.kind) {
-            case ViewKind::Section: return fmt::format("Section {0}\u2013{0}", view.view.name);
-            case ViewKind::Elevation: return fmt::format("Elevation from the {}", view.view.name);
+            case ViewKind::Section: return fmt::format("{0} {1}\u2013{1}", word(SheetWord::Section), view.view.name);
+            case ViewKind::Elevation: return elevationText(view.view.name, options_.language);
             case ViewKind::Plan: break;
         }
-        const std::string height = heightText(view.view.floor - datum());
+        const std::string height = heightText(view.view.floor - datum(), options_.language);
         if (content_.levels.empty()) return planeText(view.drawing, volume_.grid);
-        return view.view.name.empty() ? fmt::format("Plan, level {}", height)
-                                      : fmt::format("Plan {}, level {}", view.view.name, height);
+        return fmt::format("{}{}{}, {} {}", word(SheetWord::Plan), view.view.name.empty() ? "" : " ", view.view.name,
+                           word(SheetWord::Level), height);
     }
     [[nodiscard]] std::string titleOf(const Sheet& sheet) const {
+        if (sheet.group >= 0 && !content_.groups[static_cast<std::size_t>(sheet.group)].title.empty())
+            return content_.groups[static_cast<std::size_t>(sheet.group)].title;
+        if (!sheet.tables.empty()) return tableTitle(sheet);
         const std::size_t count = sheet.views.size();
         if (count == 1) return captionOf(content_.views[sheet.views.front().view]);
-        return sheet.kind == ViewKind::Plan ? "Plans" : sheet.kind == ViewKind::Section ? "Sections" : "Elevations";
+        return std::string(word(sheet.kind == ViewKind::Plan      ? SheetWord::Plans
+                                : sheet.kind == ViewKind::Section ? SheetWord::Sections
+                                                                  : SheetWord::Elevations));
+    }
+    [[nodiscard]] std::string tableTitle(const Sheet& sheet) const {
+        for (const PlacedTable& placed : sheet.tables)
+            if (placed.table != sheet.tables.front().table) return std::string(word(SheetWord::Tables));
+        return content_.tables[sheet.tables.front().table].title;
     }
 
     void line(PaperPoint a, PaperPoint b, LineStyle style) { canvas_.stroke({{a, b}}, style); }
@@ -84,16 +102,69 @@ private:
         canvas_.stroke({{{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}}}, style);
     }
 
-    void addCaption(const PlacedView& placed, const DrawnView& view) {
-        const PaperPoint corner = placed.place.corner;
-        canvas_.text({{corner.x, corner.y + 14}, 3.5, captionOf(view)});
-        canvas_.text({{corner.x, corner.y + 18.5}, 2.5, fmt::format("1:{}", shortNumber(layout_.scale, 2))});
+    void addCaption(const PlacedView& placed, const DrawnView& view, double scale) {
+        const double x = placed.place.corner.x - placed.margins.left, y = placed.place.corner.y + placed.margins.below;
+        canvas_.text({{x, y + 14}, 3.5, captionOf(view)});
+        canvas_.text({{x, y + 18.5}, 2.5, fmt::format("1:{}", shortNumber(scale, 2))});
+    }
+
+    // A table with its headings; sums stand below a line.
+    void addTable(const PlacedTable& placed) {
+        const SheetTable& table = content_.tables[placed.table];
+        constexpr double kText = PlacedTable::kText, kRow = PlacedTable::kRow;
+        const double right = placed.left + placed.width();
+        canvas_.text({{placed.left, placed.top + 4.5}, 3.5, table.title});
+        double y = placed.top + PlacedTable::kTitle;
+        const auto addRow = [&](const auto& textOf) {
+            double x = placed.left;
+            for (std::size_t c = 0; c < table.columns.size(); ++c) {
+                const double width = placed.columns[c];
+                const std::string text = shortened(textOf(c), kText, width - 2);
+                const bool isNumber = table.columns[c].isNumber;
+                canvas_.text({{isNumber ? x + width - 1 : x + 1, y + 3.5},
+                              kText,
+                              text,
+                              isNumber ? TextAnchor::End : TextAnchor::Start});
+                x += width;
+            }
+            y += kRow;
+        };
+        line({placed.left, y}, {right, y}, kBox);
+        addRow([&](std::size_t c) { return table.columns[c].heading; });
+        line({placed.left, y}, {right, y}, kBox);
+        for (std::size_t row = placed.firstRow; row < placed.endRow; ++row) {
+            if (row == table.rows.size() - table.sums && row != placed.firstRow)
+                line({placed.left, y}, {right, y}, kBox);
+            else if (row != placed.firstRow)
+                line({placed.left, y}, {right, y}, {0.09});
+            addRow([&](std::size_t c) { return table.rows[row][c]; });
+        }
+        line({placed.left, y}, {right, y}, kBox);
+    }
+
+    // Where plans cut a section: short dash-dotted ends beside the building, with the name of the storey.
+    void addPlanMarks(const PlacedView& placed, const DrawnView& section) {
+        const Vec3d up = volume_.grid.axes()[2];
+        const double x = placed.place.corner.x;
+        for (const DrawnView& plan : content_.views) {
+            if (plan.view.kind != ViewKind::Plan) continue;
+            const illustrate::PlaneAxes& axes = section.drawing.axes;
+            if (std::abs(dot(axes.v, up)) < 0.999) continue;
+            const Vec3d corner = volume_.grid.origin();
+            const double height = dot(plan.view.plane.point - corner, up);
+            const double y = placed.place.onPaper({0, axes.planeFromWorld(corner + up * height).v}).y;
+            if (y > placed.place.corner.y || y < placed.place.corner.y - placed.height) continue;
+            canvas_.stroke({{{x - 12, y}, {x - 1, y}}}, {0.25, LineType::LongDashDotted});
+            if (!plan.view.name.empty()) canvas_.text({{x - 12, y - 0.8}, 2, shortened(plan.view.name, 2, 11)});
+        }
     }
 
     // Where the sections cut a plan: bold ends of a line, arrows to where one looks, and the letter.
     void addSectionMarks(const PlacedView& placed, const DrawnView& plan) {
         constexpr double kOff = 3, kLength = 6;
-        const PaperPoint low = placed.place.corner, high{low.x + placed.width, low.y - placed.height};
+        const ViewMargins& margins = placed.margins;
+        const PaperPoint corner = placed.place.corner, low{corner.x - margins.left, corner.y + margins.below},
+                         high{corner.x + placed.width + margins.right, corner.y - placed.height - margins.above};
         for (const DrawnView& view : content_.views) {
             if (view.view.kind != ViewKind::Section) continue;
             const illustrate::PlaneAxes& axes = plan.drawing.axes;
@@ -133,7 +204,7 @@ private:
             last = y;
             line({x + 1, y}, {x + 13, y}, kFine);
             canvas_.stroke({{{x + 3, y}, {x + 2, y - 1.6}, {x + 4, y - 1.6}, {x + 3, y}}}, kFine);
-            canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightText(height)});
+            canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightText(height, options_.language)});
         };
         for (const illustrate::BuildingLevel& level : content_.levels) {
             const PlanePoint p = view.drawing.axes.planeFromWorld(origin + up * level.floor);
@@ -154,20 +225,24 @@ private:
         line({left, lower}, {paper.right, lower}, kFine);
         line({column, top}, {column, paper.bottom}, kFine);
         const double room = column - left - 4;
-        const auto field = [&](double x, double y, const char* what, const std::string& text, double size,
-                               double width) {
-            canvas_.text({{x + 2, y + 3}, 1.8, what});
+        const std::string scale = sheet.views.empty() ? std::string(word(SheetWord::NoScale))
+                                                      : fmt::format("1:{}", shortNumber(sheet.scale, 2));
+        const auto field = [&](double x, double y, SheetWord what, const std::string& text, double size, double width) {
+            canvas_.text({{x + 2, y + 3}, 1.8, std::string(word(what))});
             canvas_.text({{x + 2, y + 4.2 + size * 1.25}, size, shortened(text, size, width)});
         };
-        field(left, top, "Building", modelName(), 5, room);
-        field(left, middle, "Drawing", titleOf(sheet), 3.5, room);
-        field(left, lower, "Model", sourceText(), 2.5, room);
-        field(column, top, "Scale", fmt::format("1:{}", shortNumber(layout_.scale, 2)), 5, 41);
-        field(column, middle, "Sheet", fmt::format("{} of {}", number + 1, layout_.sheets.size()), 3.5, 41);
-        field(column, lower, "Paper", paper.name, 2.5, 41);
-        addScaleBar(paper.left + 8, paper.bottom - 10);
+        field(left, top, SheetWord::Building, modelName(), 5, room);
+        field(left, middle, SheetWord::Drawing, titleOf(sheet), 3.5, room);
+        field(left, lower, SheetWord::Model, sourceText(), 2.5, room);
+        field(column, top, SheetWord::Scale, scale, 5, 41);
+        field(column, middle, SheetWord::Sheet,
+              fmt::format("{} {} {}", number + 1, word(SheetWord::SheetOf), layout_.sheets.size()), 3.5, 41);
+        field(column, lower, SheetWord::Paper, paper.name, 2.5, 41);
+        if (sheet.views.empty()) return;
+        addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
         if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
-        if (sheet.kind == ViewKind::Plan) addNorth(sheet, {left - 18, paper.bottom - 18});
+        if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan)
+            addNorth(sheet, {left - 18, paper.bottom - 18});
     }
 
     [[nodiscard]] std::string sourceText() const {
@@ -178,13 +253,15 @@ private:
     [[nodiscard]] std::string datumText() const {
         const std::string& name = content_.levels.front().name;
         const double height = dot(volume_.grid.origin(), volume_.grid.axes()[2]) + datum();
-        return fmt::format("Heights above {}: \u00B10.00 = {:.2f} m{}", name.empty() ? "the lowest floor" : name,
-                           height, volume_.crsName.empty() ? "" : " in the heights of the model");
+        return fmt::format("{} {}: {} = {} m{}", word(SheetWord::HeightsAbove),
+                           name.empty() ? word(SheetWord::LowestFloor) : std::string_view(name),
+                           heightText(0, options_.language), numberText(height, 2, options_.language),
+                           volume_.crsName.empty() ? std::string_view() : word(SheetWord::InModelHeights));
     }
 
     // Four fields of a rounded length, 7 to 17 mm each.
-    void addScaleBar(double x, double y) {
-        const double field = roundDownTo125(17.5 * layout_.scale / 1000), size = field * 1000 / layout_.scale;
+    void addScaleBar(double x, double y, double scale) {
+        const double field = roundDownTo125(17.5 * scale / 1000), size = field * 1000 / scale;
         for (int n = 0; n < 4; ++n) {
             const double from = x + n * size, to = from + size;
             if (n % 2 == 0) canvas_.fill({{{from, y}, {to, y}, {to, y + 1.4}, {from, y + 1.4}, {from, y}}}, "#000000");
@@ -219,12 +296,16 @@ private:
                      "#000000");
         canvas_.stroke({{tip, foot(-3), {at.x - 0.45 * kRadius * along.x, at.y - 0.45 * kRadius * along.y}, tip}},
                        kFine);
-        canvas_.text({{tip.x + 3 * along.x, tip.y + 3 * along.y + 1.1}, 3, "N", TextAnchor::Middle});
+        canvas_.text({{tip.x + 3 * along.x, tip.y + 3 * along.y + 1.1},
+                      3,
+                      std::string(word(SheetWord::NorthLetter)),
+                      TextAnchor::Middle});
     }
 
     const SheetContent& content_;
     const volume::SemanticVolume& volume_;
     const SheetLayout& layout_;
+    const SheetOptions& options_;
     SheetCanvas& canvas_;
 };
 
@@ -235,7 +316,7 @@ Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, cons
     const auto layout = layOutSheets(content, options);
     if (!layout) return layout.error();
     SvgCanvas canvas;
-    SheetPainter(content, volume, *layout, canvas).paint();
+    SheetPainter(content, volume, *layout, options, canvas).paint();
     return canvas.takeDocuments();
 }
 
@@ -245,7 +326,7 @@ Result<std::string> makePdfSheets(const SheetContent& content, const volume::Sem
     if (!layout) return layout.error();
     auto canvas = makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName);
     if (!canvas) return canvas.error();
-    SheetPainter(content, volume, *layout, **canvas).paint();
+    SheetPainter(content, volume, *layout, options, **canvas).paint();
     return (*canvas)->finish();
 }
 

@@ -83,9 +83,10 @@ void SvgCanvas::text(const PaperText& text) {
     const char* anchor = text.anchor == TextAnchor::Start ? ""
                          : text.anchor == TextAnchor::End ? " text-anchor=\"end\""
                                                           : " text-anchor=\"middle\"";
-    body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}{}>{}</text>\n", shortNumber(text.at.x, 3),
-                         shortNumber(text.at.y, 3), shortNumber(text.size, 2), anchor,
-                         text.hasHalo ? " class=\"halo\"" : "", xmlAttribute(text.text));
+    const std::string x = shortNumber(text.at.x, 3), y = shortNumber(text.at.y, 3);
+    const std::string turn = text.isUpright ? fmt::format(" transform=\"rotate(-90 {} {})\"", x, y) : std::string();
+    body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}{}{}>{}</text>\n", x, y, shortNumber(text.size, 2),
+                         anchor, text.hasHalo ? " class=\"halo\"" : "", turn, xmlAttribute(text.text));
 }
 
 }  // namespace svt::writers

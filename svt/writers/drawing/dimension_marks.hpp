@@ -1,0 +1,51 @@
+#pragma once
+/// \file
+/// How chains of dimensions are drawn: lines, ticks and numbers on paper, no number over another.
+
+#include <svt/illustrate/section_drawing.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace svt::writers {
+
+/// Millimetres on paper from the drawing's zero, y upwards.
+struct MarkLine {
+    illustrate::PlanePoint from, to;
+};
+struct MarkText {
+    illustrate::PlanePoint at;  ///< middle of the baseline
+    double size = 2;            ///< font size, millimetres
+    std::string text;           ///< UTF-8
+    bool isUpright = false;     ///< read from the right
+};
+
+/// One dimension of a chain.
+struct DimensionMark {
+    MarkLine line;                ///< from stop to stop
+    std::vector<MarkLine> feet;   ///< across its ends
+    std::vector<MarkLine> ticks;  ///< oblique, wide
+    MarkText text;                ///< empty where there is no place
+    double metres = 0;
+};
+
+struct DimensionMarks {
+    std::vector<DimensionMark> marks;
+    std::size_t withoutPlace = 0;  ///< numbers that are left out
+};
+
+/// How far chains reach beyond the drawing on a side, millimetres; 0: there are none.
+[[nodiscard]] double dimensionReach(const illustrate::SectionDrawing& drawing, illustrate::DimensionSide side) noexcept;
+
+/// Places the chains around `box` (of drawnBox()).
+/// \param millimetres  on paper per metre
+[[nodiscard]] DimensionMarks placeDimensions(const illustrate::SectionDrawing& drawing,
+                                             const std::pair<illustrate::PlanePoint, illustrate::PlanePoint>& box,
+                                             double millimetres);
+
+/// A length as architects write it (DIN 1356-1): metres with two decimals from 1 m on, else centimetres; what is left of
+/// a centimetre raised: "3.26", "3.26⁵", "36⁵", "24".
+[[nodiscard]] std::string dimensionText(double metres);
+
+}  // namespace svt::writers

@@ -1,0 +1,148 @@
+#include <svt/writers/sheets/sheet_texts.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace svt::writers {
+namespace {
+
+using W = SheetWord;
+
+struct Words {
+    SheetWord word;
+    std::string_view english, german;
+};
+constexpr Words kWords[] = {
+    {W::Building, "Building", "Bauwerk"},
+    {W::Drawing, "Drawing", "Zeichnung"},
+    {W::Model, "Model", "Modell"},
+    {W::Scale, "Scale", "Maßstab"},
+    {W::Sheet, "Sheet", "Blatt"},
+    {W::Paper, "Paper", "Papier"},
+    {W::SheetOf, "of", "von"},
+    {W::Plan, "Plan", "Grundriss"},
+    {W::Level, "level", "Ebene"},
+    {W::Plans, "Plans", "Grundrisse"},
+    {W::Section, "Section", "Schnitt"},
+    {W::Sections, "Sections", "Schnitte"},
+    {W::Elevations, "Elevations", "Ansichten"},
+    {W::North, "north", "Norden"},
+    {W::East, "east", "Osten"},
+    {W::South, "south", "Süden"},
+    {W::West, "west", "Westen"},
+    {W::LowestFloor, "the lowest floor", "dem untersten Fußboden"},
+    {W::HeightsAbove, "Heights above", "Höhen über"},
+    {W::InModelHeights, " in the heights of the model", " in den Höhen des Modells"},
+    {W::NorthLetter, "N", "N"},
+    {W::Rooms, "Rooms", "Räume"},
+    {W::FloorAreas, "Floor areas after DIN 277-1, m\u00B2", "Grundflächen nach DIN 277-1, m\u00B2"},
+    {W::Components, "Components", "Bauteile"},
+    {W::Number, "No.", "Nr."},
+    {W::Room, "Room", "Raum"},
+    {W::Storey, "Storey", "Geschoss"},
+    {W::Use, "Use", "Nutzung"},
+    {W::Area, "Area m\u00B2", "Fläche m\u00B2"},
+    {W::Height, "Height m", "Höhe m"},
+    {W::Volume, "Volume m\u00B3", "Volumen m\u00B3"},
+    {W::Class, "Class", "Klasse"},
+    {W::Type, "Type", "Typ"},
+    {W::Count, "Count", "Anzahl"},
+    {W::Total, "Total", "Summe"},
+    {W::NoScale, "\u2013", "\u2013"},
+    {W::Tables, "Tables", "Tabellen"},
+};
+
+std::string levelName(const illustrate::BuildingLevel& level, double datum, SheetLanguage language) {
+    if (!level.name.empty()) return level.name;
+    const double height = level.floor - datum;
+    return fmt::format("{} {}", sheetWord(W::Level, language), numberText(height, 2, language));
+}
+
+}  // namespace
+
+std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept {
+    const auto* found =
+        std::find_if(std::begin(kWords), std::end(kWords), [&](const Words& words) { return words.word == word; });
+    if (found == std::end(kWords)) return {};
+    return language == SheetLanguage::German ? found->german : found->english;
+}
+
+std::string elevationText(std::string_view side, SheetLanguage language) {
+    const SheetWord word = side == "north" ? W::North : side == "east" ? W::East : side == "south" ? W::South : W::West;
+    return fmt::format("{} {}", language == SheetLanguage::German ? "Ansicht von" : "Elevation from the",
+                       sheetWord(word, language));
+}
+
+std::string numberText(double value, int decimals, SheetLanguage language) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    if (text.find_first_of("123456789") == std::string::npos && text.front() == '-') text.erase(0, 1);
+    if (language == SheetLanguage::German) std::replace(text.begin(), text.end(), '.', ',');
+    return text;
+}
+
+std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
+                                       const std::vector<illustrate::BuildingLevel>& levels, SheetLanguage language) {
+    const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
+    const auto number = [&](double value, int decimals = 2) { return numberText(value, decimals, language); };
+    const double datum = levels.empty() ? 0 : levels.front().floor;
+    std::vector<SheetTable> tables;
+    if (!areas.rooms.empty()) {
+        SheetTable rooms{word(W::Rooms),
+                         {{word(W::Number)},
+                          {word(W::Room)},
+                          {word(W::Storey)},
+                          {word(W::Use)},
+                          {word(W::Area), true},
+                          {word(W::Height), true},
+                          {word(W::Volume), true}},
+                         {},
+                         1};
+        double area = 0, volume = 0;
+        for (const illustrate::RoomArea& room : areas.rooms) {
+            rooms.rows.push_back({room.number, room.name, levelName(levels[room.level], datum, language),
+                                  std::string(illustrate::roomUseName(room.use)), number(room.area),
+                                  number(room.height), number(room.volume)});
+            area += room.area;
+            volume += room.volume;
+        }
+        rooms.rows.push_back({"", word(W::Total), "", "", number(area), "", number(volume)});
+        tables.push_back(std::move(rooms));
+        SheetTable floors{word(W::FloorAreas),
+                          {{word(W::Storey)},
+                           {"NUF", true},
+                           {"TF", true},
+                           {"VF", true},
+                           {"?", true},
+                           {"NRF", true},
+                           {"KGF", true},
+                           {"BGF", true}},
+                          {},
+                          1};
+        const auto add = [&](const std::string& name, const illustrate::LevelArea& level) {
+            floors.rows.push_back({name, number(level.use), number(level.technical), number(level.traffic),
+                                   number(level.unknown), number(level.net), number(level.construction),
+                                   number(level.gross)});
+        };
+        for (std::size_t n = 0; n < levels.size(); ++n) add(levelName(levels[n], datum, language), areas.levels[n]);
+        add(word(W::Total), areas.total());
+        tables.push_back(std::move(floors));
+    }
+    if (!areas.components.empty()) {
+        SheetTable components{
+            word(W::Components),
+            {{word(W::Class)}, {word(W::Type)}, {word(W::Count), true}, {word(W::Area), true}, {word(W::Volume), true}},
+            {},
+            0};
+        for (const illustrate::ComponentSum& sum : areas.components)
+            components.rows.push_back({sum.className, sum.type, fmt::format("{}", sum.count),
+                                       sum.area > 0 ? number(sum.area) : "\u2013",
+                                       sum.volume > 0 ? number(sum.volume) : "\u2013"});
+        tables.push_back(std::move(components));
+    }
+    return tables;
+}
+
+}  // namespace svt::writers

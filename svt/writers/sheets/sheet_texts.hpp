@@ -1,0 +1,60 @@
+#pragma once
+/// \file
+/// The words on sheets, in English and German.
+
+#include <svt/writers/sheet_writer.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace svt::writers {
+
+enum class SheetWord : std::uint8_t {
+    Building,
+    Drawing,
+    Model,
+    Scale,
+    Sheet,
+    Paper,
+    SheetOf,  ///< "1 of 3"
+    Plan,     ///< "Plan", before the name of a storey
+    Level,    ///< "level", before its height
+    Plans,
+    Section,
+    Sections,
+    Elevations,
+    North,
+    East,
+    South,
+    West,
+    LowestFloor,
+    HeightsAbove,  ///< "Heights above", before the name of the lowest storey
+    InModelHeights,
+    NorthLetter,
+    Rooms,
+    FloorAreas,
+    Components,
+    Number,
+    Room,
+    Storey,
+    Use,
+    Area,
+    Height,
+    Volume,
+    Class,
+    Type,
+    Count,
+    Total,
+    NoScale,
+    Tables
+};
+
+[[nodiscard]] std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept;
+
+/// "Elevation from the north", "Ansicht von Norden".
+[[nodiscard]] std::string elevationText(std::string_view side, SheetLanguage language);
+
+/// A number with so many decimals, and a comma in German.
+[[nodiscard]] std::string numberText(double value, int decimals, SheetLanguage language);
+
+}  // namespace svt::writers
