@@ -36,17 +36,18 @@ constexpr FileFormat kFormats[] = {
 
 // What the formats of volumes take the place of: writers::volumeFormats() has their names and endings.
 constexpr std::pair<std::string_view, FileContent> kVolumeContents[] = {
-    {"nrrd", FileContent::Nrrd},    {"glb", FileContent::Gltf},
-    {"segnrrd", FileContent::Nrrd}, {"vti", FileContent::Vtk},
-    {"nifti", FileContent::Nifti},  {"niftigz", FileContent::Gzip},
-    {"tiff", FileContent::Tiff},    {"ometiff", FileContent::Tiff},
-    {"objects", FileContent::Text}, {"contacts", FileContent::Text},
-    {"x3d", FileContent::X3d},      {"ade", FileContent::CityGml},
-    {"zarr", FileContent::Nothing}, {"precomputed", FileContent::Nothing},
-    {"obj", FileContent::Text},     {"ply", FileContent::Ply},
-    {"stl", FileContent::Unknown},  {"fds", FileContent::Text},
-    {"boxes", FileContent::Text},   {"boxesjson", FileContent::PlainJson},
-    {"graphml", FileContent::Xml},  {"adjacency", FileContent::PlainJson},
+    {"nrrd", FileContent::Nrrd},       {"glb", FileContent::Gltf},
+    {"segnrrd", FileContent::Nrrd},    {"vti", FileContent::Vtk},
+    {"nifti", FileContent::Nifti},     {"niftigz", FileContent::Gzip},
+    {"tiff", FileContent::Tiff},       {"ometiff", FileContent::Tiff},
+    {"objects", FileContent::Text},    {"contacts", FileContent::Text},
+    {"x3d", FileContent::X3d},         {"ade", FileContent::CityGml},
+    {"zarr", FileContent::Nothing},    {"precomputed", FileContent::Nothing},
+    {"obj", FileContent::Text},        {"ply", FileContent::Ply},
+    {"stl", FileContent::Unknown},     {"fds", FileContent::Text},
+    {"boxes", FileContent::Text},      {"boxesjson", FileContent::PlainJson},
+    {"graphml", FileContent::Xml},     {"adjacency", FileContent::PlainJson},
+    {"tileset", FileContent::Nothing},
 };
 
 std::vector<FileFormat> volumeFileFormats() {

@@ -10,6 +10,7 @@
 #include <svt/writers/simulation/fds_writer.hpp>
 #include <svt/writers/tables/table_writer.hpp>
 #include <svt/writers/tiff/tiff_writer.hpp>
+#include <svt/writers/tiles3d/tileset_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
 #include <svt/writers/vtk/vti_writer.hpp>
 #include <svt/writers/x3d/x3d_writer.hpp>
@@ -86,6 +87,9 @@ Written asPly(const SemanticVolume& volume, const Path& path, const VolumeWriteO
 Written asStl(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
     return writeHulls(volume, path, HullFormat::Stl, options);
 }
+Written asTileset(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeTileset(volume, path, options);
+}
 Written asObjects(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
     return writeFileAtomically(path, makeObjectTable(volume, options.threads));
 }
@@ -140,6 +144,8 @@ constexpr VolumeFormat kVolumeFormats[] = {
     {"obj", ".obj", "Wavefront OBJ: an object per label, colours in an .mtl beside it", "Blender, MeshLab, CAD, VTK"},
     {"ply", ".ply", "PLY, binary: triangles with label and colour", "MeshLab, CloudCompare, Open3D, VTK"},
     {"stl", ".stl", "STL, binary: triangles alone", "printers, CAD, simulation"},
+    {"tileset", ".3dtiles", "3D Tiles 1.1: a folder with the surfaces on the globe, a table of components in each tile",
+     "Cesium, Unreal, Unity, ArcGIS"},
     {"objects", ".csv", "a line per object: class, name, parent, volume, surface, box, attributes",
      "spreadsheets, pandas, databases"},
     {"contacts", ".contacts.csv", "a line per pair of objects that touch: area, faces",
@@ -154,9 +160,10 @@ constexpr VolumeFormat kVolumeFormats[] = {
 };
 
 using Write = Written (*)(const SemanticVolume&, const Path&, const VolumeWriteOptions&);
-constexpr Write kWriters[] = {
-    asNrrd, asGlb, asSegNrrd, asVti, asNifti,   asNifti,    asTiff, asOmeTiff,  asZarr,    asPrecomputed, asX3d,
-    asAde,  asObj, asPly,     asStl, asObjects, asContacts, asFds,  asBoxTable, asBoxJson, asAdjacency,   asGraphMl};
+constexpr Write kWriters[] = {asNrrd, asGlb,      asSegNrrd, asVti,         asNifti,   asNifti,
+                              asTiff, asOmeTiff,  asZarr,    asPrecomputed, asX3d,     asAde,
+                              asObj,  asPly,      asStl,     asTileset,     asObjects, asContacts,
+                              asFds,  asBoxTable, asBoxJson, asAdjacency,   asGraphMl};
 static_assert(std::size(kWriters) == std::size(kVolumeFormats));
 
 }  // namespace
