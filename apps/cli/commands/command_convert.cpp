@@ -24,6 +24,7 @@ struct ConvertArguments {
     double maxVoxels = 0, maxBoxes = 0, lift = 0;
     std::vector<double> box, place;
     int level = 0;
+    bool hasMeshes = false;
     BuildArguments build;
 };
 
@@ -68,6 +69,7 @@ int runConvert(const ConvertArguments& arguments) {
     options.zarrVersion = arguments.zarr == "3" ? 3 : 2;
     if (const auto& place = arguments.place; !place.empty()) options.place = Vec3d{place[0], place[1], place[2]};
     options.lift = arguments.lift;
+    options.hasMeshes = arguments.hasMeshes;
     options.mergeBy = arguments.merge == "class"      ? writers::MergeBy::Class
                       : arguments.merge == "material" ? writers::MergeBy::Material
                                                       : writers::MergeBy::Label;
@@ -99,6 +101,7 @@ Action connectConvert(Command& command) {
     command.set("--texture", arguments->texture);
     command.set("--model", arguments->model);
     command.set("--zarr", arguments->zarr);
+    command.set("--meshes", arguments->hasMeshes);
     command.set("--place", arguments->place);
     command.set("--lift", arguments->lift);
     command.set("--citygml", arguments->cityGml);

@@ -1,5 +1,6 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/hulls/hull_writer.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -30,29 +30,6 @@ std::string lineText(std::string_view text, bool hasBlanks) {
 }
 
 int colorByte(float channel) { return static_cast<int>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f); }
-
-template <class T>
-void appendBytes(std::string& out, T value) {
-    char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    out.append(bytes, sizeof bytes);
-}
-
-/// Text or bytes that go to the file in pieces of a megabyte.
-class PieceWriter {
-public:
-    explicit PieceWriter(AtomicFile& file) : file_(file) {}
-    std::string text;
-    Result<void> flush(bool isLast = false) {
-        if (text.size() < (std::size_t{1} << 20) && !isLast) return {};
-        auto done = file_.write(text);
-        text.clear();
-        return done;
-    }
-
-private:
-    AtomicFile& file_;
-};
 
 Result<void> writeMaterials(const LabelHulls& hulls, const std::filesystem::path& path) {
     if (auto checked = checkSibling(path, "# Semantic volume"); !checked) return checked;

@@ -1,24 +1,9 @@
 #include <svt/writers/tiles3d/property_table.hpp>
 
 #include <svt/core/check.hpp>
-#include <svt/core/text.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
 
 namespace svt::writers {
-namespace {
-
-/// What is not valid UTF-8 becomes '?', so that readers take the rest.
-std::string validText(std::string_view text) {
-    std::string valid;
-    while (!text.empty()) {
-        const std::size_t size = firstCharacter(text).size;
-        valid += size == 0 ? "?" : text.substr(0, size);
-        text.remove_prefix(size == 0 ? 1 : size);
-    }
-    return valid;
-}
-
-}  // namespace
-
 std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int target) {
     bytes_.resize((bytes_.size() + 7) / 8 * 8, '\0');
     Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
