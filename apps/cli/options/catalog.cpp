@@ -184,7 +184,7 @@ constexpr Option kBuild[] = {
      .value = "FILE",
      .help =
          "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3, IndoorGML; or one label "
-         "volume: NRRD, VTI, NIfTI, TIFF, CityGML with a volume in it",
+         "volume: NRRD, VTI, NIfTI, TIFF, a folder of Zarr, CityGML with a volume in it",
      .isRequired = true,
      .mayRepeat = true,
      .file = FileUse::Model},
