@@ -296,6 +296,23 @@ TEST_F(Convert, TilesHaveFeaturesAndAPlaceOnTheGlobe) {
     if (!isReadByNode("tileset house.3dtiles")) GTEST_SKIP() << said;
 }
 
+TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles"});
+    const char* told = std::getenv("SVT_ORACLES");
+    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    // The middle is at 500005.5, 5400003.85 and 104.2 m in zone 32 of UTM; by cs2cs:
+    const std::string command =
+        "cd '" + folder.path().string() + "' && node " SVT_SOURCE_DIR "/tests/formats/cesium.mjs " + oracles +
+        " house.3dtiles 9.0000748 48.7530476 104.2 BuildingConstructiveElement > output.txt 2>&1";
+    const int status = std::system(command.c_str());
+    said = readText(folder / "output.txt");
+    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << said;
+    EXPECT_EQ(status, 0) << said;
+    EXPECT_NE(said.find("\"Upper floor\""), std::string::npos) << said;
+}
+
 TEST_F(Convert, ParquetHasTheRowsOfCsv) {
     runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
     runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});

@@ -47,19 +47,26 @@ void putValues(VdbBytes& to, std::span<const std::uint32_t> active) {
     to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
-/// The samples of a leaf in the file's order: z fastest.
-void leafValues(const std::vector<std::uint32_t>& block, Vec3i leaf, std::array<std::uint32_t, 512>& values) {
+/// A leaf in the file's order, z fastest; the block is read in its own order, x fastest.
+/// \return whether all samples are alike
+bool gatherLeaf(const std::vector<std::uint32_t>& block, Vec3i leaf, std::array<std::uint32_t, 512>& values) {
     constexpr auto kSide = static_cast<std::size_t>(VdbBlocks::kSide);
-    std::size_t n = 0;
-    for (std::int32_t x = 0; x < kLeafSide; ++x)
-        for (std::int32_t y = 0; y < kLeafSide; ++y)
-            for (std::int32_t z = 0; z < kLeafSide; ++z)
-                values[n++] =
-                    block[std::size_t(leaf.x * kLeafSide + x) +
-                          kSide * (std::size_t(leaf.y * kLeafSide + y) + kSide * std::size_t(leaf.z * kLeafSide + z))];
+    const std::uint32_t* corner = block.data() + std::size_t(leaf.x * kLeafSide) +
+                                  kSide * (std::size_t(leaf.y * kLeafSide) + kSide * std::size_t(leaf.z * kLeafSide));
+    const std::uint32_t first = *corner;
+    std::uint32_t difference = 0;
+    for (std::size_t z = 0; z < 8; ++z)
+        for (std::size_t y = 0; y < 8; ++y) {
+            const std::uint32_t* row = corner + kSide * (y + kSide * z);
+            for (std::size_t x = 0; x < 8; ++x) {
+                values[x << 6 | y << 3 | z] = row[x];
+                difference |= row[x] ^ first;
+            }
+        }
+    return difference == 0;
 }
 
-/// Calls visit(number, values) for the leaves of a block in the file's order: z fastest.
+/// Calls visit(number, values, isUniform) for the leaves of a block in the file's order: z fastest.
 template <class Visit>
 void forEachLeaf(const std::vector<std::uint32_t>& block, const Visit& visit) {
     std::array<std::uint32_t, 512> values{};
@@ -67,13 +74,9 @@ void forEachLeaf(const std::vector<std::uint32_t>& block, const Visit& visit) {
     for (std::int32_t x = 0; x < kLeavesAlong; ++x)
         for (std::int32_t y = 0; y < kLeavesAlong; ++y)
             for (std::int32_t z = 0; z < kLeavesAlong; ++z) {
-                leafValues(block, {x, y, z}, values);
-                visit(number++, values);
+                const bool isUniform = gatherLeaf(block, {x, y, z}, values);
+                visit(number++, values, isUniform);
             }
-}
-
-bool isUniform(const std::array<std::uint32_t, 512>& values) {
-    return std::all_of(values.begin(), values.end(), [&](std::uint32_t v) { return v == values[0]; });
 }
 
 NodeMask<512> maskOf(const std::array<std::uint32_t, 512>& values) {
@@ -88,8 +91,8 @@ VdbBytes lowerTopology(const std::vector<std::uint32_t>& block) {
     NodeMask<4096> children, tiles;
     std::vector<std::uint32_t> tileValues;
     VdbBytes leaves;
-    forEachLeaf(block, [&](std::size_t n, const std::array<std::uint32_t, 512>& values) {
-        if (isUniform(values)) {
+    forEachLeaf(block, [&](std::size_t n, const std::array<std::uint32_t, 512>& values, bool isUniform) {
+        if (isUniform) {
             if (values[0] == 0) return;
             tiles.set(n);
             tileValues.push_back(values[0]);
@@ -110,8 +113,8 @@ VdbBytes lowerTopology(const std::vector<std::uint32_t>& block) {
 VdbBytes leafBuffers(const std::vector<std::uint32_t>& block) {
     VdbBytes bytes;
     std::vector<std::uint32_t> active;
-    forEachLeaf(block, [&](std::size_t, const std::array<std::uint32_t, 512>& values) {
-        if (isUniform(values)) return;
+    forEachLeaf(block, [&](std::size_t, const std::array<std::uint32_t, 512>& values, bool isUniform) {
+        if (isUniform) return;
         put(bytes, maskOf(values));
         active.clear();
         std::copy_if(values.begin(), values.end(), std::back_inserter(active), [](std::uint32_t v) { return v != 0; });
