@@ -298,6 +298,22 @@ void takeOwn(const ZarrJson& attributes, LabelImage& image) {
     image.origin = header->grid.origin();
 }
 
+/// What is left out is background, so a few bytes can claim a volume that takes hours: beyond 8 GB the chunks that are there
+/// must be in some proportion to it.
+Result<void> checkProportion(const fs::path& folder, std::uint64_t sampleBytes) {
+    constexpr std::uint64_t kAlways = std::uint64_t{1} << 33, kMostRatio = 1 << 16;
+    if (sampleBytes <= kAlways) return {};
+    std::uint64_t stored = 0;
+    std::error_code failed;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failed);
+    for (; !failed && at != fs::recursive_directory_iterator() && stored < sampleBytes / kMostRatio;
+         at.increment(failed))
+        if (std::error_code ignored; at->is_regular_file(ignored)) stored += at->file_size(ignored);
+    if (stored >= sampleBytes / kMostRatio) return {};
+    return Error(Code::BadImage, fmt::format("{} in files cannot be the {} of samples that the sizes say",
+                                             bytesText(stored), bytesText(sampleBytes)));
+}
+
 /// The metadata of an array; null where there is none.
 Result<ZarrJson> arrayJson(const fs::path& root, const fs::path& folder) {
     auto version3 = readJsonInside(root, folder / "zarr.json");
@@ -355,6 +371,9 @@ Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
     image.isSigned = array->isSigned;
     if (const auto group = json->find("svt_group"); group != json->end() && group->is_object()) takeOwn(*group, image);
     if (auto checked = checkImage(image, ~std::uint64_t{0}, false, Code::BadImage); !checked) return checked.error();
+    if (auto checked = checkProportion(at, image.sliceBytes() * static_cast<std::uint64_t>(image.dimension.z));
+        !checked)
+        return checked.error();
     auto source = std::make_shared<ZarrSource>(root, at, std::move(*array), image.bits / 8);
     if (source->bandBytes() > maxBytes / 2)
         return Error(Code::InputTooBig,

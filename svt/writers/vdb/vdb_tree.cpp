@@ -30,20 +30,45 @@ void put(VdbBytes& to, const T& value) {
     to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
+/// zlib with a window as small as the leaves are, made once: setting it up takes longer than to pack a leaf.
+class LeafPacker {
+public:
+    LeafPacker() {
+        if (deflateInit2(&stream_, kVdbLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+            throw std::bad_alloc();
+    }
+    LeafPacker(const LeafPacker&) = delete;
+    LeafPacker& operator=(const LeafPacker&) = delete;
+    ~LeafPacker() { deflateEnd(&stream_); }
+
+    /// The packed bytes, until the next call.
+    std::span<const std::byte> pack(std::span<const std::byte> plain) {
+        deflateReset(&stream_);
+        packed_.resize(deflateBound(&stream_, static_cast<uLong>(plain.size())));
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(plain.data()));
+        stream_.avail_in = static_cast<uInt>(plain.size());
+        stream_.next_out = reinterpret_cast<Bytef*>(packed_.data());
+        stream_.avail_out = static_cast<uInt>(packed_.size());
+        deflate(&stream_, Z_FINISH);  // ends, since the buffer is large enough
+        return std::span<const std::byte>(packed_).first(packed_.size() - stream_.avail_out);
+    }
+
+private:
+    static constexpr int kWindowBits = 12, kMemoryLevel = 4;
+    z_stream stream_{};
+    VdbBytes packed_;
+};
+
 /// The active values of a node: a byte that says that all others are background, then the values, compressed by zlib where
 /// that makes them smaller.
 void putValues(VdbBytes& to, std::span<const std::uint32_t> active) {
+    thread_local LeafPacker packer;
     put(to, std::int8_t{0});
     const auto plain = std::as_bytes(active);
-    VdbBytes packed(compressBound(static_cast<uLong>(plain.size())));
-    uLongf size = static_cast<uLongf>(packed.size());
-    const int status =
-        compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(plain.data()),
-                  static_cast<uLong>(plain.size()), kVdbLevel);
-    if (status != Z_OK) throw std::bad_alloc();  // the buffer is large enough, so only memory can be missing
-    const bool isSmaller = size < plain.size();
-    put(to, isSmaller ? static_cast<std::int64_t>(size) : -static_cast<std::int64_t>(plain.size()));
-    const auto bytes = isSmaller ? std::span<const std::byte>(packed).first(size) : plain;
+    const auto packed = packer.pack(plain);
+    const bool isSmaller = packed.size() < plain.size();
+    put(to, isSmaller ? static_cast<std::int64_t>(packed.size()) : -static_cast<std::int64_t>(plain.size()));
+    const auto bytes = isSmaller ? packed : plain;
     to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
@@ -221,7 +246,7 @@ Result<void> VdbTree::forEachChild(const Upper& upper, const Visit& visit) const
     return {};
 }
 
-Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& sink) const {
+Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& topology, const VdbSink& buffers) const {
     NodeMask<32768> children, tiles;
     std::vector<std::uint32_t> tileValues;
     auto done = forEachChild(upper, [&](std::size_t number, Vec3i, State state, std::uint32_t value) -> Result<void> {
@@ -239,37 +264,28 @@ Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& sink) const 
     put(bytes, children);
     put(bytes, tiles);
     putValues(bytes, tileValues);
-    if (done = sink(bytes); !done) return done;
+    if (topology)
+        if (done = topology(bytes); !done) return done;
     std::vector<std::uint32_t> values;
     return forEachChild(upper, [&](std::size_t, Vec3i block, State state, std::uint32_t) -> Result<void> {
         if (state != State::Child) return {};
         readBlock(block, values);
-        return sink(lowerTopology(values));
+        if (topology)
+            if (auto written = topology(lowerTopology(values)); !written) return written;
+        return buffers ? buffers(leafBuffers(values)) : Result<void>();
     });
 }
 
-Result<void> VdbTree::writeTopology(const VdbSink& sink) const {
+Result<void> VdbTree::write(const VdbSink& topology, const VdbSink& buffers) const {
     VdbBytes bytes;
     put(bytes, std::int32_t{1});   // buffers of a leaf
     put(bytes, std::uint32_t{0});  // background
     put(bytes, std::uint32_t{0});  // tiles of the root
     put(bytes, static_cast<std::uint32_t>(roots_.size()));
-    if (auto done = sink(bytes); !done) return done;
+    if (topology)
+        if (auto done = topology(bytes); !done) return done;
     for (const Upper& upper : roots_)
-        if (auto done = writeUpper(upper, sink); !done) return done;
-    return {};
-}
-
-Result<void> VdbTree::writeBuffers(const VdbSink& sink) const {
-    std::vector<std::uint32_t> values;
-    for (const Upper& upper : roots_) {
-        auto done = forEachChild(upper, [&](std::size_t, Vec3i block, State state, std::uint32_t) -> Result<void> {
-            if (state != State::Child) return {};
-            readBlock(block, values);
-            return sink(leafBuffers(values));
-        });
-        if (!done) return done;
-    }
+        if (auto done = writeUpper(upper, topology, buffers); !done) return done;
     return {};
 }
 

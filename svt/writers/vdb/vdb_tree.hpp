@@ -58,9 +58,9 @@ public:
     VdbTree(const VdbBlocks& blocks, std::vector<std::uint32_t> valueOf);
 
     [[nodiscard]] bool isEmpty() const noexcept { return roots_.empty(); }
-    /// Both pass over the samples once. \return nothing, or Cancelled, or the first error of `sink`
-    [[nodiscard]] Result<void> writeTopology(const VdbSink& sink) const;
-    [[nodiscard]] Result<void> writeBuffers(const VdbSink& sink) const;
+    /// Passes over the samples once. \param topology, buffers  may be empty: then that part is not made
+    /// \return nothing, or Cancelled, or the first error of a sink
+    [[nodiscard]] Result<void> write(const VdbSink& topology, const VdbSink& buffers) const;
 
 private:
     enum class State : std::uint8_t { Empty, Tile, Child };
@@ -68,7 +68,7 @@ private:
         Vec3i first;  ///< block
     };
     [[nodiscard]] State stateOf(Vec3i block, std::uint32_t& value) const;
-    [[nodiscard]] Result<void> writeUpper(const Upper& upper, const VdbSink& sink) const;
+    [[nodiscard]] Result<void> writeUpper(const Upper& upper, const VdbSink& topology, const VdbSink& buffers) const;
     template <class Visit>
     [[nodiscard]] Result<void> forEachChild(const Upper& upper, const Visit& visit) const;
     void readBlock(Vec3i block, std::vector<std::uint32_t>& values) const;

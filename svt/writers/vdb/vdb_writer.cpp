@@ -88,8 +88,7 @@ struct VdbPart {
 Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicFile& file) {
     const std::string head = gridHead(grid, samples);
     VdbPart topology, buffers;
-    if (auto done = grid.tree.writeTopology(topology.sink()); !done) return done;
-    if (auto done = grid.tree.writeBuffers(buffers.sink()); !done) return done;
+    if (auto done = grid.tree.write(topology.sink(), buffers.sink()); !done) return done;
     std::string descriptor = vdbString(grid.name) + vdbString("Tree_float_5_4_3") + vdbString("");
     const std::uint64_t begin = file.size() + descriptor.size() + 3 * sizeof(std::int64_t),
                         leaves = begin + head.size() + topology.size;
@@ -97,9 +96,9 @@ Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicF
         appendBytes(descriptor, static_cast<std::int64_t>(place));
     if (auto done = file.write(descriptor + head); !done) return done;
     const auto sink = [&](std::span<const std::byte> bytes) { return file.write(bytes); };
-    auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.tree.writeTopology(sink);
+    auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.tree.write(sink, {});
     if (!done) return done;
-    return buffers.kept.size() == buffers.size ? file.write(buffers.kept) : grid.tree.writeBuffers(sink);
+    return buffers.kept.size() == buffers.size ? file.write(buffers.kept) : grid.tree.write({}, sink);
 }
 
 std::vector<VdbGrid> gridsOf(const volume::SemanticVolume& volume, const VdbBlocks& blocks) {

@@ -21,7 +21,8 @@
 namespace svt::writers {
 
 /// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: some blocks of 128^3 samples. Cost: the samples
-/// of each block are unrolled once, and four times more for each grid that has something in it.
+/// of each block are unrolled once, and once more for each grid that has something in it, thrice where the grid has
+/// more than 64 MB.
 /// \return bytes, or NothingSelected if no label has voxels, CannotWrite, DiskFull, Cancelled; BadArgument as
 ///         checkedSampleBits(), and for more than 2^24 scalars
 [[nodiscard]] Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
