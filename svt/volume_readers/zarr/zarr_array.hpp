@@ -48,7 +48,6 @@ struct ZarrScale {
 };
 
 /// \param attributes  of the group; of version 3 with OME's metadata in `ome`
-/// \param axes        of the array, where it is known; checked when it is read
 /// \return the scale, or BadImage: no multiscales in it, axes in another order, an unknown unit, a path that leads out of the
 ///         folder
 [[nodiscard]] Result<ZarrScale> readZarrScale(const nlohmann::ordered_json& attributes);

@@ -60,7 +60,8 @@ VoxPalette paletteOf(const volume::SemanticVolume& volume) {
         return sum;
     };
     std::map<VoxColor, std::uint8_t> numbers;
-    for (const auto& [color, count] : counts) {
+    for (const auto& counted : counts) {
+        const VoxColor color = counted.first;
         const auto nearest =
             std::min_element(palette.colors.begin(), palette.colors.end(),
                              [&](VoxColor a, VoxColor b) { return distance(a, color) < distance(b, color); });
