@@ -15,7 +15,8 @@ packages=(
   clang-format libgtest-dev libxml2-utils librsvg2-bin poppler-utils gdal-bin unzip python3 ccache
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
-readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx)
+readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx python3-numcodecs
+  python3-openvdb)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)

@@ -61,7 +61,10 @@ SharedVolume openVolume(const Path& path, const Path& labels, const py::object& 
         std::ifstream stream(path, std::ios::binary);
         stream.read(head.data(), head.size());
         const auto bytes = std::as_bytes(std::span(head).first(static_cast<std::size_t>(stream.gcount())));
-        if (stream.gcount() > 0 && !volume::looksLikeSvt(bytes) && volume_readers::looksLikeLabelVolume(path))
+        std::error_code ignored;
+        const bool isFolder = std::filesystem::is_directory(path, ignored);  // of Zarr
+        if ((stream.gcount() > 0 || isFolder) && !volume::looksLikeSvt(bytes) &&
+            volume_readers::looksLikeLabelVolume(path))
             return volume_readers::readLabelVolume(path, {labels, 0, progress});
         if (!labels.empty())
             return Error(Code::BadArgument,

@@ -9,8 +9,9 @@
 ///  - the grid: spacing and direction of the file, in metres (files that count in millimetres are brought to metres). A
 ///    grid that is mirrored or sheared is refused;
 ///  - NRRD: 8, 16 or 32 bits, raw or gzip, one file, segments of 3D Slicer as the table; VTI: cells or points, raw
-///    appended, zlib or not; NIfTI-1 and -2, .nii and .nii.gz; TIFF stacks, raw or Deflate; CityGML with a volume by the
-///    extension that `svt convert` writes, all three kinds of texture.
+///    appended, zlib or not; NIfTI-1 and -2, .nii and .nii.gz; TIFF stacks, raw or Deflate; folders of Zarr 2 and 3, sharded
+///    or not, raw or by zlib, gzip, zstd, LZ4 or Blosc with one of them, the finest level of OME-NGFF; CityGML with a volume
+///    by the extension that `svt convert` writes, all three kinds of texture.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -33,7 +34,7 @@ struct LabelReadOptions {
 /// extension somewhere in it.
 [[nodiscard]] bool looksLikeLabelVolume(const std::filesystem::path& path);
 
-/// Cost: O(samples). Memory: the columns, and two slices; never the dense volume.
+/// Cost: O(samples). Memory: the columns, and two slices (of Zarr a band of chunks); never the dense volume.
 /// \return the volume, or CannotOpen; BadNrrd, BadImage or BadVolume with what is wrong; InputTooBig; BadDimension,
 ///         GridTooLarge; BadJson for a table; Cancelled
 [[nodiscard]] Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path,

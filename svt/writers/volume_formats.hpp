@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,8 +53,13 @@ struct VolumeWriteOptions {
     std::filesystem::path model;  ///< of CityGML: the model that the volume was built from, which is kept; empty: none
     int cityGmlVersion = 0;       ///< 2 or 3; 0: that of the model, 3 without one
     int zarrVersion = 2;          ///< 2 (OME-NGFF 0.4) or 3 (0.5)
-    MergeBy mergeBy = MergeBy::Label;         ///< of boxes (FDS, lists of boxes)
-    std::size_t maxBoxes = 1'000'000;         ///< of boxes: more are refused
+    MergeBy mergeBy = MergeBy::Label;  ///< of boxes (FDS, lists of boxes)
+    std::size_t maxBoxes = 1'000'000;  ///< of boxes: more are refused
+    bool hasMeshes = false;            ///< of neuroglancer: also the surface of each label
+    std::optional<Vec3d>
+        place;        ///< of 3D Tiles: latitude, longitude (degrees) and height over the ellipsoid (metres) of
+                      ///< the lower corner; none: by the CRS of the volume
+    double lift = 0;  ///< of 3D Tiles: metres that are added to heights
     std::vector<std::uint32_t> holes, vents;  ///< of FDS: labels that are open, and that have vents on both sides
     int threads = 0;                          ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;       ///< stages by format

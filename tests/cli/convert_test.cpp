@@ -4,7 +4,11 @@
 
 #include <svt/writers/volume_formats.hpp>
 
+#include <cmath>
 #include <cstdlib>
+#include <map>
+#include <set>
+#include <sstream>
 
 namespace svt::test {
 namespace {
@@ -45,6 +49,20 @@ protected:
         said = readText(folder / "output.txt");
         if (WEXITSTATUS(status) == 77) return false;
         EXPECT_EQ(status, 0) << file << ":\n" << said;
+        return true;
+    }
+
+    /// Runs tests/formats/read_formats.mjs with what is installed in build/oracles; false where the reader is not.
+    bool isReadByNode(const std::string& arguments) {
+        const char* told = std::getenv("SVT_ORACLES");
+        const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+        const std::string command = "cd '" + folder.path().string() +
+                                    "' && node " SVT_SOURCE_DIR "/tests/formats/read_formats.mjs " + oracles + " " +
+                                    arguments + " > output.txt 2>&1";
+        const int status = std::system(command.c_str());
+        said = readText(folder / "output.txt");
+        if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) return false;
+        EXPECT_EQ(status, 0) << arguments << ":\n" << said;
         return true;
     }
 
@@ -144,6 +162,170 @@ TEST_F(Convert, VtkReadsTriangles) {
     EXPECT_EQ(readText(folder / "d.mtl"), "a letter");
 }
 
+TEST_F(Convert, ZarrOfOthersIsRead) {
+    // By zarr-python with each of its compressors, and what must be refused.
+    const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+    const std::string svt = fs::path(SVT_COMMAND).string();
+    const std::string command = "cd '" + folder.path().string() + "' && " + python +
+                                " " SVT_SOURCE_DIR "/tests/scripts/zarr_of_others.py '" + svt + "' . > output.txt 2>&1";
+    const int status = std::system(command.c_str());
+    if (WEXITSTATUS(status) == 77) GTEST_SKIP() << readText(folder / "output.txt");
+    EXPECT_EQ(status, 0) << readText(folder / "output.txt");
+}
+
+TEST_F(Convert, ZarrVersion3OfOthersIsRead) {
+    const char* told = std::getenv("SVT_ORACLES");
+    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    const std::string command = "node " SVT_SOURCE_DIR "/tests/formats/write_zarr.mjs " + oracles + " '" +
+                                folder.path().string() + "' > '" + (folder / "output.txt").string() + "' 2>&1";
+    const int status = std::system(command.c_str());
+    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << readText(folder / "output.txt");
+    ASSERT_EQ(status, 0) << readText(folder / "output.txt");
+    std::istringstream names(readText(folder / "written.txt"));
+    int count = 0;
+    for (std::string name; names >> name; ++count) {
+        runSvtWell(folder.path(), {"build", name + ".zarr", "-o", name + ".svt"});
+        runSvtWell(folder.path(), {"convert", name + ".svt", name + ".nrrd", "--encoding", "raw"});
+        const std::string nrrd = readText(folder / (name + ".nrrd")), expected = readText(folder / "expected.raw");
+        const std::string_view samples = std::string_view(nrrd).substr(nrrd.find("\n\n") + 2);
+        // Values become the numbers of their places among all values.
+        ASSERT_EQ(samples.size(), expected.size() / 2) << name;
+        std::map<int, std::set<int>> scalarsOf;
+        for (std::size_t s = 0; s < samples.size(); ++s)
+            scalarsOf[static_cast<unsigned char>(expected[2 * s]) | static_cast<unsigned char>(expected[2 * s + 1])
+                                                                        << 8]
+                .insert(static_cast<unsigned char>(samples[s]));
+        int scalar = 0;
+        for (const auto& [value, scalars] : scalarsOf) EXPECT_EQ(scalars, std::set<int>{scalar++}) << name << value;
+    }
+    EXPECT_GE(count, 5) << readText(folder / "output.txt");
+}
+
+TEST_F(Convert, VtkReadsAllLevels) {
+    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "boxes.svt", "--spacing", "0.06,0.07,0.05"});
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "reference.nrrd", "--encoding", "raw"});
+    expectRead("vtm", "boxes.vtm");
+    if (IsSkipped()) return;
+    EXPECT_NE(said.find("levels 2"), std::string::npos) << said;
+    writeText(folder / "other.level0.vti", "a letter");
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "other.vtm"}).exitCode, 5);
+    EXPECT_EQ(readText(folder / "other.level0.vti"), "a letter");
+    EXPECT_FALSE(fs::exists(folder / "other.vtm"));
+}
+
+TEST_F(Convert, TheOpenVdbLibraryReadsLabelsMasksAndPlace) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.vdb"});
+    if (!isSameFor("vdb", "boxes.vdb")) GTEST_SKIP() << said;
+    // Fine enough for tiles of 8 samples, several nodes, and a turned grid with several classes.
+    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "fine.svt", "--spacing", "0.03,0.031,0.033"});
+    runSvtWell(folder.path(), {"convert", "fine.svt", "fine.nrrd", "--encoding", "raw"});
+    runSvtWell(folder.path(), {"convert", "fine.svt", "fine.vdb"});
+    isSameFor("vdb", "fine.vdb", "fine.nrrd");
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml", "--turn", "30"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "turned.svt", "--spacing", "0.31,0.26,0.2", "--axes",
+                               "building", "--patterns"});
+    runSvtWell(folder.path(), {"convert", "turned.svt", "turned.nrrd", "--encoding", "raw"});
+    runSvtWell(folder.path(), {"convert", "turned.svt", "turned.vdb"});
+    isSameFor("vdb", "turned.vdb", "turned.nrrd");
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "n.vdb", "--box", "500003,5400003,102,500007,5400005,105"})
+                  .exitCode,
+              2)
+        << "nothing there";
+}
+
+TEST_F(Convert, MagicaVoxelsFormatHasAllVoxelsWithTheirNames) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.vox"});
+    ASSERT_TRUE(isSameFor("vox", "boxes.vox")) << said;
+    // Models of more than 256 voxels are divided.
+    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "fine.svt", "--spacing", "0.025,0.3,0.37"});
+    runSvtWell(folder.path(), {"convert", "fine.svt", "fine.nrrd", "--encoding", "raw"});
+    runSvtWell(folder.path(), {"convert", "fine.svt", "fine.vox"});
+    EXPECT_TRUE(isSameFor("vox", "fine.vox", "fine.nrrd")) << said;
+    const CommandResult few = runSvt(folder.path(), {"convert", "boxes.svt", "few.vox", "--max-voxels", "100"});
+    EXPECT_EQ(few.exitCode, 2);
+    EXPECT_NE(few.err.find("--level or --select"), std::string::npos) << few.err;
+    EXPECT_FALSE(fs::exists(folder / "few.vox"));
+    if (!isReadByNode("vox boxes.vox reference.nrrd")) GTEST_SKIP() << said;
+    EXPECT_NE(said.find(" & \"Bad\", b, c"), std::string::npos) << said;  // it takes UTF-8 for Latin letters
+}
+
+TEST_F(Convert, UsdHasTheHullsWithNamesAndPlace) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.usda", "--faces", "voxels"});
+    ASSERT_TRUE(isSameFor("mesh", "boxes.usda")) << said;
+    EXPECT_NE(said.find("['a', 'b', 'c']"), std::string::npos) << said;
+    const std::string text = readText(folder / "boxes.usda");
+    EXPECT_NE(text.find("def Xform \"a\" (\n    displayName = \"K\u00fcche & \\\"Bad\\\"\"\n)"), std::string::npos);
+    if (!isReadByNode("usda boxes.usda reference.nrrd")) GTEST_SKIP() << said;
+    EXPECT_NE(said.find("; a, b, c"), std::string::npos) << said;
+}
+
+TEST_F(Convert, NeuroglancerMeshesAreTheHulls) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.precomputed", "--meshes", "--faces", "voxels"});
+    EXPECT_TRUE(isSameFor("mesh", "boxes.precomputed")) << said;
+}
+
+TEST_F(Convert, TilesHaveFeaturesAndAPlaceOnTheGlobe) {
+    runSvtWell(folder.path(), {"convert", "boxes.svt", "at.3dtiles", "--faces", "voxels", "--place", "49.1,8.44,110",
+                               "--lift", "0.5"});
+    ASSERT_TRUE(isSameFor("mesh", "at.3dtiles")) << said;
+    EXPECT_NE(said.find("['a', 'b', 'c'] ['K\u00fcche & \"Bad\"', '', ''] [14.0"), std::string::npos) << said;
+    const auto tiles = nlohmann::json::parse(readText(folder / "at.3dtiles/tileset.json"));
+    const auto& matrix = tiles["root"]["transform"];
+    // By cs2cs: echo 49.1 8.44 110.5 | cs2cs EPSG:4979 EPSG:4978
+    EXPECT_NEAR(matrix[12].get<double>(), 4138794.3055, 2e-3);
+    EXPECT_NEAR(matrix[13].get<double>(), 614116.7043, 2e-3);
+    EXPECT_NEAR(matrix[14].get<double>(), 4797931.0199, 2e-3);
+    // By a CRS: the axes of UTM are 0.9996 of metres on the ground at its meridian, and less by the height.
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles"});
+    const auto house = nlohmann::json::parse(readText(folder / "house.3dtiles/tileset.json"));
+    const auto& axes = house["root"]["transform"];
+    EXPECT_NEAR(std::hypot(axes[0].get<double>(), axes[1].get<double>(), axes[2].get<double>()), 1 / 0.9996, 1e-4);
+    EXPECT_NEAR(std::hypot(axes[8].get<double>(), axes[9].get<double>(), axes[10].get<double>()), 1, 1e-12);
+    // Without either there is no place; a place that is none is refused.
+    std::string plain = unlikeBoxes();
+    const std::string srs = "srsName=\"urn:ogc:def:crs:EPSG::25832\" ";
+    plain.erase(plain.find(srs), srs.size());
+    writeText(folder / "plain.gml", plain);
+    const CommandResult none = runSvt(folder.path(), {"convert", "plain.gml", "none.3dtiles"});
+    EXPECT_NE(none.exitCode, 0);
+    EXPECT_NE(none.err.find("--place"), std::string::npos) << none.err;
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "none.3dtiles", "--place", "99,8,110"}).exitCode, 2);
+    EXPECT_FALSE(fs::exists(folder / "none.3dtiles"));
+    if (!isReadByNode("tileset house.3dtiles")) GTEST_SKIP() << said;
+}
+
+TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles"});
+    const char* told = std::getenv("SVT_ORACLES");
+    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    // The middle is at 500005.5, 5400003.85 and 104.2 m in zone 32 of UTM; by cs2cs:
+    const std::string command =
+        "cd '" + folder.path().string() + "' && node " SVT_SOURCE_DIR "/tests/formats/cesium.mjs " + oracles +
+        " house.3dtiles 9.0000748 48.7530476 104.2 BuildingConstructiveElement > output.txt 2>&1";
+    const int status = std::system(command.c_str());
+    said = readText(folder / "output.txt");
+    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << said;
+    EXPECT_EQ(status, 0) << said;
+    EXPECT_NE(said.find("\"Upper floor\""), std::string::npos) << said;
+}
+
+TEST_F(Convert, ParquetHasTheRowsOfCsv) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
+    for (const std::string name : {"house", "house.contacts"}) {
+        runSvtWell(folder.path(), {"convert", "house.svt", name + ".csv"});
+        runSvtWell(folder.path(), {"convert", "house.svt", name + ".parquet"});
+        const std::string bytes = readText(folder / (name + ".parquet"));
+        EXPECT_TRUE(bytes.starts_with("PAR1") && bytes.ends_with("PAR1"));
+        for (const char* reader : {"parquet ", "arrow "})
+            if (!isReadByNode(reader + name + ".parquet " + name + ".csv")) GTEST_SKIP() << said;
+    }
+}
+
 TEST_F(Convert, NetworkxReadsGraphMl) {
     runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.graphml"});
     runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.adjacency.json"});
@@ -217,9 +399,9 @@ TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
             continue;
         }
         std::string two = readText(folder / ("two" + ending));
-        // An OBJ names the file of its colours, an FDS document is named as its file.
-        for (const char* own : {"two.mtl", "two', TITLE", "two' /"})
-            if (const std::size_t name = two.find(own); name != std::string::npos) two.replace(name, 3, "one");
+        // An OBJ names the file of its colours, a VTM its levels, an FDS document is named as its file.
+        for (const char* own : {"two.mtl", "two.level", "two', TITLE", "two' /"})
+            for (std::size_t name = 0; (name = two.find(own, name)) != std::string::npos;) two.replace(name, 3, "one");
         EXPECT_TRUE(readText(folder / ("one" + ending)) == two) << format.name;
         EXPECT_FALSE(readText(folder / ("one" + ending)).empty()) << format.name;
         // What is there is replaced by its like alone.

@@ -178,14 +178,17 @@ def triangles(path):
 
 def mesh(path):
     """Triangles: their volume and box as those of the voxels that are not background; VTK reads as many."""
-    from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-    from vtkmodules.vtkIOPLY import vtkPLYReader
+    if path.split(".")[-1] in ("obj", "stl", "ply"):
+        from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
+        from vtkmodules.vtkIOPLY import vtkPLYReader
 
-    reader = {"obj": vtkOBJReader, "stl": vtkSTLReader, "ply": vtkPLYReader}[path[-3:]]()
-    reader.SetFileName(path)
-    reader.Update()
-    points, faces = triangles(path)
-    assert reader.GetOutput().GetNumberOfCells() == len(faces), (reader.GetOutput().GetNumberOfCells(), len(faces))
+    other = {"usda": usda, "precomputed": neuroglancer_mesh, "3dtiles": tileset}.get(path.split(".")[-1])
+    points, faces = (other or triangles)(path)
+    if other is None:
+        reader = {"obj": vtkOBJReader, "stl": vtkSTLReader, "ply": vtkPLYReader}[path[-3:]]()
+        reader.SetFileName(path)
+        reader.Update()
+        assert reader.GetOutput().GetNumberOfCells() == len(faces), (reader.GetOutput().GetNumberOfCells(), len(faces))
     expected, place = nrrd(sys.argv[3])
     used = np.argwhere(expected > 0)[:, ::-1]
     corners = np.array([used.min(axis=0) - 0.5, used.max(axis=0) + 0.5])
@@ -200,7 +203,243 @@ def mesh(path):
     sys.exit(0)
 
 
-READERS = {"nrrd": nrrd, "vti": vti, "vtknrrd": vtk_nrrd, "nifti": nifti, "tiff": tiff, "gdal": gdal, "zarr": zarr, "mesh": mesh}
+def labels_of(path):
+    """The labels of a NRRD of `svt convert`: dicts of the keys svt_label_N."""
+    import json
+
+    head = open(path, "rb").read().split(b"\n\n", 1)[0].decode()
+    found = re.findall(r"^svt_label_(\d+):=(.*)$", head, re.M)
+    return [json.loads(text.replace("\\\\", "\\")) for _, text in sorted(found, key=lambda f: int(f[0]))]
+
+
+def vdb(path):
+    """The OpenVDB library: labels, a mask for each class, the transform."""
+    import pyopenvdb as library
+
+    labels = library.read(path, "label")
+    expected, _ = nrrd(sys.argv[3])
+    samples = np.zeros(expected.shape[::-1], np.float32)
+    labels.copyToArray(samples)
+    table = labels_of(sys.argv[3])
+    classes = sorted({label["class"] for label in table if label["count"] > 0 and label["voxels"] > 0})
+    assert sorted(g.name for g in library.readAllGridMetadata(path)) == sorted(classes + ["label"])
+    for name in classes:
+        mask = np.zeros(expected.shape[::-1], np.float32)
+        grid = library.read(path, name)
+        assert grid.gridClass == "fog volume"
+        grid.copyToArray(mask)
+        inside = [s for label in table if label["class"] == name for s in range(label["first"], label["first"] + label["count"])]
+        assert (mask == np.isin(samples, inside)).all(), name
+        assert grid.activeVoxelCount() == mask.sum(dtype=float), "what lies beyond the volume is not active"
+    place = [labels.transform.indexToWorld(corner) for corner in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    origin, *steps = (np.array(p) for p in place)
+    return samples.T.astype(expected.dtype), np.column_stack([*(s - origin for s in steps), origin])
+
+
+def vtm(path):
+    """All levels; the first one has the samples."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader
+
+    reader = vtkXMLMultiBlockDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    blocks = reader.GetOutput()
+    boxes = [np.array(blocks.GetBlock(b).GetBounds()) for b in range(blocks.GetNumberOfBlocks())]
+    print("levels", len(boxes))
+    # A level may be up to a cell of its own longer.
+    for b, box in enumerate(boxes):
+        step = np.repeat(blocks.GetBlock(b).GetSpacing(), 2)
+        assert (np.abs(box - boxes[0]) <= step + 1e-6).all(), (b, box, boxes[0])
+    image = blocks.GetBlock(0)
+    n = [d - 1 for d in image.GetDimensions()]
+    return vtk_to_numpy(image.GetCellData().GetArray("label")).reshape(n[::-1]), vtk_points(image, True)
+
+
+def vox(path):
+    """MagicaVoxel's format, read by hand: voxels by the graph of the scene, labels by the ids of its groups."""
+    import struct
+
+    data = open(path, "rb").read()
+    assert data[:4] == b"VOX " and struct.unpack_from("<i", data, 4)[0] == 150
+    assert data[8:12] == b"MAIN" and struct.unpack_from("<ii", data, 12) == (0, len(data) - 20)
+    models, nodes, palette, at, size = [], {}, None, 20, None
+
+    def words(where, count):
+        return struct.unpack_from(f"<{count}i", data, where)
+
+    def dictionary(where):
+        count, where = words(where, 1)[0], where + 4
+        entries = {}
+        for _ in range(count):
+            pair = []
+            for _ in range(2):
+                length = words(where, 1)[0]
+                pair.append(data[where + 4:where + 4 + length].decode())
+                where += 4 + length
+            entries[pair[0]] = pair[1]
+        return entries, where
+
+    while at < len(data):
+        name, length, at = data[at:at + 4], words(at + 4, 1)[0], at + 12
+        if name == b"SIZE":
+            size = words(at, 3)
+        elif name == b"XYZI":
+            models.append((size, np.frombuffer(data, "u1", 4 * words(at, 1)[0], at + 4).reshape(-1, 4)))
+            assert len(models[-1][1]) * 4 + 4 == length and max(size) <= 256
+            assert (models[-1][1][:, :3].max(axis=0) == np.array(size) - 1).all(), "a model is cut to its voxels"
+        elif name == b"RGBA":
+            palette = np.frombuffer(data, "u1", 1024, at).reshape(256, 4)
+        else:
+            entries, where = dictionary(at + 4)
+            if name == b"nTRN":
+                frame, end = dictionary(where + 16)
+                nodes[words(at, 1)[0]] = ("t", entries, words(where, 1), frame)
+            else:
+                count = words(where, 1)[0]
+                end = where + 4 + (4 if name == b"nGRP" else 8) * count
+                nodes[words(at, 1)[0]] = ("g" if name == b"nGRP" else "s", entries, words(where + 4, count), {})
+            assert end == at + length, name
+        at += length
+    expected, _ = nrrd(sys.argv[3])
+    table = {label["id"]: label for label in labels_of(sys.argv[3])}
+    samples = np.zeros(expected.shape, expected.dtype)
+
+    def visit(number, move, owner):
+        kind, entries, below, frame = nodes[number]
+        owner = table[entries["svt_id"]] if "svt_id" in entries else owner
+        if "svt_id" in entries:
+            assert entries["_name"] == (owner["name"] or owner["id"]) and entries["svt_class"] == owner["class"]
+        move = move + np.array([int(n) for n in frame.get("_t", "0 0 0").split()])
+        if kind != "s":
+            return [visit(n, move, owner) for n in below]
+        extent, voxels = models[below[0]]
+        x, y, z = (voxels[:, :3].astype(int) + move - np.array(extent) // 2).T
+        assert (samples[z, y, x] == 0).all(), "a voxel twice"
+        samples[z, y, x] = owner["first"]
+        color = palette[voxels[:, 3].astype(int) - 1][0]
+        assert np.allclose(color[:3] / 255, owner["color"], atol=0.003), (color, owner["color"])
+
+    visit(0, np.zeros(3, int), None)
+    root = nodes[0][1]
+    spacing, origin = (np.array([float(n) for n in root[key].split()]) for key in ("svt_spacing", "svt_origin"))
+    return samples, np.column_stack([np.diag(spacing), origin])
+
+
+def usda(path):
+    """USD, read by hand: names, tree, and the points in world space, as triangles()."""
+    text = open(path, encoding="utf-8").read()
+    assert text.startswith("#usda 1.0\n") and "metersPerUnit = 1" in text and 'upAxis = "Z"' in text
+    rows = re.search(r"matrix4d xformOp:transform = \( (.*) \)\n", text)[1]
+    matrix = np.array([[float(n) for n in row.split(",")] for row in re.findall(r"\(([^()]*)\)", rows)])
+    depth, points, faces, ids, first = 0, [], [], [], 0
+    for line in text.split("\n"):
+        depth += {"{": 1, "}": -1}.get(line, 0)
+        if line.startswith("custom string svt:id = "):
+            ids.append(line.split(" = ", 1)[1].strip('"'))
+        if line.startswith("point3f[] points = "):
+            points.append(np.array([[float(n) for n in p.split(",")] for p in re.findall(r"\(([^()]*)\)", line)]))
+        if line.startswith("int[] faceVertexIndices = "):
+            faces.append(np.array([int(n) for n in line.split("[")[2].strip("]").split(",")]).reshape(-1, 3) + first)
+        if line.startswith("point3f[]"):
+            first += len(points[-1])
+    assert depth == 0, "every prim ends"
+    print(ids)
+    local = np.concatenate(points)
+    return (np.column_stack([local, np.ones(len(local))]) @ matrix)[:, :3], np.concatenate(faces)
+
+
+def neuroglancer_mesh(path):
+    """Meshes of a precomputed folder as its specification has them: metres from the lower corner, along the axes."""
+    import json
+    import os
+
+    info = json.load(open(os.path.join(path, "info")))
+    folder = os.path.join(path, info["mesh"])
+    assert json.load(open(os.path.join(folder, "info"))) == {"@type": "neuroglancer_legacy_mesh"}
+    points, faces, first, seen = [], [], 0, set()
+    for name in sorted(os.listdir(folder)):
+        if not name.endswith(":0"):
+            continue
+        for fragment in json.load(open(os.path.join(folder, name)))["fragments"]:
+            if fragment in seen:
+                continue
+            seen.add(fragment)
+            data = open(os.path.join(folder, fragment), "rb").read()
+            count = int.from_bytes(data[:4], "little")
+            points.append(np.frombuffer(data, "<f4", 3 * count, 4).reshape(-1, 3) * 1e-9)
+            faces.append(np.frombuffer(data, "<u4", -1, 4 + 12 * count).reshape(-1, 3).astype(int) + first)
+            assert faces[-1].max() < first + count
+            first += count
+    expected, place = nrrd(sys.argv[3])
+    corner = place @ np.array([-0.5, -0.5, -0.5, 1])
+    axes = place[:, :3] / np.linalg.norm(place[:, :3], axis=0)
+    return np.concatenate(points).astype(float) @ axes.T + corner, np.concatenate(faces)
+
+
+def tileset(path):
+    """3D Tiles: features, their table, and the points in world space, as triangles(); the place on the globe is told."""
+    import json
+    import os
+    import struct
+
+    tiles = json.load(open(os.path.join(path, "tileset.json")))
+    assert tiles["asset"]["version"] == "1.1" and tiles["geometricError"] > 0
+    root = tiles["root"]
+    print("transform", json.dumps(root["transform"]))
+    points, faces, first, ids = [], [], 0, []
+    for tile in root.get("children", [root]):
+        data = open(os.path.join(path, tile["content"]["uri"]), "rb").read()
+        magic, version, length, text_length, kind = struct.unpack_from("<5I", data)
+        assert (magic, version, length, kind) == (0x46546C67, 2, len(data), 0x4E4F534A)
+        gltf, start = json.loads(data[20:20 + text_length]), 28 + text_length
+        assert start % 8 == 0, "tables begin at multiples of 8"
+
+        def view(number):
+            told = gltf["bufferViews"][number]
+            return data[start + told["byteOffset"]:start + told["byteOffset"] + told["byteLength"]]
+
+        def values(accessor):
+            told = gltf["accessors"][accessor]
+            kinds = {5126: "<f4", 5125: "<u4", 5121: "u1"}
+            array = np.frombuffer(view(told["bufferView"]), kinds[told["componentType"]])
+            return array.reshape(told["count"], -1)
+
+        meta = gltf["extensions"]["EXT_structural_metadata"]
+        table = meta["propertyTables"][0]
+        strings = {}
+        for name, property in table["properties"].items():
+            if "stringOffsets" in property:
+                offsets, all_text = np.frombuffer(view(property["stringOffsets"]), "<u4"), view(property["values"])
+                strings[name] = [all_text[a:b].decode() for a, b in zip(offsets, offsets[1:])]
+                assert len(strings[name]) == table["count"]
+        volumes = np.frombuffer(view(table["properties"]["volume"]["values"]), "<f8")
+        print(strings["id"], strings["name"], volumes.tolist())
+        ids += strings["id"]
+        box = np.array(tile["boundingVolume"]["box"])
+        for primitive in gltf["meshes"][0]["primitives"]:
+            attributes = primitive["attributes"]
+            told = primitive["extensions"]["EXT_mesh_features"]["featureIds"][0]
+            assert told == {"featureCount": table["count"], "attribute": 0, "label": "component", "propertyTable": 0}
+            position, normal = values(attributes["POSITION"]).astype(float), values(attributes["NORMAL"])
+            feature, index = values(attributes["_FEATURE_ID_0"])[:, 0], values(primitive["indices"]).reshape(-1, 3)
+            assert (feature[index] == feature[index][:, :1]).all() and feature.max() < table["count"]
+            a, b, c = (position[index[:, k]] for k in range(3))
+            across = np.cross(b - a, c - a)
+            across /= np.linalg.norm(across, axis=1)[:, None]
+            assert (np.einsum("ij,ij->i", across, normal[index[:, 0]]) > 0.99).all(), "a normal is that of its face"
+            world = np.column_stack([position[:, 0], -position[:, 2], position[:, 1]])
+            half = np.abs(box[3:].reshape(3, 3)).sum(axis=0)
+            assert (np.abs(world - box[:3]) <= half + 1e-4).all(), "all lies in the box of its tile"
+            points.append(world)
+            faces.append(index.astype(int) + first)
+            first += len(world)
+    assert len(set(ids)) == len(ids)
+    return np.concatenate(points) + np.array(tiles["asset"]["extras"]["origin"]), np.concatenate(faces)
+
+
+READERS = {"nrrd": nrrd, "vti": vti, "vtknrrd": vtk_nrrd, "nifti": nifti, "tiff": tiff, "gdal": gdal, "zarr": zarr, "mesh": mesh, "vdb": vdb,
+           "vtm": vtm, "vox": vox}
 
 
 def main():

@@ -21,9 +21,10 @@ struct ConvertArguments {
     std::filesystem::path input, output;
     std::string encoding, faces, select, texture, cityGml, zarr, merge, holes, vents;
     std::filesystem::path model;
-    double maxVoxels = 0, maxBoxes = 0;
-    std::vector<double> box;
+    double maxVoxels = 0, maxBoxes = 0, lift = 0;
+    std::vector<double> box, place;
     int level = 0;
+    bool hasMeshes = false;
     BuildArguments build;
 };
 
@@ -66,6 +67,9 @@ int runConvert(const ConvertArguments& arguments) {
     if (options.model.empty() && contentOf(arguments.input) == FileContent::CityGml) options.model = arguments.input;
     options.cityGmlVersion = arguments.cityGml.empty() ? 0 : arguments.cityGml.front() - '0';
     options.zarrVersion = arguments.zarr == "3" ? 3 : 2;
+    if (const auto& place = arguments.place; !place.empty()) options.place = Vec3d{place[0], place[1], place[2]};
+    options.lift = arguments.lift;
+    options.hasMeshes = arguments.hasMeshes;
     options.mergeBy = arguments.merge == "class"      ? writers::MergeBy::Class
                       : arguments.merge == "material" ? writers::MergeBy::Material
                                                       : writers::MergeBy::Label;
@@ -97,6 +101,9 @@ Action connectConvert(Command& command) {
     command.set("--texture", arguments->texture);
     command.set("--model", arguments->model);
     command.set("--zarr", arguments->zarr);
+    command.set("--meshes", arguments->hasMeshes);
+    command.set("--place", arguments->place);
+    command.set("--lift", arguments->lift);
     command.set("--citygml", arguments->cityGml);
     command.set("--max-voxels", arguments->maxVoxels);
     command.set("--merge", arguments->merge);

@@ -41,17 +41,35 @@ constexpr FileFormat kFormats[] = {
 
 // What the formats of volumes take the place of: writers::volumeFormats() has their names and endings.
 constexpr std::pair<std::string_view, FileContent> kVolumeContents[] = {
-    {"nrrd", FileContent::Nrrd},    {"glb", FileContent::Gltf},
-    {"segnrrd", FileContent::Nrrd}, {"vti", FileContent::Vtk},
-    {"nifti", FileContent::Nifti},  {"niftigz", FileContent::Gzip},
-    {"tiff", FileContent::Tiff},    {"ometiff", FileContent::Tiff},
-    {"objects", FileContent::Text}, {"contacts", FileContent::Text},
-    {"x3d", FileContent::X3d},      {"ade", FileContent::CityGml},
-    {"zarr", FileContent::Nothing}, {"precomputed", FileContent::Nothing},
-    {"obj", FileContent::Text},     {"ply", FileContent::Ply},
-    {"stl", FileContent::Unknown},  {"fds", FileContent::Text},
-    {"boxes", FileContent::Text},   {"boxesjson", FileContent::PlainJson},
-    {"graphml", FileContent::Xml},  {"adjacency", FileContent::PlainJson},
+    {"nrrd", FileContent::Nrrd},
+    {"glb", FileContent::Gltf},
+    {"segnrrd", FileContent::Nrrd},
+    {"vti", FileContent::Vtk},
+    {"nifti", FileContent::Nifti},
+    {"niftigz", FileContent::Gzip},
+    {"tiff", FileContent::Tiff},
+    {"ometiff", FileContent::Tiff},
+    {"objects", FileContent::Text},
+    {"contacts", FileContent::Text},
+    {"x3d", FileContent::X3d},
+    {"ade", FileContent::CityGml},
+    {"zarr", FileContent::Nothing},
+    {"precomputed", FileContent::Nothing},
+    {"obj", FileContent::Text},
+    {"ply", FileContent::Ply},
+    {"stl", FileContent::Unknown},
+    {"fds", FileContent::Text},
+    {"boxes", FileContent::Text},
+    {"boxesjson", FileContent::PlainJson},
+    {"graphml", FileContent::Xml},
+    {"adjacency", FileContent::PlainJson},
+    {"tileset", FileContent::Nothing},
+    {"vtm", FileContent::Vtk},
+    {"usd", FileContent::Usd},
+    {"vox", FileContent::Vox},
+    {"vdb", FileContent::Vdb},
+    {"objectparquet", FileContent::Parquet},
+    {"contactparquet", FileContent::Parquet},
 };
 
 std::vector<FileFormat> volumeFileFormats() {
@@ -114,6 +132,10 @@ FileContent contentOf(std::string_view head) {
     if (head.starts_with("glTF"sv)) return FileContent::Gltf;
     if (head.starts_with("NRRD000"sv)) return FileContent::Nrrd;
     if (head.starts_with("ply\n"sv)) return FileContent::Ply;
+    if (head.starts_with("#usda "sv)) return FileContent::Usd;
+    if (head.starts_with("VOX \x96"sv) || head.starts_with("VOX \xc8"sv)) return FileContent::Vox;
+    if (head.starts_with(" BDV\0\0\0\0"sv)) return FileContent::Vdb;
+    if (head.starts_with("PAR1"sv)) return FileContent::Parquet;
     if (head.starts_with("II*\0"sv) || head.starts_with("II+\0"sv) || head.starts_with("MM\0"sv))
         return FileContent::Tiff;
     if (head.starts_with("\x5c\1\0\0"sv) || head.starts_with("\x1c\2\0\0n+2"sv)) return FileContent::Nifti;
@@ -153,6 +175,10 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Vtk: return "a file of VTK";
         case FileContent::X3d: return "an X3D scene";
         case FileContent::Ply: return "a PLY";
+        case FileContent::Usd: return "a USD stage";
+        case FileContent::Vox: return "a model of MagicaVoxel";
+        case FileContent::Vdb: return "an OpenVDB";
+        case FileContent::Parquet: return "a Parquet table";
         case FileContent::Nifti: return "a NIfTI";
         case FileContent::Tiff: return "a TIFF";
         case FileContent::Svg: return "an SVG drawing";

@@ -20,6 +20,10 @@ enum class FileContent : std::uint8_t {
     Vtk,  ///< XML of VTK
     X3d,
     Ply,
+    Usd,
+    Vox,
+    Vdb,
+    Parquet,
     Nifti,
     Tiff,
     Svg,

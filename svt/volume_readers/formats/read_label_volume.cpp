@@ -2,6 +2,7 @@
 #include <svt/volume_readers/formats/label_formats.hpp>
 #include <svt/volume_readers/read_label_volume.hpp>
 #include <svt/volume_readers/table/label_tables.hpp>
+#include <svt/volume_readers/zarr/zarr_folder.hpp>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-enum class LabelFormat : std::uint8_t { None, Nrrd, Vti, Nifti, GzipNifti, Tiff, Ade };
+enum class LabelFormat : std::uint8_t { None, Nrrd, Vti, Nifti, GzipNifti, Tiff, Ade, ZarrZip };
 
 LabelFormat formatOf(const SharedFile& file) {
     const std::string_view text = file->text();
@@ -33,6 +34,9 @@ LabelFormat formatOf(const SharedFile& file) {
         return isRead && isNifti({head.data(), head.size()}) ? LabelFormat::GzipNifti : LabelFormat::None;
     }
     const std::string_view begin = text.substr(0, 4096);
+    if (text.starts_with("PK\3\4"sv))
+        for (const std::string_view name : {".zarray"sv, ".zgroup"sv, ".zattrs"sv, "zarr.json"sv})
+            if (begin.find(name) != std::string_view::npos) return LabelFormat::ZarrZip;
     if (begin.find("<VTKFile") != std::string_view::npos) return LabelFormat::Vti;
     if (text.substr(0, 65536).find("CityModel") != std::string_view::npos &&
         findAdeTexture(text) != std::string_view::npos)
@@ -54,15 +58,19 @@ Result<LabelImage> openImage(const SharedFile& file, const std::filesystem::path
         case LabelFormat::GzipNifti: return openNifti(file, true);
         case LabelFormat::Tiff: return openTiff(file);
         case LabelFormat::Ade: return openAde(file, path);
+        case LabelFormat::ZarrZip:
+            return Error(Code::BadImage, "the file is a ZIP archive of Zarr; unpack it, and give the folder");
         case LabelFormat::None: break;
     }
-    return Error(Code::UnknownFormat,
-                 "the file is no label volume that can be read: NRRD, VTI, NIfTI, TIFF or CityGML with one");
+    return Error(
+        Code::UnknownFormat,
+        "the file is no label volume that can be read: NRRD, VTI, NIfTI, TIFF, a folder of Zarr, or CityGML with one");
 }
 
 }  // namespace
 
 bool looksLikeLabelVolume(const std::filesystem::path& path) {
+    if (looksLikeZarr(path)) return true;
     const auto file = openShared(path);
     return file && formatOf(*file) != LabelFormat::None;
 }
@@ -78,17 +86,22 @@ Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path
         return error.where().file.empty() ? Error(error.code(), error.message(), Place{path.string(), 0, 0, {}})
                                           : error;
     };
-    const auto file = openShared(path);
-    if (!file) return file.error();
     std::optional<UserTable> table;
     if (!options.labels.empty()) {
         auto read = readUserTable(options.labels);
         if (!read) return read.error();
         table = std::move(*read);
     }
-    const auto image = openImage(*file, path);
+    Code code = Code::BadImage;
+    const auto opened = [&]() -> Result<LabelImage> {
+        if (looksLikeZarr(path)) return openZarr(path, maxBytes);
+        const auto file = openShared(path);
+        if (!file) return file.error();
+        if ((*file)->text().starts_with("NRRD")) code = Code::BadNrrd;
+        return openImage(*file, path);
+    };
+    const auto image = opened();
     if (!image) return at(image.error());
-    const Code code = (*file)->text().starts_with("NRRD") ? Code::BadNrrd : Code::BadImage;
     auto columns = readColumns(*image, maxBytes, code, options.progress);
     if (!columns) return at(columns.error());
     auto volume = makeVolume(*image, std::move(*columns), table ? &*table : nullptr, path);

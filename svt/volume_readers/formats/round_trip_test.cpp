@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace svt::volume_readers {
 namespace {
 
@@ -59,6 +61,25 @@ TEST(RoundTrip, EveryFormatGivesTheSameVolumeBack) {
                     ASSERT_TRUE(read) << read.error().toString();
                     expectSame(*read, volume, std::string_view(name) != "v.nrrd");
                 }
+}
+
+TEST(RoundTrip, ZarrGivesTheSameVolumeBackInBothVersions) {
+    const TemporaryFolder folder;
+    for (const int bits : {8, 16, 32})
+        for (const bool isPlain : {false, true})
+            for (const int version : {2, 3}) {
+                SCOPED_TRACE(testing::Message() << version << ", " << bits << " bits, plain " << isPlain);
+                const SemanticVolume volume = volumeOf(bits, isPlain, {150, 70, 133});
+                writers::VolumeWriteOptions options;
+                options.zarrVersion = version;
+                const std::string name =
+                    std::to_string(version) + std::to_string(bits) + (isPlain ? "p" : "t") + ".zarr";
+                ASSERT_TRUE(writers::writeVolume(volume, folder / name, options));
+                EXPECT_TRUE(looksLikeLabelVolume(folder / name));
+                const auto read = readLabelVolume(folder / name);
+                ASSERT_TRUE(read) << read.error().toString();
+                expectSame(*read, volume, true);
+            }
 }
 
 TEST(RoundTrip, CityGmlGivesTheSameVolumeBackFromAllThreeTextures) {
@@ -248,6 +269,73 @@ TEST(OtherVolumes, DamageIsAnErrorOrAVolumeAndNeverACrash) {
             (void)readLabelVolume(folder / "d", {{}, std::uint64_t{64} << 20, nullptr});
         }
     }
+}
+
+/// Every file of folders of both versions cut, changed or taken away.
+TEST(OtherVolumes, DamagedZarrIsAnErrorOrAVolumeAndNeverACrash) {
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    const SemanticVolume volume = volumeOf(8, true, {40, 34, 36});
+    for (const int version : {2, 3}) {
+        writers::VolumeWriteOptions options;
+        options.zarrVersion = version;
+        const fs::path whole = folder / ("v" + std::to_string(version) + ".zarr");
+        ASSERT_TRUE(writers::writeVolume(volume, whole, options));
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::recursive_directory_iterator(whole))
+            if (entry.is_regular_file()) files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        std::uint32_t random = 4711;
+        for (const fs::path& file : files) {
+            const std::string text = readText(file);
+            const bool isChunk = file.filename() == "0";
+            for (int trial = 0; trial < 40; ++trial) {
+                std::string damaged = text;
+                for (int n = 0; n < 3; ++n) {
+                    random = random * 1664525 + 1013904223;
+                    damaged[random % damaged.size()] = static_cast<char>(random >> 24);
+                }
+                if (trial < 10) damaged = text.substr(0, text.size() * static_cast<std::size_t>(trial) / 10);
+                writeText(file, damaged);
+                const auto read = readLabelVolume(whole, {{}, std::uint64_t{64} << 20, nullptr});
+                if (trial < 10 && (isChunk || file.filename() == "zarr.json" || file.filename() == ".zarray")) {
+                    EXPECT_FALSE(read) << file << " cut";
+                }
+            }
+            fs::remove(file);
+            (void)readLabelVolume(whole, {{}, std::uint64_t{64} << 20, nullptr});
+            writeText(file, text);
+        }
+        EXPECT_TRUE(readLabelVolume(whole)) << "as it was";
+    }
+}
+
+TEST(OtherVolumes, AbsurdZarrIsRefusedBeforeMemoryIsTaken) {
+    const TemporaryFolder folder;
+    const auto expectRefused = [&](const char* shape, const char* chunks, const char* more, Code code) {
+        writeText(folder / ".zarray",
+                  std::string(R"({"zarr_format":2,"dtype":"|u1","order":"C","filters":null,"fill_value":0,"shape":)") +
+                      shape + R"(,"chunks":)" + chunks + more + "}");
+        const auto read = readLabelVolume(folder.path(), {{}, std::uint64_t{256} << 20, nullptr});
+        ASSERT_FALSE(read) << shape << chunks;
+        EXPECT_EQ(read.error().code(), code) << read.error().toString();
+    };
+    const char* plain = R"(,"compressor":null)";
+    expectRefused("[65535,65535,65535]", "[64,64,64]", plain, Code::BadImage);
+    expectRefused("[65536,9,9]", "[9,9,9]", plain, Code::BadImage);
+    expectRefused("[9,9,9]", "[0,9,9]", plain, Code::BadImage);
+    expectRefused("[9,9,9]", "[4294967296,4294967296,4294967296]", plain, Code::BadImage);
+    expectRefused("[9,9,9]", "[1073741824,2,2]", plain, Code::BadImage);
+    expectRefused("[4000,4000,400]", "[1,1,1]", plain, Code::BadImage);
+    expectRefused("[4000,2000,2000]", "[100,100,100]", plain, Code::BadImage);
+    expectRefused("[99,9000,9000]", "[99,100,100]", plain, Code::InputTooBig);
+    expectRefused("[9,9]", "[9,9]", plain, Code::BadImage);
+    expectRefused("[2,9,9,9]", "[1,9,9,9]", plain, Code::BadImage);
+    expectRefused("[-9,9,9]", "[9,9,9]", plain, Code::BadImage);
+    expectRefused("[1,9,9]", "[1,9,9]", plain, Code::BadImage);
+    expectRefused("[9,9,9]", "[9,9,9]", R"(,"compressor":{"id":"lzma"})", Code::BadImage);
+    writeText(folder / ".zarray", std::string(5000, '['));
+    EXPECT_EQ(readLabelVolume(folder.path()).error().code(), Code::BadJson);
 }
 
 TEST(OtherVolumes, SizesThatCannotBeAreRefusedBeforeMemoryIsTaken) {

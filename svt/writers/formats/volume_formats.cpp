@@ -10,8 +10,13 @@
 #include <svt/writers/simulation/fds_writer.hpp>
 #include <svt/writers/tables/table_writer.hpp>
 #include <svt/writers/tiff/tiff_writer.hpp>
+#include <svt/writers/tiles3d/tileset_writer.hpp>
+#include <svt/writers/usd/usd_writer.hpp>
+#include <svt/writers/vdb/vdb_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
+#include <svt/writers/vox/vox_writer.hpp>
 #include <svt/writers/vtk/vti_writer.hpp>
+#include <svt/writers/vtk/vtm_writer.hpp>
 #include <svt/writers/x3d/x3d_writer.hpp>
 #include <svt/writers/zarr/zarr_writer.hpp>
 
@@ -75,7 +80,7 @@ Written asZarr(const SemanticVolume& volume, const Path& path, const VolumeWrite
     return writeZarr(volume, path, options.zarrVersion, denseOptions(options));
 }
 Written asPrecomputed(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
-    return writePrecomputed(volume, path, denseOptions(options));
+    return writePrecomputed(volume, path, options);
 }
 Written asObj(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
     return writeHulls(volume, path, HullFormat::Obj, options);
@@ -86,11 +91,37 @@ Written asPly(const SemanticVolume& volume, const Path& path, const VolumeWriteO
 Written asStl(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
     return writeHulls(volume, path, HullFormat::Stl, options);
 }
+Written asTileset(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeTileset(volume, path, options);
+}
 Written asObjects(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
-    return writeFileAtomically(path, makeObjectTable(volume, options.threads));
+    return writeFileAtomically(path, makeCsv(makeObjectTable(volume, options.threads)));
 }
 Written asContacts(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
-    return writeFileAtomically(path, makeContactTable(volume, options.threads));
+    return writeFileAtomically(path, makeCsv(makeContactTable(volume, options.threads)));
+}
+Written writeAnyParquet(const Table& table, const Path& path) {
+    const auto bytes = makeParquet(table);
+    if (!bytes) return bytes.error();
+    return writeFileAtomically(path, *bytes);
+}
+Written asObjectParquet(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeAnyParquet(makeObjectTable(volume, options.threads), path);
+}
+Written asContactParquet(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeAnyParquet(makeContactTable(volume, options.threads), path);
+}
+Written asVtm(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeVtm(volume, path, denseOptions(options));
+}
+Written asVdb(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeVdb(volume, path, denseOptions(options));
+}
+Written asUsd(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeUsd(volume, path, options);
+}
+Written asVox(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    return writeVox(volume, path, options);
 }
 
 Written asFds(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
@@ -123,6 +154,7 @@ constexpr VolumeFormat kVolumeFormats[] = {
      true},
     {"vti", ".vti", "VTK image data: a cell per voxel, the table of labels as field data", "ParaView, VTK, PyVista",
      true},
+    {"vtm", ".vtm", "VTK multi-block data: all levels, each a .vti beside it", "ParaView, VTK", true},
     {"nifti", ".nii", "NIfTI-1, or NIfTI-2 where coordinates need it", "nibabel, ITK, 3D Slicer, FSL, SPM", true},
     {"niftigz", ".nii.gz", "the same, compressed", "nibabel, ITK, 3D Slicer, FSL, SPM", true},
     {"tiff", ".tif|.tiff", "TIFF stack: a page per slice, with ImageJ's metadata",
@@ -133,6 +165,9 @@ constexpr VolumeFormat kVolumeFormats[] = {
     {"precomputed", ".precomputed",
      "neuroglancer's precomputed segmentation: a folder with all levels, names and colours",
      "neuroglancer, CloudVolume", true},
+    {"vdb", ".vdb", "OpenVDB: a grid of labels, a fog volume for each class", "Blender, Houdini, Maya, Unreal, OpenVDB",
+     true},
+    {"vox", ".vox", "MagicaVoxel: voxels, a group for each label", "MagicaVoxel, Blender, Goxel, Unity, Godot", true},
     {"x3d", ".x3d", "X3D 4.0: a 3D texture as SegmentedVolumeData, with transfer function and features",
      "X_ITE, Castle, InstantReality", true},
     {"ade", ".ade.gml", "CityGML 2.0 or 3.0: the model with the volume in it, by an application domain extension",
@@ -140,10 +175,17 @@ constexpr VolumeFormat kVolumeFormats[] = {
     {"obj", ".obj", "Wavefront OBJ: an object per label, colours in an .mtl beside it", "Blender, MeshLab, CAD, VTK"},
     {"ply", ".ply", "PLY, binary: triangles with label and colour", "MeshLab, CloudCompare, Open3D, VTK"},
     {"stl", ".stl", "STL, binary: triangles alone", "printers, CAD, simulation"},
+    {"usd", ".usda", "USD, as text: the surface of each label, nested as the model is",
+     "Blender, Omniverse, Houdini, Maya, usdview"},
+    {"tileset", ".3dtiles", "3D Tiles 1.1: a folder with the surfaces on the globe, a table of components in each tile",
+     "Cesium, Unreal, Unity, ArcGIS"},
     {"objects", ".csv", "a line per object: class, name, parent, volume, surface, box, attributes",
      "spreadsheets, pandas, databases"},
     {"contacts", ".contacts.csv", "a line per pair of objects that touch: area, faces",
      "spreadsheets, pandas, databases"},
+    {"objectparquet", ".parquet", "the table of objects as Apache Parquet", "pandas, DuckDB, Spark, GDAL, R"},
+    {"contactparquet", ".contacts.parquet", "the table of contacts as Apache Parquet",
+     "pandas, DuckDB, Spark, GDAL, R"},
     {"fds", ".fds", "geometry for fire and smoke: components as boxes on a mesh of the voxels",
      "FDS and Smokeview (NIST), PyroSim"},
     {"boxes", ".boxes.csv", "the same boxes as a table", "other solvers, spreadsheets"},
@@ -154,9 +196,11 @@ constexpr VolumeFormat kVolumeFormats[] = {
 };
 
 using Write = Written (*)(const SemanticVolume&, const Path&, const VolumeWriteOptions&);
-constexpr Write kWriters[] = {
-    asNrrd, asGlb, asSegNrrd, asVti, asNifti,   asNifti,    asTiff, asOmeTiff,  asZarr,    asPrecomputed, asX3d,
-    asAde,  asObj, asPly,     asStl, asObjects, asContacts, asFds,  asBoxTable, asBoxJson, asAdjacency,   asGraphMl};
+constexpr Write kWriters[] = {asNrrd,  asGlb,      asSegNrrd, asVti,       asVtm,           asNifti,
+                              asNifti, asTiff,     asOmeTiff, asZarr,      asPrecomputed,   asVdb,
+                              asVox,   asX3d,      asAde,     asObj,       asPly,           asStl,
+                              asUsd,   asTileset,  asObjects, asContacts,  asObjectParquet, asContactParquet,
+                              asFds,   asBoxTable, asBoxJson, asAdjacency, asGraphMl};
 static_assert(std::size(kWriters) == std::size(kVolumeFormats));
 
 }  // namespace

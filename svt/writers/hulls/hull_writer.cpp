@@ -1,7 +1,8 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
-#include <svt/writers/gltf/surface_positions.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/hulls/hull_writer.hpp>
+#include <svt/writers/hulls/label_hulls.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -18,23 +18,6 @@ namespace svt::writers {
 namespace {
 
 using volume::Label;
-
-struct Hulls {
-    std::vector<LabelSurface> surfaces;
-    std::vector<Positions> positions;
-    const volume::SemanticVolume* volume = nullptr;
-
-    /// World directions, from the lower corner of the grid.
-    [[nodiscard]] Vec3d fromCorner(std::size_t surface, std::size_t vertex) const {
-        const auto& [x, y, z] = volume->grid.axes();
-        const Vec3d p = toDouble(positions[surface][vertex]);
-        return x * p.x + y * p.y + z * p.z;
-    }
-    [[nodiscard]] Vec3d corner() const { return volume->grid.worldFromIndex({-0.5, -0.5, -0.5}); }
-    [[nodiscard]] const Label& label(std::size_t surface) const {
-        return volume->labels.labels[surfaces[surface].label];
-    }
-};
 
 /// A text on one line without blanks at its ends.
 std::string lineText(std::string_view text, bool hasBlanks) {
@@ -48,30 +31,7 @@ std::string lineText(std::string_view text, bool hasBlanks) {
 
 int colorByte(float channel) { return static_cast<int>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f); }
 
-template <class T>
-void appendBytes(std::string& out, T value) {
-    char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    out.append(bytes, sizeof bytes);
-}
-
-/// Text or bytes that go to the file in pieces of a megabyte.
-class PieceWriter {
-public:
-    explicit PieceWriter(AtomicFile& file) : file_(file) {}
-    std::string text;
-    Result<void> flush(bool isLast = false) {
-        if (text.size() < (std::size_t{1} << 20) && !isLast) return {};
-        auto done = file_.write(text);
-        text.clear();
-        return done;
-    }
-
-private:
-    AtomicFile& file_;
-};
-
-Result<void> writeMaterials(const Hulls& hulls, const std::filesystem::path& path) {
+Result<void> writeMaterials(const LabelHulls& hulls, const std::filesystem::path& path) {
     if (auto checked = checkSibling(path, "# Semantic volume"); !checked) return checked;
     std::string text = "# Semantic volume texture: colours of labels\n";
     for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
@@ -83,7 +43,7 @@ Result<void> writeMaterials(const Hulls& hulls, const std::filesystem::path& pat
     return bytes ? Result<void>() : Result<void>(bytes.error());
 }
 
-Result<void> writeObj(const Hulls& hulls, const std::string& materials, PieceWriter& out) {
+Result<void> writeObj(const LabelHulls& hulls, const std::string& materials, PieceWriter& out) {
     out.text = fmt::format("# Semantic volume texture; metres, {}\nmtllib {}\n", lineText(hulls.volume->crsName, true),
                            lineText(materials, true));
     const Vec3d corner = hulls.corner();
@@ -106,7 +66,7 @@ Result<void> writeObj(const Hulls& hulls, const std::string& materials, PieceWri
     return out.flush(true);
 }
 
-Result<void> writePly(const Hulls& hulls, PieceWriter& out) {
+Result<void> writePly(const LabelHulls& hulls, PieceWriter& out) {
     std::uint64_t vertices = 0, faces = 0;
     for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
         vertices += hulls.positions[s].size();
@@ -149,7 +109,7 @@ Result<void> writePly(const Hulls& hulls, PieceWriter& out) {
     return out.flush(true);
 }
 
-Result<void> writeStl(const Hulls& hulls, PieceWriter& out) {
+Result<void> writeStl(const LabelHulls& hulls, PieceWriter& out) {
     const Vec3d corner = hulls.corner();
     // Readers take a file for text if it begins with "solid".
     std::string head = fmt::format("SVT, metres from {:.4f} {:.4f} {:.4f}", corner.x, corner.y, corner.z);
@@ -174,18 +134,14 @@ Result<void> writeStl(const Hulls& hulls, PieceWriter& out) {
 
 Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                  HullFormat format, const VolumeWriteOptions& options) {
-    auto surfaces = labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
-                                  {std::uint64_t{1} << 27, options.threads, options.progress});
-    if (!surfaces) return surfaces.error();
-    if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
-    auto positions = placeVertices(volume, *surfaces, options.faces, nullptr, options.threads, options.progress);
-    if (!positions) return positions.error();
+    const auto made = makeLabelHulls(volume, options);
+    if (!made) return made.error();
+    const LabelHulls& hulls = *made;
     std::uint64_t vertices = 0;
-    for (const Positions& of : *positions) vertices += of.size();
+    for (const Positions& of : hulls.positions) vertices += of.size();
     if (vertices > 0x7FFFFFFF)
         return Error(Code::GridTooLarge,
                      fmt::format("{} vertices are more than the format can number; use --level", vertices));
-    const Hulls hulls{std::move(*surfaces), std::move(*positions), &volume};
     const std::filesystem::path materials = std::filesystem::path(path).replace_extension(".mtl");
     if (format == HullFormat::Obj)
         if (auto done = writeMaterials(hulls, materials); !done) return done.error();

@@ -1,8 +1,10 @@
 #include <svt/core/parallel.hpp>
 #include <svt/volume/volume_part.hpp>
 #include <svt/writers/dense/new_folder.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_band.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/hulls/label_hulls.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
 
 #include <fmt/format.h>
@@ -43,7 +45,7 @@ std::vector<std::uint32_t> blockValues(std::span<const std::uint32_t> values, Ve
 
 SceneJson triple(Vec3d v) { return SceneJson::array({v.x, v.y, v.z}); }
 
-std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels) {
+std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, bool hasMeshes) {
     SceneJson scales = SceneJson::array();
     for (std::size_t l = 0; l < levels.size(); ++l) {
         const Vec3i d = levels[l]->grid.dimension();
@@ -55,12 +57,13 @@ std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels) {
                           {"encoding", "compressed_segmentation"},
                           {"compressed_segmentation_block_size", {kBlock, kBlock, kBlock}}});
     }
-    const SceneJson info{{"@type", "neuroglancer_multiscale_volume"},
-                         {"type", "segmentation"},
-                         {"data_type", "uint32"},
-                         {"num_channels", 1},
-                         {"segment_properties", "properties"},
-                         {"scales", scales}};
+    SceneJson info{{"@type", "neuroglancer_multiscale_volume"},
+                   {"type", "segmentation"},
+                   {"data_type", "uint32"},
+                   {"num_channels", 1},
+                   {"segment_properties", "properties"},
+                   {"scales", scales}};
+    if (hasMeshes) info["mesh"] = "mesh";
     return info.dump(1) + "\n";
 }
 
@@ -112,7 +115,7 @@ std::string stateJson(const volume::SemanticVolume& volume) {
     return state.dump(1, ' ', false, SceneJson::error_handler_t::replace) + "\n";
 }
 
-Result<void> writeLevel(const volume::ColumnVolume& columns, const std::string& key, const DenseOptions& options,
+Result<void> writeLevel(const volume::ColumnVolume& columns, const std::string& key, const VolumeWriteOptions& options,
                         NewFolder& folder) {
     const Vec3i dimension = columns.dimension();
     for (std::int32_t k = 0; k < dimension.z; k += kSide) {
@@ -139,6 +142,31 @@ Result<void> writeLevel(const volume::ColumnVolume& columns, const std::string& 
                 if (auto done = folder.write(name, text); !done) return done;
             }
         }
+    }
+    return {};
+}
+
+/// Vertices in nanometres from the outer corner of the first voxel, along the axes of the grid.
+Result<void> writeMeshes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options, NewFolder& folder) {
+    const auto hulls = makeLabelHulls(volume, options);
+    if (!hulls) return hulls.error();
+    if (auto done = folder.write("mesh/info", "{\"@type\": \"neuroglancer_legacy_mesh\"}\n"); !done) return done;
+    for (std::size_t s = 0; s < hulls->surfaces.size(); ++s) {
+        std::string bytes;
+        appendBytes(bytes, static_cast<std::uint32_t>(hulls->positions[s].size()));
+        for (const Vec3f position : hulls->positions[s])
+            for (int axis = 0; axis < 3; ++axis)
+                appendBytes(bytes, static_cast<float>(double(position[axis]) * kNanometres));
+        for (const auto& triangle : hulls->surfaces[s].triangles)
+            for (const std::uint32_t vertex : triangle) appendBytes(bytes, vertex);
+        const std::string name = fmt::format("{}.mesh", hulls->surfaces[s].label);
+        if (auto done = folder.write("mesh/" + name, bytes); !done) return done;
+        const volume::Label& label = hulls->label(s);
+        for (volume::Scalar n = label.first; n < label.first + label.count; ++n)
+            if (auto done =
+                    folder.write(fmt::format("mesh/{}:0", n), fmt::format("{{\"fragments\": [\"{}\"]}}\n", name));
+                !done)
+                return done;
     }
     return {};
 }
@@ -176,7 +204,7 @@ std::vector<std::uint32_t> compressSegmentation(std::span<const std::uint32_t> v
 }
 
 Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                       const DenseOptions& options) {
+                                       const VolumeWriteOptions& options) {
     if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
     NewFolder folder(path);
     if (auto made = folder.create(); !made) return made.error();
@@ -193,11 +221,13 @@ Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, con
     }
     std::vector<const volume::SemanticVolume*> levels{&volume};
     for (const volume::SemanticVolume& level : coarse) levels.push_back(&level);
-    if (auto done = folder.write("info", infoJson(levels)); !done) return done.error();
+    if (auto done = folder.write("info", infoJson(levels, options.hasMeshes)); !done) return done.error();
     if (auto done = folder.write("properties/info", propertiesJson(volume)); !done) return done.error();
     if (auto done = folder.write("state.json", stateJson(volume)); !done) return done.error();
     for (std::size_t l = 0; l < levels.size(); ++l)
         if (auto done = writeLevel(levels[l]->columns, std::to_string(l), options, folder); !done) return done.error();
+    if (options.hasMeshes)
+        if (auto done = writeMeshes(volume, options, folder); !done) return done.error();
     return folder.commit();
 }
 

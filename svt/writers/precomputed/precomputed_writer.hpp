@@ -6,6 +6,8 @@
 ///     info                      sizes, resolution in nanometres, levels
 ///     LEVEL/x0-x1_y0-y1_z0-z1   chunks of 64 x 64 x 64 voxels, compressed_segmentation of 32 bits in blocks of 8 x 8 x 8
 ///     properties/info           name, class, id and volume of each scalar
+///     mesh/NUMBER:0             of VolumeWriteOptions::hasMeshes: which file has the surface of a scalar (legacy format)
+///     mesh/LABEL.mesh           the surface of a label: vertices in nanometres, triangles; phases of a pattern share it
 ///     state.json                a layer with our colours, and the matrix that leads to world coordinates in metres; put the
 ///                               address of the folder into its `source`
 ///
@@ -13,7 +15,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
-#include <svt/writers/dense/format_options.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -27,10 +29,11 @@ namespace svt::writers {
 [[nodiscard]] std::vector<std::uint32_t> compressSegmentation(std::span<const std::uint32_t> values, Vec3i size);
 
 /// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
-/// bytes. Memory: besides the volume and its levels, 4096 nx samples of 32 bits.
-/// \return bytes of all files, or WouldDestroy, CannotWrite, DiskFull, Cancelled; BadArgument as checkedSampleBits()
+/// bytes. Memory: besides the volume and its levels, 4096 nx samples of 32 bits; with meshes that of labelSurfaces().
+/// \return bytes of all files, or WouldDestroy, CannotWrite, DiskFull, Cancelled; BadArgument as checkedSampleBits(); with
+///         meshes NothingSelected, GridTooLarge
 [[nodiscard]] Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume,
                                                      const std::filesystem::path& path,
-                                                     const DenseOptions& options = {});
+                                                     const VolumeWriteOptions& options = {});
 
 }  // namespace svt::writers

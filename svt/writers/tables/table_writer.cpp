@@ -1,11 +1,11 @@
 #include <svt/analyze/label_measures.hpp>
-#include <svt/writers/tables/csv_text.hpp>
 #include <svt/writers/tables/table_writer.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -23,81 +23,95 @@ std::map<std::string, std::string> attributesOf(const volume::LabelTable& labels
     return units;
 }
 
-void appendAttribute(CsvText& csv, const volume::Label& label, const std::string& name) {
-    const auto found = std::find_if(label.attributes.begin(), label.attributes.end(),
-                                    [&](const Attribute& attribute) { return attribute.name == name; });
-    if (found == label.attributes.end()) return csv.nothing();
-    if (const auto* text = std::get_if<std::string>(&found->value)) return csv.field(*text);
-    if (const auto* truth = std::get_if<bool>(&found->value)) return csv.field(*truth ? "true" : "false");
-    if (const auto* integer = std::get_if<std::int64_t>(&found->value)) return csv.number(*integer);
-    csv.number(std::get<double>(found->value));
+/// A cell that is empty without text.
+TableCell textCell(std::string_view text) { return text.empty() ? TableCell() : TableCell(std::string(text)); }
+
+template <class T>
+TableCell wholeCell(T value) {
+    return static_cast<std::int64_t>(value);
 }
 
-void appendLabel(CsvText& csv, const volume::SemanticVolume& volume, std::size_t number,
-                 const analyze::LabelMeasure& measure, double cubicMetres) {
+TableCell attributeCell(const volume::Label& label, const std::string& name) {
+    const auto found = std::find_if(label.attributes.begin(), label.attributes.end(),
+                                    [&](const Attribute& attribute) { return attribute.name == name; });
+    if (found == label.attributes.end()) return {};
+    return std::visit([](const auto& value) -> TableCell { return value; }, found->value);
+}
+
+/// The cells of a label, in the order of kObjectColumns.
+std::vector<TableCell> cellsOf(const volume::SemanticVolume& volume, std::size_t number,
+                               const analyze::LabelMeasure& measure, double cubicMetres) {
     const volume::Label& label = volume.labels.labels[number];
-    csv.number(number);
-    csv.field(label.id);
-    csv.field(label.className);
-    csv.field(label.name);
-    csv.field(label.parent == volume::kNoLabel ? std::string_view() : volume.labels.labels[label.parent].id);
-    csv.number(label.first);
-    csv.number(label.count);
-    csv.number(label.voxels);
-    csv.number(cubicMetres);
-    csv.number(measure.area);
-    csv.number(measure.outsideArea);
+    const std::string_view parent =
+        label.parent == volume::kNoLabel ? std::string_view() : volume.labels.labels[label.parent].id;
+    std::vector<TableCell> cells{wholeCell(number),
+                                 label.id,
+                                 label.className,
+                                 textCell(label.name),
+                                 textCell(parent),
+                                 wholeCell(label.first),
+                                 wholeCell(label.count),
+                                 wholeCell(label.voxels),
+                                 cubicMetres,
+                                 measure.area,
+                                 measure.outsideArea};
     const Box3d box = analyze::worldBox(measure.box, volume.grid);
     for (const Vec3d corner : {box.min, box.max})
-        for (int axis = 0; axis < 3; ++axis) box.isEmpty() ? csv.nothing() : csv.number(corner[axis]);
+        for (int axis = 0; axis < 3; ++axis) cells.push_back(box.isEmpty() ? TableCell() : TableCell(corner[axis]));
     const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
-    csv.field(fmt::format("#{:02x}{:02x}{:02x}", byte(label.color.x), byte(label.color.y), byte(label.color.z)));
-    csv.number(label.opacity);
-    csv.field(volume::fillingName(label.filling));
+    cells.emplace_back(
+        fmt::format("#{:02x}{:02x}{:02x}", byte(label.color.x), byte(label.color.y), byte(label.color.z)));
+    cells.emplace_back(label.opacity);
+    cells.emplace_back(std::string(volume::fillingName(label.filling)));
+    return cells;
+}
+
+constexpr const char* kObjectColumns[] = {"label",  "id",     "class",   "name",    "parent",  "first",  "count",
+                                          "voxels", "volume", "surface", "outside", "minX",    "minY",   "minZ",
+                                          "maxX",   "maxY",   "maxZ",    "color",   "opacity", "filling"};
+constexpr const char* kContactColumns[] = {"a",     "aClass", "aName",  "b",      "bClass",
+                                           "bName", "area",   "facesX", "facesY", "facesZ"};
+
+Table emptyTable(std::span<const char* const> names, const volume::SemanticVolume& volume) {
+    Table table;
+    for (const char* name : names) table.columns.push_back({name, {}});
+    table.notes = {{"crs", volume.crsName}, {"source", volume.source}, {"unit", "metre"}};
+    return table;
 }
 
 }  // namespace
 
-std::string makeObjectTable(const volume::SemanticVolume& volume, int threads) {
+Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     const auto measures = analyze::measureLabels(volume, contacts);
     const auto volumes = analyze::ownVolumes(volume.labels, volume.grid);
-    const auto attributes = attributesOf(volume.labels);
-    CsvText csv;
-    for (const char* key :
-         {"label",   "id",   "class", "name", "parent", "first", "count", "voxels", "volume",  "surface",
-          "outside", "minX", "minY",  "minZ", "maxX",   "maxY",  "maxZ",  "color",  "opacity", "filling"})
-        csv.field(key);
-    for (const auto& [name, unit] : attributes)
-        csv.field(unit.empty() ? "attribute:" + name : fmt::format("attribute:{} [{}]", name, unit));
-    csv.endLine();
+    Table table = emptyTable(kObjectColumns, volume);
     for (std::size_t l = 0; l < volume.labels.labels.size(); ++l) {
-        appendLabel(csv, volume, l, measures[l], volumes[l]);
-        for (const auto& attribute : attributes) appendAttribute(csv, volume.labels.labels[l], attribute.first);
-        csv.endLine();
+        auto cells = cellsOf(volume, l, measures[l], volumes[l]);
+        for (std::size_t c = 0; c < cells.size(); ++c) table.columns[c].cells.push_back(std::move(cells[c]));
     }
-    return csv.take();
+    for (const auto& [name, unit] : attributesOf(volume.labels)) {
+        TableColumn column{unit.empty() ? "attribute:" + name : fmt::format("attribute:{} [{}]", name, unit), {}};
+        for (const volume::Label& label : volume.labels.labels) column.cells.push_back(attributeCell(label, name));
+        table.columns.push_back(std::move(column));
+    }
+    return table;
 }
 
-std::string makeContactTable(const volume::SemanticVolume& volume, int threads) {
-    CsvText csv;
-    for (const char* key : {"a", "aClass", "aName", "b", "bClass", "bName", "area", "facesX", "facesY", "facesZ"})
-        csv.field(key);
-    csv.endLine();
+Table makeContactTable(const volume::SemanticVolume& volume, int threads) {
+    Table table = emptyTable(kContactColumns, volume);
     for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels, threads)) {
+        std::size_t column = 0;
+        const auto add = [&](TableCell cell) { table.columns[column++].cells.push_back(std::move(cell)); };
         for (const std::uint32_t number : {contact.a, contact.b}) {
-            const bool isBackground = number == volume::kNoLabel;
             const volume::Label none;
-            const volume::Label& label = isBackground ? none : volume.labels.labels[number];
-            csv.field(label.id);
-            csv.field(label.className);
-            csv.field(label.name);
+            const volume::Label& label = number == volume::kNoLabel ? none : volume.labels.labels[number];
+            for (const std::string* text : {&label.id, &label.className, &label.name}) add(textCell(*text));
         }
-        csv.number(contact.area);
-        for (const std::uint64_t faces : contact.faces) csv.number(faces);
-        csv.endLine();
+        add(contact.area);
+        for (const std::uint64_t faces : contact.faces) add(wholeCell(faces));
     }
-    return csv.take();
+    return table;
 }
 
 }  // namespace svt::writers

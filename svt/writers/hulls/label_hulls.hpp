@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// The surfaces of all labels with their vertices in place: what every format of triangles is written from.
+
+#include <svt/core/result.hpp>
+#include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/gltf/label_surface.hpp>
+#include <svt/writers/gltf/surface_positions.hpp>
+#include <svt/writers/volume_formats.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace svt::writers {
+
+struct LabelHulls {
+    std::vector<LabelSurface> surfaces;  ///< ascending by label, those with voxels alone
+    std::vector<Positions> positions;    ///< of the vertices of each
+    const volume::SemanticVolume* volume = nullptr;
+
+    /// World directions, metres from the lower corner of the grid.
+    [[nodiscard]] Vec3d fromCorner(std::size_t surface, std::size_t vertex) const {
+        const auto& [x, y, z] = volume->grid.axes();
+        const Vec3d p = toDouble(positions[surface][vertex]);
+        return x * p.x + y * p.y + z * p.z;
+    }
+    /// The lower corner of the grid, the outer corner of sample (0, 0, 0), world space.
+    [[nodiscard]] Vec3d corner() const { return volume->grid.worldFromIndex({-0.5, -0.5, -0.5}); }
+    [[nodiscard]] const volume::Label& label(std::size_t surface) const {
+        return volume->labels.labels[surfaces[surface].label];
+    }
+};
+
+/// \param volume  must outlive the hulls
+/// \return the hulls, or NothingSelected if no label has voxels, GridTooLarge for too many triangles, BadArgument,
+///         Cancelled
+[[nodiscard]] Result<LabelHulls> makeLabelHulls(const volume::SemanticVolume& volume,
+                                                const VolumeWriteOptions& options);
+
+}  // namespace svt::writers

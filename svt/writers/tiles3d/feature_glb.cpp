@@ -1,0 +1,229 @@
+#include <svt/writers/tiles3d/feature_glb.hpp>
+
+#include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/selection.hpp>
+#include <svt/writers/tiles3d/property_table.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+namespace svt::writers {
+namespace {
+
+using GltfJson = nlohmann::ordered_json;
+
+constexpr int kFloatType = 5126, kByteType = 5121, kIndexType = 5125, kVertices = 34962, kIndices = 34963;
+constexpr float kOpaque = 0.999f;
+
+/// The vertices of a primitive, each attribute in its own array.
+struct FlatMesh {
+    std::vector<Vec3f> positions, normals;
+    std::vector<std::array<std::uint8_t, 4>> colors;
+    std::vector<float> features;
+    std::vector<std::uint32_t> indices;
+};
+
+/// glTF has vertex colours linear.
+std::uint8_t linearByte(float value) {
+    const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255));
+}
+
+/// World directions with y up.
+Vec3f withYUp(Vec3d v) noexcept {
+    return {static_cast<float>(v.x), static_cast<float>(v.z), static_cast<float>(-v.y + 0.0)};
+}
+
+std::uint64_t keyOf(std::uint32_t vertex, Vec3d normal) {
+    std::uint64_t key = vertex;
+    for (int axis = 0; axis < 3; ++axis)
+        key = key << 10 | static_cast<std::uint64_t>(std::lround((normal[axis] + 1) * 511));
+    return key;
+}
+
+void appendSurface(const LabelHulls& hulls, std::size_t surface, float feature, FlatMesh& mesh) {
+    const volume::Label& label = hulls.label(surface);
+    const std::array<std::uint8_t, 4> color{
+        linearByte(label.color.x), linearByte(label.color.y), linearByte(label.color.z),
+        static_cast<std::uint8_t>(std::lround(std::clamp(label.opacity, 0.0f, 1.0f) * 255))};
+    std::unordered_map<std::uint64_t, std::uint32_t> known;
+    known.reserve(hulls.positions[surface].size() * 2);
+    for (const auto& triangle : hulls.surfaces[surface].triangles) {
+        std::array<Vec3d, 3> points;
+        for (std::size_t p = 0; p < 3; ++p) points[p] = hulls.fromCorner(surface, triangle[p]);
+        const Vec3d across = cross(points[1] - points[0], points[2] - points[0]);
+        const double size = length(across);
+        if (!(size > 0)) continue;  // moved onto a plane, it has no area and no normal
+        const Vec3d normal = across * (1 / size);
+        for (std::size_t p = 0; p < 3; ++p) {
+            const auto [vertex, isNew] =
+                known.try_emplace(keyOf(triangle[p], normal), static_cast<std::uint32_t>(mesh.positions.size()));
+            if (isNew) {
+                mesh.positions.push_back(withYUp(points[p]));
+                mesh.normals.push_back(withYUp(normal));
+                mesh.colors.push_back(color);
+                mesh.features.push_back(feature);
+            }
+            mesh.indices.push_back(vertex->second);
+        }
+    }
+}
+
+template <class T>
+std::size_t addVertices(GltfBuffer& buffer, const std::vector<T>& values) {
+    return buffer.add(std::as_bytes(std::span(values)), static_cast<int>(sizeof(T)), kVertices);
+}
+
+GltfJson accessor(std::size_t view, int type, std::size_t count, const char* shape) {
+    return {{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}};
+}
+
+GltfJson primitiveOf(const FlatMesh& mesh, std::size_t features, std::size_t material, GltfBuffer& buffer,
+                     GltfJson& accessors) {
+    Vec3f min = mesh.positions.front(), max = min;
+    for (const Vec3f position : mesh.positions)
+        for (int axis = 0; axis < 3; ++axis) {
+            min[axis] = std::min(min[axis], position[axis]);
+            max[axis] = std::max(max[axis], position[axis]);
+        }
+    const std::size_t first = accessors.size(), count = mesh.positions.size();
+    accessors.push_back(accessor(addVertices(buffer, mesh.positions), kFloatType, count, "VEC3"));
+    accessors.back()["min"] = {min.x, min.y, min.z};
+    accessors.back()["max"] = {max.x, max.y, max.z};
+    accessors.push_back(accessor(addVertices(buffer, mesh.normals), kFloatType, count, "VEC3"));
+    accessors.push_back(accessor(addVertices(buffer, mesh.colors), kByteType, count, "VEC4"));
+    accessors.back()["normalized"] = true;
+    accessors.push_back(accessor(addVertices(buffer, mesh.features), kFloatType, count, "SCALAR"));
+    accessors.push_back(accessor(buffer.add(std::as_bytes(std::span(mesh.indices)), 0, kIndices), kIndexType,
+                                 mesh.indices.size(), "SCALAR"));
+    const GltfJson ids =
+        GltfJson::array({{{"featureCount", features}, {"attribute", 0}, {"label", "component"}, {"propertyTable", 0}}});
+    return {{"attributes",
+             {{"POSITION", first}, {"NORMAL", first + 1}, {"COLOR_0", first + 2}, {"_FEATURE_ID_0", first + 3}}},
+            {"indices", first + 4},
+            {"material", material},
+            {"extensions", {{"EXT_mesh_features", {{"featureIds", ids}}}}}};
+}
+
+GltfJson materialOf(bool isOpaque) {
+    GltfJson material{{"name", isOpaque ? "opaque" : "clear"},
+                      {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
+    if (!isOpaque) material["alphaMode"] = "BLEND";
+    return material;
+}
+
+GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end, const FeatureTexts& texts,
+                    GltfBuffer& buffer) {
+    std::vector<std::string> ids, names, classes, parents, storeys, attributes;
+    std::vector<double> volumes;
+    std::vector<std::uint32_t> firsts, counts;
+    const auto& labels = hulls.volume->labels.labels;
+    for (std::size_t s = begin; s < end; ++s) {
+        const volume::Label& label = hulls.label(s);
+        ids.push_back(label.id);
+        names.push_back(label.name);
+        classes.push_back(label.className);
+        parents.push_back(label.parent < labels.size() ? labels[label.parent].id : std::string());
+        storeys.push_back(texts.storeys[hulls.surfaces[s].label]);
+        volumes.push_back(texts.volumes[hulls.surfaces[s].label]);
+        firsts.push_back(label.first);
+        counts.push_back(label.count);
+        GltfJson told = GltfJson::object();
+        for (const Attribute& attribute : label.attributes) told[attribute.name] = toText(attribute.value);
+        attributes.push_back(told.dump(-1, ' ', false, GltfJson::error_handler_t::replace));
+    }
+    PropertyTable table(buffer, end - begin);
+    table.strings("id", "id of the feature in the model", ids);
+    table.strings("name", "name of the feature, may be empty", names);
+    table.strings("class", "class of CityGML", classes);
+    table.strings("parent", "id of the feature that it is a part of", parents);
+    table.strings("storey", "name of its storey, may be empty", storeys);
+    table.numbers("volume", "cubic metres", volumes);
+    table.numbers("firstScalar", "first value of its voxels in the volume", firsts);
+    table.numbers("scalarCount", "number of values of its voxels", counts);
+    table.strings("attributes", "attributes of the feature as JSON", attributes);
+    return table.extension("component", "a component of a building");
+}
+
+std::string asGlbFile(GltfJson json, const std::string& binary) {
+    std::string text = json.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
+    text.resize((text.size() + 7) / 8 * 8 + 4, ' ');  // so that the binary begins at a multiple of 8, as tables want it
+    const std::array<std::uint32_t, 5> head{0x46546C67, 2, static_cast<std::uint32_t>(28 + text.size() + binary.size()),
+                                            static_cast<std::uint32_t>(text.size()), 0x4E4F534A};
+    const std::array<std::uint32_t, 2> chunk{static_cast<std::uint32_t>(binary.size()), 0x004E4942};
+    std::string file(reinterpret_cast<const char*>(head.data()), sizeof head);
+    file += text;
+    file.append(reinterpret_cast<const char*>(chunk.data()), sizeof chunk);
+    return file += binary;
+}
+
+}  // namespace
+
+FeatureTexts featureTexts(const volume::SemanticVolume& volume) {
+    const auto& labels = volume.labels.labels;
+    const auto rows = analyze::queryRows(volume.labels);
+    FeatureTexts texts{std::vector<std::string>(labels.size()), analyze::ownVolumes(volume.labels, volume.grid)};
+    // Parents stand before their children, groups anywhere: what the parent belongs to, or a group that is a storey.
+    for (std::size_t l = 0; l < labels.size(); ++l) {
+        const auto nameOf = [&](std::size_t n) { return labels[n].name.empty() ? labels[n].id : labels[n].name; };
+        if (model::query::isStorey(rows[l])) {
+            texts.storeys[l] = nameOf(l);
+            continue;
+        }
+        for (const std::uint32_t group : labels[l].groups)
+            if (group < rows.size() && texts.storeys[l].empty() && model::query::isStorey(rows[group]))
+                texts.storeys[l] = nameOf(group);
+        if (texts.storeys[l].empty() && labels[l].parent < l) texts.storeys[l] = texts.storeys[labels[l].parent];
+    }
+    return texts;
+}
+
+Box3d boxOfHulls(const LabelHulls& hulls, std::size_t begin, std::size_t end) {
+    Box3d box;
+    for (std::size_t s = begin; s < end; ++s)
+        for (std::size_t v = 0; v < hulls.positions[s].size(); ++v) box.add(hulls.fromCorner(s, v));
+    return box;
+}
+
+Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
+                                   const FeatureTexts& texts) {
+    FlatMesh opaque, clear;
+    for (std::size_t s = begin; s < end; ++s)
+        appendSurface(hulls, s, static_cast<float>(s - begin), hulls.label(s).opacity >= kOpaque ? opaque : clear);
+    const std::uint64_t bytes =
+        (opaque.positions.size() + clear.positions.size()) * 32 + (opaque.indices.size() + clear.indices.size()) * 4;
+    if (bytes > 0xF0000000u)
+        return Error(Code::GridTooLarge,
+                     fmt::format("a tile of {} bytes is more than a .glb can be; use --level", bytes));
+    GltfBuffer buffer;
+    GltfJson primitives = GltfJson::array(), accessors = GltfJson::array();
+    GltfJson materials = GltfJson::array();
+    for (const FlatMesh* mesh : {&opaque, &clear}) {
+        if (mesh->indices.empty()) continue;
+        primitives.push_back(primitiveOf(*mesh, end - begin, materials.size(), buffer, accessors));
+        materials.push_back(materialOf(mesh == &opaque));
+    }
+    if (primitives.empty()) return Error(Code::NothingSelected, "the surfaces have no area");
+    GltfJson metadata = metadataOf(hulls, begin, end, texts, buffer);
+    std::string binary = buffer.bytes();
+    binary.resize((binary.size() + 7) / 8 * 8, '\0');
+    GltfJson json{{"asset", {{"version", "2.0"}, {"generator", "svt"}}},
+                  {"extensionsUsed", {"EXT_mesh_features", "EXT_structural_metadata"}},
+                  {"extensions", {{"EXT_structural_metadata", std::move(metadata)}}},
+                  {"scene", 0},
+                  {"scenes", GltfJson::array({{{"nodes", {0}}}})},
+                  {"nodes", GltfJson::array({{{"mesh", 0}}})},
+                  {"meshes", GltfJson::array({{{"primitives", std::move(primitives)}}})},
+                  {"materials", std::move(materials)},
+                  {"accessors", std::move(accessors)},
+                  {"bufferViews", buffer.views()},
+                  {"buffers", GltfJson::array({{{"byteLength", binary.size()}}})}};
+    return asGlbFile(std::move(json), binary);
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,55 @@
+#include <svt/writers/tiles3d/property_table.hpp>
+
+#include <svt/core/check.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
+
+namespace svt::writers {
+std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int target) {
+    bytes_.resize((bytes_.size() + 7) / 8 * 8, '\0');
+    Json view{{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}};
+    if (stride != 0) view["byteStride"] = stride;
+    if (target != 0) view["target"] = target;
+    bytes_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    views_.push_back(std::move(view));
+    return views_.size() - 1;
+}
+
+void PropertyTable::strings(const char* name, std::string_view description, const std::vector<std::string>& values) {
+    SVT_CHECK(values.size() == rows_);
+    std::string text;
+    std::vector<std::uint32_t> offsets{0};
+    for (const std::string& value : values) {
+        text += validText(value);
+        offsets.push_back(static_cast<std::uint32_t>(text.size()));
+    }
+    // A buffer view has a byte at least.
+    if (text.empty()) text = " ";
+    class_[name] = {{"description", description}, {"type", "STRING"}, {"required", true}};
+    const std::size_t view = buffer_.add(std::as_bytes(std::span(text)));
+    table_[name] = {{"values", view}, {"stringOffsets", buffer_.add(std::as_bytes(std::span(offsets)))}};
+}
+
+template <class T>
+void PropertyTable::column(const char* name, std::string_view description, const char* componentType,
+                           const std::vector<T>& values) {
+    SVT_CHECK(values.size() == rows_);
+    class_[name] = {
+        {"description", description}, {"type", "SCALAR"}, {"componentType", componentType}, {"required", true}};
+    table_[name] = {{"values", buffer_.add(std::as_bytes(std::span(values)))}};
+}
+
+void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<double>& values) {
+    column(name, description, "FLOAT64", values);
+}
+void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values) {
+    column(name, description, "UINT32", values);
+}
+
+PropertyTable::Json PropertyTable::extension(const char* name, std::string_view description) const {
+    Json schema{{"id", "svt"},
+                {"classes", {{name, {{"name", name}, {"description", description}, {"properties", class_}}}}}};
+    Json table{{"name", name}, {"class", name}, {"count", rows_}, {"properties", table_}};
+    return {{"schema", std::move(schema)}, {"propertyTables", Json::array({std::move(table)})}};
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,58 @@
+#pragma once
+/// \file
+/// A property table of EXT_structural_metadata: columns of strings and numbers in a binary buffer, each row a component.
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace svt::writers {
+
+/// The binary buffer of a glTF: pieces that each begin at a multiple of 8 bytes, with their buffer views.
+class GltfBuffer {
+public:
+    using Json = nlohmann::ordered_json;
+
+    /// \param stride  bytes from vertex to vertex; 0: no vertices
+    /// \param target  of OpenGL; 0: none
+    /// \return the number of the buffer view
+    std::size_t add(std::span<const std::byte> bytes, int stride = 0, int target = 0);
+
+    [[nodiscard]] const Json& views() const noexcept { return views_; }
+    [[nodiscard]] const std::string& bytes() const noexcept { return bytes_; }
+
+private:
+    Json views_ = Json::array();
+    std::string bytes_;
+};
+
+/// Columns of a table of one class.
+class PropertyTable {
+public:
+    using Json = nlohmann::ordered_json;
+
+    PropertyTable(GltfBuffer& buffer, std::size_t rows) : buffer_(buffer), rows_(rows) {}
+
+    void strings(const char* name, std::string_view description, const std::vector<std::string>& values);
+    void numbers(const char* name, std::string_view description, const std::vector<double>& values);
+    void numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values);
+
+    /// The extension: schema with the class `name`, and the table.
+    [[nodiscard]] Json extension(const char* name, std::string_view description) const;
+
+private:
+    template <class T>
+    void column(const char* name, std::string_view description, const char* componentType,
+                const std::vector<T>& values);
+
+    GltfBuffer& buffer_;
+    std::size_t rows_;
+    Json class_ = Json::object(), table_ = Json::object();
+};
+
+}  // namespace svt::writers

@@ -1,0 +1,171 @@
+#include <svt/writers/usd/usd_writer.hpp>
+
+#include <svt/analyze/label_measures.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
+#include <svt/writers/hulls/label_hulls.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+/// A text in quotes on one line.
+std::string usdText(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : validText(text)) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+    }
+    return quoted + '"';
+}
+
+double linearColor(float value) {
+    const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
+    return std::round(v * 1e4) / 1e4;
+}
+
+/// Names of prims: letters, digits and '_', no digit first, each once.
+class PrimNames {
+public:
+    std::string nameFor(std::string_view id) {
+        std::string name;
+        for (const char c : id) {
+            const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || isDigit(c);
+            name += isPlain ? c : '_';
+        }
+        if (name.empty() || isDigit(name.front())) name.insert(name.begin(), '_');
+        std::string unique = name;
+        for (int n = 2; !used_.insert(unique).second; ++n) unique = fmt::format("{}_{}", name, n);
+        return unique;
+    }
+
+private:
+    std::set<std::string> used_{"Hull"};
+};
+
+class UsdDocument {
+public:
+    UsdDocument(const LabelHulls& hulls, AtomicFile& file) : hulls_(hulls), out_(file) {}
+
+    Result<void> write() {
+        const volume::SemanticVolume& volume = *hulls_.volume;
+        const auto& labels = volume.labels.labels;
+        std::vector<std::int64_t> surfaceOf(labels.size(), -1);
+        for (std::size_t s = 0; s < hulls_.surfaces.size(); ++s)
+            surfaceOf[hulls_.surfaces[s].label] = static_cast<std::int64_t>(s);
+        std::vector<bool> isUsed(labels.size(), false);
+        for (std::size_t l = labels.size(); l-- > 0;) {
+            isUsed[l] = isUsed[l] || surfaceOf[l] >= 0;
+            if (isUsed[l] && labels[l].parent < l) isUsed[labels[l].parent] = true;
+        }
+        volumes_ = analyze::ownVolumes(volume.labels, volume.grid);
+        begin();
+        std::vector<std::uint32_t> open;  // labels whose prims are not ended
+        for (std::size_t l = 0; l < labels.size(); ++l) {
+            if (!isUsed[l]) continue;
+            for (; !open.empty() && open.back() != labels[l].parent; open.pop_back()) out_.text += "}\n";
+            beginLabel(l);
+            if (surfaceOf[l] >= 0)
+                if (auto done = writeMesh(static_cast<std::size_t>(surfaceOf[l])); !done) return done;
+            open.push_back(static_cast<std::uint32_t>(l));
+        }
+        for (std::size_t n = 0; n <= open.size(); ++n) out_.text += "}\n";
+        return out_.flush(true);
+    }
+
+private:
+    void begin() {
+        const volume::SemanticVolume& volume = *hulls_.volume;
+        const std::string root = names_.nameFor(volume.modelName.empty() ? "model" : volume.modelName);
+        append("#usda 1.0\n(\n    defaultPrim = \"{}\"\n    metersPerUnit = 1\n    upAxis = \"Z\"\n", root);
+        append("    customLayerData = {{\n        string crs = {}\n        string source = {}\n    }}\n)\n\n",
+               usdText(volume.crsName), usdText(volume.source));
+        append("def Xform \"{}\" (\n    kind = \"assembly\"\n    displayName = {}\n)\n{{\n", root,
+               usdText(volume.modelName));
+        const auto& [x, y, z] = volume.grid.axes();
+        const Vec3d o = hulls_.corner();
+        append("matrix4d xformOp:transform = ( ({}, {}, {}, 0), ({}, {}, {}, 0), ({}, {}, {}, 0), ({}, {}, {}, 1) )\n",
+               x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z, o.x, o.y, o.z);
+        append("uniform token[] xformOpOrder = [\"xformOp:transform\"]\n");
+    }
+
+    void beginLabel(std::size_t l) {
+        const volume::Label& label = hulls_.volume->labels.labels[l];
+        append("def Xform \"{}\"", names_.nameFor(label.id));
+        if (!label.name.empty()) append(" (\n    displayName = {}\n)", usdText(label.name));
+        append("\n{{\ncustom string svt:id = {}\ncustom string svt:class = {}\n", usdText(label.id),
+               usdText(label.className));
+        append("custom string svt:name = {}\ncustom double svt:volume = {}\n", usdText(label.name), volumes_[l]);
+    }
+
+    Result<void> writeMesh(std::size_t s) {
+        const Positions& points = hulls_.positions[s];
+        const volume::Label& label = hulls_.label(s);
+        Vec3f min = points.front(), max = min;
+        for (const Vec3f point : points)
+            for (int axis = 0; axis < 3; ++axis) {
+                min[axis] = std::min(min[axis], point[axis]);
+                max[axis] = std::max(max[axis], point[axis]);
+            }
+        append("def Mesh \"Hull\"\n{{\nfloat3[] extent = [({}, {}, {}), ({}, {}, {})]\n", min.x, min.y, min.z, max.x,
+               max.y, max.z);
+        const auto& triangles = hulls_.surfaces[s].triangles;
+        const auto list = [&](const char* name, std::size_t count, const auto& item) -> Result<void> {
+            append("{} = [", name);
+            for (std::size_t n = 0; n < count; ++n) {
+                if (n != 0) out_.text += ", ";
+                item(n);
+                if (auto done = out_.flush(); !done) return done;
+            }
+            out_.text += "]\n";
+            return {};
+        };
+        auto done = list("int[] faceVertexCounts", triangles.size(), [&](std::size_t) { out_.text += '3'; });
+        if (done)
+            done = list("int[] faceVertexIndices", triangles.size(), [&](std::size_t n) {
+                append("{}, {}, {}", triangles[n][0], triangles[n][1], triangles[n][2]);
+            });
+        if (done)
+            done = list("point3f[] points", points.size(),
+                        [&](std::size_t n) { append("({}, {}, {})", points[n].x, points[n].y, points[n].z); });
+        append("color3f[] primvars:displayColor = [({}, {}, {})] (\n    interpolation = \"constant\"\n)\n",
+               linearColor(label.color.x), linearColor(label.color.y), linearColor(label.color.z));
+        append("float[] primvars:displayOpacity = [{}] (\n    interpolation = \"constant\"\n)\n", label.opacity);
+        append("uniform token orientation = \"rightHanded\"\nuniform token subdivisionScheme = \"none\"\n}}\n");
+        return done;
+    }
+
+    template <class... T>
+    void append(fmt::format_string<T...> format, T&&... values) {
+        fmt::format_to(std::back_inserter(out_.text), format, std::forward<T>(values)...);
+    }
+
+    const LabelHulls& hulls_;
+    PieceWriter out_;
+    PrimNames names_;
+    std::vector<double> volumes_;
+};
+
+}  // namespace
+
+Result<std::uint64_t> writeUsd(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                               const VolumeWriteOptions& options) {
+    const auto hulls = makeLabelHulls(volume, options);
+    if (!hulls) return hulls.error();
+    for (const Positions& points : hulls->positions)
+        if (points.size() > 0x7FFFFFFF)
+            return Error(Code::GridTooLarge, "a hull has more points than USD can number; use --level");
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    if (auto done = UsdDocument(*hulls, *file).write(); !done) return done.error();
+    return file->commit();
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,292 @@
+#include <svt/writers/vdb/vdb_tree.hpp>
+
+#include <svt/volume/dense.hpp>
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <new>
+
+namespace svt::writers {
+namespace {
+
+using VdbBytes = std::vector<std::byte>;
+
+constexpr std::int32_t kUpperSide = 32;  // blocks along an axis of an upper node
+constexpr std::int32_t kLeafSide = 8, kLeavesAlong = VdbBlocks::kSide / kLeafSide;
+constexpr int kVdbLevel = 1;
+
+/// Bits of a node, words of 64.
+template <std::size_t N>
+struct NodeMask {
+    std::array<std::uint64_t, N / 64> words{};
+    void set(std::size_t bit) noexcept { words[bit / 64] |= std::uint64_t{1} << (bit % 64); }
+};
+
+template <class T>
+void put(VdbBytes& to, const T& value) {
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+/// zlib with a window as small as the leaves are, made once: setting it up takes longer than to pack a leaf.
+class LeafPacker {
+public:
+    LeafPacker() {
+        if (deflateInit2(&stream_, kVdbLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+            throw std::bad_alloc();
+    }
+    LeafPacker(const LeafPacker&) = delete;
+    LeafPacker& operator=(const LeafPacker&) = delete;
+    ~LeafPacker() { deflateEnd(&stream_); }
+
+    /// The packed bytes, until the next call.
+    std::span<const std::byte> pack(std::span<const std::byte> plain) {
+        deflateReset(&stream_);
+        packed_.resize(deflateBound(&stream_, static_cast<uLong>(plain.size())));
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(plain.data()));
+        stream_.avail_in = static_cast<uInt>(plain.size());
+        stream_.next_out = reinterpret_cast<Bytef*>(packed_.data());
+        stream_.avail_out = static_cast<uInt>(packed_.size());
+        deflate(&stream_, Z_FINISH);  // ends, since the buffer is large enough
+        return std::span<const std::byte>(packed_).first(packed_.size() - stream_.avail_out);
+    }
+
+private:
+    static constexpr int kWindowBits = 12, kMemoryLevel = 4;
+    z_stream stream_{};
+    VdbBytes packed_;
+};
+
+/// The active values of a node: a byte that says that all others are background, then the values, compressed by zlib where
+/// that makes them smaller.
+void putValues(VdbBytes& to, std::span<const std::uint32_t> active) {
+    thread_local LeafPacker packer;
+    put(to, std::int8_t{0});
+    const auto plain = std::as_bytes(active);
+    const auto packed = packer.pack(plain);
+    const bool isSmaller = packed.size() < plain.size();
+    put(to, isSmaller ? static_cast<std::int64_t>(packed.size()) : -static_cast<std::int64_t>(plain.size()));
+    const auto bytes = isSmaller ? packed : plain;
+    to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+/// A leaf in the file's order, z fastest; the block is read in its own order, x fastest.
+/// \return whether all samples are alike
+bool gatherLeaf(const std::vector<std::uint32_t>& block, Vec3i leaf, std::array<std::uint32_t, 512>& values) {
+    constexpr auto kSide = static_cast<std::size_t>(VdbBlocks::kSide);
+    const std::uint32_t* corner = block.data() + std::size_t(leaf.x * kLeafSide) +
+                                  kSide * (std::size_t(leaf.y * kLeafSide) + kSide * std::size_t(leaf.z * kLeafSide));
+    const std::uint32_t first = *corner;
+    std::uint32_t difference = 0;
+    for (std::size_t z = 0; z < 8; ++z)
+        for (std::size_t y = 0; y < 8; ++y) {
+            const std::uint32_t* row = corner + kSide * (y + kSide * z);
+            for (std::size_t x = 0; x < 8; ++x) {
+                values[x << 6 | y << 3 | z] = row[x];
+                difference |= row[x] ^ first;
+            }
+        }
+    return difference == 0;
+}
+
+/// Calls visit(number, values, isUniform) for the leaves of a block in the file's order: z fastest.
+template <class Visit>
+void forEachLeaf(const std::vector<std::uint32_t>& block, const Visit& visit) {
+    std::array<std::uint32_t, 512> values{};
+    std::size_t number = 0;
+    for (std::int32_t x = 0; x < kLeavesAlong; ++x)
+        for (std::int32_t y = 0; y < kLeavesAlong; ++y)
+            for (std::int32_t z = 0; z < kLeavesAlong; ++z) {
+                const bool isUniform = gatherLeaf(block, {x, y, z}, values);
+                visit(number++, values, isUniform);
+            }
+}
+
+NodeMask<512> maskOf(const std::array<std::uint32_t, 512>& values) {
+    NodeMask<512> mask;
+    for (std::size_t n = 0; n < 512; ++n)
+        if (values[n] != 0) mask.set(n);
+    return mask;
+}
+
+/// A node of 16^3 leaves: masks, tiles, then the masks of its leaves.
+VdbBytes lowerTopology(const std::vector<std::uint32_t>& block) {
+    NodeMask<4096> children, tiles;
+    std::vector<std::uint32_t> tileValues;
+    VdbBytes leaves;
+    forEachLeaf(block, [&](std::size_t n, const std::array<std::uint32_t, 512>& values, bool isUniform) {
+        if (isUniform) {
+            if (values[0] == 0) return;
+            tiles.set(n);
+            tileValues.push_back(values[0]);
+            return;
+        }
+        children.set(n);
+        put(leaves, maskOf(values));
+    });
+    VdbBytes bytes;
+    put(bytes, children);
+    put(bytes, tiles);
+    putValues(bytes, tileValues);
+    bytes.insert(bytes.end(), leaves.begin(), leaves.end());
+    return bytes;
+}
+
+/// The leaves of a block: the mask again, and the active values.
+VdbBytes leafBuffers(const std::vector<std::uint32_t>& block) {
+    VdbBytes bytes;
+    std::vector<std::uint32_t> active;
+    forEachLeaf(block, [&](std::size_t, const std::array<std::uint32_t, 512>& values, bool isUniform) {
+        if (isUniform) return;
+        put(bytes, maskOf(values));
+        active.clear();
+        std::copy_if(values.begin(), values.end(), std::back_inserter(active), [](std::uint32_t v) { return v != 0; });
+        putValues(bytes, active);
+    });
+    return bytes;
+}
+
+}  // namespace
+
+VdbBlocks::VdbBlocks(const volume::ColumnVolume& columns, int threads, const Progress* progress)
+    : columns_(columns), threads_(threads), progress_(progress) {
+    for (int axis = 0; axis < 3; ++axis) count_[axis] = (columns.dimension()[axis] + kSide - 1) / kSide;
+}
+
+Result<VdbBlocks> VdbBlocks::of(const volume::ColumnVolume& columns, int threads, const Progress* progress) {
+    VdbBlocks blocks(columns, threads, progress);
+    std::vector<volume::Scalar> samples;
+    std::vector<bool> isSeen(std::size_t(volume::largestScalar(columns)) + 1);
+    for (std::int32_t z = 0; z < blocks.count_.z; ++z) {
+        if (Progress::isCancelled(progress))
+            return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+        for (std::int32_t y = 0; y < blocks.count_.y; ++y)
+            for (std::int32_t x = 0; x < blocks.count_.x; ++x) {
+                blocks.samples({x, y, z}, samples);
+                std::vector<volume::Scalar> found;
+                for (std::size_t n = 0; n < samples.size(); ++n) {
+                    if (n > 0 && samples[n] == samples[n - 1]) continue;
+                    if (isSeen[samples[n]]) continue;
+                    isSeen[samples[n]] = true;
+                    found.push_back(samples[n]);
+                }
+                for (const volume::Scalar scalar : found) isSeen[scalar] = false;
+                std::sort(found.begin(), found.end());
+                blocks.scalars_.push_back(std::move(found));
+            }
+    }
+    return blocks;
+}
+
+void VdbBlocks::samples(Vec3i block, std::vector<volume::Scalar>& out) const {
+    const Vec3i first{block.x * kSide, block.y * kSide, block.z * kSide};
+    Vec3i end = first + Vec3i{kSide, kSide, kSide};
+    for (int axis = 0; axis < 3; ++axis) end[axis] = std::min(end[axis], columns_.dimension()[axis]);
+    const Vec3i size = end - first;
+    inside_.resize(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));
+    volume::copyBox<volume::Scalar>(columns_, {first.y, end.y, first.z, end.z, first.x, end.x}, inside_, threads_);
+    constexpr auto kRow = static_cast<std::size_t>(kSide);
+    out.assign(kRow * kRow * kRow, 0);
+    for (std::int32_t k = 0; k < size.z; ++k)
+        for (std::int32_t j = 0; j < size.y; ++j)
+            std::copy_n(inside_.begin() + std::ptrdiff_t(size.x) * (j + std::ptrdiff_t(size.y) * k), size.x,
+                        out.begin() + static_cast<std::ptrdiff_t>(kRow * (std::size_t(j) + kRow * std::size_t(k))));
+}
+
+VdbTree::VdbTree(const VdbBlocks& blocks, std::vector<std::uint32_t> valueOf)
+    : blocks_(blocks), valueOf_(std::move(valueOf)) {
+    const Vec3i count = blocks.count();
+    for (std::int32_t x = 0; x < count.x; x += kUpperSide)
+        for (std::int32_t y = 0; y < count.y; y += kUpperSide)
+            for (std::int32_t z = 0; z < count.z; z += kUpperSide) {
+                bool isUsed = false;
+                const Vec3i end{std::min(x + kUpperSide, count.x), std::min(y + kUpperSide, count.y),
+                                std::min(z + kUpperSide, count.z)};
+                std::uint32_t value = 0;
+                for (std::int32_t i = x; i < end.x && !isUsed; ++i)
+                    for (std::int32_t j = y; j < end.y && !isUsed; ++j)
+                        for (std::int32_t k = z; k < end.z && !isUsed; ++k)
+                            isUsed = stateOf({i, j, k}, value) != State::Empty;
+                if (isUsed) roots_.push_back({{x, y, z}});
+            }
+}
+
+VdbTree::State VdbTree::stateOf(Vec3i block, std::uint32_t& value) const {
+    const auto scalars = blocks_.scalars(block);
+    value = valueOf_[scalars.front()];
+    const bool isSame =
+        std::all_of(scalars.begin(), scalars.end(), [&](volume::Scalar s) { return valueOf_[s] == value; });
+    return !isSame ? State::Child : value == 0 ? State::Empty : State::Tile;
+}
+
+void VdbTree::readBlock(Vec3i block, std::vector<std::uint32_t>& values) const {
+    blocks_.samples(block, values);
+    for (std::uint32_t& value : values) value = valueOf_[value];
+}
+
+/// Calls visit(number, block, state, value) for what is not empty, in the file's order: z fastest.
+template <class Visit>
+Result<void> VdbTree::forEachChild(const Upper& upper, const Visit& visit) const {
+    const Vec3i count = blocks_.count();
+    for (std::int32_t x = 0; x < std::min(kUpperSide, count.x - upper.first.x); ++x) {
+        if (Progress::isCancelled(blocks_.progress()))
+            return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+        for (std::int32_t y = 0; y < std::min(kUpperSide, count.y - upper.first.y); ++y)
+            for (std::int32_t z = 0; z < std::min(kUpperSide, count.z - upper.first.z); ++z) {
+                const Vec3i block = upper.first + Vec3i{x, y, z};
+                std::uint32_t value = 0;
+                const State state = stateOf(block, value);
+                if (state == State::Empty) continue;
+                const auto number = static_cast<std::size_t>((x * kUpperSide + y) * kUpperSide + z);
+                if (auto done = visit(number, block, state, value); !done) return done;
+            }
+    }
+    return {};
+}
+
+Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& topology, const VdbSink& buffers) const {
+    NodeMask<32768> children, tiles;
+    std::vector<std::uint32_t> tileValues;
+    auto done = forEachChild(upper, [&](std::size_t number, Vec3i, State state, std::uint32_t value) -> Result<void> {
+        if (state == State::Child) {
+            children.set(number);
+        } else {
+            tiles.set(number);
+            tileValues.push_back(value);
+        }
+        return {};
+    });
+    if (!done) return done;
+    VdbBytes bytes;
+    for (int axis = 0; axis < 3; ++axis) put(bytes, upper.first[axis] * VdbBlocks::kSide);
+    put(bytes, children);
+    put(bytes, tiles);
+    putValues(bytes, tileValues);
+    if (topology)
+        if (done = topology(bytes); !done) return done;
+    std::vector<std::uint32_t> values;
+    return forEachChild(upper, [&](std::size_t, Vec3i block, State state, std::uint32_t) -> Result<void> {
+        if (state != State::Child) return {};
+        readBlock(block, values);
+        if (topology)
+            if (auto written = topology(lowerTopology(values)); !written) return written;
+        return buffers ? buffers(leafBuffers(values)) : Result<void>();
+    });
+}
+
+Result<void> VdbTree::write(const VdbSink& topology, const VdbSink& buffers) const {
+    VdbBytes bytes;
+    put(bytes, std::int32_t{1});   // buffers of a leaf
+    put(bytes, std::uint32_t{0});  // background
+    put(bytes, std::uint32_t{0});  // tiles of the root
+    put(bytes, static_cast<std::uint32_t>(roots_.size()));
+    if (topology)
+        if (auto done = topology(bytes); !done) return done;
+    for (const Upper& upper : roots_)
+        if (auto done = writeUpper(upper, topology, buffers); !done) return done;
+    return {};
+}
+
+}  // namespace svt::writers

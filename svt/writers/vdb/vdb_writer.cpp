@@ -1,0 +1,159 @@
+#include <svt/writers/vdb/vdb_writer.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/volume/volume_json.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
+#include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/vdb/vdb_tree.hpp>
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x56444220;
+constexpr std::uint32_t kFileVersion = 224, kLibraryMajor = 10, kLibraryMinor = 0;
+constexpr std::uint32_t kZip = 1, kActiveMask = 2;
+constexpr std::uint64_t kKeptPartBytes = std::uint64_t{32} << 20;
+constexpr std::string_view kLabelGrid = "label";
+constexpr volume::Scalar kMostScalars = 1u << 24;                           // that a float holds exactly
+constexpr std::string_view kUuid = "73767400-0000-4000-8000-000000000000";  // of any file, so that bytes are equal
+
+std::string vdbString(std::string_view text) {
+    std::string bytes;
+    appendBytes(bytes, static_cast<std::uint32_t>(text.size()));
+    return bytes += text;
+}
+
+std::string vdbMetadata(const std::map<std::string, std::string>& entries) {
+    std::string bytes;
+    appendBytes(bytes, static_cast<std::uint32_t>(entries.size()));
+    for (const auto& [name, value] : entries) bytes += vdbString(name) + vdbString("string") + vdbString(value);
+    return bytes;
+}
+
+/// From index to world: rows are what a step along each axis is, the last one where sample (0, 0, 0) is.
+std::string vdbTransform(const volume::Grid& grid) {
+    std::string bytes = vdbString("AffineMap");
+    for (int row = 0; row < 4; ++row) {
+        Vec3d step = grid.origin();
+        if (row < 3) {
+            Vec3d unit{0, 0, 0};
+            unit[row] = 1;
+            step = grid.worldFromIndexDirection(unit);
+        }
+        for (int axis = 0; axis < 3; ++axis) appendBytes(bytes, step[axis]);
+        appendBytes(bytes, row < 3 ? 0.0 : 1.0);
+    }
+    return bytes;
+}
+
+struct VdbGrid {
+    std::string name;
+    VdbTree tree;
+};
+
+/// What is in front of the tree of a grid.
+std::string gridHead(const VdbGrid& grid, const volume::Grid& samples) {
+    std::string bytes;
+    appendBytes(bytes, kZip | kActiveMask);
+    bytes += vdbMetadata({{"class", grid.name == kLabelGrid ? "unknown" : "fog volume"}, {"name", grid.name}});
+    return bytes + vdbTransform(samples);
+}
+
+/// The bytes of a part of a grid: counted, and kept where they are few.
+struct VdbPart {
+    std::uint64_t size = 0;
+    std::string kept;
+
+    [[nodiscard]] VdbSink sink() {
+        return [this](std::span<const std::byte> bytes) -> Result<void> {
+            size += bytes.size();
+            if (size <= kKeptPartBytes)
+                kept.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+            else
+                kept = {};
+            return {};
+        };
+    }
+};
+
+/// Writes a grid behind its descriptor, which has to tell where its parts begin: what is not kept is made twice.
+Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicFile& file) {
+    const std::string head = gridHead(grid, samples);
+    VdbPart topology, buffers;
+    if (auto done = grid.tree.write(topology.sink(), buffers.sink()); !done) return done;
+    std::string descriptor = vdbString(grid.name) + vdbString("Tree_float_5_4_3") + vdbString("");
+    const std::uint64_t begin = file.size() + descriptor.size() + 3 * sizeof(std::int64_t),
+                        leaves = begin + head.size() + topology.size;
+    for (const std::uint64_t place : {begin, leaves, leaves + buffers.size})
+        appendBytes(descriptor, static_cast<std::int64_t>(place));
+    if (auto done = file.write(descriptor + head); !done) return done;
+    const auto sink = [&](std::span<const std::byte> bytes) { return file.write(bytes); };
+    auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.tree.write(sink, {});
+    if (!done) return done;
+    return buffers.kept.size() == buffers.size ? file.write(buffers.kept) : grid.tree.write({}, sink);
+}
+
+std::vector<VdbGrid> gridsOf(const volume::SemanticVolume& volume, const VdbBlocks& blocks) {
+    const std::size_t scalars = volume.labels.scalarCount();
+    std::vector<std::uint32_t> values(scalars);
+    for (std::size_t s = 0; s < scalars; ++s) values[s] = std::bit_cast<std::uint32_t>(static_cast<float>(s));
+    std::vector<VdbGrid> grids;
+    grids.push_back({std::string(kLabelGrid), VdbTree(blocks, std::move(values))});
+    std::map<std::string, std::vector<std::uint32_t>> masks;
+    for (const volume::Label& label : volume.labels.labels) {
+        if (label.count == 0) continue;
+        std::string name = validText(label.className);
+        if (name.empty() || name == kLabelGrid) name = "class_" + name;
+        const auto mask = masks.try_emplace(name, scalars, 0u).first;
+        for (volume::Scalar s = label.first; s < label.first + label.count; ++s)
+            mask->second[s] = std::bit_cast<std::uint32_t>(1.0f);
+    }
+    for (auto& [name, mask] : masks) {
+        VdbTree tree(blocks, std::move(mask));
+        if (!tree.isEmpty()) grids.push_back({name, std::move(tree)});
+    }
+    return grids;
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                               const DenseOptions& options) {
+    if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
+    if (volume.labels.scalarCount() > kMostScalars)
+        return Error(Code::BadArgument,
+                     fmt::format("{} scalars are more than the {} that a float of OpenVDB tells apart",
+                                 volume.labels.scalarCount(), kMostScalars));
+    const auto blocks = VdbBlocks::of(volume.columns, options.threads, options.progress);
+    if (!blocks) return blocks.error();
+    const std::vector<VdbGrid> grids = gridsOf(volume, *blocks);
+    if (grids.front().tree.isEmpty()) return Error(Code::NothingSelected, "the volume has no voxels");
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    std::string head;
+    appendBytes(head, kMagic);
+    for (const std::uint32_t number : {kFileVersion, kLibraryMajor, kLibraryMinor}) appendBytes(head, number);
+    appendBytes(head, std::int8_t{1});  // grids tell where they begin
+    head += kUuid;
+    head += vdbMetadata({{"creator", "svt"},
+                         {"crs", validText(volume.crsName)},
+                         {"labels.json", volume::writeLabelsJson(volume.labels)},
+                         {"svt.json", volume::writeHeaderJson(volume)}});
+    appendBytes(head, static_cast<std::uint32_t>(grids.size()));
+    if (auto done = file->write(head); !done) return done.error();
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+        Progress::tell(options.progress, "write", double(g) / double(grids.size()));
+        if (auto done = writeGrid(grids[g], volume.grid, *file); !done) return done.error();
+    }
+    return file->commit();
+}
+
+}  // namespace svt::writers

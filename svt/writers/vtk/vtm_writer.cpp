@@ -1,0 +1,55 @@
+#include <svt/writers/vtk/vtm_writer.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/volume/volume_part.hpp>
+#include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/vtk/vti_writer.hpp>
+#include <svt/writers/x3d/texture_files.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+
+Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                               const DenseOptions& options) {
+    if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
+    const Vec3i dimension = volume.grid.dimension();
+    int coarsest = 0;
+    for (std::int32_t side = std::max({dimension.x, dimension.y, dimension.z}); side > 64 && coarsest < 6;
+         side = (side + 1) / 2)
+        ++coarsest;
+    std::vector<volume::SemanticVolume> coarse;
+    if (coarsest > 0) {
+        auto made = volume::coarseVolumes(volume, coarsest, options.threads);
+        if (!made) return made.error();
+        coarse = std::move(*made);
+    }
+    std::string text =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<vtkMultiBlockDataSet>\n";
+    std::vector<std::filesystem::path> files;
+    for (std::size_t l = 0; l <= coarse.size(); ++l) {
+        const std::string name = fmt::format("{}.level{}.vti", path.stem().string(), l);
+        files.push_back(path.parent_path() / name);
+        if (auto checked = checkSibling(files.back(), "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile"); !checked)
+            return checked.error();
+        text += fmt::format("<DataSet index=\"{}\" name=\"level {}\" file=\"{}\"/>\n", l, l, xmlAttribute(name));
+    }
+    text += "</vtkMultiBlockDataSet>\n</VTKFile>\n";
+    std::uint64_t bytes = 0;
+    for (std::size_t l = 0; l < files.size(); ++l) {
+        const auto written = writeVti(l == 0 ? volume : coarse[l - 1], files[l], options);
+        if (!written) return written;
+        bytes += *written;
+    }
+    const auto written = writeFileAtomically(path, text);
+    if (!written) return written;
+    return bytes + *written;
+}
+
+}  // namespace svt::writers
