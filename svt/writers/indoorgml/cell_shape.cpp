@@ -89,10 +89,18 @@ public:
         for (const std::uint32_t t : order) areas.push_back(length(normalOf(shape_, t)));
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return areas[a] > areas[b]; });
+        std::vector<std::uint32_t> seeds;
+        for (const std::uint32_t seed : order)
+            if (faceOf_[seed] == kNone && !isSliver(seed)) {
+                grow(seed);
+                seeds.push_back(seed);
+            }
+        placeSlivers(order, seeds);
+        std::map<std::uint32_t, std::vector<std::uint32_t>> regions;
+        for (std::uint32_t t = 0; t < faceOf_.size(); ++t) regions[faceOf_[t]].push_back(t);
         std::vector<FaceRings> faces;
-        for (const std::uint32_t seed : order) {
-            if (faceOf_[seed] != kNone) continue;
-            const std::vector<std::uint32_t> region = grow(seed);
+        for (const std::uint32_t seed : seeds) {
+            const std::vector<std::uint32_t>& region = regions[seed];
             if (FaceRings rings = ringsOf(region, seed); !rings.empty())
                 faces.push_back(std::move(rings));
             else
@@ -105,34 +113,63 @@ public:
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-    std::vector<std::uint32_t> grow(std::uint32_t seed) {
+    void grow(std::uint32_t seed) {
         const Vec3d normal = normalized(normalOf(shape_, seed)), at = shape_.corner(seed, 0);
         std::vector<std::uint32_t> region{seed};
         faceOf_[seed] = seed;
-        for (std::size_t next = 0; next < region.size(); ++next) {
-            const auto corners = shape_.triangles[region[next]];
+        for (std::size_t next = 0; next < region.size(); ++next)
             for (std::size_t i = 0; i < 3; ++i) {
-                const auto beside = triangleOf_.find(edgeOf(corners[(i + 1) % 3], corners[i]));
-                if (beside == triangleOf_.end() || beside->second == kNone || faceOf_[beside->second] != kNone)
-                    continue;
-                const std::uint32_t t = beside->second;
-                bool isFlat = isSliver(t) || dot(normalOf(shape_, t), normal) > 0;
+                const std::uint32_t t = beside(region[next], i);
+                if (t == kNone || faceOf_[t] != kNone || isSliver(t)) continue;
+                bool isFlat = dot(normalOf(shape_, t), normal) > 0;
                 for (int c = 0; c < 3; ++c)
                     isFlat = isFlat && std::abs(dot(shape_.corner(t, c) - at, normal)) <= kSamePlane;
                 if (!isFlat) continue;
                 faceOf_[t] = seed;
                 region.push_back(t);
             }
+    }
+
+    // The triangle across the edge from corner i; kNone: none, or several.
+    [[nodiscard]] std::uint32_t beside(std::uint32_t triangle, std::size_t i) const {
+        const auto& corners = shape_.triangles[triangle];
+        const auto found = triangleOf_.find(edgeOf(corners[(i + 1) % 3], corners[i]));
+        return found == triangleOf_.end() ? kNone : found->second;
+    }
+
+    // A sliver closes the gap between a long edge and points on it: it belongs to the face that has the long edge, which
+    // so gets these points.
+    void placeSlivers(const std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& seeds) {
+        for (bool isChanged = true; isChanged;) {
+            isChanged = false;
+            for (const std::uint32_t t : order) {
+                if (faceOf_[t] != kNone) continue;
+                const std::uint32_t other = beside(t, longestSide(t));
+                if (other == kNone || faceOf_[other] == kNone) continue;
+                faceOf_[t] = faceOf_[other];
+                isChanged = true;
+            }
         }
-        return region;
+        for (const std::uint32_t t : order)
+            if (faceOf_[t] == kNone) {
+                faceOf_[t] = t;
+                seeds.push_back(t);
+            }
+    }
+
+    [[nodiscard]] double side(std::uint32_t t, std::size_t i) const {
+        return length(shape_.corner(t, int((i + 1) % 3)) - shape_.corner(t, int(i)));
+    }
+    [[nodiscard]] std::size_t longestSide(std::uint32_t t) const {
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < 3; ++i)
+            if (side(t, i) > side(t, longest)) longest = i;
+        return longest;
     }
 
     // So thin that its direction says nothing.
     [[nodiscard]] bool isSliver(std::uint32_t t) const {
-        double longest = 0;
-        for (int i = 0; i < 3; ++i)
-            longest = std::max(longest, length(shape_.corner(t, (i + 1) % 3) - shape_.corner(t, i)));
-        return length(normalOf(shape_, t)) <= kSamePlane * longest;
+        return length(normalOf(shape_, t)) <= kSamePlane * side(t, longestSide(t));
     }
 
     // The rings around a region; empty where one of them touches itself or another.
