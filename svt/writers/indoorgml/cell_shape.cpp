@@ -310,6 +310,8 @@ std::vector<CellBody> piecesOf(const CellShape& shape) {
         else
             cavities.push_back(std::move(part));
     }
+    std::stable_sort(bodies.begin(), bodies.end(),
+                     [](const CellBody& a, const CellBody& b) { return volumeOf(a.shell) > volumeOf(b.shell); });
     for (CellShape& cavity : cavities) {
         CellBody* around = nullptr;
         double least = kInfinity;

@@ -48,7 +48,7 @@ struct CellBody {
     std::vector<CellShape> cavities;  ///< triangles look into them
 };
 
-/// The pieces of a closed shape, each with the cavities in it, in the order of their first triangles.
+/// The pieces of a closed shape, each with the cavities in it, the largest first.
 [[nodiscard]] std::vector<CellBody> piecesOf(const CellShape& shape);
 
 /// A polygon of a shape: rings of points, the first the exterior one.

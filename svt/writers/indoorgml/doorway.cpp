@@ -185,14 +185,14 @@ private:
         constexpr int kLines = 5;
         const Vec3d spacing = volume_.grid.spacing();
         const double step = std::min({spacing.x, spacing.y, spacing.z}) / 2;
-        const int steps = static_cast<int>(std::abs(to - from) / step);
+        const int steps = static_cast<int>(std::ceil(std::abs(to - from) / step));
         int free = 0;
         for (int line = 0; line < kLines * kLines; ++line) {
             const double t = frame_.low.y + (frame_.high.y - frame_.low.y) * (line % kLines + 0.5) / kLines;
             const double z = frame_.low.z + (frame_.high.z - frame_.low.z) * (line / kLines + 0.5) / kLines;
             bool isLineFree = true;
-            for (int s = 1; s < steps && isLineFree; ++s)
-                isLineFree = !isBlocked(frame_.place({from + (to - from) * s / steps, t, z}));
+            for (int s = 0; s < steps && isLineFree; ++s)
+                isLineFree = !isBlocked(frame_.place({from + (to - from) * (s + 0.5) / steps, t, z}));
             free += isLineFree;
         }
         return free * 3 >= kLines * kLines;
