@@ -65,7 +65,7 @@ TEST_F(Indoor, TheHouseComesBackWithItsRoomsAndDoors) {
 
 TEST_F(Indoor, VoxelsAloneGiveValidCellsAsWell) {
     runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1", "--vectors", "none"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.05", "--vectors", "none"});
     runSvtWell(folder.path(), {"convert", "house.svt", "house.indoor.gml"});
     const auto after = roomVolumes(check("house.indoor.gml"));
     EXPECT_GT(after.size(), 20u);
@@ -97,8 +97,9 @@ TEST_F(Indoor, TheFzkHouseFromIfcHasTheVolumesOfItsSpaces) {
 }
 
 TEST_F(Indoor, AVolumeWithoutRoomsIsToldSo) {
-    runSvtWell(folder.path(), {"sample", "district", "-o", "d.gml"});
-    const CommandResult result = runSvt(folder.path(), {"convert", "d.gml", "d.indoor.gml", "--spacing", "1"});
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    const CommandResult result = runSvt(
+        folder.path(), {"convert", "house.gml", "walls.indoor.gml", "--spacing", "0.4", "--select", "class=Window"});
     EXPECT_NE(result.exitCode, 0);
     EXPECT_NE(result.err.find("no rooms"), std::string::npos) << result.err;
 }

@@ -60,7 +60,7 @@ TEST(IfcReader, TheTreeAndItsClasses) {
               "0site:GenericLogicalSpace 0building:Building<0site 0storey:Storey<0building "
               "wall:BuildingConstructiveElement<0storey part:BuildingConstructiveElement<wall door:Door<0storey "
               "pump:BuildingInstallation<0storey space:BuildingRoom<0storey thing:GenericOccupiedSpace<0storey "
-              "zone:CityObjectGroup ");
+              "note:Annotation zone:CityObjectGroup ");
     const model::Feature* wall = find(*model, "wall");
     ASSERT_NE(wall, nullptr);
     EXPECT_EQ(wall->name, "W1");
@@ -72,7 +72,7 @@ TEST(IfcReader, TheTreeAndItsClasses) {
     EXPECT_EQ(model->features[model->memberships[0].member].id, "space");
     EXPECT_EQ(log.count(Code::UnknownElement), 1U);
     ASSERT_EQ(log.count(Code::ProductsRead), 1U);
-    EXPECT_EQ(log.items().back().message, "6 of 6 products with a shape were read, 0 of them in part");
+    EXPECT_EQ(log.items().back().message, "7 of 7 products with a shape were read, 0 of them in part");
 }
 
 TEST(IfcReader, SpacesByTheirLongNamesLayersAndComplexProperties) {
