@@ -4,11 +4,11 @@
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/ifc/layers.hpp>
+#include <svt/readers/ifc/line_reader.hpp>
 #include <svt/readers/ifc/properties.hpp>
 #include <svt/readers/ifc/structure.hpp>
 #include <svt/readers/ifc/styles.hpp>
 #include <svt/readers/ifc/units.hpp>
-#include <svt/readers/ifc_shape/line_reader.hpp>
 #include <svt/readers/ifc_shape/shape_reader.hpp>
 
 #include <fmt/format.h>

@@ -156,7 +156,9 @@ private:
         std::vector<Vec3d> points;
         for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
             points.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
-        return points;
+        if (std::all_of(points.begin(), points.end(), [](Vec3d p) { return isFinite(p); })) return points;
+        report(Code::BadCoordinate, top, feature, "coordinates that are not finite; left out");
+        return {};
     }
 
     [[nodiscard]] const State* stateOf(const Link& link) const {

@@ -33,6 +33,24 @@ bool isOther(string_view name) {
     return isCellSpace(name) || name.ends_with("Boundary") || indoor::isState(name) || indoor::isTransition(name);
 }
 
+// What writers put into descriptions for want of elements: storey="EG":usage="office". False for plain text.
+bool addNamedValues(string_view text, std::vector<Attribute>& attributes) {
+    std::vector<Attribute> found;
+    while (!text.empty()) {
+        const std::size_t begin = text.find("=\""), end = text.find('"', begin + 2);
+        if (begin == string_view::npos || end == string_view::npos || begin == 0) return false;
+        const string_view key = text.substr(0, begin);
+        if (key.find_first_of(" \t\r\n\"") != string_view::npos) return false;
+        found.push_back({std::string(key), std::string(text.substr(begin + 2, end - begin - 2)), ""});
+        text.remove_prefix(end + 1);
+        text.remove_prefix(std::min(text.find_first_not_of(": ;,"), text.size()));
+    }
+    for (Attribute& attribute : found)
+        if (std::none_of(attributes.begin(), attributes.end(), [&](const auto& a) { return a.name == attribute.name; }))
+            attributes.push_back(std::move(attribute));
+    return !found.empty();
+}
+
 class IndoorReader {
 public:
     IndoorReader(string_view text, string_view name, const ReadOptions& options, Diagnostics& diagnostics)
@@ -111,6 +129,8 @@ private:
             if (text.empty()) continue;
             if (name == "name" && feature.name.empty())
                 feature.name = text;
+            else if (name == "description" && addNamedValues(text, feature.attributes))
+                continue;
             else if (name == "description" || name == "function" || name == "class" || name == "usage" ||
                      name == "level")
                 feature.attributes.push_back({std::string(name), text, ""});

@@ -7,6 +7,7 @@
 /// | cell space of any class                         | BuildingRoom, its class as the attribute `cellSpaceClass`  |
 /// | Solid of a cell space, else its surfaces        | solid with its hollows, else surfaces                      |
 /// | name, description, function, class, usage, level | name, attributes                                          |
+/// | description `storey="EG":usage="office"`        | an attribute each                                          |
 /// | space layers, states and transitions            | features with lines, see indoor_graph.hpp                  |
 /// | boundaries of cell spaces                       | nothing: the solids have them                              |
 ///

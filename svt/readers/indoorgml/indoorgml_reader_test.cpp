@@ -179,6 +179,19 @@ TEST(IndoorGml, GraphsAreFeaturesWithLines) {
     EXPECT_EQ(model->memberships.size(), 3u);
 }
 
+TEST(IndoorGml, DescriptionsOfNamedValuesAreAttributes) {
+    const auto model = readText(document(
+        cell("a", "core:CellSpace", box(0), "<gml:description>storey=\"1. OG\":usage=\"office\"</gml:description>") +
+        cell("b", "core:CellSpace", box(2), "<gml:description>a room of x=\"3\" m</gml:description>") +
+        cell("c", "core:CellSpace", box(4), "<gml:description>storey=\"open</gml:description>")));
+    ASSERT_TRUE(model);
+    EXPECT_EQ(attribute(model->features[0], "storey"), "1. OG");
+    EXPECT_EQ(attribute(model->features[0], "usage"), "office");
+    EXPECT_EQ(attribute(model->features[0], "description"), "none");
+    EXPECT_EQ(attribute(model->features[1], "description"), "a room of x=\"3\" m");
+    EXPECT_EQ(attribute(model->features[2], "description"), "storey=\"open");
+}
+
 TEST(IndoorGml, LinksThatDoNotAgreeAreNamed) {
     const std::string a = cell("a", "core:CellSpace", box(0), "<core:duality xlink:href=\"#sa\"/>");
     const std::string b = cell("b", "core:CellSpace", box(2), "<core:duality xlink:href=\"#sb\"/>");

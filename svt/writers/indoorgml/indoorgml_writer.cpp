@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <unordered_set>
@@ -148,7 +149,11 @@ private:
         const bool isNavigable = cell.kind != "CellSpace";
         const std::string element = (isNavigable ? "navi:" : "core:") + std::string(cell.kind);
         out_ += fmt::format("<core:cellSpaceMember>\n<{} gml:id=\"{}\">\n", element, xmlAttribute(cell.id));
-        if (!cell.storey.empty()) text("gml:description", fmt::format("storey=\"{}\"", cell.storey));
+        if (!cell.storey.empty()) {
+            std::string storey = cell.storey;
+            std::replace(storey.begin(), storey.end(), '"', '\'');
+            text("gml:description", fmt::format("storey=\"{}\"", storey));
+        }
         if (!label.name.empty()) text("gml:name", label.name);
         const std::string solid = name("solid", number + 1);
         out_ += fmt::format("<core:cellSpaceGeometry>\n<core:Geometry3D>\n<gml:Solid gml:id=\"{}\">\n", solid);

@@ -242,7 +242,7 @@ TEST(IndoorGmlWriter, TheDocumentSaysWhatTheVolumeKnows) {
     expectLinked(document);
     EXPECT_NE(document.find("<navi:GeneralSpace gml:id=\"west\">"), std::string::npos);
     EXPECT_NE(document.find("<gml:name>West &amp; co</gml:name>"), std::string::npos);
-    EXPECT_NE(document.find("storey=\"EG \"low\"\""), std::string::npos);
+    EXPECT_NE(document.find("storey=\"EG 'low'\""), std::string::npos);
     EXPECT_NE(document.find("<navi:usage>sleep</navi:usage>"), std::string::npos);
     EXPECT_NE(document.find("<navi:GeneralSpace gml:id=\"_0east\">"), std::string::npos) << "no XML name as it is";
     EXPECT_NE(document.find("<core:informationSystem>a%20house.gml</core:informationSystem>"), std::string::npos);

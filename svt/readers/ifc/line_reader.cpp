@@ -1,4 +1,4 @@
-#include <svt/readers/ifc_shape/line_reader.hpp>
+#include <svt/readers/ifc/line_reader.hpp>
 
 #include <svt/readers/ifc_shape/curves.hpp>
 
