@@ -84,6 +84,7 @@ private:
     Result<void> findShapes() {
         const auto& labels = volume_.labels.labels;
         shapes_.resize(labels.size());
+        isOfVoxels_.assign(labels.size(), false);
         std::vector<std::uint32_t> ownerOf = analyze::spacesOfLabels(volume_.labels);
         bool isAnyMissing = false;
         for (std::uint32_t l = 0; l < labels.size(); ++l) {
@@ -103,7 +104,10 @@ private:
         auto voxels = voxelShapes(volume_, ownerOf, options_.threads, options_.progress);
         if (!voxels) return voxels.error();
         for (std::uint32_t l = 0; l < labels.size(); ++l)
-            if (!(*voxels)[l].triangles.empty()) shapes_[l] = std::move((*voxels)[l]);
+            if (!(*voxels)[l].triangles.empty()) {
+                shapes_[l] = std::move((*voxels)[l]);
+                isOfVoxels_[l] = true;
+            }
         return {};
     }
 
@@ -193,16 +197,49 @@ private:
         for (std::uint32_t l = 0; l < volume_.labels.labels.size(); ++l) {
             if (!isDoor(l)) continue;
             auto doorway = findDoorway(volume_, labelOfScalar_, shapes_[l], l, rooms, bounds);
-            if (!doorway) continue;
+            const std::size_t reached = doorway ? doorway->contacts.size() : 0;
+            if ((isOfVoxels_[l] && addVoxelDoor(l, bounds, reached)) || !doorway) continue;
             const bool isInner = doorway->hasRoom[0] && doorway->hasRoom[1];
             const std::size_t door =
                 addCell(l, isInner ? "ConnectionSpace" : "AnchorSpace", {std::move(doorway->shape), {}});
-            for (auto& contact : doorway->contacts)
-                if (!contact.pieces.empty()) addTransition(addBoundary(contact.room, door, std::move(contact.pieces)));
+            for (auto& contact : doorway->contacts) {
+                if (!contact.pieces.empty()) {
+                    addTransition(addBoundary(contact.room, door, std::move(contact.pieces)));
+                    continue;
+                }
+                for (const std::size_t cell : {contact.room, door})
+                    plan_.cells[cell].transitions.push_back(plan_.transitions.size());
+                plan_.transitions.push_back({contact.room, door, Boundary::kNone, {}});
+            }
         }
     }
 
+    // In walls across the grid, boxes do not fit between the stairs of rooms: the voxels of a door are its cell, if more rooms
+    // touch them than a box has reached.
+    bool addVoxelDoor(std::uint32_t label, const std::vector<Box3d>& rooms, std::size_t reached) {
+        std::vector<CellBody> pieces = piecesOf(shapes_[label]);
+        if (pieces.empty()) return false;
+        const Box3d bounds = pieces.front().shell.bounds();
+        std::vector<std::pair<std::size_t, std::vector<FacePiece>>> faces;
+        for (std::size_t room = 0; room < rooms.size(); ++room) {
+            if (!rooms[room].overlaps(bounds)) continue;
+            std::vector<FacePiece> widest;
+            for (auto& plane : commonFaces(plan_.cells[room].body, pieces.front()))
+                if (areaOf(plane) > std::max(areaOf(widest), kLeastOpening)) widest = std::move(plane);
+            if (!widest.empty()) faces.emplace_back(room, std::move(widest));
+        }
+        if (faces.size() <= reached) return false;
+        const std::size_t door =
+            addCell(label, faces.size() > 1 ? "ConnectionSpace" : "AnchorSpace", std::move(pieces.front()));
+        for (auto& [room, face] : faces) addTransition(addBoundary(room, door, std::move(face)));
+        return true;
+    }
+
     void drawLine(Transition& transition) const {
+        if (transition.boundary == Boundary::kNone) {
+            transition.line = {plan_.cells[transition.a].inner, plan_.cells[transition.b].inner};
+            return;
+        }
         Vec3d middle{};
         double total = 0;
         for (const FacePiece& piece : plan_.boundaries[transition.boundary].pieces) {
@@ -220,6 +257,7 @@ private:
     std::vector<std::uint32_t> labelOfScalar_;
     bool hasDoors_ = false;
     std::vector<CellShape> shapes_;  // per label
+    std::vector<bool> isOfVoxels_;   // per label
     std::unordered_set<std::string> ids_;
     CellPlan plan_;
 };

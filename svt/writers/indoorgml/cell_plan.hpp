@@ -31,7 +31,7 @@ struct Boundary {
 
 struct Transition {
     std::size_t a = 0, b = 0;  ///< cells
-    std::size_t boundary = 0;
+    std::size_t boundary = Boundary::kNone;
     std::vector<Vec3d> line;  ///< from state to state, through the face
 };
 

@@ -11,6 +11,7 @@ namespace {
 using volume::kNoLabel;
 
 constexpr double kOnFace = 1e-5;  // metres
+constexpr double kBite = 0.0005;  // metres; half of what counts as an overlap
 constexpr double kPi = 3.14159265358979323846;
 
 // The part of a convex polygon where dot(p, normal) <= limit.
@@ -152,11 +153,15 @@ private:
         if (found.empty() || sign * end - nearest > kReveal || !isFree(end, sign * nearest)) return;
         end = sign * nearest;
         doorway.hasRoom[std::size_t(side)] = true;
+        bool hasFace = false;
         for (const auto& [room, at] : found)
-            if (at > nearest - kOnFace) addContact(room, side, end, leaf, doorway);
+            if (at > nearest - kOnFace) hasFace = addContact(room, side, end, leaf, doorway) || hasFace;
+        // Stairs of voxels, or a wall that bends: the box goes on until it touches for certain.
+        if (!hasFace) end -= sign * kBite;
     }
 
-    void addContact(std::size_t room, int side, double end, const DoorFrame& leaf, Doorway& doorway) const {
+    // True if they have a part of a face in common.
+    bool addContact(std::size_t room, int side, double end, const DoorFrame& leaf, Doorway& doorway) const {
         Doorway::Contact contact{room, {}};
         const CellShape& shell = rooms_[room]->shell;
         const Vec3d outwards = side == 0 ? frame_.axes[0] : -frame_.axes[0];  // of the room
@@ -178,6 +183,7 @@ private:
             contact.pieces = {std::move(face)};
         }
         doorway.contacts.push_back(std::move(contact));
+        return !doorway.contacts.back().pieces.empty();
     }
 
     // Whether at least a third of the lines from the door to the room lead through no other component.

@@ -28,7 +28,7 @@ using FacePiece = std::vector<Vec3d>;
 
 struct Doorway {
     CellShape shape;  ///< a box
-    /// The rooms that its ends touch, with the common face.
+    /// The rooms that its ends touch, with the common face; none where they touch along edges only.
     struct Contact {
         std::size_t room = 0;  ///< into the list of rooms
         std::vector<FacePiece> pieces;

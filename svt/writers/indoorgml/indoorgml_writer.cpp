@@ -239,7 +239,7 @@ private:
             fmt::format("<core:transitionMember>\n<core:Transition gml:id=\"{}\">\n<core:weight>{:.3f}</core:weight>\n",
                         id, metres);
         for (const std::size_t cell : {transition.a, transition.b}) link("core:connects", name("state", cell + 1));
-        link("core:duality", name("boundary", transition.boundary + 1));
+        if (transition.boundary != Boundary::kNone) link("core:duality", name("boundary", transition.boundary + 1));
         out_ += fmt::format("<core:geometry><gml:LineString gml:id=\"{}-line\"><gml:posList>", id);
         for (std::size_t i = 0; i < transition.line.size(); ++i) {
             if (i > 0) out_ += ' ';

@@ -163,6 +163,18 @@ TEST(IndoorGmlWriter, KeptMeshesAreTakenExactly) {
     EXPECT_EQ(indoor::facesOf(plan.cells[0].body.shell).size(), 6u);
 }
 
+// The west room ends in stairs of one voxel: the door touches the nearest step alone.
+TEST(IndoorGmlWriter, DoorsReachRoomsOfOtherSlopes) {
+    TwoRooms house;
+    for (int j = 10; j < 20; ++j) house.fill(volume::kNoLabel, {15 + j / 10, j, 2}, {17, j + 1, 24});
+    house.fill(house.west, {15, 15, 2}, {16, 16, 24});
+    const CellPlan plan = planOf(house.done());
+    ASSERT_EQ(plan.cells.size(), 4u);
+    EXPECT_EQ(plan.cells[2].kind, "ConnectionSpace");
+    EXPECT_EQ(plan.transitions.size(), 3u);
+    expectLinked(*makeIndoorGml(house.volume));
+}
+
 TEST(IndoorGmlWriter, AWallBehindADoorIsNoWay) {
     TwoRooms house;
     house.fill(house.wall, {19, 10, 2}, {20, 20, 22});
