@@ -26,6 +26,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # write no cache files into scripts/
+import bench_ifc
 import bench_page
 import bench_plot
 
@@ -36,7 +37,7 @@ PLOT = ROOT / "docs" / "images" / "scaling.svg"
 BEGIN, END = "<!-- BEGIN bench -->", "<!-- END bench -->"
 TOLERANCE = 0.10
 BUSY = 0.1  # cores used by other processes during a part, above which its figures are marked as rough
-PARTS = ["read", "voxelize", "render", "stages", "scaling", "profile"]
+PARTS = ["read", "ifc", "voxelize", "render", "stages", "scaling", "profile"]
 
 
 def commit():
@@ -120,13 +121,28 @@ def run_profile(program, build):
     return {"machine": units["machine"], "results": rows, "skipped": []}
 
 
+def run_ifc(program, quick):
+    """Reading IFC, in processes of their own."""
+    if not program.exists():
+        return {"results": [], "skipped": [f"reading IFC: {program} is missing; build the target svt there"]}
+    print("bench: ifc", file=sys.stderr)
+    rows, skipped = bench_ifc.rows_of(program, ROOT / "../shared/data", ROOT / "build" / "oracles",
+                                      [] if quick else [45, 500], 3 if quick else 5)
+    return {"results": rows, "skipped": skipped}
+
+
 def run(build, parts, quick, figures):
     program = build / "bin" / "svt_bench"
     if not program.exists():
         sys.exit(f"bench: {program} is missing; run `make bench`, or configure with -DSVT_BENCH=ON and build svt_bench")
     for part in parts:
         quiet = Quiet()
-        result = run_profile(program, build) if part == "profile" else run_part(program, build, part, quick)
+        if part == "profile":
+            result = run_profile(program, build)
+        elif part == "ifc":
+            result = run_ifc(build / "bin" / "svt", quick)
+        else:
+            result = run_part(program, build, part, quick)
         figures["parts"][part] = {"commit": commit(), **quiet.end(), **result}
 
 

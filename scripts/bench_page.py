@@ -3,7 +3,7 @@
 HOUSE = "FZK-Haus"
 GRID = "800x700x400"
 OPAQUE, TRANSLUCENT = "1280x720-pixels", "1920x1080-pixels"
-ORDER = ["read", "voxelize", "render", "stages", "scaling", "profile"]
+ORDER = ["read", "ifc", "voxelize", "render", "stages", "scaling", "profile"]
 
 
 def all_rows(figures):
@@ -125,6 +125,19 @@ def reading(rows):
                       f"{row['mb_per_s']:.0f} MB/s", str(row["polygons"])] +
                      ([seconds(peer["median_s"]), times(peer["ratio"]), str(peer["polygons"])] if peer else ["-"] * 3))
     return table(["file", "size", "SVT", "one thread", "speed", "polygons", "libcitygml", "ratio", "its polygons"], lines)
+
+
+def ifc(rows):
+    lines = []
+    for row in rows:
+        peer = next(iter(peers(row)), None)
+        own = row["ours"]
+        lines.append([row["input"], size(row["input_bytes"]), str(own["products"]), seconds(own["median_s"]),
+                      f"{row['input_bytes'] / 1e6 / own['median_s']:.0f} MB/s", seconds(own["whole_s"]),
+                      size(own["peak_bytes"])] +
+                     ([seconds(peer["median_s"]), times(peer["ratio"]), size(peer["peak_bytes"])] if peer else ["-"] * 3))
+    return table(["file", "size", "products", "SVT reads", "speed", "whole command", "its memory", "web-ifc", "ratio",
+                  "its memory"], lines)
 
 
 def voxels(rows):
@@ -260,6 +273,7 @@ def machine_text(figures):
 # Heading, part, which rows, how.
 SECTIONS = [
     ("Reading", {"read"}, reading),
+    ("Reading IFC", {"ifc"}, ifc),
     ("Voxelizing", {"voxelize"}, voxels),
     ("Frames", {"opaque frame", "translucent frame"}, frames),
     ("Edits", {"section frame"}, edits),

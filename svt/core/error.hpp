@@ -36,6 +36,7 @@ enum class Code : std::uint16_t {
     CannotProject = 121,      ///< coordinates that cannot be brought into another CRS
     FarFeature = 122,         ///< a feature far away from all others; left out
     NoHeights = 123,          ///< coordinates of two numbers: heights are missing
+    DualityBroken = 124,      ///< links between cell spaces, states and transitions that do not agree
     BadStep = 130,            ///< not a STEP file (ISO 10303-21), or one without records
     BadRecord = 131,          ///< a record of a STEP file that cannot be read; left out
     ReadInPart = 132,         ///< a product of which a part of the shape, or an opening, was not read
@@ -82,6 +83,9 @@ enum class Code : std::uint16_t {
     DuplicateSolid = 240,       ///< the same solid twice in a composite
     SolidsDisconnected = 241,   ///< solids of a composite that share no face
     PartsOverlap = 242,         ///< parts of a building that overlap
+    CellsOverlap = 243,         ///< cell spaces of one layer that overlap
+    StateOutsideCell = 244,     ///< a state that does not lie in its cell space
+    CellsNotAdjacent = 245,     ///< a transition between cell spaces that do not touch
     // 3xx: voxels
     BadDimension = 301,   ///< grid dimension or spacing out of range
     GridTooLarge = 302,   ///< over the grid's limits

@@ -84,6 +84,14 @@ struct Membership {
     friend bool operator==(const Membership&, const Membership&) = default;
 };
 
+/// A line of a feature, such as a path through a building or an axis in a plan; a single point is a place. Lines have no
+/// voxels: they are kept beside them and drawn (volume::VectorParts).
+struct Polyline {
+    FeatureIndex feature = kNoFeature;
+    std::vector<Vec3d> points;  ///< world space; a closed line ends where it begins
+    friend bool operator==(const Polyline&, const Polyline&) = default;
+};
+
 /// Colour of a surface (X3DMaterial, CityJSON material).
 struct Material {
     std::string name;
@@ -110,6 +118,7 @@ struct BuildingModel {
     std::vector<Membership> memberships;
     std::vector<Polygon> polygons;
     std::vector<Material> materials;
+    std::vector<Polyline> lines;  ///< in the order of their features
 
     /// Adds a feature under `parent` (kNoFeature: as a root) and returns its index.
     FeatureIndex addFeature(Feature feature, FeatureIndex parent);

@@ -61,6 +61,10 @@ void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size
         }
         into.features.push_back(std::move(feature));
     }
+    for (model::Polyline& line : from.lines) {
+        line.feature += firstFeature;
+        into.lines.push_back(std::move(line));
+    }
     for (const model::FeatureIndex root : from.roots) into.roots.push_back(root + firstFeature);
     for (model::Membership& membership : from.memberships)
         into.memberships.push_back(
@@ -368,7 +372,8 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     report.spacing = choice;
     for (const std::uint64_t count : voxels->uncertainVoxels) report.uncertainVoxels += count;
     Progress::tell(options.progress, "pack", 0.5);
-    auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors, options.threads);
+    auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors,
+                                   {model.lines, labelled.labelOfLine}, options.threads);
     if (!vectors) return vectors.error();
     output.volume.vectors = std::move(*vectors);
     Progress::tell(options.progress, "pack", 0.7);

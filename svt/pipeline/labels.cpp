@@ -113,6 +113,11 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         table.labels[l].filling = fillingOf(meshes.objects[o].closure);
         table.labels[l].volume = meshes.objects[o].isSolid() ? meshes.objects[o].volume : 0;
     }
+    std::vector<bool> hasLines(table.labels.size(), false);
+    for (const model::Polyline& line : model.lines) {
+        result.labelOfLine.push_back(labelOf[line.feature]);
+        if (line.points.size() > 1) hasLines[labelOf[line.feature]] = true;
+    }
     const std::vector<ResolvedStyle> styles = resolveStyles(analyze::queryRows(table), sheets, colors);
 
     std::uint64_t next = 1;
@@ -121,9 +126,9 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         volume::Label& label = table.labels[l];
         label.color = styles[l].color;
         label.opacity = styles[l].opacity;
-        if (objectOf[l] == volume::kNoLabel) continue;
+        if (objectOf[l] == volume::kNoLabel && !hasLines[l]) continue;
         label.first = static_cast<volume::Scalar>(next);
-        label.count = styles[l].pattern.phaseCount();
+        label.count = objectOf[l] == volume::kNoLabel ? 1 : styles[l].pattern.phaseCount();
         next += label.count;
         hasPattern = hasPattern || label.count > 1;
     }

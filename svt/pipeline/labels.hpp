@@ -16,6 +16,7 @@ namespace svt::pipeline {
 struct LabelledObjects {
     volume::LabelTable table;
     std::vector<std::uint32_t> labelOfObject;         ///< per meshes.objects
+    std::vector<std::uint32_t> labelOfLine;           ///< per model.lines
     std::vector<voxelize::ObjectClaim> claims;        ///< per meshes.objects
     std::vector<voxelize::PatternedObject> patterns;  ///< objects with a pattern
 };
@@ -23,7 +24,8 @@ struct LabelledObjects {
 /// Adds a ClosureSurface feature below each object that was closed by caps, with the cap area as attribute.
 void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes);
 
-/// Numbers all features in tree order and assigns every object a contiguous scalar range.
+/// Numbers all features in tree order and assigns every object a contiguous scalar range. A feature that has lines is an
+/// object, too, without voxels: a scalar of its own gives its lines a style.
 /// \return the labels, or TooManyLabels over volume::kMaxScalarCount
 [[nodiscard]] Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                                                  std::span<const StyleSheet* const> sheets);

@@ -15,8 +15,13 @@ namespace {
 constexpr double kReach = 200'000;  // metres
 
 // The unit in which all points fit 31 bits.
-double unitFor(const mesh::MeshSet& meshes, Vec3d fromGrid) {
+double unitFor(const mesh::MeshSet& meshes, std::span<const model::Polyline> lines, Vec3d fromGrid) {
     double reach = 0;
+    for (const model::Polyline& line : lines)
+        for (const Vec3d& point : line.points) {
+            const Vec3d place = point - meshes.origin + fromGrid;
+            reach = std::max({reach, std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+        }
     for (const mesh::ObjectMesh& mesh : meshes.objects)
         for (const Vec3d& vertex : mesh.vertices) {
             const Vec3d place = vertex + fromGrid;
@@ -80,14 +85,36 @@ void append(const volume::VectorParts& from, std::uint32_t label, volume::Vector
             {label, {triangle.corners[0] + first, triangle.corners[1] + first, triangle.corners[2] + first}});
 }
 
+// The same of lines; false if a point is out of reach.
+bool appendLines(const LabelledLines& lines, Vec3d gridOrigin, volume::VectorParts& to) {
+    for (std::size_t l = 0; l < lines.lines.size(); ++l) {
+        const std::vector<Vec3d>& points = lines.lines[l].points;
+        if (points.size() < 2) continue;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            Vec3i& point = to.points.emplace_back();
+            for (int axis = 0; axis < 3; ++axis) {
+                const double place = points[i][axis] - gridOrigin[axis];
+                if (!(std::abs(place) <= kReach)) return false;
+                point[axis] = static_cast<std::int32_t>(std::lround(place / to.unit));
+            }
+            const auto last = static_cast<std::uint32_t>(to.points.size() - 1);
+            if (i > 0 && to.points[last] != to.points[last - 1])
+                to.segments.push_back({lines.labels[l], {last - 1, last}});
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::span<const std::uint32_t> labelOfObject,
-                                            const volume::Grid& grid, VectorChoice choice, int threads) {
+                                            const volume::Grid& grid, VectorChoice choice, LabelledLines lines,
+                                            int threads) {
     volume::VectorParts all;
     if (choice.isNone()) return all;
     const Vec3d fromGrid = meshes.origin - grid.origin();
-    all.unit = unitFor(meshes, fromGrid);
+    if (!choice.edges) lines = {};
+    all.unit = unitFor(meshes, lines.lines, fromGrid);
     std::vector<ObjectParts> objects;
     for (const mesh::ObjectMesh& mesh : meshes.objects) objects.emplace_back(mesh, fromGrid, all.unit);
     parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
@@ -101,17 +128,23 @@ Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::sp
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return labelOfObject[a] < labelOfObject[b]; });
-    for (const std::uint32_t o : order) {
-        if (!objects[o].isInReach() && !choice.isRequired) return volume::VectorParts{};
-        if (!objects[o].isInReach())
-            return Error(
-                Code::GridTooLarge,
-                fmt::format("a part lies over {} km from the grid's lower corner, too far for edges and meshes; "
-                            "build without them, or split the model",
-                            kReach / 1000));
-        append(objects[o].parts(), labelOfObject[o], all);
+    const bool areInReach =
+        std::all_of(objects.begin(), objects.end(), [](const ObjectParts& object) { return object.isInReach(); });
+    if (areInReach) {
+        for (const std::uint32_t o : order) append(objects[o].parts(), labelOfObject[o], all);
+        const std::size_t edges = all.segments.size();
+        if (appendLines(lines, grid.origin(), all)) {
+            if (all.segments.size() > edges)
+                std::stable_sort(all.segments.begin(), all.segments.end(),
+                                 [](const auto& a, const auto& b) { return a.label < b.label; });
+            return all;
+        }
     }
-    return all;
+    if (!choice.isRequired) return volume::VectorParts{};
+    return Error(Code::GridTooLarge,
+                 fmt::format("a part lies over {} km from the grid's lower corner, too far for edges and meshes; "
+                             "build without them, or split the model",
+                             kReach / 1000));
 }
 
 }  // namespace svt::pipeline

@@ -20,12 +20,19 @@ struct VectorChoice {
     [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
 };
 
+/// Lines of a model, each with its label; a line of one point is none.
+struct LabelledLines {
+    std::span<const model::Polyline> lines;
+    std::span<const std::uint32_t> labels;  ///< per line
+};
+
 /// \param labelOfObject  per meshes.objects
+/// \param lines          stored where edges are
 /// \return the parts, in label order, or GridTooLarge if a point is over 200 km from the grid's origin
 /// Cost: that of the feature edges, parallel. The result does not depend on `threads`.
 [[nodiscard]] Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes,
                                                           std::span<const std::uint32_t> labelOfObject,
                                                           const volume::Grid& grid, VectorChoice choice,
-                                                          int threads = 0);
+                                                          LabelledLines lines = {}, int threads = 0);
 
 }  // namespace svt::pipeline

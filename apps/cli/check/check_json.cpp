@@ -156,7 +156,9 @@ Json val3dityJson(const Checked& checked, const std::string& inputFile) {
     Json all = Json::array();
     for (const int number : collected.all) all.push_back(number);
     Json datasetErrors = collected.ofDataset;
-    const std::string format = model.format.rfind("CityJSON", 0) == 0 ? "CityJSON" : "CityGML";
+    const std::string format = model.format.rfind("CityJSON", 0) == 0 ? "CityJSON"
+                               : model.format == "IndoorGML"          ? "IndoorGML"
+                                                                      : "CityGML";
     return {{"type", "val3dity_report"},
             {"val3dity_version", fmt::format("svt {}", versionNumber())},
             {"input_file", inputFile},

@@ -5,7 +5,7 @@
 namespace svt::cli {
 
 bool isOfGeometry(const Diagnostic& item) noexcept {
-    return item.code == Code::TooFewPoints || item.code == Code::RingNotClosed;
+    return item.code == Code::TooFewPoints || item.code == Code::RingNotClosed || item.code == Code::DualityBroken;
 }
 
 model::FeatureIndex rootOf(const model::BuildingModel& model, model::FeatureIndex feature) noexcept {

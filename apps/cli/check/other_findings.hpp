@@ -24,7 +24,8 @@ struct OtherFinding {
 /// The topmost feature that holds `feature`, such as the building of a wall.
 [[nodiscard]] model::FeatureIndex rootOf(const model::BuildingModel& model, model::FeatureIndex feature) noexcept;
 
-/// Rings that were left out or closed: found by readers, and defects of geometry all the same.
+/// Rings that were left out or closed, links between primal and dual space that do not agree: found by readers, and
+/// defects that the tests of geometry look for all the same.
 [[nodiscard]] bool isOfGeometry(const Diagnostic& item) noexcept;
 
 }  // namespace svt::cli

@@ -50,7 +50,11 @@ Result<volume::SemanticVolume> partOf(volume::SemanticVolume volume, const Conve
 int runConvert(const ConvertArguments& arguments) {
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    auto volume = loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
+    BuildArguments build = arguments.build;
+    // Of rooms, the bodies as the model has them.
+    const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
+    if (format != nullptr && format->name == "indoorgml") build.vectors = {.meshes = true, .isRequired = false};
+    auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, false);
     if (!volume) return fail(volume.error());
     volume = partOf(std::move(*volume), arguments);

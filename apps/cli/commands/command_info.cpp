@@ -36,7 +36,7 @@ void printFigures(const volume::SemanticVolume& volume) {
     std::size_t objects = 0;
     std::uint64_t filled = 0;
     for (const volume::Label& label : volume.labels.labels) {
-        objects += label.count != 0;
+        objects += label.voxels != 0;
         filled += label.voxels;
     }
     fmt::print("model      {} ({})\n", volume.modelName.empty() ? "-" : volume.modelName, volume.source);

@@ -70,6 +70,7 @@ constexpr std::pair<std::string_view, FileContent> kVolumeContents[] = {
     {"vdb", FileContent::Vdb},
     {"objectparquet", FileContent::Parquet},
     {"contactparquet", FileContent::Parquet},
+    {"indoorgml", FileContent::IndoorGml},
 };
 
 std::vector<FileFormat> volumeFileFormats() {
@@ -90,6 +91,7 @@ FileContent contentOfXml(std::string_view text) {
     if (has(text, "<svg") || has(text, ":svg")) return FileContent::Svg;
     if (has(text, "<VTKFile")) return FileContent::Vtk;
     if (has(text, "<X3D")) return FileContent::X3d;
+    if (has(text, "IndoorFeatures")) return FileContent::IndoorGml;
     return has(text, "CityModel") ? FileContent::CityGml : FileContent::Xml;
 }
 
@@ -192,6 +194,7 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Xml: return "an XML file";
         case FileContent::CityJson: return "a CityJSON model";
         case FileContent::Ifc: return "an IFC model";
+        case FileContent::IndoorGml: return "an IndoorGML model";
         case FileContent::GeoJson: return "a GeoJSON drawing";
         case FileContent::Style: return "a style file";
         case FileContent::PlainJson: return "a JSON file";

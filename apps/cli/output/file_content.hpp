@@ -37,6 +37,7 @@ enum class FileContent : std::uint8_t {
     Xml,  ///< another XML
     CityJson,
     Ifc,
+    IndoorGml,
     GeoJson,
     Style,
     PlainJson,  ///< another JSON

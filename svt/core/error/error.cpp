@@ -34,6 +34,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(CannotProject);
         SVT_CASE(FarFeature);
         SVT_CASE(NoHeights);
+        SVT_CASE(DualityBroken);
         SVT_CASE(BadStep);
         SVT_CASE(BadRecord);
         SVT_CASE(ReadInPart);
@@ -79,6 +80,9 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(DuplicateSolid);
         SVT_CASE(SolidsDisconnected);
         SVT_CASE(PartsOverlap);
+        SVT_CASE(CellsOverlap);
+        SVT_CASE(StateOutsideCell);
+        SVT_CASE(CellsNotAdjacent);
         SVT_CASE(BadDimension);
         SVT_CASE(GridTooLarge);
         SVT_CASE(TooManyLabels);

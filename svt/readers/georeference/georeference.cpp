@@ -71,8 +71,8 @@ public:
                              given_.place);
         model_.crs.axesSwapped = axes.isNorthFirst;
         if (axes.isNorthFirst)
-            forEachUsed([](model::Polygon& polygon) {
-                for (Vec3d& point : polygon.points) std::swap(point.x, point.y);
+            forEachUsed([](std::vector<Vec3d>& points) {
+                for (Vec3d& point : points) std::swap(point.x, point.y);
             });
         if (axes.isNorthFirst) {
             std::swap(box_.min.x, box_.min.y);
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    // Polygons that geometry uses, and the box around them.
+    // Polygons that geometry uses, and the box around them; around lines where there are none.
     void findUsed(std::span<const Vec3d> anchors = {}) {
         isUsed_.assign(model_.polygons.size(), false);
         const auto mark = [&](const std::vector<model::SurfaceUse>& uses) {
@@ -104,6 +104,9 @@ private:
             else
                 for (const Vec3d& point : model_.polygons[i].points) box_.add(point);
         }
+        if (box_.isEmpty())
+            for (const model::Polyline& line : model_.lines)
+                for (const Vec3d& point : line.points) box_.add(point);
     }
 
     // Shapes that the reader has placed by adding their metres to degrees.
@@ -123,7 +126,8 @@ private:
     template <class Visit>
     void forEachUsed(Visit&& visit) {
         for (std::size_t i = 0; i < isUsed_.size(); ++i)
-            if (isUsed_[i]) visit(model_.polygons[i]);
+            if (isUsed_[i]) visit(model_.polygons[i].points);
+        for (model::Polyline& line : model_.lines) visit(line.points);
     }
 
     [[nodiscard]] gml::AxisDecision decide() const {
@@ -186,12 +190,11 @@ private:
 
     Result<void> project(const crs::Projection& projection) {
         std::optional<Vec3d> lost;
-        forEachUsed([&](model::Polygon& polygon) {
+        forEachUsed([&](std::vector<Vec3d>& points) {
             if (lost) return;
-            const Vec3d before = polygon.points.empty() ? Vec3d{} : polygon.points.front();
-            projection.apply(polygon.points);
-            if (!std::all_of(polygon.points.begin(), polygon.points.end(), [](Vec3d p) { return isFinite(p); }))
-                lost = before;
+            const Vec3d before = points.empty() ? Vec3d{} : points.front();
+            projection.apply(points);
+            if (!std::all_of(points.begin(), points.end(), [](Vec3d p) { return isFinite(p); })) lost = before;
         });
         if (!lost) return {};
         return cannotProject(
@@ -217,8 +220,8 @@ private:
     }
 
     void scaleHeights(double unit, bool isTold) {
-        forEachUsed([&](model::Polygon& polygon) {
-            for (Vec3d& point : polygon.points) point.z *= unit;
+        forEachUsed([&](std::vector<Vec3d>& points) {
+            for (Vec3d& point : points) point.z *= unit;
         });
         if (!isTold)
             diagnostics_.add(Severity::Note, Code::ForeignUnit,

@@ -4,6 +4,7 @@
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/ifc/layers.hpp>
+#include <svt/readers/ifc/line_reader.hpp>
 #include <svt/readers/ifc/properties.hpp>
 #include <svt/readers/ifc/structure.hpp>
 #include <svt/readers/ifc/styles.hpp>
@@ -269,10 +270,29 @@ private:
             Shape shape = shapes.readShape(definition);
             const Transform placement = placementOf(product.record, shape.leftOut);
             if (!shape.bodies.empty()) cutOpenings(product, placement, shapes, shape);
-            if (!shape.hasRepresentation) continue;
+            if (!shape.hasRepresentation) {
+                addLines(p, definition, placement);
+                continue;
+            }
             finishProduct(p, shape, placement, styles, properties);
         }
         return {};
+    }
+
+    // Of a product without a body: its curves.
+    void addLines(std::size_t number, RecordIndex definition, const Transform& placement) {
+        std::vector<std::string> leftOut;
+        for (std::vector<Vec3d>& line : readLines(file_, definition, leftOut)) {
+            for (Vec3d& p : line) p = map_.mapFromProject.point(placement.point(p));
+            if (std::all_of(line.begin(), line.end(), [](Vec3d p) { return isFinite(p); }))
+                model_.lines.push_back({featureOf_[number], std::move(line)});
+        }
+        if (leftOut.empty()) return;
+        const model::Feature& feature = model_.features[featureOf_[number]];
+        diagnostics_.add(Severity::Note, Code::ReadInPart,
+                         fmt::format("the lines of this {} were read in part; left out: {}",
+                                     structure_.products[number].ifcType, leftOut.front()),
+                         {std::string(name_), feature.line, 0, feature.id});
     }
 
     void cutOpenings(const Product& product, const Transform& placement, ShapeReader& shapes, Shape& shape) {

@@ -60,7 +60,7 @@ TEST(IfcReader, TheTreeAndItsClasses) {
               "0site:GenericLogicalSpace 0building:Building<0site 0storey:Storey<0building "
               "wall:BuildingConstructiveElement<0storey part:BuildingConstructiveElement<wall door:Door<0storey "
               "pump:BuildingInstallation<0storey space:BuildingRoom<0storey thing:GenericOccupiedSpace<0storey "
-              "zone:CityObjectGroup ");
+              "note:Annotation zone:CityObjectGroup ");
     const model::Feature* wall = find(*model, "wall");
     ASSERT_NE(wall, nullptr);
     EXPECT_EQ(wall->name, "W1");
@@ -72,7 +72,7 @@ TEST(IfcReader, TheTreeAndItsClasses) {
     EXPECT_EQ(model->features[model->memberships[0].member].id, "space");
     EXPECT_EQ(log.count(Code::UnknownElement), 1U);
     ASSERT_EQ(log.count(Code::ProductsRead), 1U);
-    EXPECT_EQ(log.items().back().message, "6 of 6 products with a shape were read, 0 of them in part");
+    EXPECT_EQ(log.items().back().message, "7 of 7 products with a shape were read, 0 of them in part");
 }
 
 TEST(IfcReader, SpacesByTheirLongNamesLayersAndComplexProperties) {
@@ -363,6 +363,53 @@ TEST(IfcReader, RefusesWhatIsNoIfc) {
         Code::EmptyModel);
     EXPECT_TRUE(looksLikeIfc(std::as_bytes(std::span("\xEF\xBB\xBF\n ISO-10303-21;", 17))));
     EXPECT_FALSE(looksLikeIfc(std::as_bytes(std::span("<ifcXML>", 8))));
+}
+
+TEST(Ifc, CurvesOfAnnotationsAreLines) {
+    Diagnostics log;
+    const auto model = readText(
+        ifcFile("#100=IFCANNOTATION('note',$,'Dimension',$,$,#101,#110);\n"
+                "#101=IFCLOCALPLACEMENT(#15,#102);\n#102=IFCAXIS2PLACEMENT3D(#103,$,$);\n"
+                "#103=IFCCARTESIANPOINT((1000.,2000.,3000.));\n"
+                "#110=IFCPRODUCTDEFINITIONSHAPE($,$,(#111));\n"
+                "#111=IFCSHAPEREPRESENTATION(#20,'Annotation','Annotation2D',(#120,#130,#140));\n"
+                "#120=IFCGEOMETRICCURVESET((#121,#124));\n#121=IFCPOLYLINE((#16,#122));\n"
+                "#122=IFCCARTESIANPOINT((500.,0.));\n#124=IFCCIRCLE(#17,1000.);\n"
+                "#130=IFCMAPPEDITEM(#131,#132);\n#131=IFCREPRESENTATIONMAP(#14,#133);\n"
+                "#132=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#134,2.,$);\n#134=IFCCARTESIANPOINT((0.,0.,1000.));\n"
+                "#133=IFCSHAPEREPRESENTATION(#20,'Annotation','Curve2D',(#121));\n"
+                "#140=IFCTEXTLITERAL('4.20',#17,.LEFT.);\n"
+                "#200=IFCWALL('wall',$,'Wall',$,$,#15,#201,$,$);\n#201=IFCPRODUCTDEFINITIONSHAPE($,$,(#202,#203));\n"
+                "#202=IFCSHAPEREPRESENTATION(#20,'Axis','Curve2D',(#121));\n"
+                "#203=IFCSHAPEREPRESENTATION(#20,'Body','CSG',(#204));\n#204=IFCBLOCK(#14,1000.,1000.,1000.);\n",
+                "#100,#200"),
+        &log);
+    ASSERT_TRUE(model) << model.error().message();
+    ASSERT_EQ(model->lines.size(), 3u) << "the axis of a wall that has a body is none of it";
+    for (const model::Polyline& line : model->lines) {
+        const model::Feature& feature = model->features[line.feature];
+        EXPECT_EQ(feature.id, "note");
+        EXPECT_EQ(feature.className, "Annotation");
+    }
+    EXPECT_EQ(model->lines[0].points, (std::vector<Vec3d>{{1, 2, 3}, {1.5, 2, 3}}));
+    EXPECT_GE(model->lines[1].points.size(), 49u);
+    for (const Vec3d& p : model->lines[1].points) EXPECT_NEAR(length(p - Vec3d{1, 2, 3}), 1, 1e-9);
+    EXPECT_EQ(model->lines[2].points, (std::vector<Vec3d>{{1, 2, 4}, {2, 2, 4}})) << "twice as large, a metre higher";
+    EXPECT_EQ(log.count(Code::ReadInPart), 1u) << "the text is no line";
+    EXPECT_EQ(log.count(Severity::Warning), 0u);
+}
+
+TEST(Ifc, MappedCurvesThatContainThemselvesEnd) {
+    const auto model = readText(
+        ifcFile("#100=IFCANNOTATION('note',$,'Loop',$,$,#15,#110);\n#110=IFCPRODUCTDEFINITIONSHAPE($,$,(#111));\n"
+                "#111=IFCSHAPEREPRESENTATION(#20,'Annotation','Annotation2D',(#130,#130));\n"
+                "#130=IFCMAPPEDITEM(#131,#132);\n#131=IFCREPRESENTATIONMAP(#14,#111);\n"
+                "#132=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#10,1.,$);\n"
+                "#200=IFCWALL('wall',$,'Wall',$,$,#15,#201,$,$);\n#201=IFCPRODUCTDEFINITIONSHAPE($,$,(#203));\n"
+                "#203=IFCSHAPEREPRESENTATION(#20,'Body','CSG',(#204));\n#204=IFCBLOCK(#14,1000.,1000.,1000.);\n",
+                "#100,#200"));
+    ASSERT_TRUE(model);
+    EXPECT_TRUE(model->lines.empty());
 }
 
 }  // namespace

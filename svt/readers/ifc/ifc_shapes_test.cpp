@@ -539,6 +539,79 @@ TEST(IfcShapes, AdvancedBrepsWithSplines) {
     EXPECT_NE(read.findings.find("E132"), std::string::npos);
 }
 
+// A bridge deck: rectangles of 2 and 4 m along 10 m, with a third beside the curve.
+TEST(IfcShapes, SectionedSolidsAlongCurves) {
+    const std::string sections =
+        "#210=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,2000.,1000.);\n#211=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,4000.,1000.);"
+        "\n"
+        "#220=IFCAXIS2PLACEMENTLINEAR(#221,$,$);\n#221=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(0.),$,$,$,#230);\n"
+        "#222=IFCAXIS2PLACEMENTLINEAR(#223,$,$);\n"
+        "#223=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(10000.),$,$,$,#230);\n";
+    const std::string straight = "#230=IFCPOLYLINE((#10,#231));\n#231=IFCCARTESIANPOINT((20000.,0.,0.));\n";
+    const auto solid = [](const char* profiles) {
+        return fmt::format("#200=IFCSECTIONEDSOLIDHORIZONTAL(#230,({}),(#220,#222),.T.);\n", profiles);
+    };
+    expectVolume(ifcWithItem(solid("#210,#210") + sections + straight, "IFC4X3"), 20);
+    expectVolume(ifcWithItem(solid("#210,#211") + sections + straight, "IFC4X3"), 30);
+
+    // A quarter of a circle of 20/pi m: by Pappus as much as straight.
+    const double radius = 20000 / 3.14159265358979323846;
+    const std::string bent = fmt::format(
+        "#230=IFCINDEXEDPOLYCURVE(#232,(IFCARCINDEX((1,2,3))),.F.);\n"
+        "#232=IFCCARTESIANPOINTLIST3D((({0},0.,0.),({1},{1},0.),(0.,{0},0.)));\n",
+        radius, radius * std::sqrt(0.5));
+    expectVolume(ifcWithItem(solid("#210,#210") + sections + bent, "IFC4X3"), 20, 0.01);
+    expectVolume(ifcWithItem(solid("#210,#211") + sections + bent, "IFC4X3"), 30, 0.02);
+
+    // A corner of 90 degrees in the middle: mitred, as much as straight.
+    const std::string corner =
+        "#230=IFCPOLYLINE((#10,#231,#233));\n#231=IFCCARTESIANPOINT((5000.,0.,0.));\n"
+        "#233=IFCCARTESIANPOINT((5000.,5000.,0.));\n";
+    expectVolume(ifcWithItem(solid("#210,#210") + sections + corner, "IFC4X3"), 20);
+}
+
+TEST(IfcShapes, SectionedSolidsStandUpright) {
+    const auto model = readText(
+        ifcWithItem("#200=IFCSECTIONEDSOLIDHORIZONTAL(#230,(#210,#210),(#220,#222),.T.);\n"
+                    "#210=IFCRECTANGLEPROFILEDEF(.AREA.,$,#212,2000.,1000.);\n#212=IFCAXIS2PLACEMENT2D(#213,$);\n"
+                    "#213=IFCCARTESIANPOINT((3000.,5000.));\n"
+                    "#220=IFCAXIS2PLACEMENTLINEAR(#221,$,$);\n#221=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(1000.)"
+                    ",$,100.,$,#230);\n"
+                    "#222=IFCAXIS2PLACEMENTLINEAR(#223,$,$);\n"
+                    "#223=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(10000.),$,100.,$,#230);\n"
+                    "#230=IFCPOLYLINE((#10,#231));\n#231=IFCCARTESIANPOINT((20000.,0.,0.));\n",
+                    "IFC4X3"));
+    ASSERT_TRUE(model);
+    Box3d box;
+    for (const model::Polygon& polygon : model->polygons)
+        for (const Vec3d& p : polygon.points) box.add(p);
+    // Along x from 1 to 10; x of the profile to the left (+y), its y up, 0.1 m above.
+    EXPECT_NEAR(length(box.min - Vec3d{1, 2, 4.6}), 0, 1e-9);
+    EXPECT_NEAR(length(box.max - Vec3d{10, 4, 5.6}), 0, 1e-9);
+}
+
+TEST(IfcShapes, SectionedSpines) {
+    const std::string records =
+        "#200=IFCSECTIONEDSPINE(#230,(#210,#211,#210),(#14,#220,#222));\n"
+        "#210=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,2000.,1000.);\n#211=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,4000.,1000.);"
+        "\n"
+        "#220=IFCAXIS2PLACEMENT3D(#221,#11,#12);\n#221=IFCCARTESIANPOINT((0.,0.,5000.));\n"
+        "#222=IFCAXIS2PLACEMENT3D(#223,#11,#12);\n#223=IFCCARTESIANPOINT((0.,0.,10000.));\n"
+        "#230=IFCCOMPOSITECURVE((),.F.);\n";
+    expectVolume(ifcWithItem(records), 30);
+}
+
+TEST(IfcShapes, SectionedSolidsThatMakeNoSenseAreNamed) {
+    const std::string base =
+        "#210=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,2000.,1000.);\n#211=IFCCIRCLEPROFILEDEF(.AREA.,$,#17,1000.);\n"
+        "#220=IFCAXIS2PLACEMENT3D(#221,#11,#12);\n#221=IFCCARTESIANPOINT((0.,0.,5000.));\n";
+    for (const char* spine : {"(#210),(#14)", "(#210,#211),(#14,#220)", "(#210,#210),(#14)", "(#210,#210),(#14,#14)"}) {
+        Diagnostics log;
+        EXPECT_TRUE(readText(ifcWithItem(fmt::format("#200=IFCSECTIONEDSPINE($,{});\n", spine) + base), &log));
+        EXPECT_EQ(log.count(Code::ShapeNotRead), std::string_view(spine).ends_with("(#14,#14)") ? 0u : 1u) << spine;
+    }
+}
+
 TEST(IfcShapes, BoundingBoxAsTheLastResort) {
     const Read read = readShapeOf(ifcFile(
         "#100=IFCWALL('wall',$,'Wall',$,$,#15,#101,$,$);\n#101=IFCPRODUCTDEFINITIONSHAPE($,$,(#102));\n"

@@ -67,12 +67,14 @@ constexpr Group kGroups[] = {
      "GeographicElement GeotechnicalElement GeotechnicalStratum SolidStratum "
      "WaterStratum VoidStratum GeotechnicalAssembly Borehole Geomodel Geoslice"},
     {"OtherConstruction", ProductKind::Element, "CivilElement"},
+    {"Annotation", ProductKind::Element, "Annotation"},
+    {"Grid", ProductKind::Element, "Grid"},
     {"", ProductKind::Opening,
      "OpeningElement OpeningStandardCase VoidingFeature EarthworksCut EdgeFeature ChamferEdgeFeature "
      "RoundedEdgeFeature "
      "ProjectionElement SurfaceFeature"},
     {"", ProductKind::Ignored,
-     "Annotation Grid Port DistributionPort VirtualElement Proxy Referent Alignment AlignmentHorizontal "
+     "Port DistributionPort VirtualElement Proxy Referent Alignment AlignmentHorizontal "
      "AlignmentVertical "
      "AlignmentCant AlignmentSegment LinearPositioningElement PositioningElement StructuralCurveMember "
      "StructuralCurveMemberVarying StructuralSurfaceMember StructuralSurfaceMemberVarying StructuralPointConnection "

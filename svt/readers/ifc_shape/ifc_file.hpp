@@ -34,7 +34,7 @@ using step::Value;
     X(PresentationStyleAssignment) X(SurfaceStyle) X(SurfaceStyleRendering) X(SurfaceStyleShading) X(ColourRgb) X(ColourRgbList) X(IndexedColourMap) \
     X(MaterialDefinitionRepresentation) X(StyledRepresentation) X(ExtrudedAreaSolid) X(ExtrudedAreaSolidTapered) \
     X(RevolvedAreaSolid) X(FixedReferenceSweptAreaSolid) X(DirectrixDerivedReferenceSweptAreaSolid) \
-    X(SurfaceCurveSweptAreaSolid) X(SweptDiskSolid) X(SweptDiskSolidPolygonal) X(FacetedBrep) X(FacetedBrepWithVoids) \
+    X(SurfaceCurveSweptAreaSolid) X(SectionedSolidHorizontal) X(SectionedSpine) X(AnnotationFillArea) X(SweptDiskSolid) X(SweptDiskSolidPolygonal) X(FacetedBrep) X(FacetedBrepWithVoids) \
     X(AdvancedBrep) X(AdvancedBrepWithVoids) X(ClosedShell) X(OpenShell) X(ConnectedFaceSet) \
     X(FaceBasedSurfaceModel) X(ShellBasedSurfaceModel) X(Face) X(FaceSurface) X(AdvancedFace) X(FaceBound) \
     X(FaceOuterBound) X(PolyLoop) X(EdgeLoop) X(OrientedEdge) X(EdgeCurve) X(Edge) X(VertexPoint) X(Plane) \
@@ -127,11 +127,13 @@ public:
     ///              that of the levels that could: a cycle, or more than 256 levels, ends it
     [[nodiscard]] Transform placement(RecordIndex record, std::string& lost) const;
 
+    /// IfcAxis2PlacementLinear at a distance along a curve that readCurve() knows: x along it, y to its left.
+    [[nodiscard]] std::optional<Transform> linearAxes(RecordIndex relative) const;
+
     double lengthUnit = 1;  ///< metres
     double angleUnit = 1;   ///< radians
 
 private:
-    [[nodiscard]] std::optional<Transform> linearAxes(RecordIndex relative) const;
     [[nodiscard]] std::optional<Transform> gridAxes(RecordIndex placement, RecordIndex& above) const;
     bool readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const;
 

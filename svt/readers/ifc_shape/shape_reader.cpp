@@ -2,6 +2,7 @@
 
 #include <svt/readers/ifc_shape/curved_face.hpp>
 #include <svt/readers/ifc_shape/curves.hpp>
+#include <svt/readers/ifc_shape/sectioned.hpp>
 #include <svt/readers/ifc_shape/solid_boolean.hpp>
 #include <svt/readers/ifc_shape/sweeps.hpp>
 
@@ -113,6 +114,13 @@ void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, int dept
         case Entity::FixedReferenceSweptAreaSolid:
         case Entity::DirectrixDerivedReferenceSweptAreaSolid:
         case Entity::SurfaceCurveSweptAreaSolid: return readDirectedSweep(item, fields, bodies);
+        case Entity::SectionedSolidHorizontal:
+        case Entity::SectionedSpine: {
+            std::string why;
+            for (Polygons& faces : readSectioned(file_, item, why)) addSolid(std::move(faces), bodies, item);
+            if (!why.empty()) leaveOut(std::move(why));
+            return;
+        }
         case Entity::SweptDiskSolid:
         case Entity::SweptDiskSolidPolygonal: return readDisk(fields, bodies);
         case Entity::FacetedBrep:

@@ -229,6 +229,25 @@ Polygons sweepAlong(const Region& region, Ring line, Vec3d reference) {
     return faces;
 }
 
+Polygons loft(const std::vector<Region>& sections) {
+    if (sections.size() < 2) return {};
+    for (const Region& section : sections) {
+        if (section.outer.size() != sections[0].outer.size() || section.holes.size() != sections[0].holes.size())
+            return {};
+        for (std::size_t h = 0; h < section.holes.size(); ++h)
+            if (section.holes[h].size() != sections[0].holes[h].size()) return {};
+    }
+    Polygons faces;
+    for (std::size_t s = 1; s < sections.size(); ++s) {
+        addSides(sections[s - 1].outer, sections[s].outer, faces);
+        for (std::size_t h = 0; h < sections[s].holes.size(); ++h)
+            addSides(sections[s - 1].holes[h], sections[s].holes[h], faces);
+    }
+    addCaps(sections.front(), sections.back(), faces);
+    if (enclosedVolume(faces) < 0) turnOver(faces);
+    return faces;
+}
+
 Polygons block(Vec3d size) {
     if (!(size.x > 0 && size.y > 0 && size.z > 0)) return {};
     return extrude({{{0, 0, 0}, {size.x, 0, 0}, {size.x, size.y, 0}, {0, size.y, 0}}, {}}, {0, 0, size.z});

@@ -33,6 +33,10 @@ namespace svt::readers::ifc {
 /// \return the closed faces; none where the line has no length
 [[nodiscard]] std::vector<model::Polygon> sweepAlong(const Region& region, std::vector<Vec3d> line, Vec3d reference);
 
+/// The body through regions that stand in space, from the first to the last; side faces are cut in triangles where they are
+/// not flat. \return none for fewer than two, or where rings or their points differ in number
+[[nodiscard]] std::vector<model::Polygon> loft(const std::vector<Region>& sections);
+
 /// Box with one corner at the origin.
 [[nodiscard]] std::vector<model::Polygon> block(Vec3d size);
 /// Square or rectangular pyramid on z = 0, one corner at the origin.

@@ -3,6 +3,8 @@
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
+#include <svt/readers/indoorgml/indoor_graph.hpp>
+#include <svt/readers/indoorgml/indoor_xml.hpp>
 #include <svt/readers/xml/xml_encoding.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -12,48 +14,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
 namespace svt::readers {
 namespace {
 
+using indoor::attributeOf;
+using indoor::isCellSpace;
+using indoor::localName;
+using indoor::nextNode;
+using indoor::target;
 using pugi::xml_node;
 using std::string_view;
 
-string_view localName(xml_node node) { return xml::splitName(node.name()).localName; }
-
-bool isCellSpace(string_view name) {
-    constexpr string_view kClasses[] = {"CellSpace",        "NavigableSpace",  "NonNavigableSpace", "GeneralSpace",
-                                        "TransferSpace",    "ConnectionSpace", "TransitionSpace",   "AnchorSpace",
-                                        "UnnavigableSpace", "ObjectSpace",     "NonNaviSpace"};
-    return std::find(std::begin(kClasses), std::end(kClasses), name) != std::end(kClasses);
-}
-
 // Whether what is below a cell space belongs to something else, which has a geometry of its own.
 bool isOther(string_view name) {
-    return isCellSpace(name) || name.ends_with("Boundary") || name == "State" || name == "Node" || name == "Transition";
+    return isCellSpace(name) || name.ends_with("Boundary") || indoor::isState(name) || indoor::isTransition(name);
 }
 
-// The next node in document order; below `top` alone. Not recursive: nesting may be as deep as the file likes.
-xml_node nextNode(xml_node node, xml_node top, bool goesDown = true) {
-    if (goesDown && node.first_child()) return node.first_child();
-    while (node && node != top && !node.next_sibling()) node = node.parent();
-    return node && node != top ? node.next_sibling() : xml_node();
-}
-
-string_view attributeOf(xml_node node, string_view name) {
-    for (const pugi::xml_attribute attribute : node.attributes())
-        if (xml::splitName(attribute.name()).localName == name) return xml::trimmed(attribute.value());
-    return {};
-}
-
-// The id that a reference within the file points to; empty for others.
-std::string target(xml_node node) {
-    string_view href = attributeOf(node, "href");
-    return href.starts_with('#') ? std::string(href.substr(1)) : std::string();
+// What writers put into descriptions for want of elements: storey="EG":usage="office". False for plain text.
+bool addNamedValues(string_view text, std::vector<Attribute>& attributes) {
+    std::vector<Attribute> found;
+    while (!text.empty()) {
+        const std::size_t begin = text.find("=\""), end = text.find('"', begin + 2);
+        if (begin == string_view::npos || end == string_view::npos || begin == 0) return false;
+        const string_view key = text.substr(0, begin);
+        if (key.find_first_of(" \t\r\n\"") != string_view::npos) return false;
+        found.push_back({std::string(key), std::string(text.substr(begin + 2, end - begin - 2)), ""});
+        text.remove_prefix(end + 1);
+        text.remove_prefix(std::min(text.find_first_not_of(": ;,"), text.size()));
+    }
+    for (Attribute& attribute : found)
+        if (std::none_of(attributes.begin(), attributes.end(), [&](const auto& a) { return a.name == attribute.name; }))
+            attributes.push_back(std::move(attribute));
+    return !found.empty();
 }
 
 class IndoorReader {
@@ -82,16 +77,15 @@ public:
         for (xml_node node = root; node; node = nextNode(node, root)) {
             if (Progress::isCancelled(options_.progress))
                 return Error(Code::Cancelled, "stopped while reading", {std::string(name_), 0, 0, {}});
-            const string_view element = localName(node);
-            if (isCellSpace(element)) addCell(node);
-            if (element == "SpaceLayer" || element == "ThematicLayer") layers_.push_back(node);
-            if (element == "State" || element == "Node") readState(node);
-            if (element == "Transition" || element == "Edge") readTransition(node);
+            if (isCellSpace(localName(node))) addCell(node);
         }
         if (cells_.empty())
             return Error(Code::EmptyModel, "the file has no cell space", {std::string(name_), 0, 0, {}});
-        connectCells();
-        addLayers();
+        indoor::addGraph({root, std::move(cells_), std::move(cellOfId_),
+                          [this](const std::string& id) { return byId_.count(id) != 0; },
+                          [this](xml_node node, string_view what) { return uniqueId(node, what); },
+                          [this](xml_node node, std::string id) { return placeOf(node, std::move(id)); }},
+                         model_, diagnostics_);
         return placeModel();
     }
 
@@ -135,6 +129,8 @@ private:
             if (text.empty()) continue;
             if (name == "name" && feature.name.empty())
                 feature.name = text;
+            else if (name == "description" && addNamedValues(text, feature.attributes))
+                continue;
             else if (name == "description" || name == "function" || name == "class" || name == "usage" ||
                      name == "level")
                 feature.attributes.push_back({std::string(name), text, ""});
@@ -146,7 +142,7 @@ private:
         const std::string id(attributeOf(node, "id"));
         if (!geometry.solids.empty() || !geometry.surfaces.empty()) feature.geometries.push_back(std::move(geometry));
         const model::FeatureIndex index = model_.addFeature(std::move(feature), model::kNoFeature);
-        cells_.push_back(index);
+        cells_.emplace_back(node, index);
         if (!id.empty()) cellOfId_.emplace(id, index);
     }
 
@@ -248,68 +244,6 @@ private:
         return true;
     }
 
-    void readState(xml_node node) {
-        const std::string id(attributeOf(node, "id"));
-        for (const xml_node child : node.children())
-            if (localName(child) == "duality" && !id.empty()) cellOfState_[id] = target(child);
-    }
-
-    void readTransition(xml_node node) {
-        std::vector<std::string> ends;
-        for (const xml_node child : node.children())
-            if (localName(child) == "connects") ends.push_back(target(child));
-        if (ends.size() == 2) transitions_.emplace_back(ends[0], ends[1]);
-    }
-
-    // Of a state; some writers give the cell space itself where a state is meant.
-    [[nodiscard]] model::FeatureIndex cellOfState(const std::string& state) const {
-        const auto dual = cellOfState_.find(state);
-        const auto cell = cellOfId_.find(dual == cellOfState_.end() ? state : dual->second);
-        return cell == cellOfId_.end() ? model::kNoFeature : cell->second;
-    }
-
-    void connectCells() {
-        for (const auto& [state, cell] : cellOfState_)
-            if (const model::FeatureIndex index = cellOfState(state); index != model::kNoFeature)
-                model_.features[index].attributes.push_back({"state", state, ""});
-        std::map<model::FeatureIndex, std::set<std::string>> beyond;
-        for (const auto& [from, to] : transitions_) {
-            const model::FeatureIndex a = cellOfState(from), b = cellOfState(to);
-            if (a == model::kNoFeature || b == model::kNoFeature || a == b) continue;
-            beyond[a].insert(model_.features[b].id);
-            beyond[b].insert(model_.features[a].id);
-        }
-        for (const auto& [cell, ids] : beyond) {
-            std::string text;
-            for (const std::string& id : ids) text += (text.empty() ? "" : "; ") + id;
-            model_.features[cell].attributes.push_back({"connectsTo", std::move(text), ""});
-        }
-    }
-
-    void addLayers() {
-        for (const xml_node layer : layers_) {
-            model::Feature feature;
-            feature.id = uniqueId(layer, localName(layer));
-            feature.className = "CityObjectGroup";
-            feature.line = placeOf(layer).line;
-            for (const xml_node child : layer.children())
-                if (localName(child) == "name") feature.name = xml::trimmed(child.text().get());
-            std::set<model::FeatureIndex> members;
-            for (xml_node node = nextNode(layer, layer); node; node = nextNode(node, layer)) {
-                const string_view name = localName(node);
-                const std::string id(attributeOf(node, "id"));
-                model::FeatureIndex cell = model::kNoFeature;
-                if (name == "State" || name == "Node") cell = cellOfState(id);
-                if (isCellSpace(name))
-                    if (const auto found = cellOfId_.find(id); found != cellOfId_.end()) cell = found->second;
-                if (cell != model::kNoFeature) members.insert(cell);
-            }
-            if (members.empty()) continue;
-            const model::FeatureIndex group = model_.addFeature(std::move(feature), model::kNoFeature);
-            for (const model::FeatureIndex member : members) model_.memberships.push_back({group, member, "member"});
-        }
-    }
-
     Result<model::BuildingModel> placeModel() {
         const Place place{std::string(name_), 0, 0, {}};
         if (options_.crs != 0 || !srsName_.empty()) {
@@ -333,11 +267,8 @@ private:
     std::unordered_map<std::string, xml_node> byId_;
     std::unordered_map<const void*, std::int64_t> polygonOf_;  // by element; -1: it cannot be read
     std::unordered_set<std::string> ids_;
-    std::vector<model::FeatureIndex> cells_;
+    std::vector<std::pair<xml_node, model::FeatureIndex>> cells_;
     std::unordered_map<std::string, model::FeatureIndex> cellOfId_;
-    std::map<std::string, std::string> cellOfState_;
-    std::vector<std::pair<std::string, std::string>> transitions_;
-    std::vector<xml_node> layers_;
 };
 
 }  // namespace

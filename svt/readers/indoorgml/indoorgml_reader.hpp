@@ -7,9 +7,8 @@
 /// | cell space of any class                         | BuildingRoom, its class as the attribute `cellSpaceClass`  |
 /// | Solid of a cell space, else its surfaces        | solid with its hollows, else surfaces                      |
 /// | name, description, function, class, usage, level | name, attributes                                          |
-/// | state (node) of a cell space                    | attribute `state`                                          |
-/// | transitions (edges) of the state                | attribute `connectsTo`: ids of the cell spaces beyond      |
-/// | space layer                                     | CityObjectGroup with its cell spaces as members            |
+/// | description `storey="EG":usage="office"`        | an attribute each                                          |
+/// | space layers, states and transitions            | features with lines, see indoor_graph.hpp                  |
 /// | boundaries of cell spaces                       | nothing: the solids have them                              |
 ///
 /// Elements are told by their local names, so that extensions and both namespaces of version 1 are read alike.
@@ -30,7 +29,7 @@ namespace svt::readers {
 
 /// \return the model, or BadXml with its line, DtdRefused, BadEncoding, EmptyModel (no cell space), InputTooBig,
 ///         Cancelled, or what georeference() returns. Findings: BadCoordinate, TooFewPoints, DanglingReference,
-///         DuplicateId, MissingId, and those of georeference().
+///         DuplicateId, MissingId, DualityBroken, and those of georeference().
 /// Cost: O(bytes); the whole document is in memory as a tree, some five times the file.
 [[nodiscard]] Result<model::BuildingModel> readIndoorGml(std::span<const std::byte> bytes, std::string_view name,
                                                          const ReadOptions& options, Diagnostics* diagnostics);

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace svt::readers {
 namespace {
 
@@ -86,7 +88,7 @@ TEST(IndoorGml, CellSpacesAreRoomsThatKnowTheirNeighbors) {
                  "<core:connects xlink:href=\"#sb\"/></core:Transition></core:edges></core:SpaceLayer>"),
         &log);
     ASSERT_TRUE(model) << model.error().message();
-    ASSERT_EQ(model->features.size(), 4u);
+    ASSERT_EQ(model->features.size(), 7u);  // three rooms, a layer, two states, a transition
     const model::Feature &a = model->features[0], &b = model->features[1], &c = model->features[2];
     EXPECT_EQ(a.className, "BuildingRoom");
     EXPECT_EQ(a.name, "Kitchen");
@@ -101,6 +103,127 @@ TEST(IndoorGml, CellSpacesAreRoomsThatKnowTheirNeighbors) {
     ASSERT_EQ(model->memberships.size(), 2u);
     EXPECT_EQ(model->polygons.size(), 6u + 5u + 6u);  // the wall between a and b is one polygon; boundaries have none
     EXPECT_EQ(log.items().size(), 0u);
+}
+
+std::string state(const std::string& id, const std::string& cellId, const std::string& position,
+                  const std::string& transitions = "") {
+    return "<core:stateMember><core:State gml:id=\"" + id + "\">" +
+           (cellId.empty() ? "" : "<core:duality xlink:href=\"#" + cellId + "\"/>") + transitions +
+           (position.empty()
+                ? ""
+                : "<core:geometry><gml:Point><gml:pos>" + position + "</gml:pos></gml:Point></core:geometry>") +
+           "</core:State></core:stateMember>";
+}
+
+std::string transition(const std::string& id, const std::string& from, const std::string& to,
+                       const std::string& rest = "") {
+    return "<core:transitionMember><core:Transition gml:id=\"" + id + "\"><core:weight>2.5</core:weight>" +
+           "<core:connects xlink:href=\"#" + from + "\"/><core:connects xlink:href=\"#" + to + "\"/>" + rest +
+           "</core:Transition></core:transitionMember>";
+}
+
+std::string layer(const std::string& id, const std::string& nodes, const std::string& edges) {
+    return "<core:spaceLayerMember><core:SpaceLayer gml:id=\"" + id + "\"><core:nodes>" + nodes +
+           "</core:nodes><core:edges>" + edges + "</core:edges></core:SpaceLayer></core:spaceLayerMember>";
+}
+
+const model::Feature& featureOf(const model::BuildingModel& model, const std::string& id) {
+    const auto found = std::find_if(model.features.begin(), model.features.end(),
+                                    [&](const model::Feature& feature) { return feature.id == id; });
+    EXPECT_NE(found, model.features.end()) << id;
+    return *found;
+}
+
+std::vector<Vec3d> lineOf(const model::BuildingModel& model, const std::string& id) {
+    for (const model::Polyline& line : model.lines)
+        if (model.features[line.feature].id == id) return line.points;
+    return {};
+}
+
+// Two rooms side by side in one layer, and the first once more in a second layer.
+TEST(IndoorGml, GraphsAreFeaturesWithLines) {
+    Diagnostics log;
+    const auto model = readText(
+        document(
+            cell("a", "core:CellSpace", box(0), "<core:duality xlink:href=\"#sa\"/>") +
+                cell("b", "core:CellSpace", box(2), "<core:duality xlink:href=\"#sb\"/>"),
+            layer("walk", state("sa", "a", "1 1 1", "<core:connects xlink:href=\"#t1\"/>") + state("sb", "b", "3 1 1"),
+                  transition("t1", "sa", "sb",
+                             "<core:geometry><gml:LineString><gml:pos>1 1 1</gml:pos><gml:pos>2 0.5 1</gml:pos>"
+                             "<gml:pos>3 1 1</gml:pos></gml:LineString></core:geometry>") +
+                      transition("t2", "sb", "sa")) +
+                layer("roll", state("ra", "a", "0.5 1 1"), "") +
+                "<core:InterLayerConnection gml:id=\"up\"><core:interConnects xlink:href=\"#sa\"/>"
+                "<core:interConnects xlink:href=\"#ra\"/></core:InterLayerConnection>"),
+        &log);
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(log.items().size(), 0u);
+    const model::Feature& sa = featureOf(*model, "sa");
+    EXPECT_EQ(sa.className, "State");
+    EXPECT_EQ(attribute(sa, "duality"), "a");
+    EXPECT_EQ(model->features[sa.parent].id, "walk");
+    EXPECT_EQ(attribute(featureOf(*model, "ra"), "duality"), "a") << "a cell space may have a state in each layer";
+    EXPECT_EQ(attribute(featureOf(*model, "a"), "state"), "ra; sa");
+    const model::Feature& t1 = featureOf(*model, "t1");
+    EXPECT_EQ(t1.className, "Transition");
+    EXPECT_EQ(attribute(t1, "from"), "sa");
+    EXPECT_EQ(attribute(t1, "to"), "sb");
+    EXPECT_EQ(attribute(t1, "weight"), "2.5");
+    EXPECT_EQ(lineOf(*model, "sa"), (std::vector<Vec3d>{{1, 1, 1}}));
+    EXPECT_EQ(lineOf(*model, "t1"), (std::vector<Vec3d>{{1, 1, 1}, {2, 0.5, 1}, {3, 1, 1}}));
+    EXPECT_EQ(lineOf(*model, "t2"), (std::vector<Vec3d>{{3, 1, 1}, {1, 1, 1}})) << "straight where it has no curve";
+    EXPECT_EQ(lineOf(*model, "up"), (std::vector<Vec3d>{{1, 1, 1}, {0.5, 1, 1}}));
+    EXPECT_EQ(attribute(featureOf(*model, "a"), "connectsTo"), "b") << "connections of layers lead nowhere";
+    EXPECT_TRUE(std::is_sorted(model->lines.begin(), model->lines.end(),
+                               [](const auto& x, const auto& y) { return x.feature < y.feature; }));
+    EXPECT_EQ(model->memberships.size(), 3u);
+}
+
+TEST(IndoorGml, DescriptionsOfNamedValuesAreAttributes) {
+    const auto model = readText(document(
+        cell("a", "core:CellSpace", box(0), "<gml:description>storey=\"1. OG\":usage=\"office\"</gml:description>") +
+        cell("b", "core:CellSpace", box(2), "<gml:description>a room of x=\"3\" m</gml:description>") +
+        cell("c", "core:CellSpace", box(4), "<gml:description>storey=\"open</gml:description>")));
+    ASSERT_TRUE(model);
+    EXPECT_EQ(attribute(model->features[0], "storey"), "1. OG");
+    EXPECT_EQ(attribute(model->features[0], "usage"), "office");
+    EXPECT_EQ(attribute(model->features[0], "description"), "none");
+    EXPECT_EQ(attribute(model->features[1], "description"), "a room of x=\"3\" m");
+    EXPECT_EQ(attribute(model->features[2], "description"), "storey=\"open");
+}
+
+TEST(IndoorGml, LinksThatDoNotAgreeAreNamed) {
+    const std::string a = cell("a", "core:CellSpace", box(0), "<core:duality xlink:href=\"#sa\"/>");
+    const std::string b = cell("b", "core:CellSpace", box(2), "<core:duality xlink:href=\"#sb\"/>");
+    const std::string bare = cell("b", "core:CellSpace", box(2));
+    const auto count = [](const std::string& cells, const std::string& nodes, const std::string& edges = "") {
+        Diagnostics log;
+        EXPECT_TRUE(readText(document(cells, layer("l", nodes, edges)), &log));
+        EXPECT_EQ(log.items().size(), log.count(Code::DualityBroken));
+        return log.count(Code::DualityBroken);
+    };
+    EXPECT_EQ(count(a + bare, state("sa", "a", "") + state("sb", "b", "")), 0u);
+    EXPECT_EQ(count(a, state("s2", "a", "")), 1u) << "no such state";
+    EXPECT_EQ(count(a, state("sa", "", "")), 1u) << "the state has no duality";
+    EXPECT_EQ(count(a + b, state("sa", "b", "") + state("sb", "a", "")), 2u) << "crosswise";
+    EXPECT_EQ(count(a, state("sa", "a", "") + state("s2", "nothing", "")), 1u) << "no such cell space";
+    EXPECT_EQ(count(a, state("sa", "a", "", "<core:connects xlink:href=\"#t9\"/>")), 1u) << "no such transition";
+    EXPECT_EQ(count(a + b, state("sa", "a", "") + state("sb", "b", ""), transition("t", "sa", "s9")), 1u)
+        << "no such state at an end";
+    EXPECT_EQ(count(a + b, state("sa", "a", "", "<core:connects xlink:href=\"#t\"/>") + state("sb", "b", ""),
+                    transition("t", "sb", "sb")),
+              1u)
+        << "a transition that leads elsewhere";
+}
+
+TEST(IndoorGml, CoordinatesOfTheGraphThatAreNoneAreLeftOut) {
+    Diagnostics log;
+    const auto model = readText(document(cell("a", "core:CellSpace", box(0)),
+                                         layer("l", state("s", "a", "1 2") + state("t", "a", "1 2 x"), "")),
+                                &log);
+    ASSERT_TRUE(model);
+    EXPECT_EQ(log.count(Code::BadCoordinate), 2u);
+    EXPECT_TRUE(model->lines.empty());
 }
 
 TEST(IndoorGml, WhatIsWrongIsSaidAndTheRestIsRead) {

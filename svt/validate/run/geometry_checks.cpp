@@ -1,5 +1,7 @@
 #include <svt/validate/run/geometry_checks.hpp>
 
+#include <svt/validate/run/indoor_checks.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,15 +13,6 @@ using model::Feature;
 using model::FeatureIndex;
 using model::Geometry;
 using model::SurfaceUse;
-
-// Solids of a geometry that are valid, kept for the comparison of building parts.
-struct PartGeometry {
-    FeatureIndex feature;
-    int geometry;
-    double lod;
-    std::shared_ptr<const Snapper> points;
-    std::vector<Body> solids;
-};
 
 bool isPartOfBuilding(const Feature& feature) {
     return feature.className == "Building" || feature.className == "BuildingPart";
@@ -171,7 +164,7 @@ private:
 
     void checkSolids(FeatureIndex feature, int number, const Geometry& geometry) {
         const auto points = std::make_shared<Snapper>(snap_);
-        PartGeometry part{feature, number, geometry.lod, points, {}};
+        SolidBodies part{feature, number, geometry.lod, points, {}};
         std::vector<std::vector<Shell>> solids;
         SolidVolume volume{0.0, Code::Internal};
         bool areValid = true;
@@ -194,7 +187,10 @@ private:
             for (const std::vector<Shell>& shells : solids) part.solids.push_back(bodyOf(shells, set));
             if (const auto conflict = compareSolids(feature, number, geometry, part, set))
                 volume = {std::nullopt, *conflict};
-            if (isPartOfBuilding(model_.features[feature])) parts_.push_back(std::move(part));
+            if (isPartOfBuilding(model_.features[feature]))
+                parts_.push_back(std::move(part));
+            else if (isCellSpace(model_.features[feature]))
+                report_.cells.push_back(std::move(part));
         }
         report_.volumes.push_back({feature, number, volume});
     }
@@ -228,7 +224,7 @@ private:
 
     // Solids of one geometry; those of a MultiSolid may lie as they like, but then have no common volume.
     std::optional<Code> compareSolids(FeatureIndex feature, int number, const Geometry& geometry,
-                                      const PartGeometry& part, const PointSet& set) {
+                                      const SolidBodies& part, const PointSet& set) {
         if (part.solids.size() < 2) return std::nullopt;
         std::optional<Code> first;
         if (geometry.isComposite) {
@@ -252,7 +248,7 @@ private:
                 if (parts_[i].lod == parts_[j].lod) comparePair(parts_[i], parts_[j]);
     }
 
-    void comparePair(const PartGeometry& one, const PartGeometry& other) {
+    void comparePair(const SolidBodies& one, const SolidBodies& other) {
         for (const Body& a : one.solids)
             for (const Body& b : other.solids) {
                 const auto conflict = findConflict(a, b, overlap_);
@@ -283,7 +279,7 @@ private:
     PolygonTolerances tolerances_;
     double snap_, overlap_;  // units
     std::unordered_map<model::PolygonIndex, CheckedPolygon> polygons_;
-    std::vector<PartGeometry> parts_;
+    std::vector<SolidBodies> parts_;
     std::map<FeatureIndex, bool> invalid_;
     GroupReport report_;
 };

@@ -11,6 +11,15 @@
 
 namespace svt::validate {
 
+/// Solids of a geometry that are valid, kept for comparison with others.
+struct SolidBodies {
+    model::FeatureIndex feature = model::kNoFeature;
+    int geometry = -1;
+    double lod = -1;
+    std::shared_ptr<const Snapper> points;
+    std::vector<Body> solids;
+};
+
 /// What one root feature adds to the report.
 struct GroupReport {
     struct Volume {
@@ -28,6 +37,7 @@ struct GroupReport {
     std::vector<Primitive> primitives;
     std::vector<std::pair<model::FeatureIndex, bool>> features;  ///< those with geometry, and whether they are valid
     std::size_t polygonCount = 0;
+    std::vector<SolidBodies> cells;  ///< of cell spaces, see indoor_checks.hpp
 };
 
 /// Tests all geometries of the features `members`, in tree order.

@@ -316,5 +316,128 @@ TEST(Validate, EveryGeometryCodeHasANumberANameAndATerm) {
     }
 }
 
+// Cell spaces with states and transitions, as readers make them of IndoorGML.
+class Indoor : public TestModel {
+public:
+    model::FeatureIndex addCell(const std::string& id, const Faces& shell,
+                                model::FeatureIndex layer = model::kNoFeature) {
+        const model::FeatureIndex cell = addFeature(id, "BuildingRoom", model::kNoFeature);
+        model.features[cell].attributes.push_back({"cellSpaceClass", std::string("CellSpace"), ""});
+        addSolids(cell, {{shell}});
+        if (layer != model::kNoFeature) model.memberships.push_back({layer, cell, "member"});
+        return cell;
+    }
+    void addState(const std::string& id, const std::string& cell, Vec3d at) {
+        const model::FeatureIndex state = addFeature(id, "State", model::kNoFeature);
+        model.features[state].attributes.push_back({"duality", cell, ""});
+        model.lines.push_back({state, {at}});
+    }
+    void addTransition(const std::string& id, const std::string& from, const std::string& to) {
+        const model::FeatureIndex transition = addFeature(id, "Transition", model::kNoFeature);
+        model.features[transition].attributes.push_back({"from", from, ""});
+        model.features[transition].attributes.push_back({"to", to, ""});
+        model.lines.push_back({transition, {{0, 0, 0}, {2, 2, 2}}});
+    }
+};
+
+TEST(ValidateIndoor, CellSpacesThatTouchAreValidAndThoseThatOverlapAreNot) {
+    Indoor beside;
+    beside.addCell("a", kBox);
+    beside.addCell("b", box({9, 0, 0}, {12, 9, 9}));
+    EXPECT_EQ(codesOf(reportOf(beside.model)), std::set<Code>{});
+
+    Indoor over;
+    over.addCell("a", kBox);
+    over.addCell("b", box({8, 1, 1}, {12, 8, 8}));
+    over.addCell("c", kBox);
+    const ValidationReport report = reportOf(over.model);
+    EXPECT_EQ(codesOf(report), std::set{Code::CellsOverlap});
+    EXPECT_EQ(report.counts.at(Code::CellsOverlap), 3u) << "a and b, a and c, b and c";
+    EXPECT_EQ(report.features.at("BuildingRoom").total, 3u);
+    EXPECT_EQ(report.features.at("BuildingRoom").valid, 1u) << "the findings are on a and b";
+    ValidateOptions patient;
+    patient.overlap = 0.6;
+    EXPECT_EQ(reportOf(over.model, patient).counts.at(Code::CellsOverlap), 1u) << "the same twice";
+}
+
+TEST(ValidateIndoor, CellSpacesOfDifferentLayersMayOverlap) {
+    Indoor test;
+    const auto one = test.addFeature("l1", "CityObjectGroup", model::kNoFeature);
+    const auto other = test.addFeature("l2", "CityObjectGroup", model::kNoFeature);
+    test.addCell("a", kBox, one);
+    test.addCell("b", kBox, other);
+    EXPECT_EQ(codesOf(reportOf(test.model)), std::set<Code>{});
+    test.addCell("c", kBox);
+    EXPECT_EQ(reportOf(test.model).counts.at(Code::CellsOverlap), 2u) << "c is in no layer, so in all";
+}
+
+TEST(ValidateIndoor, StatesLieInTheirCellSpaceOrOnItsSurface) {
+    Indoor good;
+    good.addCell("a", kBox);
+    good.addState("s", "a", {1, 2, 3});
+    good.addState("t", "a", {0, 4, 4});
+    good.addState("u", "a", {9, 9, 9});
+    EXPECT_EQ(codesOf(reportOf(good.model)), std::set<Code>{});
+    for (const auto& [at, distance] :
+         {std::pair{Vec3d{11, 4, 4}, 2.0}, {Vec3d{4, 4, -0.01}, 0.01}, {Vec3d{1e7, 0, 0}, 1e7 - 9}}) {
+        Indoor bad;
+        bad.addCell("a", kBox);
+        bad.addState("s", "a", at);
+        const ValidationReport report = reportOf(bad.model);
+        ASSERT_EQ(codesOf(report), std::set{Code::StateOutsideCell});
+        EXPECT_NEAR(report.findings[0].value.value_or(0), distance, 1e-5);
+        EXPECT_EQ(report.findings[0].at, at);
+    }
+}
+
+TEST(ValidateIndoor, AStateInTheNotchOfItsCellSpaceIsOutside) {
+    // An L of two arms 3 m wide, 9 m long.
+    const Vec3d p[6] = {{0, 0, 0}, {9, 0, 0}, {9, 3, 0}, {3, 3, 0}, {3, 9, 0}, {0, 9, 0}};
+    const Vec3d up{0, 0, 3};
+    Faces ell{{p[5], p[4], p[3], p[2], p[1], p[0]}, {p[0] + up, p[1] + up, p[2] + up, p[3] + up, p[4] + up, p[5] + up}};
+    for (int i = 0; i < 6; ++i) ell.push_back({p[i], p[(i + 1) % 6], p[(i + 1) % 6] + up, p[i] + up});
+    Indoor test;
+    test.addCell("a", ell);
+    test.addState("s", "a", {1, 7, 1});
+    EXPECT_EQ(codesOf(reportOf(test.model)), std::set<Code>{});
+    test.addState("t", "a", {5, 7, 1});
+    const ValidationReport report = reportOf(test.model);
+    ASSERT_EQ(codesOf(report), std::set{Code::StateOutsideCell});
+    EXPECT_NEAR(report.findings[0].value.value_or(0), 2, 1e-5);
+}
+
+TEST(ValidateIndoor, TransitionsJoinCellSpacesThatTouch) {
+    Indoor test;
+    test.addCell("a", kBox);
+    test.addCell("b", box({9, 0, 0}, {12, 9, 9}));
+    test.addCell("c", box({12.5, 0, 0}, {15, 9, 9}));
+    test.addState("sa", "a", {4, 4, 4});
+    test.addState("sb", "b", {10, 4, 4});
+    test.addState("sc", "c", {13, 4, 4});
+    test.addTransition("t1", "sa", "sb");
+    EXPECT_EQ(codesOf(reportOf(test.model)), std::set<Code>{});
+    test.addTransition("t2", "sb", "sc");
+    const ValidationReport report = reportOf(test.model);
+    ASSERT_EQ(codesOf(report), std::set{Code::CellsNotAdjacent});
+    EXPECT_EQ(report.findings[0].message, "the transition 't2' leads to the cell space 'c', which it does not touch");
+    EXPECT_EQ(report.findings[0].marks.size(), 1u);
+}
+
+TEST(ValidateIndoor, CellSpacesThatAreNotValidAreNotCompared) {
+    Indoor test;
+    test.addCell("a", Faces(kBox.begin(), kBox.begin() + 5));
+    test.addCell("b", kBox);
+    test.addState("s", "a", {50, 50, 50});
+    EXPECT_EQ(codesOf(reportOf(test.model)), std::set{Code::ShellNotClosed});
+}
+
+TEST(Validate, NumbersOfIndoorGmlAreThoseOfVal3dity) {
+    EXPECT_EQ(val3dityCode(Code::CellsOverlap), 701);
+    EXPECT_EQ(val3dityCode(Code::StateOutsideCell), 702);
+    EXPECT_EQ(val3dityCode(Code::DualityBroken), 703);
+    EXPECT_EQ(val3dityCode(Code::CellsNotAdjacent), 704);
+    for (const int code : {701, 702, 703, 704}) EXPECT_NE(val3dityName(code), "");
+}
+
 }  // namespace
 }  // namespace svt::validate

@@ -2,6 +2,7 @@
 #include <svt/core/text.hpp>
 #include <svt/writers/ade/ade_writer.hpp>
 #include <svt/writers/hulls/hull_writer.hpp>
+#include <svt/writers/indoorgml/indoorgml_writer.hpp>
 #include <svt/writers/nifti/nifti_writer.hpp>
 #include <svt/writers/nrrd_writer.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
@@ -146,6 +147,12 @@ Written asGraphMl(const SemanticVolume& volume, const Path& path, const VolumeWr
     return writeFileAtomically(path, makeGraphMl(volume, options.threads));
 }
 
+Written asIndoorGml(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
+    const auto document = makeIndoorGml(volume, options);
+    if (!document) return document.error();
+    return writeFileAtomically(path, *document);
+}
+
 constexpr VolumeFormat kVolumeFormats[] = {
     {"nrrd", ".nrrd", "NRRD: samples, with the table of labels as keys", "VTK, ITK, 3D Slicer, teem, MATLAB, pynrrd",
      true},
@@ -193,6 +200,8 @@ constexpr VolumeFormat kVolumeFormats[] = {
     {"adjacency", ".adjacency.json", "what touches what, and what lies between rooms and outside, layer by layer",
      "energy and acoustic models"},
     {"graphml", ".graphml", "the same as a graph", "NetworkX, Gephi, yEd"},
+    {"indoorgml", ".indoor.gml", "IndoorGML 1.0.3: rooms and doors as cell spaces, their graph",
+     "InViewer, FME, navigation, svt build"},
 };
 
 using Write = Written (*)(const SemanticVolume&, const Path&, const VolumeWriteOptions&);
@@ -200,7 +209,7 @@ constexpr Write kWriters[] = {asNrrd,  asGlb,      asSegNrrd, asVti,       asVtm
                               asNifti, asTiff,     asOmeTiff, asZarr,      asPrecomputed,   asVdb,
                               asVox,   asX3d,      asAde,     asObj,       asPly,           asStl,
                               asUsd,   asTileset,  asObjects, asContacts,  asObjectParquet, asContactParquet,
-                              asFds,   asBoxTable, asBoxJson, asAdjacency, asGraphMl};
+                              asFds,   asBoxTable, asBoxJson, asAdjacency, asGraphMl,       asIndoorGml};
 static_assert(std::size(kWriters) == std::size(kVolumeFormats));
 
 }  // namespace
