@@ -65,6 +65,7 @@ TEST(FzkHaus, IfcHasTheSameSolids) {
     const json info = infoOf(folder, model, "0.1");
     std::map<std::string, double> volumes;
     for (const json& object : info["objects"]) {
+        if (object["attributes"].value("ifcType", "") == "IfcAnnotation") continue;  // lines
         volumes[object["attributes"].value("ifcType", "")] += object["volume"].get<double>();
         EXPECT_EQ(object["closed"], true) << object["id"];
     }
