@@ -143,7 +143,8 @@ TEST_F(Outputs, AFileOfTheSameKindIsReplaced) {
 }
 
 TEST_F(Outputs, TheEndingIsThatOfTheFormat) {
-    expectRefused(render("two.svt", "p.jpg"), "E904.*'p.jpg': cannot write '.jpg'; possible are .png, .svg, .pdf", kUsage);
+    expectRefused(render("two.svt", "p.jpg"), "E904.*'p.jpg': cannot write '.jpg'; possible are .png, .svg, .pdf",
+                  kUsage);
     expectRefused({"build", "two.gml", "-o", "o.gml"}, "E904.*possible is .svt", kUsage);
     expectRefused(render("two.svt", "p.png", {"--labels", "l.tif"}), "E904.*--labels 'l.tif'", kUsage);
     expectRefused(render("two.svt", "p.png", {"--write-scene", "s.svt"}), "E904.*--write-scene 's.svt'", kUsage);
