@@ -980,5 +980,29 @@ TEST(BadStyle, MissingFileIsNamed) {
     EXPECT_NE(result.err.find("E101 CannotOpen: no.json"), std::string::npos) << result.err;
 }
 
+// Shapes on which careless algorithms take for ever, of a size at which n^2 would take longer than the limit; see
+// docs/dev/limits.md for figures.
+class WorstInput : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(WorstInput, IsCheckedInTime) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    const std::string count = "2000";
+#else
+    const std::string count = "20000";
+#endif
+    const TemporaryFolder folder;
+    const std::string write = std::string("python3 " SVT_SOURCE_DIR "/scripts/worst_inputs.py ") + GetParam() + " " +
+                              count + " '" + (folder / "worst.json").string() + "'";
+    ASSERT_EQ(std::system(write.c_str()), 0);
+    const CommandResult result = runSvt(folder.path(), {"check", "worst.json"}, {.seconds = 15});
+    EXPECT_FALSE(result.isTimeout) << result.toString();
+    EXPECT_TRUE(result.exitCode == 0 || result.exitCode == kInvalid) << result.toString();
+}
+INSTANTIATE_TEST_SUITE_P(Checks, WorstInput,
+                         ::testing::Values("star", "ring", "holes", "coincident", "coincident_in_one", "book", "wall",
+                                           "tjunction", "fan", "loop", "shells", "voids", "surface", "nest",
+                                           "features"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
 }  // namespace
 }  // namespace svt::test

@@ -1,10 +1,13 @@
 #include <svt/mesh/closing/gaps.hpp>
 
+#include <svt/core/hash.hpp>
 #include <svt/mesh/polygons/edges.hpp>
 #include <svt/mesh/polygons/triangulate.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -36,6 +39,54 @@ std::vector<LooseEnd> findLooseEnds(const ObjectMesh& mesh, double distance) {
     });
     return ends;
 }
+
+// Loose ends by cells of a grid as wide as their longest reach, so that those around a point are found at once.
+class EndGrid {
+public:
+    EndGrid(const ObjectMesh& mesh, const std::vector<LooseEnd>& ends) : mesh_(mesh), ends_(ends) {
+        double reach = 0;
+        for (const LooseEnd& end : ends) reach = std::max(reach, end.reach);
+        perMetre_ = reach > 0 ? 1 / reach : 1;
+        for (std::uint32_t e = 0; e < ends.size(); ++e) cells_.emplace_back(keyOf(cellOf(at(e))), e);
+        std::sort(cells_.begin(), cells_.end());
+    }
+
+    // Ends behind `e` in the cells around it, in ascending order.
+    void findAround(std::uint32_t e, std::vector<std::uint32_t>& found) const {
+        found.clear();
+        const std::array<std::int64_t, 3> cell = cellOf(at(e));
+        for (std::int64_t x = cell[0] - 1; x <= cell[0] + 1; ++x)
+            for (std::int64_t y = cell[1] - 1; y <= cell[1] + 1; ++y)
+                for (std::int64_t z = cell[2] - 1; z <= cell[2] + 1; ++z) {
+                    const std::uint64_t key = keyOf({x, y, z});
+                    for (auto i = std::upper_bound(cells_.begin(), cells_.end(), std::pair(key, e));
+                         i != cells_.end() && i->first == key; ++i)
+                        found.push_back(i->second);
+                }
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+    }
+
+private:
+    [[nodiscard]] Vec3d at(std::uint32_t e) const { return mesh_.vertices[ends_[e].vertex]; }
+    [[nodiscard]] std::array<std::int64_t, 3> cellOf(Vec3d p) const {
+        const auto step = [&](double v) {
+            return static_cast<std::int64_t>(std::floor(std::clamp(v * perMetre_, -1e15, 1e15)));
+        };
+        return {step(p.x), step(p.y), step(p.z)};
+    }
+    // Different cells may share a key; the distance tells what is near.
+    static std::uint64_t keyOf(const std::array<std::int64_t, 3>& cell) {
+        std::uint64_t key = 0;
+        for (const std::int64_t step : cell) key = mixHash(key, static_cast<std::uint64_t>(step));
+        return key;
+    }
+
+    const ObjectMesh& mesh_;
+    const std::vector<LooseEnd>& ends_;
+    double perMetre_ = 1;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> cells_;
+};
 
 double openLength(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& edges) {
     double sum = 0;
@@ -154,12 +205,15 @@ void weldLooseEnds(ObjectMesh& mesh, double distance) {
     std::vector<std::uint32_t> target(mesh.vertices.size());
     std::iota(target.begin(), target.end(), 0u);
     std::vector<std::uint8_t> isTaken(ends.size(), 0);
-    for (std::size_t e = 0; e < ends.size(); ++e) {
+    const EndGrid grid(mesh, ends);
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t e = 0; e < ends.size(); ++e) {
         if (isTaken[e] != 0) continue;
         const Vec3d at = mesh.vertices[ends[e].vertex];
         Vec3d sum = at;
         double count = 1;
-        for (std::size_t o = e + 1; o < ends.size() && mesh.vertices[ends[o].vertex].x - at.x <= distance; ++o) {
+        grid.findAround(e, around);
+        for (const std::uint32_t o : around) {
             const Vec3d other = mesh.vertices[ends[o].vertex];
             if (isTaken[o] != 0 || length(other - at) > std::min(ends[e].reach, ends[o].reach)) continue;
             isTaken[o] = 1;
@@ -180,6 +234,8 @@ std::uint32_t joinGaps(ObjectMesh& mesh) {
     const double diagonal = diagonalOf(mesh), asRead = openLength(mesh.vertices, mesh.openEdges);
     const auto edgesAsRead = static_cast<std::uint32_t>(mesh.openEdges.size());
     double least = asRead / 2;
+    // An end in a gap lies on an edge or two; what is cut far more often is a heap of faces, which nothing joins.
+    const std::size_t mostCuts = 4096 + 2 * mesh.openEdges.size();
     ObjectMesh best;
     bool isFound = false;
     for (const double distance : {1e-3, 1e-2, 5e-2, 0.25}) {
@@ -189,17 +245,19 @@ std::uint32_t joinGaps(ObjectMesh& mesh) {
         joined.triangles = mesh.triangles;
         joined.openEdges = mesh.openEdges;
         weldLooseEnds(joined, limited);
-        (void)cutAtTJunctions(joined.vertices, joined.triangles, std::min(limited, 5e-2));
+        bool isUnfinished = false;
+        (void)cutAtTJunctions(joined.vertices, joined.triangles, std::min(limited, 5e-2), &isUnfinished, mostCuts);
         joined.openEdges = findOpenEdges(joined.triangles);
         if (!joined.openEdges.empty() && orientConsistently(joined.triangles) != 0)
             joined.openEdges = findOpenEdges(joined.triangles);
         const double open = openLength(joined.vertices, joined.openEdges);
-        if (open < least || joined.openEdges.empty()) {
+        const bool isBetter = open < least || joined.openEdges.empty();
+        if (isBetter) {
             least = open / 2;  // a longer reach must be worth it
             best = std::move(joined);
             isFound = true;
         }
-        if (isFound && best.openEdges.empty()) break;
+        if ((isFound && best.openEdges.empty()) || (isUnfinished && !isBetter)) break;
         if (limited < distance) break;
     }
     if (!isFound) return 0;

@@ -16,11 +16,13 @@ namespace svt::mesh {
 /// Removes T-junctions: splits triangles at ends of open edges that lie within `distance` (metres) of another open
 /// edge, in at most 8 rounds. Adds no points; the triangles cover the same area as before.
 /// \param isUnfinished  tells whether points are left on edges after the last round, or so many lie on edges (over 16 to
-///                      an open edge, and over a million) that none is split any more; may be null
+///                      an open edge, and over a million; or over `mostCuts` in all rounds) that none is split any more; may be
+///                      null
 /// \return count of splits
 /// Cost: O(n log n) in the open edges and splits.
 std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance,
-                              bool* isUnfinished = nullptr);
+                              bool* isUnfinished = nullptr,
+                              std::size_t mostCuts = std::numeric_limits<std::size_t>::max());
 
 /// Removes faces that occur twice with different triangulations: triangles whose edges are used more often in their
 /// direction than in the other and that a remaining triangle covers. Does nothing if that would not reduce the count of

@@ -235,7 +235,7 @@ private:
 }  // namespace
 
 std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance,
-                              bool* isUnfinished) {
+                              bool* isUnfinished, std::size_t mostCuts) {
     // A split can expose another point on an edge; a few rounds settle all.
     constexpr int kMaxRounds = 8;
     // A point on a hundred edges is no T-junction, but a heap of faces.
@@ -246,7 +246,8 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
     for (int round = 0;; ++round) {
         const std::vector<OpenEdge> open = findOpenEdges(triangles);
         if (open.empty()) break;
-        const auto cuts = finder.find(open, std::max(kLeastMaxCuts, kMaxCutsPerEdge * open.size()));
+        const std::size_t left = mostCuts - std::min<std::size_t>(mostCuts, count);
+        const auto cuts = finder.find(open, std::min(left, std::max(kLeastMaxCuts, kMaxCutsPerEdge * open.size())));
         if (cuts && cuts->empty()) break;
         if (!cuts || round == kMaxRounds) {
             if (isUnfinished != nullptr) *isUnfinished = true;

@@ -3,6 +3,7 @@
 #include <svt/validate/solids/groups.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace svt::validate {
 namespace {
@@ -29,6 +30,12 @@ std::optional<Segment> commonPart(const Segment& a, const Segment& b, double noi
     return Segment{a[0] + along * from, a[0] + along * to};
 }
 
+std::vector<IntegerBox> boundsOf(const std::vector<const Body*>& shells) {
+    std::vector<IntegerBox> bounds;
+    for (const Body* shell : shells) bounds.push_back(shell->tree().bounds());
+    return bounds;
+}
+
 class InteriorParts {
 public:
     InteriorParts(const std::vector<const Body*>& shells, double noise) : shells_(shells), noise_(noise) {}
@@ -47,11 +54,14 @@ private:
     // Pieces of all shells; false if nothing touches along a line.
     bool cut() {
         bool haveContact = false;
+        TriangleTree bounds;
+        bounds.build(boundsOf(shells_));
+        const std::int64_t reach = static_cast<std::int64_t>(std::ceil(noise_)) + 1;
         for (std::size_t s = 0; s < shells_.size(); ++s)
             for (std::uint32_t t = 0; t < shells_[s]->triangles().size(); ++t) {
                 const Triangle triangle = shells_[s]->triangle(t);
                 std::vector<Segment> lines;
-                for (std::size_t other = 0; other < shells_.size(); ++other) {
+                for (const std::uint32_t other : bounds.findAll(shells_[s]->tree().boxes()[t].grown(reach))) {
                     if (other == s) continue;
                     for (const Segment& line : linesOn(triangle, *shells_[other], noise_))
                         if (length(line[1] - line[0]) > 4 * noise_) lines.push_back(line);

@@ -42,6 +42,12 @@ void markShell(Defect& defect, const Shell& shell, const PointSet& points) {
                 defect.marks.push_back({points.world(ring[i]), points.world(ring[i + 1 == ring.size() ? 0 : i + 1])});
 }
 
+std::vector<IntegerBox> boundsOf(const std::vector<Body>& bodies) {
+    std::vector<IntegerBox> bounds;
+    for (const Body& body : bodies) bounds.push_back(body.tree().bounds());
+    return bounds;
+}
+
 // An interior shell beside the exterior one.
 std::optional<Defect> checkInterior(const Body& exterior, const Body& interior, std::size_t number,
                                     const PointSet& points) {
@@ -104,10 +110,11 @@ std::vector<Defect> checkSolid(const std::vector<Shell>& shells, const PointSet&
         defects.push_back(std::move(*defect));
     };
     for (std::size_t i = 1; i < bodies.size(); ++i) keep(checkInterior(bodies[0], bodies[i], i, points), i);
+    TriangleTree bounds;
+    bounds.build(boundsOf(bodies));
     for (std::size_t i = 1; i < bodies.size(); ++i)
-        for (std::size_t j = i + 1; j < bodies.size(); ++j)
-            if (bodies[i].tree().bounds().grown(1).meets(bodies[j].tree().bounds()))
-                keep(checkInteriors(bodies[i], bodies[j], i, j, points), j);
+        for (const std::uint32_t j : bounds.findAll(bodies[i].tree().bounds().grown(1)))
+            if (j > i) keep(checkInteriors(bodies[i], bodies[j], i, j, points), j);
     if (!defects.empty()) return defects;
     std::vector<Body> material;  // looking away from the material between the shells
     material.reserve(shells.size());
@@ -161,10 +168,12 @@ std::vector<Defect> checkComposite(const std::vector<Body>& solids, const PointS
         while (leader[i] != i) i = leader[i] = leader[leader[i]];
         return i;
     };
+    TriangleTree bounds;
+    bounds.build(boundsOf(solids));
+    const std::int64_t reach = static_cast<std::int64_t>(std::ceil(noise)) + 1;
     for (std::size_t i = 0; i < solids.size(); ++i)
-        for (std::size_t j = i + 1; j < solids.size(); ++j) {
-            const std::int64_t reach = static_cast<std::int64_t>(std::ceil(noise)) + 1;
-            if (!solids[i].tree().bounds().grown(reach).meets(solids[j].tree().bounds())) continue;
+        for (const std::uint32_t j : bounds.findAll(solids[i].tree().bounds().grown(reach))) {
+            if (j <= i) continue;
             const Relation relation = relate(solids[i], solids[j], noise);
             if (relation.first.opposite > 0 || relation.second.opposite > 0)
                 leader[std::max(leaderOf(i), leaderOf(j))] = std::min(leaderOf(i), leaderOf(j));

@@ -61,6 +61,13 @@ public:
         walk(
             box, [](std::size_t) { return true; }, visit);
     }
+    /// The boxes that meet `box`, in ascending order.
+    [[nodiscard]] std::vector<std::uint32_t> findAll(const IntegerBox& box) const {
+        std::vector<std::uint32_t> found;
+        forEach(box, [&](std::uint32_t i) { found.push_back(i); });
+        std::sort(found.begin(), found.end());
+        return found;
+    }
     [[nodiscard]] const std::vector<IntegerBox>& boxes() const noexcept { return boxes_; }
     [[nodiscard]] IntegerBox bounds() const noexcept { return nodes_.empty() ? IntegerBox{} : nodes_.front().box; }
 
