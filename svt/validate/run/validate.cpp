@@ -100,6 +100,26 @@ void appendCells(ValidationReport& report, const model::BuildingModel& model, Gr
     append(report, model, std::move(group));
 }
 
+// Polygons that the features of a group use: what its tests cost.
+std::uint64_t polygonsOf(const model::BuildingModel& model, const std::vector<FeatureIndex>& group) {
+    std::uint64_t count = 1;
+    for (const FeatureIndex feature : group)
+        for (const model::Geometry& geometry : model.features[feature].geometries) {
+            count += geometry.surfaces.size();
+            for (const model::Solid& solid : geometry.solids) {
+                count += solid.exterior.size();
+                for (const auto& shell : solid.interiors) count += shell.size();
+            }
+        }
+    return count;
+}
+
+std::uint64_t polygonsOf(const model::BuildingModel& model, const std::vector<std::vector<FeatureIndex>>& groups) {
+    std::uint64_t count = 0;
+    for (const auto& group : groups) count += polygonsOf(model, group);
+    return count;
+}
+
 }  // namespace
 
 Result<ValidationReport> validateModel(const model::BuildingModel& model, const ValidateOptions& options) {
@@ -109,23 +129,24 @@ Result<ValidationReport> validateModel(const model::BuildingModel& model, const 
     const std::vector<std::uint32_t> users = firstUsers(model, groups);
     ValidationReport report;
     std::vector<SolidBodies> cells;
+    ProgressCounter counter(options.progress, "check", polygonsOf(model, groups));
     // In batches, so that no more than one of them waits to be joined in order.
     constexpr std::size_t kBatch = 1024;
     for (std::size_t begin = 0; begin < groups.size(); begin += kBatch) {
         const std::size_t count = std::min(kBatch, groups.size() - begin);
         std::vector<GroupReport> batch(count);
         parallelFor(count, 1, options.threads, [&](std::size_t from, std::size_t to) {
-            for (std::size_t i = from; i < to && !Progress::isCancelled(options.progress); ++i)
+            for (std::size_t i = from; i < to && !Progress::isCancelled(options.progress); ++i) {
                 batch[i] = checkGroup(model, lattice, options, groups[begin + i], users,
                                       static_cast<std::uint32_t>(begin + i));
+                counter.add(polygonsOf(model, groups[begin + i]));
+            }
         });
         if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "the test was cancelled");
         for (GroupReport& group : batch) {
             for (SolidBodies& cell : group.cells) cells.push_back(std::move(cell));
             append(report, model, std::move(group));
         }
-        Progress::tell(options.progress, "check",
-                       static_cast<double>(begin + count) / static_cast<double>(groups.size()));
     }
     if (!cells.empty()) appendCells(report, model, checkCells(model, lattice, options, cells));
     return report;
