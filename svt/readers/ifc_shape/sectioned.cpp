@@ -27,7 +27,7 @@ struct Directrix {
     std::vector<Vec3d> points;
     std::vector<double> lengths;
 
-    explicit Directrix(std::vector<Vec3d> line) {
+    explicit Directrix(const std::vector<Vec3d>& line) {
         for (const Vec3d p : line) {
             const double step = points.empty() ? 0 : length(p - points.back());
             if (!points.empty() && step < 1e-9) continue;
@@ -107,7 +107,7 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
               std::string& why) {
     std::vector<Vec3d> line;
     if (!readCurve(file, file.follow(fields[0]), line, why)) return false;
-    const Directrix directrix(std::move(line));
+    const Directrix directrix(line);
     if (directrix.points.size() < 2) {
         why = "a sectioned solid whose directrix has no length";
         return false;
