@@ -59,7 +59,7 @@ struct SheetOptions {
     double scale = 0;          ///< 100 draws 1 m as 10 mm; 0: 1:100, or the next standard scale at which all views fit
     std::string paper = "A3";  ///< A4 to A0, landscape
     SheetLanguage language = SheetLanguage::English;
-    std::string title;  ///< of the building; empty: the name of the model
+    std::string title{};  ///< of the building; empty: the name of the model
 };
 
 /// The tables of rooms, floor areas and components; without rooms that of components alone.

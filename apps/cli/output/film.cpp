@@ -49,7 +49,7 @@ fs::path programNamed(const std::string& name) {
     std::istringstream folders(path == nullptr ? "" : path);
     for (std::string folder; std::getline(folders, folder, ':');) {
         std::error_code failed;
-        const fs::path file = fs::path(folder) / name;
+        fs::path file = fs::path(folder) / name;
         const fs::perms rights = fs::status(file, failed).permissions();
         if (!failed && fs::is_regular_file(file, failed) && (rights & fs::perms::others_exec) != fs::perms::none)
             return file;

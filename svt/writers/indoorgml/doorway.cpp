@@ -195,7 +195,8 @@ private:
         int free = 0;
         for (int line = 0; line < kLines * kLines; ++line) {
             const double t = frame_.low.y + (frame_.high.y - frame_.low.y) * (line % kLines + 0.5) / kLines;
-            const double z = frame_.low.z + (frame_.high.z - frame_.low.z) * (line / kLines + 0.5) / kLines;
+            const int row = line / kLines;
+            const double z = frame_.low.z + (frame_.high.z - frame_.low.z) * (row + 0.5) / kLines;
             bool isLineFree = true;
             for (int s = 0; s < steps && isLineFree; ++s)
                 isLineFree = !isBlocked(frame_.place({from + (to - from) * (s + 0.5) / steps, t, z}));

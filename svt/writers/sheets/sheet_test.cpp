@@ -128,16 +128,16 @@ TEST(SheetLayout, TheScaleFollowsTheLargestView) {
     SheetContent content;
     content.views.push_back(wallView(ViewKind::Plan, "EG", 60, 30));
     EXPECT_EQ(layOutSheets(content, {})->scale, 200);
-    EXPECT_EQ(layOutSheets(content, {0, "A1"})->scale, 100);
-    const auto tooLarge = layOutSheets(content, {100, "A3"});
+    EXPECT_EQ(layOutSheets(content, {.scale = 0, .paper = "A1"})->scale, 100);
+    const auto tooLarge = layOutSheets(content, {.scale = 100, .paper = "A3"});
     ASSERT_FALSE(tooLarge);
     EXPECT_EQ(tooLarge.error().code(), Code::BadArgument);
     EXPECT_NE(tooLarge.error().message().find("A1 is large enough"), std::string::npos) << tooLarge.error().message();
-    const auto never = layOutSheets(content, {10, "A3"});
+    const auto never = layOutSheets(content, {.scale = 10, .paper = "A3"});
     ASSERT_FALSE(never);
     EXPECT_NE(never.error().message().find("1:200 would do"), std::string::npos) << never.error().message();
-    EXPECT_EQ(layOutSheets(content, {0, "A5"}).error().code(), Code::BadArgument);
-    EXPECT_EQ(layOutSheets(content, {-1, "A3"}).error().code(), Code::BadArgument);
+    EXPECT_EQ(layOutSheets(content, {.scale = 0, .paper = "A5"}).error().code(), Code::BadArgument);
+    EXPECT_EQ(layOutSheets(content, {.scale = -1, .paper = "A3"}).error().code(), Code::BadArgument);
 }
 
 TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
@@ -146,13 +146,13 @@ TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
     content.levels.push_back({"EG", 0.5});
     content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
     content.views.back().view.floor = 0.5;
-    const auto sheets = makeSvgSheets(content, volume, {50, "A4"});
+    const auto sheets = makeSvgSheets(content, volume, {.scale = 50, .paper = "A4"});
     ASSERT_TRUE(sheets);
     ASSERT_EQ(sheets->size(), 1u);
     const std::string& svg = sheets->front();
     EXPECT_NE(svg.find("width=\"297mm\" height=\"210mm\" viewBox=\"0 0 297 210\""), std::string::npos);
     // 4 x 3 m at 1:50 in the middle of the area of 267 x 154 mm: 80 x 60 mm.
-    const auto layout = layOutSheets(content, {50, "A4"});
+    const auto layout = layOutSheets(content, {.scale = 50, .paper = "A4"});
     const PaperPoint low = layout->sheets[0].views[0].place.corner;
     EXPECT_NEAR(low.x, 20 + 0.5 * (267 - 80), 1e-9);
     EXPECT_NE(svg.find(fmt::format("M{:g} {:g}L{:g} {:g} {:g} {:g}", low.x, low.y, low.x + 80, low.y, low.x + 80,
@@ -161,7 +161,7 @@ TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
     for (const char* text : {">Haus &lt;1&gt;<", ">1:50<", ">Plan EG, level \u00B10.00<", ">1 of 1<", ">A4<",
                              ">house.gml, EPSG:25832<", "url(#masonry)", "inkscape:label=\"Outlines\""})
         EXPECT_NE(svg.find(text), std::string::npos) << text;
-    EXPECT_EQ(*sheets, *makeSvgSheets(content, volume, {50, "A4"}));
+    EXPECT_EQ(*sheets, *makeSvgSheets(content, volume, {.scale = 50, .paper = "A4"}));
 }
 
 TEST(DimensionText, IsThatOfArchitects) {
@@ -263,7 +263,7 @@ TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
     SheetContent content;
     content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
     content.views.push_back(wallView(ViewKind::Section, "A", 4, 3));
-    const auto pdf = makePdfSheets(content, volume, {50, "A4"});
+    const auto pdf = makePdfSheets(content, volume, {.scale = 50, .paper = "A4"});
     ASSERT_TRUE(pdf);
     EXPECT_TRUE(pdf->starts_with("%PDF-"));
     std::size_t pages = 0;
@@ -273,7 +273,7 @@ TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
         EXPECT_EQ(pdf->substr(at, 40).rfind("/MediaBox [ 0 0 841.889", 0), 0u) << pdf->substr(at, 40);
     }
     EXPECT_EQ(pages, 2u);
-    EXPECT_EQ(*pdf, *makePdfSheets(content, volume, {50, "A4"}));
+    EXPECT_EQ(*pdf, *makePdfSheets(content, volume, {.scale = 50, .paper = "A4"}));
 }
 
 }  // namespace

@@ -43,11 +43,11 @@ Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::
     text += "</vtkMultiBlockDataSet>\n</VTKFile>\n";
     std::uint64_t bytes = 0;
     for (std::size_t l = 0; l < files.size(); ++l) {
-        const auto written = writeVti(l == 0 ? volume : coarse[l - 1], files[l], options);
+        auto written = writeVti(l == 0 ? volume : coarse[l - 1], files[l], options);
         if (!written) return written;
         bytes += *written;
     }
-    const auto written = writeFileAtomically(path, text);
+    auto written = writeFileAtomically(path, text);
     if (!written) return written;
     return bytes + *written;
 }
