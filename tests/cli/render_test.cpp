@@ -393,6 +393,9 @@ TEST(Motion, FilmsThatCannotBeAreRefusedBeforeTheWork) {
     refused({}, "nothing moves in this film");
     refused({"--turn", "360", "--frames", "5"}, "--seconds and --rate");
     refused({"--turn", "360", "--labels", "l.png"}, "not for films");
+    const CommandResult still = runSvt(folder.path(), {"render", "house.gml", "-o", "p.png", "--turn", "90"});
+    EXPECT_NE(still.exitCode, 0);
+    EXPECT_NE(still.err.find("--turn moves the camera; --frames"), std::string::npos) << still.toString();
     const std::string path = std::getenv("PATH");
     setenv("PATH", "/nowhere", 1);
     refused({"--turn", "360"}, "ffmpeg, which is not installed");

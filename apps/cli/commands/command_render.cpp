@@ -86,6 +86,10 @@ Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scen
     Series series;
     const illustrate::Motion motion = first.motion.value_or(illustrate::Motion{});
     if (!isFilm(arguments.output)) {
+        if (arguments.frames == 1 && arguments.scene.turn)
+            return Error(Code::BadArgument,
+                         "--turn moves the camera; --frames says in how many pictures, 2 or more; a film "
+                         "(-o P.webm) has them anyway");
         series.count = arguments.frames;
         // The last picture shows the end; of a camera that only goes around it would be the first again.
         const int steps = motion.keys.empty() && motion.turn != 0 ? series.count : std::max(1, series.count - 1);

@@ -26,8 +26,8 @@ public:
     [[nodiscard]] Result<void> add(const image::Image<image::Rgba8>& picture);
 
     /// Encodes the film and puts it in its place: WebM as VP9, MP4 as H.264, GIF with one palette for all pictures, WebP
-    /// as animation; the latter two repeat without end. Sides are made even for WebM and MP4 by a row or column of the
-    /// border's colour. Equal pictures give equal bytes with the same build of ffmpeg.
+    /// as animation; the latter two repeat without end. Sides are made even for WebM and MP4 by a white row or
+    /// column. Equal pictures give equal bytes with the same build of ffmpeg.
     /// \return nothing, or CannotWrite with what ffmpeg says
     [[nodiscard]] Result<void> finish(const Progress* progress);
 

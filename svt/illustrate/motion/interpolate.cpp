@@ -78,11 +78,9 @@ std::string textBetween(const std::string& from, const std::string& to, double s
 
 Json valueBetween(const Json& from, const Json& to, double share, std::string_view pointer) {
     if (share >= 1) return to;
-    if (from.is_number() && to.is_number()) {
-        const double value = mix(from.get<double>(), to.get<double>(), share);
-        const bool isWhole = from.is_number_integer() && to.is_number_integer() && value == double(long(value));
-        return isWhole ? Json(long(value)) : Json(value);
-    }
+    // Nothing lies between two numbers of rays, or two levels of detail.
+    if (endsWith(pointer, "samples") || endsWith(pointer, "level")) return from;
+    if (from.is_number() && to.is_number()) return mix(from.get<double>(), to.get<double>(), share);
     if (!from.is_string() || !to.is_string()) return from;
     const auto &a = from.get_ref<const std::string&>(), &b = to.get_ref<const std::string&>();
     if (endsWith(pointer, "color") || endsWith(pointer, "background")) return colorBetween(a, b, share);

@@ -78,6 +78,16 @@ TEST(Motion, OpacitiesColoursAndZoomGoWhatIsNamedJumps) {
     EXPECT_EQ(at(scene, 2).names, std::vector<std::string>{"class=block"});
 }
 
+TEST(Motion, WholeNumbersJumpAtTheirKeys) {
+    const Scene scene =
+        sceneOf(R"json({"samples":4,"passes":[{"level":0}],"motion":{"seconds":2,"keys":[{"at":2,"scene":
+        {"samples":16,"camera":{"zoom":2},"passes":[{"level":3}]}}]}})json");
+    EXPECT_EQ(at(scene, 1.3).samples, 4);
+    EXPECT_EQ(at(scene, 1.3).passes[0].form.level, 0);
+    EXPECT_EQ(at(scene, 2).samples, 16);
+    EXPECT_EQ(at(scene, 2).passes[0].form.level, 3);
+}
+
 TEST(Motion, TheEyeGoesAroundItsTargetTheShorterWay) {
     // From the east over the south (-90 degrees) to the west: 10 m and 40 m away, at the geometric mean halfway.
     const Scene scene = sceneOf(R"json({"camera":{"eye":[10,-0.001,0],"target":[0,0,0]},"motion":{"seconds":2,
@@ -144,6 +154,7 @@ TEST(Motion, WrongKeysAreNamed) {
     has(messageOf(R"json({"keys":[{"at":1,"scene":{"passes":[{"cutt":"z>1"}]}}]})json"),
         "/motion/keys/0/scene: /passes/0: unknown member 'cutt'");
     has(messageOf(R"json({"keys":[{"at":1,"scene":{"motion":{}}}]})json"), "but no motion");
+    has(messageOf(R"json({"keys":[{"at":1,"scene":{"size":[320,180]}}]})json"), "/motion/keys/0/scene/size");
     has(messageOf(R"json({"rate":0})json"), "/motion/rate");
     has(messageOf(R"json({"keys":[{"at":0,"scene":{"passes":[{"styles":[{"opacity":0.5}]}]}}]})json"),
         "needs \"select\"");

@@ -216,6 +216,8 @@ void readKey(Reader& read, const Json& json, const std::string& path, Motion& mo
     read.number(json["at"], path + "/at", key.at);
     if (!json["scene"].is_object() || json["scene"].contains("motion"))
         return read.fail(path + "/scene", "expected an object with members of a scene, but no motion");
+    if (json["scene"].contains("size"))
+        return read.fail(path + "/scene/size", "all pictures of a motion have the size of the scene; leave it out");
     key.scene = json["scene"].dump();
     if (!motion.keys.empty() && key.at <= motion.keys.back().at)
         return read.fail(path + "/at", "expected a later time than that of the key before");

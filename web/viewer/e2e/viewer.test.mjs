@@ -194,6 +194,14 @@ describe("files", () => {
       await settled();
       assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0);
     }
+    // Another file gives up the first, and is bad: what was open before is there all the same.
+    await drop("district.gml", readFileSync(at("district.gml")));
+    await page.locator("#cancel").waitFor();
+    await page.waitForTimeout(300);
+    await drop("noise.gml", Buffer.from("this is no XML"));
+    await page.locator("#message").getByText(/E1\d\d/).waitFor();
+    await eventually(async () => assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0));
+    assert.deepEqual(await inPage("[s.info.name, s.state.hide]"), before);
     assert.deepEqual(problems, []);
   });
 

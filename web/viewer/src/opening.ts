@@ -53,8 +53,9 @@ export async function openModel(session: Session, name: string, state: ViewState
   } catch (error) {
     if (session.opening !== opening) return;
     session.opening = session.progress = null;
-    if (session.status === "loading") session.status = "empty";
-    return session.fail(error, t("failedTitle"));
+    if (session.status === "loading") session.status = session.info ? "ready" : "empty";
+    session.fail(error, t("failedTitle"));
+    return session.recover();
   }
   const fileName = model.file.split("/").pop()!.split("?")[0]!;
   const again = async () => (await fetch(model.file)).arrayBuffer();

@@ -250,6 +250,7 @@ export class Session extends EventTarget {
     if (!this.source || !this.engine) return false;
     try {
       await this.engine.open(await this.source(), this.modelFile, () => undefined);
+      this.hasLostVolume = false;
       this.redraw();
       return true;
     } catch (again) {
@@ -272,11 +273,20 @@ export class Session extends EventTarget {
     this.opening = null;
     opening.abort.abort();
     this.progress = null;
-    if (this.isReading) this.engine?.cancel();
+    if (this.isReading) {
+      this.engine?.cancel();
+      this.hasLostVolume = true;
+    }
     this.isReading = false;
     if (this.status === "loading") this.status = this.info ? "ready" : "empty";
     this.tell(t("cancelled", { name: opening.name }));
   }
+  /** What was open before comes back where a cancelled opening took it, and the one after it failed as well. */
+  async recover(): Promise<void> {
+    if (this.hasLostVolume && !this.opening) await this.bringBack();
+  }
+  /** The page shows a model that the library has not open any more. */
+  private hasLostVolume = false;
   /** The library is reading the model that is being opened. */
   private isReading = false;
 
@@ -292,14 +302,14 @@ export class Session extends EventTarget {
     this.isReading = true;
     try {
       const info = await this.engine.open(bytes, fileName, (step, share) => this.tellProgress(step, share));
+      this.hasLostVolume = false;
       this.modelFile = fileName;
       this.source = source;
       this.take(info, state ?? { ...initialState(this.state.look), wireframe: null });
       return true;
     } catch (error) {
       if ((error as EngineError).code === kCancelled) {
-        // Another opening that was begun meanwhile replaces the volume anyway.
-        if (!this.opening) await this.bringBack();
+        await this.recover();  // unless another opening was begun meanwhile, which replaces the volume
         return false;
       }
       this.status = this.info ? "ready" : "empty";
@@ -313,6 +323,7 @@ export class Session extends EventTarget {
         this.progress = null;
       }
       this.changed();
+      await this.recover();
     }
   }
 
