@@ -1,5 +1,5 @@
 #include <svt/core/parallel.hpp>
-#include <svt/volume/volume_part.hpp>
+#include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_band.hpp>
@@ -208,19 +208,10 @@ Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, con
     if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
     NewFolder folder(path);
     if (auto made = folder.create(); !made) return made.error();
-    const Vec3i dimension = volume.grid.dimension();
-    int coarsest = 0;
-    for (std::int32_t side = std::max({dimension.x, dimension.y, dimension.z}); side > kSide && coarsest < 6;
-         side = (side + 1) / 2)
-        ++coarsest;
-    std::vector<volume::SemanticVolume> coarse;
-    if (coarsest > 0) {
-        auto made = volume::coarseVolumes(volume, coarsest, options.threads);
-        if (!made) return made.error();
-        coarse = std::move(*made);
-    }
+    const auto coarser = coarserLevels(volume, options.threads);
+    if (!coarser) return coarser.error();
     std::vector<const volume::SemanticVolume*> levels{&volume};
-    for (const volume::SemanticVolume& level : coarse) levels.push_back(&level);
+    for (const volume::SemanticVolume& level : *coarser) levels.push_back(&level);
     if (auto done = folder.write("info", infoJson(levels, options.hasMeshes)); !done) return done.error();
     if (auto done = folder.write("properties/info", propertiesJson(volume)); !done) return done.error();
     if (auto done = folder.write("state.json", stateJson(volume)); !done) return done.error();

@@ -2,7 +2,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
-#include <svt/volume/volume_part.hpp>
+#include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/vtk/vti_writer.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
@@ -18,17 +18,9 @@ namespace svt::writers {
 Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const DenseOptions& options) {
     if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
-    const Vec3i dimension = volume.grid.dimension();
-    int coarsest = 0;
-    for (std::int32_t side = std::max({dimension.x, dimension.y, dimension.z}); side > 64 && coarsest < 6;
-         side = (side + 1) / 2)
-        ++coarsest;
-    std::vector<volume::SemanticVolume> coarse;
-    if (coarsest > 0) {
-        auto made = volume::coarseVolumes(volume, coarsest, options.threads);
-        if (!made) return made.error();
-        coarse = std::move(*made);
-    }
+    const auto coarser = coarserLevels(volume, options.threads);
+    if (!coarser) return coarser.error();
+    const std::vector<volume::SemanticVolume>& coarse = *coarser;
     std::string text =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
         "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<vtkMultiBlockDataSet>\n";

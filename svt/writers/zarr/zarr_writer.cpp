@@ -1,6 +1,6 @@
 #include <svt/core/check.hpp>
 #include <svt/core/parallel.hpp>
-#include <svt/volume/volume_part.hpp>
+#include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/sample_band.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 
 constexpr int kZstdLevel = 3;
-constexpr int kCoarsest = 6;
 
 Bytes zstdFrame(std::span<const std::byte> bytes) {
     Bytes frame(ZSTD_compressBound(bytes.size()));
@@ -97,15 +96,6 @@ Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& 
     return {};
 }
 
-/// Levels until the longest side has 64 samples.
-int levelsFor(Vec3i dimension) {
-    int levels = 0;
-    for (std::int32_t side = std::max({dimension.x, dimension.y, dimension.z}); side > 64 && levels < kCoarsest;
-         side = (side + 1) / 2)
-        ++levels;
-    return levels;
-}
-
 }  // namespace
 
 Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::path& path, int version,
@@ -115,12 +105,9 @@ Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::
     SVT_CHECK(version == 2 || version == 3);
     NewFolder folder(path);
     if (auto made = folder.create(); !made) return made.error();
-    std::vector<volume::SemanticVolume> coarse;
-    if (const int levels = levelsFor(volume.grid.dimension()); levels > 0) {
-        auto made = volume::coarseVolumes(volume, levels, options.threads);
-        if (!made) return made.error();
-        coarse = std::move(*made);
-    }
+    const auto coarser = coarserLevels(volume, options.threads);
+    if (!coarser) return coarser.error();
+    const std::vector<volume::SemanticVolume>& coarse = *coarser;
     std::vector<volume::Grid> grids{volume.grid};
     for (const volume::SemanticVolume& level : coarse) grids.push_back(level.grid);
     if (version == 2)
