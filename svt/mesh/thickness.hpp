@@ -9,7 +9,7 @@ namespace svt::mesh {
 /// Sets Triangle::thickness of a closed mesh: the distance, in metres, from the centroid of the face along its inward
 /// normal to the next face of the same object whose normal is within 45 degrees of that direction; +inf if there is
 /// none. Cost: O(n log n) by a bounding volume hierarchy; where that fails, as for very many thin triangles across each
-/// other's boxes, the search ends after 256 boxes a face on average (and at least 134 million), and +inf stands for the
+/// other's boxes, the search ends after 256 boxes a face on average (and at least 34 million), and +inf stands for the
 /// faces that are left.
 void measureThickness(ObjectMesh& mesh);
 

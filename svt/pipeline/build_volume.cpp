@@ -281,6 +281,25 @@ void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, c
     }
 }
 
+// Where a bound on work made the answer coarser than it is elsewhere.
+void tellBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes, const voxelize::VoxelizeResult& voxels,
+                Diagnostics& log) {
+    for (const std::uint32_t o : voxels.unfilled) {
+        const model::Feature& feature = model.features[meshes.objects[o].feature];
+        log.add(
+            Severity::Warning, Code::WindingFilled,
+            fmt::format("its {} open edges are too many for winding numbers; it is kept as a surface without inside",
+                        meshes.objects[o].openEdges.size()),
+            {model.source, feature.line, 0, feature.id});
+    }
+    if (voxels.crowdedVoxels != 0)
+        log.add(Severity::Warning, Code::Overlap,
+                fmt::format("{} voxels are claimed by more than 16 solids each; of these only overlaps with the first "
+                            "16 are counted",
+                            voxels.crowdedVoxels),
+                {model.source, 0, 0, {}});
+}
+
 void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
     report.objects = meshes.objects.size();
     report.triangles = meshes.triangleCount();
@@ -367,7 +386,10 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     Progress::tell(options.progress, "pack", 0);
     fillLabels(*voxels, groups, *prepared);
     Progress::tell(options.progress, "pack", 0.3);
-    if (log != nullptr) checkVolumes(model, *prepared, *voxels, *log);
+    if (log != nullptr) {
+        checkVolumes(model, *prepared, *voxels, *log);
+        tellBounds(model, meshes, *voxels, *log);
+    }
     countObjects(meshes, report);
     report.spacing = choice;
     for (const std::uint64_t count : voxels->uncertainVoxels) report.uncertainVoxels += count;

@@ -35,9 +35,11 @@ enum class SheetMode : std::uint8_t {
 };
 
 struct VoxelizeOptions {
-    SheetMode sheets = SheetMode::Thin;  ///< for objects that are not solids
-    bool keepThinParts = true;           ///< keep parts of solids thinner than a voxel by a 6-separating pass
-    int threads = 0;                     ///< 0: all cores; the result does not depend on it
+    SheetMode sheets = SheetMode::Thin;         ///< for objects that are not solids
+    bool keepThinParts = true;                  ///< keep parts of solids thinner than a voxel by a 6-separating pass
+    std::uint64_t solidAngles = 1'000'000'000;  ///< an open shell that needs more, beyond 20,000 * (samples of its
+                                                ///< bounding box)^(2/3), is kept as a sheet
+    int threads = 0;                            ///< 0: all cores; the result does not depend on it
     const Progress* progress = nullptr;
 };
 
@@ -53,8 +55,11 @@ struct VoxelizeResult {
     std::vector<std::uint64_t>
         thinVoxels;  ///< per object: voxels claimed only by the pass for thin parts, before priority is applied
     std::vector<std::uint64_t>
-        uncertainVoxels;              ///< per object: voxels with a winding number over 0.25 from a whole one
-    std::vector<ClaimPair> overlaps;  ///< ordered by (a, b); between solids only
+        uncertainVoxels;                  ///< per object: voxels with a winding number over 0.25 from a whole one
+    std::vector<std::uint32_t> unfilled;  ///< open shells with too many holes for winding numbers: kept as sheets
+    std::vector<ClaimPair> overlaps;      ///< ordered by (a, b); between solids only. Where more than 16 solids claim a
+                                          ///< voxel, only pairs with one of the first 16 count it
+    std::uint64_t crowdedVoxels = 0;      ///< claimed by more than 16 solids
 };
 
 /// Voxelizes all objects of `meshes` into one volume.

@@ -984,19 +984,33 @@ TEST(BadStyle, MissingFileIsNamed) {
 // docs/dev/limits.md for figures.
 class WorstInput : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(WorstInput, IsCheckedInTime) {
+// Writes the model as worst.json.
+void writeWorst(const TemporaryFolder& folder, const char* kind) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     const std::string count = "2000";
 #else
     const std::string count = "20000";
 #endif
-    const TemporaryFolder folder;
-    const std::string write = std::string("python3 " SVT_SOURCE_DIR "/scripts/worst_inputs.py ") + GetParam() + " " +
-                              count + " '" + (folder / "worst.json").string() + "'";
+    const std::string write = std::string("python3 " SVT_SOURCE_DIR "/scripts/worst_inputs.py ") + kind + " " + count +
+                              " '" + (folder / "worst.json").string() + "'";
     ASSERT_EQ(std::system(write.c_str()), 0);
-    const CommandResult result = runSvt(folder.path(), {"check", "worst.json"}, {.seconds = 15});
+}
+
+TEST_P(WorstInput, IsCheckedInTime) {
+    const TemporaryFolder folder;
+    ASSERT_NO_FATAL_FAILURE(writeWorst(folder, GetParam()));
+    const CommandResult result = runSvt(folder.path(), {"check", "worst.json"}, {.seconds = 25});
     EXPECT_FALSE(result.isTimeout) << result.toString();
     EXPECT_TRUE(result.exitCode == 0 || result.exitCode == kInvalid) << result.toString();
+}
+
+TEST_P(WorstInput, IsBuiltInTimeAndMemory) {
+    const TemporaryFolder folder;
+    ASSERT_NO_FATAL_FAILURE(writeWorst(folder, GetParam()));
+    const CommandResult result = runSvt(folder.path(), {"build", "worst.json", "-o", "worst.svt", "--memory", "2048"},
+                                        {.seconds = std::string(GetParam()) == "fan" ? 90 : 40});
+    EXPECT_FALSE(result.isTimeout) << result.toString();
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
 }
 INSTANTIATE_TEST_SUITE_P(Checks, WorstInput,
                          ::testing::Values("star", "ring", "holes", "coincident", "coincident_in_one", "book", "wall",

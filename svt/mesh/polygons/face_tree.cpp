@@ -5,7 +5,7 @@
 namespace svt::mesh {
 namespace {
 
-constexpr std::uint64_t kFreeTests = std::uint64_t{1} << 27, kMaxTestsPerFace = 256;
+constexpr std::uint64_t kFreeTests = std::uint64_t{1} << 25, kMaxTestsPerFace = 256;
 
 std::vector<RayFace> makeRayFaces(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& triangles) {
     std::vector<RayFace> faces;
@@ -45,11 +45,11 @@ double hitFace(const RayFace& face, Vec3d origin, Vec3d direction) noexcept {
 bool hitsBox(const Box3d& box, Vec3d origin, Vec3d inverse, double nearest) noexcept {
     double low = 0, high = nearest;
     for (int axis = 0; axis < 3; ++axis) {
-        const double t0 = (box.min[axis] - origin[axis]) * inverse[axis];
-        const double t1 = (box.max[axis] - origin[axis]) * inverse[axis];
-        // NaN (0 * inf, for a ray in a face of the slab) leaves the bounds unchanged.
-        low = std::max(low, std::min(t0, t1) == std::min(t0, t1) ? std::min(t0, t1) : low);
-        high = std::min(high, std::max(t0, t1) == std::max(t0, t1) ? std::max(t0, t1) : high);
+        const bool isBackward = inverse[axis] < 0;
+        // NaN (0 * inf, for a ray in a face of the slab) leaves the bounds unchanged: std::max and std::min then return
+        // their first argument.
+        low = std::max(low, ((isBackward ? box.max : box.min)[axis] - origin[axis]) * inverse[axis]);
+        high = std::min(high, ((isBackward ? box.min : box.max)[axis] - origin[axis]) * inverse[axis]);
     }
     return low <= high * (1 + 1e-12) + 1e-12;
 }

@@ -26,7 +26,7 @@ struct RayFace {
 /// The faces of a mesh that have an area, in a tree of their boxes.
 ///
 /// The rays of a building meet 10 to 200 boxes each. Where thin triangles lie across each other's boxes, as in a star of many
-/// thousand spikes, each ray would meet all of them; so all rays together may test 256 boxes a face, and 134 million.
+/// thousand spikes, each ray would meet all of them; so all rays together may test 256 boxes a face, and 34 million.
 /// Threads: one at a time.
 class FaceTree {
 public:

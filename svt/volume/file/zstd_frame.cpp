@@ -32,6 +32,29 @@ void startFrame(ZSTD_CCtx* context) {
     ZSTD_CCtx_setParameter(context, kRowMatchFinder, kEnable);
 }
 
+namespace {
+
+// The same in blocks of 1 KiB, each of which takes three bytes at least: a frame that every reader accepts, however often
+// the bytes repeat themselves.
+Result<std::vector<std::byte>> compressInSmallBlocks(ZSTD_CCtx* context, std::span<const std::uint8_t> bytes,
+                                                     std::string_view what) {
+    constexpr std::size_t kBlock = 1024, kHeaders = 64;
+    startFrame(context);
+    ZSTD_CCtx_setPledgedSrcSize(context, bytes.size());
+    std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()) + (bytes.size() / kBlock + 1) * 3 + kHeaders);
+    ZSTD_outBuffer out{frame.data(), frame.size(), 0};
+    for (std::size_t at = 0; at < bytes.size(); at += kBlock) {
+        ZSTD_inBuffer in{bytes.data() + at, std::min(kBlock, bytes.size() - at), 0};
+        const bool isLast = at + in.size == bytes.size();
+        if (ZSTD_compressStream2(context, &out, &in, isLast ? ZSTD_e_end : ZSTD_e_flush) != 0)
+            return Error(Code::BadArgument, fmt::format("{} cannot be compressed", what));
+    }
+    frame.resize(out.pos);
+    return frame;
+}
+
+}  // namespace
+
 Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> bytes, std::string_view what) {
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
     if (!context) throw std::bad_alloc();
@@ -40,8 +63,7 @@ Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> byt
     const std::size_t size = ZSTD_compress2(context.get(), frame.data(), frame.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(size) != 0) return Error(Code::BadArgument, fmt::format("{} cannot be compressed", what));
     frame.resize(size);
-    if (bytes.size() > maxBytes(size))
-        return Error(Code::BadArgument, fmt::format("{} repeat themselves more often than a reader accepts", what));
+    if (bytes.size() > maxBytes(size)) return compressInSmallBlocks(context.get(), bytes, what);
     return frame;
 }
 

@@ -74,9 +74,10 @@ private:
     bool isGood_ = true;
 };
 
-/// Compresses bytes. Equal bytes give equal frames.
+/// Compresses bytes. Equal bytes give equal frames. What would unpack to more than readers accept (1 MiB + 1024 times the
+/// frame) is compressed less well.
 /// \param what  name of the content for messages: "the vector parts"
-/// \return the frame, or BadArgument if the bytes take more than 1 MiB + 1024 times the frame: readers refuse that
+/// \return the frame, or BadArgument where zstd fails
 [[nodiscard]] Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> bytes,
                                                              std::string_view what);
 

@@ -133,7 +133,19 @@ struct Geometry {
     HeightPlanes heightPlanes;
     std::vector<ObjectParts> objects;
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
+    std::vector<std::uint32_t> unfilled;
 };
+
+void addSheet(const IndexMesh& index, const volume::Grid& grid, std::uint32_t claim, const VoxelizeOptions& options,
+              ObjectParts& parts) {
+    (options.sheets == SheetMode::Thin ? addThinSheet : addConservativeSheet)(index, grid.dimension(), claim,
+                                                                              parts.boxes);
+    // Of faces closer together than voxels most boxes are the same; each would take 300 bytes in its tiles.
+    constexpr std::size_t kMany = 1 << 16;
+    if (parts.boxes.size() <= kMany) return;
+    std::ranges::sort(parts.boxes);
+    parts.boxes.erase(std::ranges::unique(parts.boxes).begin(), parts.boxes.end());
+}
 
 // Prepares the parts of object number `object`; height planes without a shared plane go to `ownHeightPlanes`.
 void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
@@ -144,8 +156,7 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
     const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
     if (mesh.closure == mesh::Closure::Surface) {
-        const auto addSheet = options.sheets == SheetMode::Thin ? addThinSheet : addConservativeSheet;
-        addSheet(index, grid.dimension(), claims.thinOrder[object], parts.boxes);
+        addSheet(index, grid, claims.thinOrder[object], options, parts);
         return;
     }
     const Vec3i dimension = grid.dimension();
@@ -154,19 +165,25 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
         all.thinVoxels[object] = addThinParts(index, indexFromLocal, dimension, claims.thinOrder[object], parts.boxes);
 }
 
-// Number of voxels of all sheets, estimated by area. The memory of the sheet pass is proportional to it.
-double estimateSheetVoxels(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLocal) {
+// Number of voxels of an object as a sheet, estimated by area. The memory of the sheet pass is proportional to it.
+double estimateSheetVoxels(const mesh::ObjectMesh& object, const IndexFromLocal& indexFromLocal) {
     double voxels = 0;
-    for (const mesh::ObjectMesh& object : meshes.objects) {
-        if (object.closure != mesh::Closure::Surface) continue;
-        for (const mesh::Triangle& triangle : object.triangles) {
-            const Vec3d a = object.vertices[triangle.corners[0]];
-            const Vec3d normal = cross(indexFromLocal.direction(object.vertices[triangle.corners[1]] - a),
-                                       indexFromLocal.direction(object.vertices[triangle.corners[2]] - a));
-            voxels += (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / 2;
-        }
+    for (const mesh::Triangle& triangle : object.triangles) {
+        const Vec3d a = object.vertices[triangle.corners[0]];
+        const Vec3d normal = cross(indexFromLocal.direction(object.vertices[triangle.corners[1]] - a),
+                                   indexFromLocal.direction(object.vertices[triangle.corners[2]] - a));
+        voxels += (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) / 2;
     }
     return voxels;
+}
+
+Result<void> checkSheetVoxels(double voxels) {
+    constexpr double kMaxSheetVoxels = 5e8;
+    if (voxels <= kMaxSheetVoxels) return {};
+    return Error(Code::GridTooLarge,
+                 fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
+                             "choose a coarser spacing",
+                             voxels, kMaxSheetVoxels));
 }
 
 // An object that lost every voxel gets the one nearest to the centroid of one of its triangles: the first that lies in
@@ -219,7 +236,8 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
     parallelFor(open.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
             const std::uint32_t o = open[n], claim = claims.solidOrder[o];
-            fills[n] = std::make_unique<WindingFill>(meshes.objects[o], meshes, grid, indexFromLocal, claim);
+            fills[n] = std::make_unique<WindingFill>(meshes.objects[o], meshes, grid, indexFromLocal, claim,
+                                                     options.solidAngles);
             all.objects[o].faces = groupCoplanarFaces(fills[n]->covered(), heightPlaneOfPlane, grid.dimension(), claim,
                                                       ownHeightPlanes[o]);
         }
@@ -251,6 +269,17 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
         for (std::size_t n = begin; n < end; ++n)
             all.uncertainVoxels[open[n]] = fills[n]->finish(all.objects[open[n]].boxes);
     });
+    double sheetVoxels = 0;
+    for (std::size_t n = 0; n < open.size(); ++n)
+        if (fills[n]->isOverBound()) {
+            all.unfilled.push_back(open[n]);
+            sheetVoxels += estimateSheetVoxels(meshes.objects[open[n]], indexFromLocal);
+        }
+    if (auto fits = checkSheetVoxels(sheetVoxels); !fits) return fits.error();
+    for (const std::uint32_t o : all.unfilled) {
+        all.objects[o].faces = {};
+        addSheet(makeIndexMesh(meshes.objects[o], indexFromLocal), grid, claims.thinOrder[o], options, all.objects[o]);
+    }
     return {};
 }
 
@@ -342,8 +371,10 @@ public:
             for (std::size_t maker = begin; maker < end; ++maker) taken[maker] = free_[maker]->takeCounts();
         });
         OverlapCounts counts;
-        for (const OverlapCounts& ofMaker : taken)
+        for (const OverlapCounts& ofMaker : taken) {
             for (const OverlapCount& sum : ofMaker.sums()) counts.add(sum);
+            counts.addCrowded(ofMaker.crowded());
+        }
         return counts;
     }
     // Per scalar: 1 if some maker has written it.
@@ -429,12 +460,10 @@ Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid&
     SVT_CHECK(claims.size() == meshes.objects.size());
     Progress::tell(options.progress, "voxelize", 0);
     const IndexFromLocal indexFromLocal(meshes, grid);
-    constexpr double kMaxSheetVoxels = 5e8;
-    if (const double sheets = estimateSheetVoxels(meshes, indexFromLocal); sheets > kMaxSheetVoxels)
-        return Error(Code::GridTooLarge,
-                     fmt::format("the open surfaces of the model need about {:.2g} voxels, over the limit of {:.2g}; "
-                                 "choose a coarser spacing",
-                                 sheets, kMaxSheetVoxels));
+    double sheetVoxels = 0;
+    for (const mesh::ObjectMesh& object : meshes.objects)
+        if (object.closure == mesh::Closure::Surface) sheetVoxels += estimateSheetVoxels(object, indexFromLocal);
+    if (auto fits = checkSheetVoxels(sheetVoxels); !fits) return fits.error();
     const Claims ordered = orderClaims(meshes, claims);
     auto geometry = prepareObjects(meshes, grid, indexFromLocal, ordered, options);
     if (!geometry) return geometry.error();
@@ -444,9 +473,11 @@ Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid&
     VoxelizeResult result;
     result.thinVoxels = std::move(geometry->thinVoxels);
     result.uncertainVoxels = std::move(geometry->uncertainVoxels);
+    result.unfilled = std::move(geometry->unfilled);
     for (const OverlapCount& pair : swept.shared.sums())
         result.overlaps.push_back(
             {ordered.ordered[pair.first].object, ordered.ordered[pair.second].object, pair.voxels});
+    result.crowdedVoxels = swept.shared.crowded();
     std::sort(result.overlaps.begin(), result.overlaps.end(),
               [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
     result.columns =

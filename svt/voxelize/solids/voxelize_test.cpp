@@ -200,6 +200,21 @@ TEST(Voxelize, FinerComponentWinsAndTheOverlapIsCounted) {
     EXPECT_EQ(result->overlaps, expected);
 }
 
+TEST(Voxelize, OfManySolidsInOnePlaceTheOverlapsWithTheFirstAreCounted) {
+    constexpr std::size_t kSolids = 40, kFirst = 16;
+    const auto meshes = meshSetOf(std::vector<mesh::ObjectMesh>(kSolids, box({0, 0, 0}, {2, 2, 2})));
+    const auto result = voxelize(meshes, gridOver(meshes, {9, 9, 9}), claimsFor(meshes));
+    ASSERT_TRUE(result);
+    EXPECT_EQ(result->overlaps.size(), kFirst * (kSolids - 1) - kFirst * (kFirst - 1) / 2);
+    EXPECT_EQ(result->crowdedVoxels, result->overlaps[0].voxels);
+    EXPECT_GT(result->crowdedVoxels, 0u);
+    const auto few = meshSetOf(std::vector<mesh::ObjectMesh>(kFirst, box({0, 0, 0}, {2, 2, 2})));
+    const auto all = voxelize(few, gridOver(few, {9, 9, 9}), claimsFor(few));
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->overlaps.size(), kFirst * (kFirst - 1) / 2);
+    EXPECT_EQ(all->crowdedVoxels, 0u);
+}
+
 TEST(Voxelize, SameBytesForAnyNumberOfThreads) {
     std::vector<mesh::ObjectMesh> solids;
     for (int n = 0; n < 12; ++n) solids.push_back(ball({0.7 * n, 0.4 * (n % 5), 0.3 * (n % 3)}, 0.9));

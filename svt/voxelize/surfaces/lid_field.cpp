@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace svt::voxelize {
@@ -203,26 +204,45 @@ double LidField::winding(std::span<const std::uint32_t> set, Vec3d p) const noex
     }
 }
 
-double LidField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept {
-    constexpr double kShift = 1.0 / double(kQuanta);
+namespace {
+
+// The part of a triangle of a lid on the lattice, in full turns; its side is decided as in the sweep.
+double turnsOnLattice(const LidSide& side, Vec3i sample, Vec3d p) noexcept {
     constexpr double kFlat =
         1e-4;  // of the product of the lengths: so close to the triangle that its side is uncertain
-    const Vec3d p = localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
+    const Ray apex(side.local[0], p), from(side.local[1], p), to(side.local[2], p);
+    HalfAngle angle(apex, from, to);
+    if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * apex.length * from.length * to.length)
+        angle.imaginary = std::copysign(angle.imaginary, side.isBehind(sample) ? 1.0 : -1.0);
+    return std::atan2(angle.imaginary, angle.real) / kTurn;
+}
+
+}  // namespace
+
+double LidField::windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept {
+    const Vec3d p = localOfSample(sample);
     double onLattice = 0;
     for (const std::uint32_t number : set) {
         const LidPiece& piece = pieces_[number];
-        for (std::uint32_t n = piece.firstSide; n < piece.sideEnd; ++n) {
-            const LidSide& side = sides_[n];
-            const Ray apex(side.local[0], p), from(side.local[1], p), to(side.local[2], p);
-            HalfAngle angle(apex, from, to);
-            if (angle.real < 0 && std::abs(angle.imaginary) < kFlat * apex.length * from.length * to.length)
-                angle.imaginary = std::copysign(angle.imaginary, side.isBehind(sample) ? 1.0 : -1.0);
-            onLattice += std::atan2(angle.imaginary, angle.real) / kTurn;
-        }
+        for (std::uint32_t n = piece.firstSide; n < piece.sideEnd; ++n)
+            onLattice += turnsOnLattice(sides_[n], sample, p);
     }
     // Snapped pieces and pieces differ by strips along their border, thinner than 1/256 voxel.
     const double exact = winding(set, p);
     return exact + std::nearbyint(onLattice - exact);
+}
+
+double LidField::latticeDifference(std::uint32_t number, Vec3i sample) const noexcept {
+    constexpr double kUnclear = 1e-7;  // of the product of the lengths: rounding may decide the side of the piece
+    const Vec3d p = localOfSample(sample);
+    const LidPiece& piece = pieces_[number];
+    const Ray apex(piece.apex, p), from(piece.from, p), to(piece.to, p);
+    const HalfAngle angle(apex, from, to);
+    if (angle.real <= 0 && std::abs(angle.imaginary) <= kUnclear * apex.length * from.length * to.length)
+        return std::numeric_limits<double>::quiet_NaN();
+    double difference = -std::atan2(angle.imaginary, angle.real) / kTurn;
+    for (std::uint32_t n = piece.firstSide; n < piece.sideEnd; ++n) difference += turnsOnLattice(sides_[n], sample, p);
+    return difference;
 }
 
 // Calls `body(from, to)` for the edges of the border of a set of pieces, until it returns false. An edge that two

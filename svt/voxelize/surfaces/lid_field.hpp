@@ -83,12 +83,20 @@ public:
     [[nodiscard]] Vec3d localFromIndex(Vec3d index) const noexcept {
         return origin_ + steps_[0] * index.x + steps_[1] * index.y + steps_[2] * index.z;
     }
+    /// Position of a sample, local space.
+    [[nodiscard]] Vec3d localOfSample(Vec3i sample) const noexcept {
+        constexpr double kShift = 1.0 / double(kQuanta);  // samples lie this far beyond their index
+        return localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
+    }
     [[nodiscard]] const Vec3d& step(int axis) const noexcept { return steps_[axis]; }
 
     /// Winding number of a set of pieces at `p`.
     [[nodiscard]] double winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept;
     /// The same at a sample that may be close to some of them: on which side it is, is decided as in the sweep.
     [[nodiscard]] double windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept;
+    /// What windingNear() adds to winding() for the sake of one piece; NaN where rounding decides the side of the piece.
+    /// Over all pieces close to the sample the sum is a whole number, but for strips thinner than 1/256 voxel.
+    [[nodiscard]] double latticeDifference(std::uint32_t piece, Vec3i sample) const noexcept;
     /// The jet of a set of pieces at `p`, with a bound of its error for distances up to `radius`. If that is more than
     /// `limit`, the rest is not computed.
     [[nodiscard]] Jet jet(std::span<const std::uint32_t> set, Vec3d p, double radius,

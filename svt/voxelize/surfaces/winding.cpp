@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace svt::voxelize {
@@ -46,7 +47,7 @@ bool isUncertain(double c) noexcept { return distanceToHalf(c) < 0.25; }
 // Halves the blocks of one part until every sample is decided. Belongs to one thread.
 class WindingBlocks {
 public:
-    WindingBlocks(const WindingFill& fill, WindingFill::Part& part) : fill_(fill), field_(*fill.field_), part_(part) {}
+    WindingBlocks(WindingFill& fill, WindingFill::Part& part) : fill_(fill), field_(*fill.field_), part_(part) {}
 
     void run() {
         near_.clear();
@@ -124,11 +125,13 @@ private:
     // \return a bound of the winding number of those listed
     double foldFar(const Samples& samples, Range parent, Block& block) {
         constexpr std::size_t kFew = 12;  // cheaper to evaluate than to fold
+        constexpr double kMany = 256;     // the errors of so many pieces may add up
         if (block.size <= kSmallest && parent.end - parent.begin <= kFew) return kInfinity;
         block.near.begin = near_.size();
         folded_.clear();
         double bound = 0;
         const double cubed = samples.radius * samples.radius * samples.radius;
+        const double allowed = foldError(block.size) * std::min(1.0, kMany / double(parent.end - parent.begin));
         for (std::size_t n = parent.begin; n < parent.end; ++n) {
             constexpr double kScale = 1 / (4 * std::numbers::pi);
             const std::uint32_t number = near_[n];
@@ -138,7 +141,7 @@ private:
                 const double inverse = 1 / away, squared = inverse * inverse;
                 const double error =
                     kScale * cubed * squared * squared * std::min(piece.length, 4 * piece.area * inverse);
-                if (error <= foldError(block.size)) {
+                if (error <= allowed) {
                     folded_.push_back(number);
                     continue;
                 }
@@ -171,10 +174,11 @@ private:
 
     void divide(Block block) {
         Samples samples;
-        if (!clip(block, samples)) return;
+        if (fill_.isOverBound() || !clip(block, samples)) return;
         const std::size_t nearEnd = near_.size(), lidsEnd = lids_.size();
         block.far = block.far.movedBy(samples.local - block.center);
         block.center = samples.local;
+        fill_.work_ += block.near.end - block.near.begin + block.lids.end - block.lids.begin;
         block.lids = lidsTouching(samples, block.lids);
         const double bound = foldFar(samples, block.near, block);
         decide(block, samples, bound);
@@ -307,11 +311,29 @@ private:
         return false;
     }
 
+    // What deciding the sides of lids on the lattice adds to c at a sample close to one; NaN if that has to be asked of
+    // all pieces together.
+    [[nodiscard]] double latticeDifference(const Block& block, Vec3i sample) const {
+        constexpr double kAround = 1.0 / 8;  // voxels: lids farther away are seen alike on the lattice
+        const Vec3d at{sample.x + kShift, sample.y + kShift, sample.z + kShift};
+        double sum = 0;
+        for (std::size_t n = block.lids.begin; n < block.lids.end; ++n) {
+            const WindingFill::LidTriangle& lid = fill_.lids_[lids_[n]];
+            if (std::abs(dot(lid.normal, at) - lid.offset) > kAround) continue;
+            if (distanceToBox(at, {lid.low, lid.high}) > kAround) continue;
+            sum += field_.latticeDifference(lids_[n], sample);
+        }
+        const double whole = std::nearbyint(sum);
+        return std::abs(sum - whole) < 0.1 ? whole : std::numeric_limits<double>::quiet_NaN();
+    }
+
     // c at a sample of the block.
-    [[nodiscard]] double evaluate(const Block& block, Vec3i sample) const {
-        const Vec3d p = field_.localFromIndex({sample.x + kShift, sample.y + kShift, sample.z + kShift});
+    [[nodiscard]] double evaluate(const Block& block, Vec3i sample) {
+        constexpr std::uint64_t kScalar = 16;  // takes as long as so many at once
+        const Vec3d p = field_.localOfSample(sample);
         const bool close = isClose(block, sample);
         for (const Block* b = &block;; b = b->parent) {
+            fill_.work_ += kScalar * nearOf(*b).size();
             const double c = b->far.at(p - b->center) +
                              (close ? field_.windingNear(nearOf(*b), sample) : field_.winding(nearOf(*b), p));
             if (b->parent == nullptr || distanceToHalf(c) > b->far.error + kTie) return c;
@@ -334,14 +356,15 @@ private:
             positions_.y[n] = p.y;
             positions_.z[n] = p.z;
         });
+        fill_.work_ += positions_.count * nearOf(block).size();
         double windings[kLidSamples];
         windingsAt(field_, nearOf(block), block.far, samples.local, positions_, windings);
         const bool hasLids = block.lids.begin < block.lids.end;
         const double margin = block.far.error + kArcError + kTie;
         forEach([&](std::size_t n, Vec3i at) {
             double c = windings[n];
-            if (distanceToHalf(c) <= margin || (hasLids && isClose(block, samples.low + at)))
-                c = evaluate(block, samples.low + at);
+            if (hasLids && isClose(block, samples.low + at)) c += latticeDifference(block, samples.low + at);
+            if (!(distanceToHalf(c) > margin)) c = evaluate(block, samples.low + at);
             deltas_[n] = deltaOf(c);
             part_.uncertain += isUncertain(c);
         });
@@ -406,7 +429,7 @@ private:
         return true;
     }
 
-    const WindingFill& fill_;
+    WindingFill& fill_;
     const LidField& field_;
     WindingFill::Part& part_;
     std::vector<std::uint32_t> near_, lids_;  // stacks of lists
@@ -416,7 +439,7 @@ private:
 };
 
 WindingFill::WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
-                         const IndexFromLocal& indexFromLocal, std::uint32_t claim)
+                         const IndexFromLocal& indexFromLocal, std::uint32_t claim, std::uint64_t solidAngles)
     : shell_(coverShell(shell)), lattice_(makeIndexMesh(shell_.mesh, indexFromLocal)), claim_(claim) {
     field_ = std::make_unique<LidField>(shell_, lattice_, grid, meshes.origin);
     for (const LidPiece& piece : field_->pieces()) {
@@ -442,6 +465,8 @@ WindingFill::WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& mes
         begin_[axis] = sample(low[std::size_t(axis)]);
         end_[axis] = sample(high[std::size_t(axis)]);
     }
+    const double box = double(end_.x - begin_.x) * double(end_.y - begin_.y) * double(end_.z - begin_.z);
+    bound_ = solidAngles + static_cast<std::uint64_t>(20'000 * std::cbrt(box * box));
     if (shell_.loops.empty() || begin_.x >= end_.x || begin_.y >= end_.y || begin_.z >= end_.z) return;
     const auto first = [](std::int32_t sample) { return sample / kPartSize * kPartSize; };
     for (std::int32_t z = first(begin_.z); z < end_.z; z += kPartSize)
@@ -455,6 +480,7 @@ std::size_t WindingFill::runPart(std::size_t n) {
 }
 
 std::uint64_t WindingFill::finish(std::vector<ClaimedBox>& boxes) {
+    if (isOverBound()) parts_.clear();
     std::uint64_t uncertain = 0;
     std::int32_t least = 0, most = 0;
     for (const Part& part : parts_) {

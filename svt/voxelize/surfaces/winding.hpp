@@ -18,6 +18,7 @@
 #include <svt/voxelize/surfaces/lid_field.hpp>
 #include <svt/voxelize/tiles/tile_plan.hpp>
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -33,13 +34,16 @@ namespace svt::voxelize {
 ///
 /// The result is that of the sum over all triangles, except where that is within 1e-9 of 1/2, and for samples within
 /// 1/256 voxel of the shell. Samples outside its bounding box are left out.
-/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to lids).
+/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to lids), each times
+/// the pieces of lids close by. Past a bound, which only heaps of loose triangles reach, the work ends: such a shell is
+/// to be kept as a sheet.
 class WindingFill {
 public:
     /// \param shell  an open object of `meshes`
     /// \param claim  for the boxes
+    /// \param solidAngles  the bound: so many, and 20,000 * (samples of the bounding box)^(2/3)
     WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
-                const IndexFromLocal& indexFromLocal, std::uint32_t claim);
+                const IndexFromLocal& indexFromLocal, std::uint32_t claim, std::uint64_t solidAngles);
 
     /// Shell and lids, closed: to be swept.
     [[nodiscard]] const IndexMesh& covered() const noexcept { return lattice_; }
@@ -53,6 +57,8 @@ public:
     /// \return count of samples within the bounding box of the shell whose winding number is over 1/4 away from every
     ///         whole number, where that distance differs from 1/4 by more than 0.01; closer ones may be miscounted
     std::uint64_t finish(std::vector<ClaimedBox>& boxes);
+    /// The bound was reached: there are no boxes.
+    [[nodiscard]] bool isOverBound() const noexcept { return work_ > bound_; }
 
 private:
     friend class WindingBlocks;
@@ -79,6 +85,8 @@ private:
     Vec3i begin_{}, end_{};          // samples inside the bounding box
     std::uint32_t claim_;
     std::vector<Part> parts_;
+    std::atomic<std::uint64_t> work_{0};  // solid angles so far
+    std::uint64_t bound_ = 0;
 };
 
 /// Generalized winding number of `mesh` at `point` (local space): the solid angles of all triangles (Van Oosterom &

@@ -181,6 +181,44 @@ TEST(WindingFill, RimsThatBranch) {
     expectLikeSum(withoutTriangles(std::move(open), [](std::size_t t) { return t == 6; }), {37, 31, 33});
 }
 
+// Every triangle with corners of its own, moved a little: all edges are open.
+mesh::ObjectMesh looseTriangles(const mesh::ObjectMesh& from, double moved) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> along(-moved, moved);
+    mesh::ObjectMesh loose = from;
+    loose.vertices.clear();
+    for (mesh::Triangle& triangle : loose.triangles) {
+        const Vec3d shift{along(random), along(random), along(random)};
+        for (std::uint32_t& corner : triangle.corners) {
+            loose.vertices.push_back(from.vertices[corner] + shift);
+            corner = static_cast<std::uint32_t>(loose.vertices.size() - 1);
+        }
+    }
+    return test::asOpen(std::move(loose));
+}
+
+TEST(WindingFill, LooseTriangles) { expectLikeSum(looseTriangles(ball({1, 1, 1}, 0.9, 16), 0.02), {41, 43, 39}); }
+
+TEST(WindingFill, PastItsBoundTheShellIsASheet) {
+    const auto meshes = meshSetOf({looseTriangles(ball({1, 1, 1}, 0.9, 60), 0.1)});
+    const Grid grid = gridAround(meshes, {41, 43, 39});
+    VoxelizeOptions options;
+    const auto filled = voxelize(meshes, grid, oneClaim(), options);
+    ASSERT_TRUE(filled);
+    EXPECT_TRUE(filled->unfilled.empty());
+    options.solidAngles = 0;
+    const auto sheet = voxelize(meshes, grid, oneClaim(), options);
+    ASSERT_TRUE(sheet);
+    EXPECT_EQ(sheet->unfilled, std::vector<std::uint32_t>{0});
+    const std::uint64_t inside = filled->columns.countVoxels(2)[1], behind = sheet->columns.countVoxels(2)[1];
+    EXPECT_GT(behind, 0u);
+    EXPECT_LT(behind, inside / 2);
+    options.threads = 1;
+    const auto again = voxelize(meshes, grid, oneClaim(), options);
+    ASSERT_TRUE(again);
+    EXPECT_TRUE(again->columns == sheet->columns);
+}
+
 TEST(WindingFill, ManySamplesOfLargeGrids) {
     for (const double degrees : {0.0, 23.0}) {
         const auto meshes = meshSetOf({houseWithHoles(8, 4, 2, degrees)});

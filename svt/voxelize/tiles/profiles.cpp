@@ -93,7 +93,8 @@ void Profiles::takeCounts(OverlapCounts& counts) {
     for (const Group& group : groups_) {
         if (group.voxels == 0) continue;
         const auto members = membersOf(group);
-        for (std::size_t a = 0; a + 1 < members.size(); ++a)
+        if (members.size() > OverlapCounts::kFirst) counts.addCrowded(group.voxels);
+        for (std::size_t a = 0; a + 1 < members.size() && a < OverlapCounts::kFirst; ++a)
             for (std::size_t b = a + 1; b < members.size(); ++b) counts.add({members[a], members[b], group.voxels});
     }
     profiles_.clear();

@@ -34,10 +34,18 @@ struct OverlapCount {
 /// Sums of shared voxels per pair of claims.
 class OverlapCounts {
 public:
+    /// Where more solids than this claim a voxel, only pairs with one of the first ones, by priority, are counted: n
+    /// solids in one place would else be n^2 / 2 pairs.
+    static constexpr std::size_t kFirst = 16;
+
     void add(const OverlapCount& shared);
     [[nodiscard]] std::span<const OverlapCount> sums() const noexcept { return sums_; }  ///< unordered
+    void addCrowded(std::uint64_t voxels) noexcept { crowded_ += voxels; }
+    /// Voxels that more than kFirst solids claim.
+    [[nodiscard]] std::uint64_t crowded() const noexcept { return crowded_; }
 
 private:
+    std::uint64_t crowded_ = 0;
     HashIndex index_;
     std::vector<OverlapCount> sums_;
 };

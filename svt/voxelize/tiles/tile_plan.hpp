@@ -26,6 +26,7 @@
 
 #include <svt/voxelize/lattice/faces.hpp>
 
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -38,6 +39,7 @@ struct ClaimedBox {
     std::int32_t firstRow = 0, endRow = 0, begin = 0, end = 0, low = 0, high = 0;
     std::uint32_t claim = 0;
     bool countsAgainst = false;  ///< takes one from the winding number instead
+    friend auto operator<=>(const ClaimedBox&, const ClaimedBox&) = default;
 };
 
 /// The faces and boxes of one object.
