@@ -13,10 +13,14 @@ namespace {
 using namespace svt::cli;
 
 constexpr CommandAction kCommands[] = {
-    {"sample", connectSample},   {"build", connectBuild},     {"info", connectInfo},         {"check", connectCheck},
-    {"render", connectRender},   {"section", connectSection}, {"sheets", connectSheets},     {"query", connectQuery},
-    {"shell", connectShell},     {"convert", connectConvert}, {"serve", connectServe},       {"view", connectView},
-    {"publish", connectPublish}, {"doctor", connectDoctor},   {"describe", connectDescribe},
+    {"sample", connectSample},   {"sample-city", connectSampleCity},
+    {"build", connectBuild},     {"info", connectInfo},
+    {"check", connectCheck},     {"render", connectRender},
+    {"section", connectSection}, {"sheets", connectSheets},
+    {"query", connectQuery},     {"shell", connectShell},
+    {"convert", connectConvert}, {"serve", connectServe},
+    {"view", connectView},       {"publish", connectPublish},
+    {"doctor", connectDoctor},   {"describe", connectDescribe},
 };
 
 }  // namespace

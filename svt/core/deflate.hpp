@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace svt {
@@ -33,6 +35,25 @@ struct Inflated {
 /// Cost: about 3 s per GB unpacked. Memory: twice the unpacked size at most, and at most `maxBytes`.
 [[nodiscard]] Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format,
                                     std::uint64_t expectedBytes, std::uint64_t maxBytes);
+
+/// Unpacks gzip data piece by piece, of one or more members, in memory of its own that does not grow.
+class GzipStream {
+public:
+    GzipStream();
+    GzipStream(GzipStream&&) noexcept;
+    GzipStream& operator=(GzipStream&&) noexcept;
+    ~GzipStream();
+
+    /// Appends to `out` what `packed` unpacks to.
+    /// \return Done: the piece is used up; Damaged: nothing more can be unpacked
+    InflateStatus append(std::span<const std::byte> packed, std::string& out);
+    /// Whether the last member is complete: where the data end, so that CutShort is the word for anything else.
+    [[nodiscard]] bool isComplete() const noexcept;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Raw deflate data of `bytes` that end at a byte boundary, so that pieces that were made independently can be joined.
 /// \param bytes   less than 2 GiB

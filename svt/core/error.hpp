@@ -9,7 +9,8 @@
 
 namespace svt {
 
-/// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render, 9xx program.
+/// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render,
+/// 6xx cities, 9xx program.
 /// The meaning of a code never changes.
 enum class Code : std::uint16_t {
     // 1xx: reading a model
@@ -115,6 +116,17 @@ enum class Code : std::uint16_t {
     NoMeshes = 509,       ///< lines beyond a cut were asked of a volume that keeps no meshes
     NoCairo = 510,        ///< no cairo library, so no PDF
     BadSheets = 511,      ///< a file of sheets that does not follow its schema
+    // 6xx: cities
+    BadPlan = 601,         ///< not the plan of a city, or a damaged one
+    PlanVersion = 602,     ///< a plan that another version of the program wrote
+    BadPack = 603,         ///< a pack of a city, or a member of it, that is damaged
+    BadCity = 604,         ///< an index of a city that is damaged
+    CityIncomplete = 605,  ///< tasks of a city that are not done yet
+    FeatureSkipped = 606,  ///< a feature that was left out of a city
+    LinkedFeature = 607,   ///< a feature that refers to another one, which is read without it
+    InputChanged = 608,    ///< an input file that is no longer the one that was planned
+    TaskFailed = 609,      ///< a task of a city that came to no result
+    Replica = 610,         ///< a feature that was there already, with the same id and content
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

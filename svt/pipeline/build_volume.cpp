@@ -19,59 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Appends `from` to `into`; duplicate ids get the number of the file as suffix.
-void mergeModel(model::BuildingModel& into, model::BuildingModel from, std::size_t number, Diagnostics* log) {
-    const auto firstFeature = static_cast<model::FeatureIndex>(into.features.size());
-    const auto firstPolygon = static_cast<model::PolygonIndex>(into.polygons.size());
-    const auto firstMaterial = static_cast<std::int32_t>(into.materials.size());
-    std::unordered_set<std::string> known;
-    for (const model::Feature& feature : into.features) known.insert(feature.id);
-    const bool isSameCrs =
-        into.crs.epsg != 0 && from.crs.epsg != 0 ? into.crs.epsg == from.crs.epsg : into.crs.name == from.crs.name;
-    if (!isSameCrs && log != nullptr)
-        log->add(Severity::Warning, Code::MixedCrs,
-                 fmt::format(
-                     "'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are; --crs brings "
-                     "all files to one",
-                     from.source, from.crs.name, into.crs.name),
-                 {from.source, 0, 0, {}});
-    for (model::Polygon& polygon : from.polygons) {
-        if (polygon.material >= 0) polygon.material += firstMaterial;
-        into.polygons.push_back(std::move(polygon));
-    }
-    const auto shift = [&](std::vector<model::SurfaceUse>& uses) {
-        for (model::SurfaceUse& use : uses) use.polygon += firstPolygon;
-    };
-    for (model::Feature& feature : from.features) {
-        if (!known.insert(feature.id).second) {
-            feature.id = fmt::format("{}@{}", feature.id, number + 1);
-            if (log != nullptr)
-                log->add(Severity::Warning, Code::DuplicateId,
-                         fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
-                         {from.source, feature.line, 0, feature.id});
-        }
-        if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
-        for (model::FeatureIndex& child : feature.children) child += firstFeature;
-        for (model::Geometry& geometry : feature.geometries) {
-            shift(geometry.surfaces);
-            for (model::Solid& solid : geometry.solids) {
-                shift(solid.exterior);
-                for (auto& interior : solid.interiors) shift(interior);
-            }
-        }
-        into.features.push_back(std::move(feature));
-    }
-    for (model::Polyline& line : from.lines) {
-        line.feature += firstFeature;
-        into.lines.push_back(std::move(line));
-    }
-    for (const model::FeatureIndex root : from.roots) into.roots.push_back(root + firstFeature);
-    for (model::Membership& membership : from.memberships)
-        into.memberships.push_back(
-            {membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
-    into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
-}
-
 // Buildings in which only boundary surfaces can own the material between hull and rooms.
 std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshSet& meshes, const LabelledObjects& labelled) {
     std::vector<std::uint32_t> objectOf(labelled.table.labels.size(), volume::kNoLabel);
@@ -312,6 +259,58 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
 
 }  // namespace
 
+void joinModel(model::BuildingModel& into, model::BuildingModel from, std::size_t number, Diagnostics* log) {
+    const auto firstFeature = static_cast<model::FeatureIndex>(into.features.size());
+    const auto firstPolygon = static_cast<model::PolygonIndex>(into.polygons.size());
+    const auto firstMaterial = static_cast<std::int32_t>(into.materials.size());
+    std::unordered_set<std::string> known;
+    for (const model::Feature& feature : into.features) known.insert(feature.id);
+    const bool isSameCrs =
+        into.crs.epsg != 0 && from.crs.epsg != 0 ? into.crs.epsg == from.crs.epsg : into.crs.name == from.crs.name;
+    if (!isSameCrs && log != nullptr)
+        log->add(Severity::Warning, Code::MixedCrs,
+                 fmt::format(
+                     "'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are; --crs brings "
+                     "all files to one",
+                     from.source, from.crs.name, into.crs.name),
+                 {from.source, 0, 0, {}});
+    for (model::Polygon& polygon : from.polygons) {
+        if (polygon.material >= 0) polygon.material += firstMaterial;
+        into.polygons.push_back(std::move(polygon));
+    }
+    const auto shift = [&](std::vector<model::SurfaceUse>& uses) {
+        for (model::SurfaceUse& use : uses) use.polygon += firstPolygon;
+    };
+    for (model::Feature& feature : from.features) {
+        if (!known.insert(feature.id).second) {
+            feature.id = fmt::format("{}@{}", feature.id, number + 1);
+            if (log != nullptr)
+                log->add(Severity::Warning, Code::DuplicateId,
+                         fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
+                         {from.source, feature.line, 0, feature.id});
+        }
+        if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
+        for (model::FeatureIndex& child : feature.children) child += firstFeature;
+        for (model::Geometry& geometry : feature.geometries) {
+            shift(geometry.surfaces);
+            for (model::Solid& solid : geometry.solids) {
+                shift(solid.exterior);
+                for (auto& interior : solid.interiors) shift(interior);
+            }
+        }
+        into.features.push_back(std::move(feature));
+    }
+    for (model::Polyline& line : from.lines) {
+        line.feature += firstFeature;
+        into.lines.push_back(std::move(line));
+    }
+    for (const model::FeatureIndex root : from.roots) into.roots.push_back(root + firstFeature);
+    for (model::Membership& membership : from.memberships)
+        into.memberships.push_back(
+            {membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
+    into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
+}
+
 Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, readers::ReadOptions options,
                                         Diagnostics* log) {
     if (files.empty()) return Error(Code::BadArgument, "no input file");
@@ -323,7 +322,7 @@ Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> f
             options.likelyCrs = model->crs.epsg;
             all = std::move(*model);
         } else {
-            mergeModel(all, std::move(*model), f, log);
+            joinModel(all, std::move(*model), f, log);
         }
     }
     return all;

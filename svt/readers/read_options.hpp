@@ -18,6 +18,9 @@ struct ReadOptions {
     /// metres, `likelyCrs`.
     int crs = 0;
     int likelyCrs = 0;             ///< where coordinates must be projected: to this code if possible; 0: the usual one
+    /// Order of the axes: 0: decided by name and coordinates; +1: east first, -1: north first, whatever they say. For parts
+    /// of a file, in which the order was decided for the whole.
+    int axisOrder = 0;
     bool keepFarFeatures = false;  ///< features far away from all others are not left out
     bool extrudeFootprints = false;  ///< footprints with a height as attribute become bodies
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material

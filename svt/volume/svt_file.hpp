@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace svt::volume {
 
@@ -30,6 +31,9 @@ namespace svt::volume {
 ///         belongs to no label, the label table, vectors or planes are invalid (checkLabels, checkVectorParts,
 ///         checkFacePlanes), or a limit is exceeded
 [[nodiscard]] Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path);
+
+/// The bytes that writeSvt() would write, for files of many volumes. Errors as there, but for those of writing.
+[[nodiscard]] Result<std::vector<std::byte>> svtBytes(const SemanticVolume& volume);
 
 /// Opens the file `path` and decodes all columns in parallel.
 /// All bytes are checked: container, CRC32 of each entry, every count, index and range. Cost: 1 to 3 s per GB of arrays

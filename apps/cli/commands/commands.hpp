@@ -7,6 +7,7 @@
 namespace svt::cli {
 
 Action connectSample(Command& command);
+Action connectSampleCity(Command& command);
 Action connectBuild(Command& command);
 Action connectInfo(Command& command);
 Action connectCheck(Command& command);

@@ -177,6 +177,36 @@ constexpr Option kSample[] = {
     {.name = "--thematic", .kind = Flag, .help = "CityGML 2.0: walls only as surfaces, as LoD4 has them"},
 };
 
+// sample-city
+
+constexpr Option kThreads[] = {
+    {.name = "--threads",
+     .kind = Whole,
+     .least = 0,
+     .most = 1024,
+     .otherwise = "all cores",
+     .help = "number of threads; the result does not depend on it"},
+};
+constexpr Option kSampleCity[] = {
+    {.name = "--profile",
+     .choices = "3dbag|berlin|nyc|plateau",
+     .byDefault = "berlin",
+     .help = "whose files the city resembles: formats, versions, CRS and units"},
+    {.name = "--buildings",
+     .kind = Whole,
+     .least = 1,
+     .most = 100000000,
+     .byDefault = "1000",
+     .help = "number of buildings, those that stand in two files counted once"},
+    {.name = "--files", .kind = Whole, .least = 1, .most = 100000, .byDefault = "1", .help = "number of files"},
+    {.name = "--seed", .kind = Whole, .least = 0, .byDefault = "1", .help = "decides all buildings"},
+    {.name = "-o,--output",
+     .value = "DIR",
+     .help = "folder that the files are written into",
+     .isRequired = true,
+     .file = FileUse::OutputFolder},
+};
+
 // build
 
 constexpr Option kBuild[] = {
@@ -838,6 +868,7 @@ std::string_view volumeFormatHelp() {
 std::span<const CommandText> commandTexts() {
     static const CommandText kCommands[] = {
         {"sample", "Write a generated model: a house, a tower of flats, a district", {kSample, kQuiet}},
+        {"sample-city", "Write a generated city: many buildings in many files", {kSampleCity, kThreads, kQuiet}},
         {"build",
          "Make a volume (.svt) of one or more model files",
          {kBuild, kGrid, kGridOf, kModel, kMemory, kStyle, kVoxels, kBuildOutput, kQuiet, kVerbose}},

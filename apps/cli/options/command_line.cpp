@@ -110,6 +110,20 @@ int flushed(int exitCode) {
     return exitCode == kDone ? kOutput : exitCode;
 }
 
+// Commands of two words: "svt city plan" is "svt city-plan".
+std::vector<std::string> joinedWords(int argc, char** argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.size() < 2) return words;
+    const std::string joined = words[0] + "-" + words[1];
+    for (const CommandText& text : commandTexts())
+        if (text.name == joined) {
+            words.erase(words.begin());
+            words[0] = joined;
+            break;
+        }
+    return words;
+}
+
 // The parser with all commands.
 struct Parser {
     CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
@@ -190,7 +204,8 @@ double Command::number(const std::string& text) {
 int runCommandLine(int argc, char** argv, std::span<const CommandAction> commands) {
     Parser parser;
     try {
-        parser.app.parse(argc, argv);
+        std::vector<std::string> words = joinedWords(argc, argv);
+        parser.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them: last first
     } catch (const CLI::CallForHelp& help) {
         parser.app.exit(help);
         return flushed(kDone);

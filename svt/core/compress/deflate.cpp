@@ -86,6 +86,45 @@ Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format, s
     }
 }
 
+struct GzipStream::State {
+    z_stream stream{};
+    bool isComplete = true, isDamaged = false;
+};
+
+GzipStream::GzipStream() : state_(std::make_unique<State>()) {
+    if (inflateInit2(&state_->stream, kGzipWindow) != Z_OK) throw std::bad_alloc();
+}
+GzipStream::GzipStream(GzipStream&&) noexcept = default;
+GzipStream& GzipStream::operator=(GzipStream&&) noexcept = default;
+GzipStream::~GzipStream() {
+    if (state_ != nullptr) inflateEnd(&state_->stream);
+}
+
+InflateStatus GzipStream::append(std::span<const std::byte> packed, std::string& out) {
+    constexpr std::size_t kPiece = std::size_t{1} << 18;
+    if (state_->isDamaged) return InflateStatus::Damaged;
+    z_stream& stream = state_->stream;
+    stream.next_in = zlibBytes(packed);
+    stream.avail_in = static_cast<uInt>(packed.size());
+    while (stream.avail_in > 0) {
+        if (state_->isComplete) inflateReset(&stream);  // the first member, or the next one
+        state_->isComplete = false;
+        const std::size_t before = out.size();
+        out.resize(before + kPiece);
+        stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
+        stream.avail_out = static_cast<uInt>(kPiece);
+        const int state = inflate(&stream, Z_NO_FLUSH);
+        out.resize(before + kPiece - stream.avail_out);
+        if (state == Z_STREAM_END) state_->isComplete = true;
+        if (state == Z_STREAM_END || state == Z_OK || (state == Z_BUF_ERROR && stream.avail_in == 0)) continue;
+        state_->isDamaged = true;
+        return InflateStatus::Damaged;
+    }
+    return InflateStatus::Done;
+}
+
+bool GzipStream::isComplete() const noexcept { return state_->isComplete && !state_->isDamaged; }
+
 std::vector<std::byte> deflatePiece(std::span<const std::byte> bytes, int level, bool isLast) {
     return deflated(bytes, level, -MAX_WBITS, isLast ? Z_FINISH : Z_SYNC_FLUSH);
 }

@@ -109,6 +109,16 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(NoMeshes);
         SVT_CASE(NoCairo);
         SVT_CASE(BadSheets);
+        SVT_CASE(BadPlan);
+        SVT_CASE(PlanVersion);
+        SVT_CASE(BadPack);
+        SVT_CASE(BadCity);
+        SVT_CASE(CityIncomplete);
+        SVT_CASE(FeatureSkipped);
+        SVT_CASE(LinkedFeature);
+        SVT_CASE(InputChanged);
+        SVT_CASE(TaskFailed);
+        SVT_CASE(Replica);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

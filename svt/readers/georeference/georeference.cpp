@@ -131,6 +131,11 @@ private:
     }
 
     [[nodiscard]] gml::AxisDecision decide() const {
+        gml::AxisDecision decision = decideByContent();
+        if (options_.axisOrder == 0) return decision;
+        return {decision.isGeographic, options_.axisOrder < 0, {}};
+    }
+    [[nodiscard]] gml::AxisDecision decideByContent() const {
         const bool isDegrees = gml::decideAxes(given_.name, box_, 0).isGeographic;
         // The form "EPSG:n" promises no order; +1: the coordinates are taken as they are.
         const std::string name =

@@ -195,7 +195,11 @@ bool looksLikeSvt(std::span<const std::byte> head) noexcept {
            text.substr(kMimeOffset, kMimeType.size()) == kMimeType;
 }
 
-Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path) {
+namespace {
+
+// Hands the entries of a volume's file to `write`.
+template <class Write>
+auto withEntries(const SemanticVolume& volume, Write&& write) -> decltype(write(std::span<const ZipSource>())) {
     if (auto checked = checkWritable(volume); !checked) return checked.error();
     const std::string header = writeHeaderJson(volume);
     const std::string labels = writeLabelsJson(volume.labels);
@@ -226,7 +230,17 @@ Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesyst
     entries[4].parts.assign(compressed->frames.begin(), compressed->frames.end());
     if (!vectors.empty()) entries.push_back({std::string(kVectors), {std::span<const std::byte>(vectors)}});
     if (!planes.empty()) entries.push_back({std::string(kPlanes), {std::span<const std::byte>(planes)}});
-    return writeZip(path, entries);
+    return write(std::span<const ZipSource>(entries));
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path) {
+    return withEntries(volume, [&](std::span<const ZipSource> entries) { return writeZip(path, entries); });
+}
+
+Result<std::vector<std::byte>> svtBytes(const SemanticVolume& volume) {
+    return withEntries(volume, [](std::span<const ZipSource> entries) { return zipBytes(entries); });
 }
 
 Result<SemanticVolume> readSvt(std::span<const std::byte> bytes, const std::string& name) {

@@ -406,14 +406,26 @@ std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before) {
     return static_cast<std::uint32_t>(crc);
 }
 
-Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
-                               std::uint64_t zip64From) {
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+namespace {
+
+// A container in memory, with the calls of AtomicFile.
+struct MemoryFile {
+    std::vector<std::byte> bytes;
+
+    [[nodiscard]] std::uint64_t size() const noexcept { return bytes.size(); }
+    Result<void> write(std::span<const std::byte> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+        return {};
+    }
+    Result<void> write(std::string_view text) { return write(std::as_bytes(std::span(text.data(), text.size()))); }
+};
+
+template <class File>
+Result<void> putZip(File& file, std::span<const ZipSource> entries, std::uint64_t zip64From) {
     Record directory;
     for (const ZipSource& entry : entries) {
         Placed placed;
-        placed.offset = file->size();
+        placed.offset = file.size();
         for (const auto part : entry.parts) {
             placed.crc = crc32Of(part, placed.crc);
             placed.size += part.size();
@@ -431,14 +443,29 @@ Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<cons
                 parts.assign(packed.begin(), packed.end());
             }
         }
-        if (auto written = file->write(localHeader(entry, placed, zip64From)); !written) return written.error();
+        if (auto written = file.write(localHeader(entry, placed, zip64From)); !written) return written.error();
         for (const auto part : parts)
-            if (auto written = file->write(part); !written) return written.error();
+            if (auto written = file.write(part); !written) return written.error();
         appendCentralHeader(directory, entry, placed, zip64From);
     }
-    appendEnd(directory, entries.size(), file->size(), zip64From);
-    if (auto written = file->write(directory.bytes()); !written) return written.error();
+    appendEnd(directory, entries.size(), file.size(), zip64From);
+    return file.write(directory.bytes());
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
+                               std::uint64_t zip64From) {
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    if (auto written = putZip(*file, entries, zip64From); !written) return written.error();
     return file->commit();
+}
+
+Result<std::vector<std::byte>> zipBytes(std::span<const ZipSource> entries) {
+    MemoryFile file;
+    if (auto written = putZip(file, entries, 0xFFFFFFFFu); !written) return written.error();
+    return std::move(file.bytes);
 }
 
 Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {

@@ -46,6 +46,9 @@ struct ZipEntry {
 [[nodiscard]] Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
                                              std::uint64_t zip64From = 0xFFFFFFFFu);
 
+/// The bytes that writeZip() would write.
+[[nodiscard]] Result<std::vector<std::byte>> zipBytes(std::span<const ZipSource> entries);
+
 /// The entries in the order of the central directory. Offsets, sizes, names and both headers of each entry are checked
 /// against the file; the CRC is not.
 /// \return the entries, or BadVolume that names the entry and the reason

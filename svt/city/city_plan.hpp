@@ -1,0 +1,121 @@
+#pragma once
+/// \file
+/// The plan of a city: which features of which files make which tiles, and which tiles stand in which pack. It is made in
+/// one pass over all files; what is built later reads nothing but the features of its tiles.
+/// docs/formats/city.md has the files of a plan.
+
+#include <svt/core/diagnostics.hpp>
+#include <svt/core/progress.hpp>
+#include <svt/core/result.hpp>
+#include <svt/readers/feature_file.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace svt::city {
+
+/// What decides the content of a city beside its files.
+struct CityOptions {
+    double spacing = 0.5;  ///< metres between samples of the finest level, 0.001..100
+    double lod = -1;       ///< use no finer level of detail of the models; -1: the finest that each feature has
+    int crs = 0;           ///< EPSG code of a projection in metres; 0: that of the first file
+    friend bool operator==(const CityOptions&, const CityOptions&) = default;
+};
+
+/// A square of 2^level metres: x from `x` * 2^level on, y likewise.
+struct TileKey {
+    int level = 10;
+    std::int32_t x = 0, y = 0;
+    friend bool operator==(const TileKey&, const TileKey&) = default;
+    /// "10/383/5812".
+    [[nodiscard]] std::string toString() const;
+    [[nodiscard]] static Result<TileKey> fromString(const std::string& text);
+};
+
+/// An input file, and how all of its features are read.
+struct PlanFile {
+    std::string path;  ///< absolute
+    std::uint64_t size = 0;
+    int crs = 0;        ///< for ReadOptions::crs
+    int axisOrder = 0;  ///< for ReadOptions::axisOrder
+};
+
+struct PlanFeature {
+    std::uint32_t file = 0;
+    readers::FeatureSpan span;
+    std::uint64_t contentHash = 0;
+};
+
+struct PlanTile {
+    TileKey key;
+    std::uint64_t firstFeature = 0;
+    std::uint32_t featureCount = 0;
+    std::uint32_t pack = 0;
+    std::uint64_t cost = 0;  ///< microseconds, a guess
+};
+
+/// A plan without its features, which are read tile by tile.
+struct Plan {
+    static constexpr int kTopLevel = 10;  ///< tiles are squares of 1024 m and their quarters
+    static constexpr std::uint32_t kMaxFeatures = 256;
+
+    CityOptions options;
+    std::string program;         ///< version of the program that made it
+    std::string digest;          ///< SHA-256 of all of it, 64 hexadecimal digits
+    std::string featuresDigest;  ///< SHA-256 of features.bin, likewise
+    int crs = 0;
+    std::string crsName;
+    std::vector<PlanFile> files;
+    std::vector<PlanTile> tiles;  ///< ordered along the Morton curve
+    std::uint64_t features = 0, replicas = 0, skipped = 0;
+    std::uint32_t packs = 0;
+    std::uint32_t tasks = 0;  ///< for a cluster: each does packs / tasks of them
+
+    /// The tiles of a pack: [first, second) in `tiles`.
+    [[nodiscard]] std::array<std::size_t, 2> tilesOf(std::uint32_t pack) const;
+    /// The packs of task `task` of `tasks`: [first, second).
+    [[nodiscard]] std::array<std::uint32_t, 2> packsOf(std::uint32_t task, std::uint32_t tasks) const;
+};
+
+struct PlanOptions {
+    CityOptions city;
+    std::string program;      ///< version of the program
+    std::uint32_t tasks = 0;  ///< 0: by cost, some 5 minutes each, at most 1000
+    int threads = 0;
+    const Progress* progress = nullptr;
+};
+
+/// All files that `inputs` name, folders with everything below them that has the ending of a model, in order of names.
+/// \return the files, or CannotOpen for what is not there or a folder without models
+[[nodiscard]] Result<std::vector<std::filesystem::path>> cityInputs(std::span<const std::filesystem::path> inputs);
+
+/// Reads all files once and writes the plan into `folder`/plan.
+///
+/// A feature belongs to the tile that holds the middle of its box. One that stands in a file before with the same id and
+/// text is left out (finding Replica, one a file). What refers to other features is told (LinkedFeature), what cannot be
+/// read or has no geometry is left out and told (FeatureSkipped).
+/// \return the plan, or the error of a file that cannot be cut; EmptyModel if nothing is left; BadArgument; CannotWrite,
+///         DiskFull; Cancelled
+/// Cost: about that of reading the files. Memory: 52 bytes a feature, and a few hundred MB.
+[[nodiscard]] Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
+                                    const PlanOptions& options, Diagnostics& diagnostics);
+
+/// Reads the plan of a folder.
+/// \param program  version of this program; another one's plan is PlanVersion; empty: any
+/// \return the plan, or BadPlan (missing or damaged), PlanVersion
+[[nodiscard]] Result<Plan> readPlan(const std::filesystem::path& folder, const std::string& program);
+
+/// The features of tiles [first, last) of a plan, in their order.
+/// \return the features, or BadPlan
+[[nodiscard]] Result<std::vector<PlanFeature>> readPlanFeatures(const std::filesystem::path& folder, const Plan& plan,
+                                                                std::size_t first, std::size_t last);
+
+/// Morton number of a tile's south-western corner, of cells of a metre: the order of tiles.
+[[nodiscard]] std::uint64_t mortonOf(const TileKey& key) noexcept;
+
+}  // namespace svt::city

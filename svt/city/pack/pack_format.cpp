@@ -1,0 +1,220 @@
+#include <svt/city/pack/pack_format.hpp>
+
+#include <svt/city/base/bytes.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace svt::city {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kHead{"svtpack\0", 8}, kTail{"svtpend\0", 8};
+constexpr std::uint32_t kPackVersion = 1;
+constexpr std::size_t kHeadBytes = 48, kTailBytes = 32, kAlignment = 8;
+
+Error badPack(const std::filesystem::path& path, std::string_view what) {
+    return {Code::BadPack, fmt::format("{}; remove the file and run its task again", what), {path.string(), 0, 0, {}}};
+}
+
+std::uint64_t sumOf(std::string_view text) { return idHash(text); }
+
+void putMember(std::string& to, const PackMember& member) {
+    put(to, static_cast<std::uint8_t>(member.detail));
+    put(to, static_cast<std::uint8_t>(member.tile.level));
+    put(to, std::uint16_t{0});
+    put(to, member.tile.x);
+    put(to, member.tile.y);
+    put(to, static_cast<std::uint32_t>(member.buildings.size()));
+    put(to, member.offset);
+    put(to, member.size);
+    for (const double value :
+         {member.box.min.x, member.box.min.y, member.box.min.z, member.box.max.x, member.box.max.y, member.box.max.z})
+        put(to, value);
+    for (const PackBuilding& building : member.buildings) {
+        put(to, building.idHash);
+        put(to, building.label);
+    }
+}
+
+bool takeMember(Taker& from, std::uint64_t bodyEnd, PackMember& member) {
+    member.detail = from.take<std::uint8_t>();
+    member.tile.level = from.take<std::uint8_t>();
+    from.take<std::uint16_t>();
+    member.tile.x = from.take<std::int32_t>();
+    member.tile.y = from.take<std::int32_t>();
+    const auto buildings = from.take<std::uint32_t>();
+    member.offset = from.take<std::uint64_t>();
+    member.size = from.take<std::uint64_t>();
+    for (double* value : {&member.box.min.x, &member.box.min.y, &member.box.min.z, &member.box.max.x, &member.box.max.y,
+                          &member.box.max.z})
+        *value = from.take<double>();
+    if (!from.isGood() || buildings > from.left() / 12) return false;
+    for (std::uint32_t b = 0; b < buildings; ++b) {
+        const auto hash = from.take<std::uint64_t>();
+        member.buildings.push_back({hash, from.take<std::uint32_t>()});
+    }
+    return from.isGood() && isFinite(member.box.min) && isFinite(member.box.max) && !member.box.isEmpty() &&
+           member.tile.level <= Plan::kTopLevel && member.offset >= kHeadBytes && member.offset % kAlignment == 0 &&
+           member.offset <= bodyEnd && member.size <= bodyEnd - member.offset;
+}
+
+}  // namespace
+
+Result<PackWriter> PackWriter::create(const std::filesystem::path& path, std::uint32_t pack,
+                                      const std::string& planDigest) {
+    std::error_code failed;
+    std::filesystem::create_directories(path.parent_path(), failed);
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    PackWriter writer(std::move(*file));
+    std::string head(kHead);
+    put(head, kPackVersion);
+    put(head, pack);
+    const Digest digest = digestFromHex(planDigest);
+    head.append(reinterpret_cast<const char*>(digest.data()), digest.size());
+    if (auto written = writer.write(head); !written) return written.error();
+    return writer;
+}
+
+Result<void> PackWriter::write(std::span<const std::byte> bytes) {
+    sum_.add(bytes);
+    return file_.write(bytes);
+}
+
+Result<void> PackWriter::add(PackMember member, std::span<const std::byte> bytes) {
+    const std::string zeros((kAlignment - file_.size() % kAlignment) % kAlignment, '\0');
+    if (auto written = write(zeros); !written) return written;
+    member.offset = file_.size();
+    member.size = bytes.size();
+    putMember(directory_, member);
+    ++count_;
+    return write(bytes);
+}
+
+Result<std::string> PackWriter::commit() {
+    std::string directory;
+    put(directory, count_);
+    directory += directory_;
+    std::string tail;
+    put(tail, static_cast<std::uint64_t>(file_.size()));
+    put(tail, static_cast<std::uint64_t>(directory.size()));
+    put(tail, sumOf(directory));
+    tail += kTail;
+    if (auto written = write(directory + tail); !written) return written.error();
+    if (const auto done = file_.commit(); !done) return done.error();
+    return hexOf(sum_.finish());
+}
+
+Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& plan) {
+    auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    Pack pack(path, std::move(*file));
+    const std::string_view text = pack.file_.text();
+    if (text.size() < kHeadBytes + kTailBytes || !text.starts_with(kHead)) return badPack(path, "this is not a pack");
+    Taker head(text.substr(kHead.size()));
+    if (head.take<std::uint32_t>() != kPackVersion)
+        return Error(Code::PlanVersion, "the pack has a version that this program does not know",
+                     {path.string(), 0, 0, {}});
+    head.take<std::uint32_t>();
+    const Digest digest = digestFromHex(plan);
+    const std::string_view own = head.text(digest.size());
+    if (!plan.empty() && own != std::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()))
+        return badPack(path, "the pack was made by another plan");
+    Taker tail(text.substr(text.size() - kTailBytes));
+    const auto offset = tail.take<std::uint64_t>(), size = tail.take<std::uint64_t>(), sum = tail.take<std::uint64_t>();
+    if (tail.text(kTail.size()) != kTail || offset < kHeadBytes || offset > text.size() - kTailBytes ||
+        size != text.size() - kTailBytes - offset || sumOf(text.substr(offset, size)) != sum)
+        return badPack(path, "the directory of the pack is damaged, or its end is missing");
+    Taker from(text.substr(offset, size));
+    for (auto count = from.take<std::uint32_t>(); count > 0; --count) {
+        PackMember member;
+        if (!takeMember(from, offset, member)) return badPack(path, "the directory of the pack is damaged");
+        pack.members_.push_back(std::move(member));
+    }
+    return pack;
+}
+
+std::span<const std::byte> Pack::bytesOf(const PackMember& member) const noexcept {
+    return file_.bytes().subspan(member.offset, member.size);
+}
+
+Result<volume::SemanticVolume> Pack::read(const PackMember& member) const {
+    auto volume = volume::readSvt(bytesOf(member));
+    if (!volume)
+        return badPack(path_, fmt::format("tile {}, detail {}, is damaged ({})", member.tile.toString(), member.detail,
+                                          volume.error().message()));
+    return volume;
+}
+
+std::filesystem::path packPath(const std::filesystem::path& folder, std::uint32_t pack) {
+    return folder / "packs" / fmt::format("{:05}.svtp", pack);
+}
+
+std::filesystem::path reportPath(const std::filesystem::path& folder, std::uint32_t pack) {
+    return folder / "reports" / fmt::format("{:05}.json", pack);
+}
+
+std::string reportJson(const PackReport& report) {
+    Json json;
+    json["format"] = "svt-city-report";
+    json["pack"] = report.pack;
+    json["plan"] = report.plan;
+    json["sha256"] = report.sha256;
+    json["bytes"] = report.bytes;
+    json["members"] = report.members;
+    json["buildings"] = report.buildings;
+    json["skipped"] = Json::array();
+    for (const SkippedFeature& skipped : report.skipped)
+        json["skipped"].push_back({{"file", skipped.file}, {"begin", skipped.begin}, {"reason", skipped.reason}});
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<PackReport> readReport(const std::filesystem::path& path) {
+    const Error damaged(Code::CityIncomplete, "there is no report of the pack, or a damaged one; run its task again",
+                        {path.string(), 0, 0, {}});
+    const auto file = MappedFile::open(path, std::uint64_t{64} << 20);
+    if (!file) return damaged;
+    PackReport report;
+    try {
+        const Json json = Json::parse(file->text());
+        report.pack = json.at("pack").get<std::uint32_t>();
+        report.plan = json.at("plan").get<std::string>();
+        report.sha256 = json.at("sha256").get<std::string>();
+        report.bytes = json.at("bytes").get<std::uint64_t>();
+        report.members = json.at("members").get<std::uint64_t>();
+        report.buildings = json.at("buildings").get<std::uint64_t>();
+        for (const Json& skipped : json.at("skipped"))
+            report.skipped.push_back({skipped.at("file").get<std::string>(), skipped.at("begin").get<std::uint64_t>(),
+                                      skipped.at("reason").get<std::string>()});
+    } catch (const Json::exception&) {
+        return damaged;
+    }
+    return report;
+}
+
+Result<PackReport> provenReport(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack,
+                                bool isProven) {
+    auto report = readReport(reportPath(folder, pack));
+    if (!report) return report;
+    const std::filesystem::path path = packPath(folder, pack);
+    const auto open = [&](std::string_view what) {
+        return Error(Code::CityIncomplete, fmt::format("{}; run its task again", what), {path.string(), 0, 0, {}});
+    };
+    std::error_code failed;
+    if (report->plan != plan.digest || report->pack != pack) return open("the pack was made by another plan");
+    if (std::filesystem::file_size(path, failed) != report->bytes || failed)
+        return open("the pack is missing, or has another size than its report says");
+    if (!isProven) return report;
+    const auto file = MappedFile::open(path);
+    if (!file) return file.error();
+    if (hexOf(digestOf(file->text())) != report->sha256)
+        return open("the pack has another SHA-256 than its report says");
+    return report;
+}
+
+}  // namespace svt::city

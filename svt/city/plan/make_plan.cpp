@@ -1,0 +1,233 @@
+#include <svt/city/base/sha256.hpp>
+#include <svt/city/city_plan.hpp>
+#include <svt/city/plan/plan_files.hpp>
+#include <svt/city/plan/survey.hpp>
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace svt::city {
+namespace {
+
+constexpr std::uint64_t kTileCost = 4'000'000, kPackCost = 10'000'000, kTaskCost = 300'000'000;  // microseconds
+constexpr std::uint32_t kPackTiles = 2000;
+constexpr std::uint32_t kMaxTasks = 1000;  // the index of Slurm's arrays ends there by default
+constexpr std::int32_t kMaxTileSamples = 8192;
+
+bool isModelFile(const std::filesystem::path& path) {
+    std::string name = lowerAscii(path.filename().string());
+    if (name.ends_with(".gz")) name.resize(name.size() - 3);
+    for (const std::string_view ending : {".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson", ".ifc"})
+        if (name.ends_with(ending)) return true;
+    return false;
+}
+
+// The features of all tiles in their order, as numbers of surveyed ones.
+class Tiling {
+public:
+    Tiling(const Survey& survey, const CityOptions& options) : survey_(survey) {
+        // So fine that a tile's side has at most kMaxTileSamples.
+        least_ = Plan::kTopLevel - 3;
+        while (least_ > 0 && std::ldexp(1.0, least_) / options.spacing > kMaxTileSamples) --least_;
+        top_ = Plan::kTopLevel;
+        while (top_ > 0 && std::ldexp(1.0, top_) / options.spacing > kMaxTileSamples) --top_;
+    }
+
+    // Leaves out all but the first of features with equal id and text; counts them per file.
+    std::vector<std::uint64_t> dropReplicas() {
+        order_.resize(survey_.features.size());
+        for (std::uint32_t n = 0; n < order_.size(); ++n) order_[n] = n;
+        const auto key = [&](std::uint32_t n) {
+            const Surveyed& f = survey_.features[n];
+            return std::tuple(f.idHash, f.contentHash, f.size, n);
+        };
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        std::vector<std::uint64_t> dropped(survey_.files.size(), 0);
+        std::size_t kept = 0;
+        for (const std::uint32_t n : order_) {
+            const Surveyed& f = survey_.features[n];
+            if (kept != 0) {
+                const Surveyed& before = survey_.features[order_[kept - 1]];
+                if (before.idHash == f.idHash && before.contentHash == f.contentHash && before.size == f.size) {
+                    ++dropped[f.file];
+                    continue;
+                }
+            }
+            order_[kept++] = n;
+        }
+        order_.resize(kept);
+        return dropped;
+    }
+
+    void cut(Plan& plan) {
+        const auto key = [&](std::uint32_t n) {
+            const Surveyed& f = survey_.features[n];
+            return std::tuple(mortonOf(keyOf(f, least_)), f.file, f.begin);
+        };
+        std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+        for (std::size_t begin = 0; begin < order_.size();) {
+            const TileKey top = keyOf(survey_.features[order_[begin]], top_);
+            std::size_t end = begin + 1;
+            while (end < order_.size() && keyOf(survey_.features[order_[end]], top_) == top) ++end;
+            split(top, begin, end, plan);
+            begin = end;
+        }
+        pack(plan);
+    }
+
+    [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+
+private:
+    [[nodiscard]] static TileKey keyOf(const Surveyed& feature, int level) {
+        const std::int64_t side = std::int64_t{100} << level;
+        const auto cell = [&](std::int64_t at) {
+            return static_cast<std::int32_t>(at >= 0 ? at / side : -((-at + side - 1) / side));
+        };
+        return {level, cell(feature.x), cell(feature.y)};
+    }
+
+    void split(TileKey key, std::size_t begin, std::size_t end, Plan& plan) {
+        std::uint64_t cost = 0;
+        for (std::size_t n = begin; n < end; ++n) cost += survey_.features[order_[n]].cost;
+        const bool isLarge = end - begin > Plan::kMaxFeatures || (cost > kTileCost && end - begin > 1);
+        if (!isLarge || key.level <= least_) {
+            // Within a tile the order of files counts, so that files next to each other are read in one go.
+            std::sort(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+                      order_.begin() + static_cast<std::ptrdiff_t>(end), [&](std::uint32_t a, std::uint32_t b) {
+                          const Surveyed &f = survey_.features[a], &g = survey_.features[b];
+                          return std::tie(f.file, f.begin) < std::tie(g.file, g.begin);
+                      });
+            plan.tiles.push_back({key, begin, static_cast<std::uint32_t>(end - begin), 0, cost});
+            return;
+        }
+        while (begin < end) {
+            const TileKey quarter = keyOf(survey_.features[order_[begin]], key.level - 1);
+            std::size_t last = begin + 1;
+            while (last < end && keyOf(survey_.features[order_[last]], key.level - 1) == quarter) ++last;
+            split(quarter, begin, last, plan);
+            begin = last;
+        }
+    }
+
+    static void pack(Plan& plan) {
+        std::uint64_t cost = 0, all = 0;
+        std::uint32_t tiles = 0;
+        for (PlanTile& tile : plan.tiles) {
+            if (cost >= kPackCost || tiles == kPackTiles) {
+                ++plan.packs;
+                cost = 0;
+                tiles = 0;
+            }
+            ++tiles;
+            tile.pack = plan.packs;
+            cost += tile.cost;
+            all += tile.cost;
+        }
+        ++plan.packs;
+        if (plan.tasks == 0)
+            plan.tasks = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(all / kTaskCost + 1, 1, kMaxTasks));
+        plan.tasks = std::min(plan.tasks, plan.packs);
+    }
+
+    const Survey& survey_;
+    int least_ = 0, top_ = 0;
+    std::vector<std::uint32_t> order_;
+};
+
+Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey, const Tiling& tiling, Plan& plan) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder / "plan", failed);
+    auto features = AtomicFile::create(folder / "plan" / "features.bin");
+    if (!features) return features.error();
+    Sha256 featureSum;
+    for (const std::uint32_t n : tiling.order()) {
+        const Surveyed& f = survey.features[n];
+        const PlanFeature feature{f.file, {f.begin, f.size}, f.contentHash};
+        const std::string bytes = featureBytes(feature);
+        featureSum.add(bytes);
+        if (auto written = features->write(bytes); !written) return written;
+    }
+    plan.featuresDigest = hexOf(featureSum.finish());
+    std::string tiles;
+    for (const PlanTile& tile : plan.tiles) tiles += tileBytes(tile);
+    Sha256 sum;
+    sum.add(planJson(plan, ""));
+    sum.add(tiles);
+    plan.digest = hexOf(sum.finish());
+    if (auto done = features->commit(); !done) return done.error();
+    if (auto done = writeFileAtomically(folder / "plan" / "tiles.bin", tiles); !done) return done.error();
+    // Last, so that there is no plan without its parts.
+    if (auto done = writeFileAtomically(folder / "plan" / "plan.json", planJson(plan, plan.digest)); !done)
+        return done.error();
+    return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::filesystem::path>> cityInputs(std::span<const std::filesystem::path> inputs) {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (const fs::path& input : inputs) {
+        if (!fs::is_directory(input, failed)) {
+            files.push_back(input);
+            continue;
+        }
+        std::vector<fs::path> below;
+        for (fs::recursive_directory_iterator entry(input, failed), end; !failed && entry != end;
+             entry.increment(failed))
+            if (entry->is_regular_file(failed) && isModelFile(entry->path())) below.push_back(entry->path());
+        if (failed || below.empty())
+            return Error(Code::CannotOpen,
+                         "the folder cannot be read, or has no file that ends as a model does (.gml, .xml, .citygml, "
+                         ".json, .jsonl, .cityjson, .ifc, each also with .gz)",
+                         {input.string(), 0, 0, {}});
+        std::sort(below.begin(), below.end());
+        files.insert(files.end(), below.begin(), below.end());
+    }
+    return files;
+}
+
+Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
+                      const PlanOptions& options, Diagnostics& diagnostics) {
+    if (!(options.city.spacing >= 0.001 && options.city.spacing <= 100))
+        return Error(Code::BadArgument,
+                     fmt::format("spacing: {} is out of range; 0.001 to 100 m are possible", options.city.spacing));
+    Survey survey;
+    survey.crs = options.city.crs;
+    for (const std::filesystem::path& file : files)
+        if (auto surveyed = surveyFile(file, options, survey, diagnostics); !surveyed) return surveyed.error();
+    if (survey.features.empty()) return Error(Code::EmptyModel, "no file has a feature with geometry");
+    if (survey.features.size() > 0xFFFFFFF0u)
+        return Error(Code::InputTooBig, "a city has at most 4,294,967,280 features; plan it in parts");
+    Tiling tiling(survey, options.city);
+    const std::vector<std::uint64_t> replicas = tiling.dropReplicas();
+    Plan plan;
+    plan.options = options.city;
+    plan.program = options.program;
+    plan.crs = survey.crs;
+    plan.crsName = survey.crsName;
+    plan.files = survey.files;
+    plan.tasks = options.tasks;
+    plan.skipped = survey.skipped;
+    for (std::size_t f = 0; f < replicas.size(); ++f) {
+        plan.replicas += replicas[f];
+        if (replicas[f] != 0)
+            diagnostics.add(
+                Severity::Note, Code::Replica,
+                fmt::format("{} features stand in a file before with the same id and text; they are left out",
+                            replicas[f]),
+                {survey.files[f].path, 0, 0, {}});
+    }
+    plan.features = tiling.order().size();
+    tiling.cut(plan);
+    if (auto written = writePlan(folder, survey, tiling, plan); !written) return written.error();
+    return plan;
+}
+
+}  // namespace svt::city

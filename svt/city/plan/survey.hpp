@@ -1,0 +1,33 @@
+#pragma once
+/// \file
+/// One pass over the features of a file: where each stands, where it lies, what it costs.
+
+#include <svt/city/city_plan.hpp>
+
+#include <deque>
+
+namespace svt::city {
+
+/// A feature between survey and tiles. 48 bytes, for there are millions.
+struct Surveyed {
+    std::uint64_t begin = 0, size = 0, contentHash = 0, idHash = 0;
+    std::int32_t x = 0, y = 0;  ///< middle of its box, centimetres
+    std::uint32_t file = 0;
+    std::uint32_t cost = 0;  ///< microseconds
+};
+
+/// All features of all files.
+struct Survey {
+    std::deque<Surveyed> features;  ///< grows without moving
+    std::uint64_t skipped = 0;
+    int crs = 0;
+    std::string crsName;
+    std::vector<PlanFile> files;
+};
+
+/// Adds the features of a file. The first file with a CRS decides that of the city.
+/// \return nothing, or the error of a file that cannot be cut; Cancelled
+Result<void> surveyFile(const std::filesystem::path& path, const PlanOptions& options, Survey& survey,
+                        Diagnostics& diagnostics);
+
+}  // namespace svt::city

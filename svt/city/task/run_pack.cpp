@@ -1,0 +1,279 @@
+#include <svt/city/city_pack.hpp>
+#include <svt/city/pack/pack_format.hpp>
+#include <svt/city/tile/tile_builder.hpp>
+#include <svt/core/machine.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <thread>
+
+namespace svt::city {
+namespace {
+
+constexpr int kTooLong = 75;  // exit code of a process that took too long for its step
+
+// Features that are left out, by their number in the pack.
+using Skips = std::map<std::uint32_t, std::string>;
+
+/// Ends this process if a step takes longer than it may.
+class Watch {
+public:
+    Watch() : thread_([this] { run(); }) {}
+    ~Watch() {
+        {
+            const std::lock_guard lock(mutex_);
+            isOver_ = true;
+        }
+        changed_.notify_all();
+        thread_.join();
+    }
+    void begin(double seconds) {
+        const std::lock_guard lock(mutex_);
+        end_ = std::chrono::steady_clock::now() +
+               std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+        changed_.notify_all();
+    }
+
+private:
+    void run() {
+        std::unique_lock lock(mutex_);
+        while (!isOver_) {
+            if (!end_)
+                changed_.wait(lock);
+            else if (changed_.wait_until(lock, *end_) == std::cv_status::timeout && !isOver_ &&
+                     std::chrono::steady_clock::now() >= *end_)
+                std::_Exit(kTooLong);
+        }
+    }
+
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<std::chrono::steady_clock::time_point> end_;
+    bool isOver_ = false;
+    std::thread thread_;
+};
+
+// What a process says: "tile 12", "feature 40", "failed 40 reason", "error 501 text", "done".
+struct Said {
+    std::optional<std::size_t> tile;       // the last one begun
+    std::optional<std::uint32_t> feature;  // likewise
+    Skips failed;
+    std::optional<Error> error;
+    bool isDone = false;
+
+    explicit Said(const std::string& text) {
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t end = std::min(text.find('\n', at), text.size());
+            read(std::string_view(text).substr(at, end - at));
+            at = end + 1;
+        }
+    }
+
+private:
+    static std::uint64_t number(std::string_view text) {
+        return std::strtoull(std::string(text.substr(0, 20)).c_str(), nullptr, 10);
+    }
+    void read(std::string_view line) {
+        const auto after = [&](std::string_view word) -> std::optional<std::string_view> {
+            if (!line.starts_with(word)) return std::nullopt;
+            return line.substr(word.size());
+        };
+        if (const auto rest = after("@tile ")) tile = number(*rest);
+        if (const auto rest = after("@feature ")) feature = static_cast<std::uint32_t>(number(*rest));
+        if (const auto rest = after("@failed "))
+            failed[static_cast<std::uint32_t>(number(*rest))] =
+                rest->substr(std::min(rest->find(' '), rest->size() - 1) + 1);
+        if (const auto rest = after("@error "))
+            error = Error(static_cast<Code>(number(*rest)),
+                          std::string(rest->substr(std::min(rest->find(' '), rest->size() - 1) + 1)));
+        if (line == "@done") isDone = true;
+    }
+};
+
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    if (text.size() > 400) text.resize(400);
+    return text;
+}
+
+class PackWork {
+public:
+    PackWork(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack, const PackOptions& options)
+        : folder_(folder), plan_(plan), pack_(pack), options_(options) {}
+
+    Result<PackReport> run() {
+        // Each round that fails leaves out a feature at least, or a tile.
+        const auto [first, last] = plan_.tilesOf(pack_);
+        const std::size_t rounds = 2 * (last - first) + 2;
+        for (std::size_t round = 0; round < rounds; ++round) {
+            const double seconds = options_.tileSeconds * double(last - first) + 600;
+            const OwnProcessResult result =
+                inOwnProcess(seconds, [&](const Say& say) { guarded(say, [&] { return build(say); }); });
+            const Said said(result.text);
+            if (said.error) return *said.error;
+            if (said.isDone) return provenReport(folder_, plan_, pack_, false);
+            if (Progress::isCancelled(options_.progress)) return Error(Code::Cancelled, "stopped while building");
+            for (const auto& [feature, reason] : said.failed) skips_.emplace(feature, reason);
+            if (!said.tile) return failed(fmt::format("its process {}", faultText(result)));
+            if (auto tried = tryTile(*said.tile, faultText(result)); !tried) return tried.error();
+        }
+        return failed("too many of its tiles cannot be built");
+    }
+
+private:
+    [[nodiscard]] static std::string faultText(const OwnProcessResult& result) {
+        return result.fault == fmt::format("ended with code {}", kTooLong) ? "took too long" : result.fault;
+    }
+
+    [[nodiscard]] Error failed(std::string_view why) const {
+        return {
+            Code::TaskFailed, fmt::format("pack {} could not be built: {}", pack_, why), {folder_.string(), 0, 0, {}}};
+    }
+
+    template <class Work>
+    static void guarded(const Say& say, Work&& work) {
+        try {
+            if (const Result<void> done = work(); !done)
+                say(fmt::format("@error {} {}\n", static_cast<int>(done.error().code()),
+                                oneLine(done.error().where().toString() + ": " + done.error().message())));
+            else
+                say("@done\n");
+        } catch (const std::bad_alloc&) {
+            std::_Exit(76);
+        }
+    }
+
+    // Features of a tile that are not left out.
+    [[nodiscard]] std::vector<std::uint32_t> chosen(const PackFeatures& features, std::size_t tile) const {
+        std::vector<std::uint32_t> result;
+        const auto [begin, end] = features.ofTile(tile);
+        for (std::uint32_t n = begin; n < end; ++n)
+            if (!skips_.contains(n)) result.push_back(n);
+        return result;
+    }
+
+    // In a process of its own: the whole pack.
+    Result<void> build(const Say& say) {
+        Watch watch;
+        const auto features = PackFeatures::read(folder_, plan_, pack_);
+        if (!features) return features.error();
+        auto writer = PackWriter::create(packPath(folder_, pack_), pack_, plan_.digest);
+        if (!writer) return writer.error();
+        PackReport report{pack_, plan_.digest, {}, 0, 0, 0, {}};
+        const auto [first, last] = plan_.tilesOf(pack_);
+        for (std::size_t tile = first; tile < last; ++tile) {
+            say(fmt::format("@tile {}\n", tile));
+            watch.begin(options_.tileSeconds);
+            const std::vector<std::uint32_t> all = chosen(*features, tile);
+            if (all.empty()) continue;
+            if (options_.beforeFeature)
+                for (const std::uint32_t n : all) options_.beforeFeature(features->text(n));
+            auto built = buildTile(*features, all, plan_.options, options_.threads);
+            // The parent tries its features one by one.
+            if (!built) std::_Exit(77);
+            if (!*built) continue;
+            if (auto added = addTile(*writer, plan_.tiles[tile].key, **built, report); !added) return added;
+        }
+        watch.begin(3600);
+        report.bytes = writer->size();
+        auto sum = writer->commit();
+        if (!sum) return sum.error();
+        report.sha256 = *sum;
+        report.members = writer->count();
+        report.bytes = writer->size();
+        for (const auto& [feature, reason] : skips_) report.skipped.push_back(features->skipped(feature, reason));
+        std::error_code ignored;
+        std::filesystem::create_directories(folder_ / "reports", ignored);
+        const auto written = writeFileAtomically(reportPath(folder_, pack_), reportJson(report));
+        return written ? Result<void>() : written.error();
+    }
+
+    static Result<void> addTile(PackWriter& writer, const TileKey& key, const BuiltTile& tile, PackReport& report) {
+        for (const int detail : {0, 1}) {
+            const volume::SemanticVolume& volume = detail == 0 ? tile.full : tile.buildings;
+            const auto bytes = volume::svtBytes(volume);
+            if (!bytes) return bytes.error();
+            PackMember member;
+            member.tile = key;
+            member.detail = detail;
+            const Vec3d half = volume.grid.spacing() * 0.5;
+            member.box.min = volume.grid.origin() - half;
+            member.box.max =
+                volume.grid.origin() + scaled(toDouble(volume.grid.dimension()), volume.grid.spacing()) - half;
+            if (detail == 0) member.buildings = tile.labels;
+            if (auto added = writer.add(std::move(member), *bytes); !added) return added;
+        }
+        report.buildings += tile.labels.size();
+        return {};
+    }
+
+    // Tries the features of a tile one by one, and leaves out those that fail; the whole tile where none fails alone.
+    Result<void> tryTile(std::size_t tile, const std::string& fault) {
+        const std::size_t before = skips_.size();
+        std::uint32_t from = 0;
+        while (true) {
+            const OwnProcessResult result =
+                inOwnProcess(options_.featureSeconds * Plan::kMaxFeatures * 64,
+                             [&](const Say& say) { guarded(say, [&] { return tryFeatures(tile, from, say); }); });
+            const Said said(result.text);
+            if (said.error) return *said.error;
+            for (const auto& [feature, reason] : said.failed) skips_.emplace(feature, reason);
+            if (said.isDone) break;
+            if (!said.feature) return failed(faultText(result));
+            skips_.emplace(*said.feature, fmt::format("its process {}", faultText(result)));
+            from = *said.feature + 1;
+        }
+        if (skips_.size() != before) return {};
+        const auto features = readPlanFeatures(folder_, plan_, tile, tile + 1);
+        if (!features) return features.error();
+        const std::uint64_t offset = plan_.tiles[tile].firstFeature - plan_.tiles[plan_.tilesOf(pack_)[0]].firstFeature;
+        for (std::size_t n = 0; n < features->size(); ++n)
+            skips_.emplace(
+                static_cast<std::uint32_t>(offset + n),
+                fmt::format("the tile that it belongs to cannot be built ({}), although each of its features "
+                            "can alone",
+                            fault));
+        return {};
+    }
+
+    // In a process of its own.
+    Result<void> tryFeatures(std::size_t tile, std::uint32_t from, const Say& say) {
+        Watch watch;
+        const auto features = PackFeatures::read(folder_, plan_, pack_);
+        if (!features) return features.error();
+        for (const std::uint32_t n : chosen(*features, tile)) {
+            if (n < from) continue;
+            say(fmt::format("@feature {}\n", n));
+            watch.begin(options_.featureSeconds);
+            if (options_.beforeFeature) options_.beforeFeature(features->text(n));
+            const auto built = buildTile(*features, std::span(&n, 1), plan_.options, options_.threads);
+            if (!built) say(fmt::format("@failed {} {}\n", n, oneLine(built.error().message())));
+        }
+        return {};
+    }
+
+    const std::filesystem::path& folder_;
+    const Plan& plan_;
+    std::uint32_t pack_;
+    const PackOptions& options_;
+    Skips skips_;
+};
+
+}  // namespace
+
+Result<PackReport> runPack(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack,
+                           const PackOptions& options) {
+    if (pack >= plan.packs)
+        return Error(Code::BadArgument, fmt::format("pack {}: the plan has {} packs", pack, plan.packs));
+    if (auto done = provenReport(folder, plan, pack, true)) return done;
+    return PackWork(folder, plan, pack, options).run();
+}
+
+}  // namespace svt::city

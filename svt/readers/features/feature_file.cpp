@@ -1,0 +1,296 @@
+#include <svt/readers/feature_file.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/readers/citygml/citygml_reader.hpp>
+#include <svt/readers/cityjson/cityjson_reader.hpp>
+#include <svt/readers/features/gml_members.hpp>
+#include <svt/readers/features/json_objects.hpp>
+#include <svt/readers/features/json_scan.hpp>
+#include <svt/readers/features/text_stream.hpp>
+#include <svt/readers/read_model.hpp>
+#include <svt/readers/xml/xml_scanner.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+namespace svt::readers {
+
+using features::GmlMembers;
+using features::JsonObjects;
+using features::TextStream;
+
+struct FeatureFile::State {
+    std::filesystem::path path;
+    FeatureFormat format = FeatureFormat::Whole;
+    TextStream stream;
+    GmlMembers gml{{}};
+    std::string head;                  // of CityJSON: its line
+    std::string unpacked;              // CityJSON of a gzip file
+    std::optional<MappedFile> mapped;  // CityJSON, and what is one feature
+    std::optional<JsonObjects> objects;
+    std::size_t nextObject = 0;
+    std::string line;
+    std::optional<FeatureText> pending;  // the first member of CityGML, which ends the head
+
+    [[nodiscard]] Error error(Code code, std::string message) const {
+        return {code, std::move(message), {path.string(), 0, 0, {}}};
+    }
+    Result<bool> nextLine(FeatureText& feature);
+    Result<void> openGml();
+    Result<void> openJson();
+    Result<FeatureText> memberAt(const FeatureSpan& span);
+    Result<void> pickObjects(std::span<const FeatureSpan> spans,
+                             const std::function<Result<void>(std::size_t, std::string_view)>& take);
+};
+
+namespace {
+
+constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+constexpr std::size_t kShownBytes = std::size_t{1} << 20;
+
+std::span<const std::byte> textBytes(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+
+}  // namespace
+
+FeatureFile::FeatureFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+FeatureFile::FeatureFile(FeatureFile&&) noexcept = default;
+FeatureFile& FeatureFile::operator=(FeatureFile&&) noexcept = default;
+FeatureFile::~FeatureFile() = default;
+
+FeatureFormat FeatureFile::format() const noexcept { return state_->format; }
+
+double FeatureFile::progress() const noexcept {
+    if (state_->objects)
+        return state_->objects->count() == 0 ? 1 : double(state_->nextObject) / double(state_->objects->count());
+    return state_->stream.progress();
+}
+
+Result<FeatureFile> FeatureFile::open(const std::filesystem::path& path, const ReadOptions& options) {
+    static_cast<void>(options);
+    auto stream = TextStream::open(path);
+    if (!stream) return stream.error();
+    auto state = std::make_unique<State>();
+    state->path = path;
+    state->stream = std::move(*stream);
+    while (state->stream.window().size() < kShownBytes) {
+        const auto more = state->stream.more();
+        if (!more) return more.error();
+        if (!*more) break;
+    }
+    if (state->stream.window().starts_with(kUtf8Mark)) state->stream.discard(kUtf8Mark.size());
+    const std::string_view head = state->stream.window().substr(0, kShownBytes);
+    if (head.starts_with("\xFE\xFF") || head.starts_with("\xFF\xFE") ||
+        (head.size() > 1 && (head[0] == '\0' || head[1] == '\0')))
+        return state->error(Code::BadEncoding, "the text is UTF-16, which is not cut into features; save it as UTF-8");
+    Result<void> opened;
+    if (looksLikeCityGml(textBytes(head)))
+        opened = state->openGml();
+    else if (looksLikeCityJson(textBytes(head)))
+        opened = state->openJson();
+    if (!opened) return opened.error();
+    return FeatureFile(std::move(state));
+}
+
+Result<void> FeatureFile::State::openGml() {
+    format = FeatureFormat::CityGml;
+    gml = GmlMembers(path.string());
+    if (auto begun = gml.begin(stream); !begun) return begun;
+    FeatureText first;
+    const auto found = gml.next(stream, first);
+    if (!found) return found.error();
+    if (*found) pending = first;
+    return {};
+}
+
+// CityJSONSeq if a line holds the whole first object and something follows; else one document.
+Result<void> FeatureFile::State::openJson() {
+    std::size_t end = std::string_view::npos;
+    for (std::size_t from = 0; (end = stream.window().find('\n', from)) == std::string_view::npos;) {
+        from = stream.window().size();
+        const auto more = stream.more();
+        if (!more) return more.error();
+        if (!*more) break;
+    }
+    if (end != std::string_view::npos) {
+        const std::string_view line = stream.window().substr(0, end);
+        const std::size_t last = features::skipJson(line, 0);
+        if (last != features::kNoJson && features::skipJsonBlanks(line, last) == line.size()) {
+            auto lineHead = features::headOf(line, path.string());
+            if (!lineHead) return lineHead.error();
+            std::size_t next = end + 1;
+            while ((next = features::skipJsonBlanks(stream.window(), next)) == stream.window().size()) {
+                const auto more = stream.more();
+                if (!more) return more.error();
+                if (!*more) break;
+            }
+            if (next < stream.window().size()) {
+                head = *lineHead;
+                format = FeatureFormat::CityJsonSeq;
+                stream.discard(stream.base() + end + 1);
+                return {};
+            }
+        }
+    }
+    format = FeatureFormat::CityJson;
+    std::string_view text;
+    if (stream.isGzip()) {
+        while (true) {
+            const auto more = stream.more();
+            if (!more) return more.error();
+            if (!*more) break;
+        }
+        unpacked = stream.window();
+        text = unpacked;
+    } else {
+        auto file = MappedFile::open(path);
+        if (!file) return file.error();
+        mapped.emplace(std::move(*file));
+        text = mapped->text();
+        if (text.starts_with(kUtf8Mark)) text.remove_prefix(kUtf8Mark.size());
+    }
+    auto opened = JsonObjects::open(text, path.string());
+    if (!opened) return opened.error();
+    objects.emplace(std::move(*opened));
+    auto documentHead = features::headOf(text, path.string());
+    if (!documentHead) return documentHead.error();
+    head = std::move(*documentHead);
+    return {};
+}
+
+Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
+    std::size_t from = 0;
+    while (true) {
+        const std::size_t end = stream.window().find('\n', from);
+        if (end == std::string_view::npos) {
+            from = stream.window().size();
+            const auto more = stream.more();
+            if (!more) return more.error();
+            if (*more) continue;
+        }
+        const std::string_view line = stream.window().substr(0, end);
+        feature = {{stream.base(), line.size()}, line};
+        if (line.empty() && end == std::string_view::npos) return false;
+        stream.discard(stream.base() + line.size() + (end == std::string_view::npos ? 0 : 1));
+        if (features::skipJsonBlanks(line, 0) != line.size()) return true;
+        from = 0;
+    }
+}
+
+Result<bool> FeatureFile::next(FeatureText& feature) {
+    State& state = *state_;
+    switch (state.format) {
+        case FeatureFormat::CityGml:
+            if (state.pending) {
+                feature = *state.pending;
+                state.pending.reset();
+                return true;
+            }
+            return state.gml.next(state.stream, feature);
+        case FeatureFormat::CityJsonSeq: return state.nextLine(feature);
+        case FeatureFormat::CityJson:
+            if (state.nextObject == state.objects->count()) return false;
+            state.line = state.objects->line(state.nextObject);
+            feature = {state.objects->spanOf(state.nextObject++), state.line};
+            return true;
+        case FeatureFormat::Whole: break;
+    }
+    if (state.nextObject++ != 0) return false;
+    auto file = MappedFile::open(state.path);
+    if (!file) return file.error();
+    state.mapped.emplace(std::move(*file));
+    feature = {{0, state.mapped->bytes().size()}, state.mapped->text()};
+    return true;
+}
+
+// The member or line that stands at `span`.
+Result<FeatureText> FeatureFile::State::memberAt(const FeatureSpan& span) {
+    if (pending && pending->span == span) return *pending;
+    if (!stream.isGzip()) {
+        stream.seek(span.begin);
+    } else {
+        if (span.begin < stream.base()) return error(Code::InputChanged, "features are asked for out of their order");
+        while (stream.base() + stream.window().size() < span.begin) {
+            stream.discard(stream.base() + stream.window().size());
+            const auto more = stream.more();
+            if (!more) return more.error();
+            if (!*more) break;
+        }
+        stream.discard(std::min<std::uint64_t>(span.begin, stream.base() + stream.window().size()));
+    }
+    while (stream.window().size() < span.size) {
+        const auto more = stream.more();
+        if (!more) return more.error();
+        if (!*more)
+            return error(Code::InputChanged, fmt::format("the file ends before byte {}", span.begin + span.size));
+    }
+    return FeatureText{span, stream.window().substr(0, span.size)};
+}
+
+Result<void> FeatureFile::State::pickObjects(std::span<const FeatureSpan> spans,
+                                             const std::function<Result<void>(std::size_t, std::string_view)>& take) {
+    for (std::size_t s = 0; s < spans.size(); ++s) {
+        const std::size_t object = objects->findAt(spans[s].begin);
+        if (object == objects->count() || !(objects->spanOf(object) == spans[s]))
+            return error(Code::InputChanged, fmt::format("no object begins at byte {}", spans[s].begin));
+        if (auto taken = take(s, objects->line(object)); !taken) return taken;
+    }
+    return {};
+}
+
+Result<void> FeatureFile::pick(std::span<const FeatureSpan> spans,
+                               const std::function<Result<void>(std::size_t, std::string_view)>& take) {
+    State& state = *state_;
+    if (state.format == FeatureFormat::CityJson) return state.pickObjects(spans, take);
+    for (std::size_t s = 0; s < spans.size(); ++s) {
+        FeatureText feature;
+        if (state.format == FeatureFormat::Whole) {
+            if (const auto found = next(feature); !found) return found.error();
+            if (!(feature.span == spans[s])) return state.error(Code::InputChanged, "the file has another size");
+        } else {
+            const auto member = state.memberAt(spans[s]);
+            if (!member) return member.error();
+            feature = *member;
+        }
+        if (auto taken = take(s, feature.text); !taken) return taken;
+    }
+    return {};
+}
+
+Result<model::BuildingModel> FeatureFile::read(std::span<const std::string_view> features, const ReadOptions& options,
+                                               Diagnostics* diagnostics, std::vector<std::uint32_t>* featureOf) const {
+    const State& state = *state_;
+    const std::string name = state.path.string();
+    if (state.format == FeatureFormat::Whole) {
+        auto model = readModel(textBytes(features.front()), name, options, diagnostics);
+        if (model && featureOf != nullptr) featureOf->assign(model->roots.size(), 0);
+        return model;
+    }
+    std::string document;
+    std::uint64_t line = 2;
+    if (state.format == FeatureFormat::CityGml) {
+        document = state.gml.document(features);
+        line = state.gml.linesBefore() + 1;
+    } else {
+        document = state.head;
+        for (const std::string_view feature : features) (document += '\n') += feature;
+        document += '\n';
+    }
+    auto model = readModel(textBytes(document), name, options, diagnostics);
+    if (!model || featureOf == nullptr) return model;
+    std::vector<std::uint64_t> firstLine;
+    for (const std::string_view feature : features) {
+        firstLine.push_back(line);
+        line += xml::countLines(feature) + 1;
+    }
+    featureOf->clear();
+    for (const model::FeatureIndex root : model->roots) {
+        const auto after = std::upper_bound(firstLine.begin(), firstLine.end(), model->features[root].line);
+        featureOf->push_back(static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(1, after - firstLine.begin()) - 1));
+    }
+    return model;
+}
+
+}  // namespace svt::readers

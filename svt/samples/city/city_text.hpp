@@ -1,0 +1,42 @@
+#pragma once
+/// \file
+/// The text of a generated city's file: CityGML or CityJSONSeq, building by building.
+
+#include <svt/samples/city/city_building.hpp>
+#include <svt/samples/formats/sample_text.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace svt::samples::city {
+
+class CityText {
+public:
+    /// Writes what stands before the first building.
+    CityText(const CitySampleOptions& options, int file, const SampleSink& sink);
+    void write(const Building& building);
+    void finish();
+    [[nodiscard]] bool hasFailed() const { return sink_.hasFailed(); }
+
+private:
+    void gmlHead();
+    void gmlBuilding(const Building& building);
+    void gmlBody(const Body& body, const std::string& id, const Building& building);
+    void gmlSurface(const Face& face, const std::string& id, int lod);
+    void gmlRoom(const Body& room, const std::string& id);
+    void gmlPolygon(const Face& face, const std::string& id);
+    void gmlRing(const Ring& ring);
+    void jsonHead();
+    void jsonBuilding(const Building& building);
+    void coordinates(Point point);
+
+    const CitySampleOptions& options_;
+    TextSink sink_;
+    bool isVersion1_ = false;
+};
+
+/// The point of the map, in the units that the profile's numbers have: millimetres; thousandths of a US survey foot;
+/// 1e-9 degrees (longitude, latitude) and millimetres.
+[[nodiscard]] Point mapPoint(CityProfile profile, Point point);
+
+}  // namespace svt::samples::city
