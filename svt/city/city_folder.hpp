@@ -1,0 +1,103 @@
+#pragma once
+/// \file
+/// A city on disk as a whole: merged from its packs, and asked for tiles, boxes and ids. docs/formats/city.md specifies
+/// city.json, index.bin and ids.bin.
+
+#include <svt/city/city_pack.hpp>
+#include <svt/city/city_plan.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace svt::city {
+
+/// Where a tile stands at one level of detail.
+struct IndexEntry {
+    TileKey tile;
+    int detail = 0;
+    std::uint32_t pack = 0;
+    std::uint64_t offset = 0, size = 0;
+    std::int32_t lowest = 0, highest = 0;  ///< metres above datum, rounded outwards
+    std::uint32_t buildings = 0;
+};
+
+/// What is done of a plan.
+struct CityStatus {
+    std::uint32_t packs = 0;
+    std::vector<std::uint32_t> missing;  ///< packs without a report that fits, or with another size
+    std::uint64_t bytes = 0, buildings = 0;
+    std::vector<SkippedFeature> skipped;
+};
+/// \param isProven  whether the SHA-256 of each pack is compared, too
+[[nodiscard]] CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, bool isProven);
+
+/// Merges the packs of a plan that are there: writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
+/// \return what is merged and what is missing, or BadPack, CannotWrite, DiskFull; CityIncomplete if no pack is done
+/// Memory: 40 bytes a tile and 16 a building.
+[[nodiscard]] Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan,
+                                           const Progress* progress = nullptr);
+
+/// A merged city.
+class City {
+public:
+    /// Reads city.json and the root of the index.
+    /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion
+    [[nodiscard]] static Result<City> open(const std::filesystem::path& folder);
+
+    [[nodiscard]] double spacing() const noexcept { return spacing_; }
+    [[nodiscard]] const std::string& crsName() const noexcept { return crsName_; }
+    [[nodiscard]] std::uint64_t buildings() const noexcept { return buildings_; }
+    [[nodiscard]] std::uint64_t tiles() const noexcept { return tiles_; }
+    [[nodiscard]] std::uint32_t packs() const noexcept { return packs_; }
+    [[nodiscard]] std::uint64_t packBytes() const noexcept { return packBytes_; }
+    [[nodiscard]] std::uint64_t missingPacks() const noexcept { return missing_; }
+    [[nodiscard]] std::uint64_t skippedFeatures() const noexcept { return skipped_; }
+    [[nodiscard]] const std::string& planDigest() const noexcept { return plan_; }
+    [[nodiscard]] const Box3d& box() const noexcept { return box_; }
+
+    /// Entries of a level of detail whose tiles meet [west, south, east, north] (metres); all for an infinite rectangle.
+    /// Reads only the pages of the index that meet it.
+    [[nodiscard]] Result<std::vector<IndexEntry>> find(int detail, const std::array<double, 4>& rectangle) const;
+    /// Where buildings with an id stand: tile and label of detail 0. Reads the fence and one or two pages of ids.bin.
+    struct Place {
+        TileKey tile;
+        std::uint32_t label = 0;
+    };
+    [[nodiscard]] Result<std::vector<Place>> find(const std::string& id) const;
+
+    /// The volume of an entry. \return the volume, or BadPack, BadCity
+    [[nodiscard]] Result<volume::SemanticVolume> read(const IndexEntry& entry) const;
+
+private:
+    struct Page;
+    explicit City(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    [[nodiscard]] Error damaged(const char* file, std::string_view what) const;
+    Result<void> readEntries(const Page& page, std::vector<IndexEntry>& to) const;
+
+    std::filesystem::path folder_;
+    double spacing_ = 0;
+    std::string crsName_, plan_;
+    std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0, indexBytes_ = 0;
+    std::uint32_t packs_ = 0;
+    Box3d box_;
+    std::string root_;  // of the index
+};
+
+/// Chosen parts of a city as one volume.
+struct Extract {
+    std::vector<TileKey> tiles;    ///< whole tiles
+    std::vector<std::string> ids;  ///< buildings by id
+    std::array<double, 6> box{};   ///< west, south, lowest, east, north, highest
+    bool hasBox = false;
+    int detail = 0;
+};
+
+/// Puts parts of a city together on its lattice. Samples of one tile are those of its member; where several tiles fill a
+/// sample, the first along the Morton curve has it.
+/// \return the volume, or NothingSelected, BadArgument, GridTooLarge, BadPack, BadCity
+[[nodiscard]] Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract);
+
+}  // namespace svt::city

@@ -1,0 +1,158 @@
+#include <svt/city/join/join_volumes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::city {
+namespace {
+
+using volume::ColumnTileBuilder;
+using volume::ColumnTileData;
+using volume::ColumnVolume;
+using volume::Run;
+using volume::Scalar;
+
+struct Part {
+    const ColumnVolume* columns = nullptr;
+    Vec3i begin{};      // of its first sample in the whole
+    Scalar before = 0;  // scalars of the parts before
+};
+
+class Joiner {
+public:
+    Joiner(std::vector<Part> parts, Vec3i dimension) : parts_(std::move(parts)), dimension_(dimension) {}
+
+    ColumnVolume run() {
+        constexpr std::int32_t kSize = ColumnVolume::kTileSize;
+        std::vector<ColumnTileData> tiles;
+        for (std::int32_t j = 0; j < dimension_.y; j += kSize)
+            for (std::int32_t i = 0; i < dimension_.x; i += kSize)
+                tiles.push_back(tile(i, j, std::min(kSize, dimension_.x - i), std::min(kSize, dimension_.y - j)));
+        return ColumnVolume::fromTiles(dimension_, std::move(tiles));
+    }
+
+private:
+    ColumnTileData tile(std::int32_t iBegin, std::int32_t jBegin, std::int32_t width, std::int32_t height) {
+        std::vector<const Part*> meeting;
+        for (const Part& part : parts_) {
+            const Vec3i n = part.columns->dimension();
+            if (part.begin.x < iBegin + width && iBegin < part.begin.x + n.x && part.begin.y < jBegin + height &&
+                jBegin < part.begin.y + n.y)
+                meeting.push_back(&part);
+        }
+        ColumnTileBuilder builder(width);
+        std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+        for (std::int32_t j = jBegin; j < jBegin + height; ++j) {
+            for (std::int32_t x = 0; x < width; ++x)
+                row[std::size_t(x)] = builder.addColumn(column(meeting, iBegin + x, j));
+            builder.addRow(row);
+        }
+        return builder.finish();
+    }
+
+    std::span<const Run> column(const std::vector<const Part*>& meeting, std::int32_t i, std::int32_t j) {
+        whole_.assign(1, {static_cast<std::uint32_t>(dimension_.z), 0});
+        for (const Part* part : meeting) {
+            const Vec3i n = part->columns->dimension();
+            const std::int32_t x = i - part->begin.x, y = j - part->begin.y;
+            if (x < 0 || y < 0 || x >= n.x || y >= n.y) continue;
+            lay(*part, part->columns->column(x, y));
+        }
+        return whole_;
+    }
+
+    // Lays the runs of a part under those that are there.
+    void lay(const Part& part, std::span<const Run> runs) {
+        if (runs.size() == 1 && runs[0].scalar == 0) return;
+        next_.clear();
+        std::uint32_t from = 0;
+        std::size_t under = 0;
+        const auto low = static_cast<std::uint32_t>(part.begin.z);
+        for (const Run& over : whole_)
+            while (from < over.end) {
+                Scalar scalar = 0;
+                std::uint32_t end = over.end;
+                if (from < low) {
+                    end = std::min(end, low);
+                } else {
+                    while (under < runs.size() && runs[under].end + low <= from) ++under;
+                    if (under < runs.size()) {
+                        end = std::min(end, runs[under].end + low);
+                        scalar = runs[under].scalar == 0 ? 0 : runs[under].scalar + part.before;
+                    }
+                }
+                if (over.scalar != 0) scalar = over.scalar;
+                if (!next_.empty() && next_.back().scalar == scalar)
+                    next_.back().end = end;
+                else
+                    next_.push_back({end, scalar});
+                from = end;
+            }
+        std::swap(whole_, next_);
+    }
+
+    std::vector<Part> parts_;
+    Vec3i dimension_;
+    std::vector<Run> whole_, next_;
+};
+
+// The labels of `from`, with numbers behind those of `into`.
+void appendLabels(volume::LabelTable& into, const volume::LabelTable& from, Scalar before) {
+    const auto first = static_cast<std::uint32_t>(into.labels.size());
+    for (volume::Label label : from.labels) {
+        if (label.parent != volume::kNoLabel) label.parent += first;
+        label.subtreeEnd += first;
+        for (std::uint32_t& group : label.groups) group += first;
+        if (label.count > 0) label.first += before;
+        into.labels.push_back(std::move(label));
+    }
+}
+
+}  // namespace
+
+Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolume> volumes) {
+    const volume::SemanticVolume& first = volumes.front();
+    const Vec3d spacing = first.grid.spacing();
+    std::vector<Part> parts;
+    Vec3i low, high;
+    volume::SemanticVolume result;
+    Scalar before = 0;
+    for (const volume::SemanticVolume& volume : volumes) {
+        Part part{&volume.columns, {}, before};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double steps = (volume.grid.origin()[axis] - first.grid.origin()[axis]) / spacing[axis];
+            if (!volume.grid.isAxisParallel() || volume.grid.spacing()[axis] != spacing[axis] ||
+                std::abs(steps) > 1e8 || std::abs(steps - std::round(steps)) > 0.01)
+                return Error(Code::BadArgument, "the tiles do not lie on one lattice");
+            part.begin[axis] = static_cast<std::int32_t>(std::lround(steps));
+            const std::int32_t end = part.begin[axis] + volume.grid.dimension()[axis];
+            low[axis] = parts.empty() ? part.begin[axis] : std::min(low[axis], part.begin[axis]);
+            high[axis] = parts.empty() ? end : std::max(high[axis], end);
+        }
+        parts.push_back(part);
+        const Scalar scalars = volume.labels.scalarCount();
+        if (scalars > volume::kMaxScalarCount - before)
+            return Error(Code::TooManyLabels,
+                         fmt::format("the parts have more than {} scalars; take fewer tiles", volume::kMaxScalarCount));
+        appendLabels(result.labels, volume.labels, before);
+        before += scalars - 1;
+    }
+    for (Part& part : parts) part.begin = part.begin - low;
+    const Vec3d origin = first.grid.origin() + scaled(toDouble(low), spacing);
+    const auto grid = volume::Grid::fromParts(high - low, spacing, origin, first.grid.axes());
+    if (!grid) return Error(Code::GridTooLarge, grid.error().message() + "; take fewer tiles, or a coarser detail");
+    result.grid = *grid;
+    result.crsName = first.crsName;
+    result.modelName = first.modelName;
+    result.columns = Joiner(std::move(parts), high - low).run();
+    const auto counts = result.columns.countVoxels(result.labels.scalarCount());
+    for (volume::Label& label : result.labels.labels) {
+        label.voxels = 0;
+        for (Scalar s = 0; s < label.count; ++s) label.voxels += counts[label.first + s];
+    }
+    return result;
+}
+
+}  // namespace svt::city

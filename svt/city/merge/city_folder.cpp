@@ -1,0 +1,235 @@
+#include <svt/city/city_folder.hpp>
+
+#include <svt/city/base/bytes.hpp>
+#include <svt/city/base/sha256.hpp>
+#include <svt/city/join/join_volumes.hpp>
+#include <svt/city/merge/index_file.hpp>
+#include <svt/core/file.hpp>
+#include <svt/volume/volume_part.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+
+namespace svt::city {
+namespace {
+
+// Bytes [offset, offset + size) of a file; shorter where it ends.
+std::string bytesAt(const std::filesystem::path& path, std::uint64_t offset, std::size_t size) {
+    std::ifstream file(path, std::ios::binary);
+    std::string bytes(size, '\0');
+    file.seekg(static_cast<std::streamoff>(offset));
+    file.read(bytes.data(), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+    return bytes;
+}
+
+bool meets(const std::array<double, 4>& a, double west, double south, double east, double north) {
+    return a[0] <= east && west <= a[2] && a[1] <= north && south <= a[3];
+}
+
+}  // namespace
+
+struct City::Page : PageRef {};
+
+Error City::damaged(const char* file, std::string_view what) const {
+    return {Code::BadCity,
+            fmt::format("{}; merge the city again (svt city merge)", what),
+            {(folder_ / file).string(), 0, 0, {}}};
+}
+
+Result<City> City::open(const std::filesystem::path& folder) {
+    City city(folder);
+    const auto file = MappedFile::open(folder / "city.json", 1 << 20);
+    if (!file) return city.damaged("city.json", "the folder has no merged city");
+    try {
+        const auto json = nlohmann::json::parse(file->text());
+        if (json.at("format") != "svt-city") return city.damaged("city.json", "this is no city");
+        if (json.at("version").get<int>() != 1)
+            return Error(Code::PlanVersion, "the city has a version that this program does not know",
+                         {(folder / "city.json").string(), 0, 0, {}});
+        city.crsName_ = json.at("crsName").get<std::string>();
+        city.plan_ = json.at("plan").get<std::string>();
+        city.spacing_ = json.at("details").at(0).at("spacing").get<double>();
+        city.buildings_ = json.at("buildings").get<std::uint64_t>();
+        city.tiles_ = json.at("tiles").get<std::uint64_t>();
+        city.packs_ = json.at("packs").at("count").get<std::uint32_t>();
+        city.packBytes_ = json.at("packs").at("bytes").get<std::uint64_t>();
+        city.missing_ = json.at("packs").at("missing").get<std::uint64_t>();
+        city.skipped_ = json.at("skippedFeatures").get<std::uint64_t>();
+        const auto box = json.at("box").get<std::array<double, 6>>();
+        city.box_ = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
+    } catch (const nlohmann::json::exception&) {
+        return city.damaged("city.json", "the file is damaged");
+    }
+    const std::string head = bytesAt(folder / "index.bin", 0, kIndexHead + kIndexPage);
+    Taker from(head);
+    const std::string_view magic = from.text(8);
+    const auto version = from.take<std::uint32_t>();
+    const auto refs = from.take<std::uint32_t>();
+    const auto size = from.take<std::uint64_t>(), sum = from.take<std::uint64_t>();
+    if (magic != std::string_view("svtindx\0", 8) || version != 1 || size > kIndexPage ||
+        size != std::uint64_t{refs} * PageRef::kBytes || from.left() < size ||
+        idHash(head.substr(kIndexHead, size)) != sum)
+        return city.damaged("index.bin", "the root of the index is missing or damaged");
+    city.root_ = head.substr(kIndexHead, size);
+    return city;
+}
+
+Result<void> City::readEntries(const Page& page, std::vector<IndexEntry>& to) const {
+    const std::string bytes = bytesAt(folder_ / "index.bin", kIndexHead + root_.size() + page.offset, page.size);
+    const auto entries = idHash(bytes) == page.checksum ? takeEntries(bytes) : std::nullopt;
+    if (!entries) return damaged("index.bin", fmt::format("the page at byte {} is damaged", page.offset));
+    to.insert(to.end(), entries->begin(), entries->end());
+    return {};
+}
+
+Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 4>& rectangle) const {
+    std::vector<IndexEntry> found;
+    auto open = takeRefs(root_);
+    if (!open) return damaged("index.bin", "the root of the index is damaged");
+    std::reverse(open->begin(), open->end());
+    while (!open->empty()) {
+        const PageRef ref = open->back();
+        open->pop_back();
+        if (ref.detail != detail ||
+            !meets(rectangle, ref.rectangle[0], ref.rectangle[1], ref.rectangle[2], ref.rectangle[3]))
+            continue;
+        if (ref.isLeaf) {
+            if (auto read = readEntries({ref}, found); !read) return read.error();
+            continue;
+        }
+        const std::string bytes = bytesAt(folder_ / "index.bin", kIndexHead + root_.size() + ref.offset, ref.size);
+        const auto below = idHash(bytes) == ref.checksum ? takeRefs(bytes) : std::nullopt;
+        // A page stands before those that refer to it, so this ends.
+        const bool isBefore =
+            below && std::all_of(below->begin(), below->end(), [&](const PageRef& b) { return b.offset < ref.offset; });
+        if (!isBefore) return damaged("index.bin", fmt::format("the page at byte {} is damaged", ref.offset));
+        open->insert(open->end(), below->rbegin(), below->rend());
+    }
+    std::erase_if(found, [&](const IndexEntry& entry) {
+        const double side = std::ldexp(1.0, entry.tile.level);
+        // What stands over the border of its tile is found by the pages alone.
+        return !meets(rectangle, (entry.tile.x - 1) * side, (entry.tile.y - 1) * side, (entry.tile.x + 2) * side,
+                      (entry.tile.y + 2) * side);
+    });
+    return found;
+}
+
+Result<std::vector<City::Place>> City::find(const std::string& id) const {
+    const std::filesystem::path path = folder_ / "ids.bin";
+    const std::string head = bytesAt(path, 0, kIdHead);
+    Taker from(head);
+    const std::string_view magic = from.text(8);
+    const auto version = from.take<std::uint32_t>();
+    const auto ofPage = from.take<std::uint32_t>();
+    const auto count = from.take<std::uint64_t>(), fenceSize = from.take<std::uint64_t>(),
+               sum = from.take<std::uint64_t>();
+    const std::uint64_t pages = (count + kIdsOfPage - 1) / kIdsOfPage;
+    if (magic != std::string_view("svtids\0\0", 8) || version != 1 || ofPage != kIdsOfPage || !from.isGood() ||
+        fenceSize != pages * 8 || count > buildings_ + 1)
+        return damaged("ids.bin", "the index of ids is missing or damaged");
+    const std::string fence = bytesAt(path, kIdHead, fenceSize);
+    if (fence.size() != fenceSize || idHash(fence) != sum) return damaged("ids.bin", "the fence of the ids is damaged");
+    std::vector<std::uint64_t> first;
+    for (Taker fences(fence); fences.left() > 0;) first.push_back(fences.take<std::uint64_t>());
+    const std::uint64_t hash = idHash(id);
+    // The page before the first that begins with the hash may end with it.
+    auto page = static_cast<std::uint64_t>(std::lower_bound(first.begin(), first.end(), hash) - first.begin());
+    page -= page > 0 ? 1 : 0;
+    std::vector<Place> found;
+    for (; page < pages && first[page] <= hash; ++page) {
+        const std::string bytes = bytesAt(path, kIdHead + fenceSize + page * kIdPage, kIdPage);
+        Taker tail(std::string_view(bytes).substr(std::min(bytes.size(), kIdPage - 8)));
+        if (bytes.size() != kIdPage || tail.take<std::uint64_t>() != idHash(bytes.substr(0, kIdPage - 8)))
+            return damaged("ids.bin", fmt::format("page {} of the ids is damaged", page));
+        Taker entries(bytes);
+        for (std::uint64_t n = 0; n < std::min<std::uint64_t>(kIdsOfPage, count - page * kIdsOfPage); ++n) {
+            const auto own = entries.take<std::uint64_t>();
+            Place place;
+            place.tile.x = entries.take<std::int32_t>();
+            place.tile.y = entries.take<std::int32_t>();
+            place.label = entries.take<std::uint32_t>();
+            place.tile.level = static_cast<int>(entries.take<std::uint32_t>());
+            if (own == hash) found.push_back(place);
+        }
+    }
+    return found;
+}
+
+Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
+    const auto pack = Pack::open(packPath(folder_, entry.pack), plan_);
+    if (!pack) return pack.error();
+    for (const PackMember& member : pack->members())
+        if (member.offset == entry.offset && member.size == entry.size) return pack->read(member);
+    return damaged("index.bin", fmt::format("tile {} does not stand where the index says", entry.tile.toString()));
+}
+
+namespace {
+
+// The labels of buildings by id, with all below them.
+std::vector<std::uint32_t> labelsOf(const volume::LabelTable& table, const std::vector<std::string>& ids) {
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t l = 0; l < table.labels.size(); ++l)
+        if (std::find(ids.begin(), ids.end(), table.labels[l].id) != ids.end())
+            for (std::uint32_t below = l; below < table.labels[l].subtreeEnd; ++below) kept.push_back(below);
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    return kept;
+}
+
+Result<std::vector<IndexEntry>> entriesOf(const City& city, const Extract& extract) {
+    constexpr double kAll = 1e300;
+    std::array<double, 4> rectangle{-kAll, -kAll, kAll, kAll};
+    if (extract.hasBox) rectangle = {extract.box[0], extract.box[1], extract.box[3], extract.box[4]};
+    std::vector<TileKey> tiles = extract.tiles;
+    for (const std::string& id : extract.ids) {
+        const auto places = city.find(id);
+        if (!places) return places.error();
+        if (places->empty())
+            return Error(Code::NothingSelected, fmt::format("the city has no building with the id '{}'", id));
+        for (const City::Place& place : *places) tiles.push_back(place.tile);
+    }
+    auto entries = city.find(extract.detail, rectangle);
+    if (!entries) return entries;
+    if (!tiles.empty())
+        std::erase_if(*entries, [&](const IndexEntry& entry) {
+            return std::find(tiles.begin(), tiles.end(), entry.tile) == tiles.end();
+        });
+    if (entries->empty()) return Error(Code::NothingSelected, "no tile of the city lies there, or its pack is missing");
+    return entries;
+}
+
+}  // namespace
+
+Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract) {
+    const auto entries = entriesOf(city, extract);
+    if (!entries) return entries.error();
+    std::vector<volume::SemanticVolume> parts;
+    for (const IndexEntry& entry : *entries) {
+        auto volume = city.read(entry);
+        if (!volume) return volume.error();
+        if (!extract.ids.empty()) {
+            const std::vector<std::uint32_t> kept = labelsOf(volume->labels, extract.ids);
+            if (kept.empty()) continue;
+            auto selected = volume::selectedVolume(*volume, kept);
+            if (!selected) return selected.error();
+            volume = std::move(selected);
+        }
+        parts.push_back(std::move(*volume));
+    }
+    if (parts.empty()) return Error(Code::NothingSelected, "no building of the city has such an id");
+    auto joined = parts.size() == 1 ? Result<volume::SemanticVolume>(std::move(parts.front())) : joinVolumes(parts);
+    if (!joined || !extract.hasBox) return joined;
+    const auto samples = volume::samplesIn(joined->grid, {{extract.box[0], extract.box[1], extract.box[2]},
+                                                          {extract.box[3], extract.box[4], extract.box[5]}});
+    if (!samples) return samples.error();
+    return volume::croppedVolume(*joined, *samples);
+}
+
+}  // namespace svt::city
