@@ -13,14 +13,29 @@ namespace {
 using namespace svt::cli;
 
 constexpr CommandAction kCommands[] = {
-    {"sample", connectSample},   {"sample-city", connectSampleCity},
-    {"build", connectBuild},     {"info", connectInfo},
-    {"check", connectCheck},     {"render", connectRender},
-    {"section", connectSection}, {"sheets", connectSheets},
-    {"query", connectQuery},     {"shell", connectShell},
-    {"convert", connectConvert}, {"serve", connectServe},
-    {"view", connectView},       {"publish", connectPublish},
-    {"doctor", connectDoctor},   {"describe", connectDescribe},
+    {"sample", connectSample},
+    {"sample-city", connectSampleCity},
+    {"build", connectBuild},
+    {"info", connectInfo},
+    {"check", connectCheck},
+    {"render", connectRender},
+    {"section", connectSection},
+    {"sheets", connectSheets},
+    {"query", connectQuery},
+    {"shell", connectShell},
+    {"convert", connectConvert},
+    {"serve", connectServe},
+    {"view", connectView},
+    {"publish", connectPublish},
+    {"city-plan", connectCityPlan},
+    {"city-run", connectCityRun},
+    {"city-task", connectCityTask},
+    {"city-status", connectCityStatus},
+    {"city-merge", connectCityMerge},
+    {"city-info", connectCityInfo},
+    {"city-extract", connectCityExtract},
+    {"doctor", connectDoctor},
+    {"describe", connectDescribe},
 };
 
 }  // namespace

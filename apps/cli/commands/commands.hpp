@@ -20,7 +20,17 @@ Action connectConvert(Command& command);
 Action connectServe(Command& command);
 Action connectView(Command& command);
 Action connectPublish(Command& command);
+Action connectCityPlan(Command& command);
+Action connectCityRun(Command& command);
+Action connectCityTask(Command& command);
+Action connectCityStatus(Command& command);
+Action connectCityMerge(Command& command);
+Action connectCityInfo(Command& command);
+Action connectCityExtract(Command& command);
 Action connectDoctor(Command& command);
 Action connectDescribe(Command& command);
+
+/// The version of this program as plans of cities name it.
+[[nodiscard]] std::string programOfCity();
 
 }  // namespace svt::cli

@@ -1,0 +1,102 @@
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
+
+#include <svt/city/city_folder.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+namespace {
+
+struct CityInfoArguments {
+    std::filesystem::path folder, output;
+    bool json = false;
+    std::vector<std::string> tiles, ids, box;
+    int detail = 0;
+};
+
+int runCityInfo(const CityInfoArguments& arguments) {
+    const auto city = city::City::open(arguments.folder);
+    if (!city) return fail(city.error());
+    const Box3d& box = city->box();
+    if (arguments.json) {
+        print({{"buildings", city->buildings()},
+               {"tiles", city->tiles()},
+               {"packs", city->packs()},
+               {"missingPacks", city->missingPacks()},
+               {"skippedFeatures", city->skippedFeatures()},
+               {"bytes", city->packBytes()},
+               {"spacing", city->spacing()},
+               {"crs", city->crsName()},
+               {"box", {toJson(box.min), toJson(box.max)}},
+               {"plan", city->planDigest()}});
+        return kDone;
+    }
+    fmt::print("{} buildings in {} tiles and {} packs, {:.1f} MB ({:.0f} bytes a building); {} features left out\n",
+               city->buildings(), city->tiles(), city->packs(), double(city->packBytes()) / 1e6,
+               double(city->packBytes()) / double(std::max<std::uint64_t>(1, city->buildings())),
+               city->skippedFeatures());
+    fmt::print("spacing {:g} m, and {:g} m with one label a building; {}\n", city->spacing(), 2 * city->spacing(),
+               city->crsName().empty() ? "no CRS" : city->crsName());
+    fmt::print("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n", box.min.x, box.min.y, box.min.z,
+               box.max.x, box.max.y, box.max.z);
+    if (city->missingPacks() != 0) fmt::print("{} packs are missing\n", city->missingPacks());
+    return kDone;
+}
+
+int runCityExtract(const CityInfoArguments& arguments) {
+    city::Extract extract;
+    extract.ids = arguments.ids;
+    extract.detail = arguments.detail;
+    for (const std::string& text : arguments.tiles) {
+        const auto tile = city::TileKey::fromString(text);
+        if (!tile) return fail(tile.error());
+        extract.tiles.push_back(*tile);
+    }
+    extract.hasBox = !arguments.box.empty();
+    for (std::size_t n = 0; n < arguments.box.size(); ++n)
+        extract.box[n] = std::strtod(arguments.box[n].c_str(), nullptr);
+    for (std::size_t axis = 0; extract.hasBox && axis < 3; ++axis)
+        if (!(extract.box[axis] <= extract.box[axis + 3]))
+            return fail(Error(Code::BadArgument,
+                              "--box: the first three numbers are the lower corner, the last three the "
+                              "upper one"));
+    if (extract.tiles.empty() && extract.ids.empty() && !extract.hasBox)
+        return fail(Error(Code::BadArgument, "say what to extract: --tile, --box or --id"));
+    const auto city = city::City::open(arguments.folder);
+    if (!city) return fail(city.error());
+    const auto volume = city::extractVolume(*city, extract);
+    if (!volume) return fail(volume.error());
+    const auto bytes = volume::writeSvt(*volume, arguments.output);
+    if (!bytes) return fail(bytes.error());
+    const Vec3i n = volume->grid.dimension();
+    if (!isQuiet())
+        fmt::print("{}: {} labels, {} x {} x {} samples of {:g} m, {:.1f} kB\n", arguments.output.string(),
+                   volume->labels.labels.size(), n.x, n.y, n.z, volume->grid.spacing().x, double(*bytes) / 1000);
+    return kDone;
+}
+
+}  // namespace
+
+Action connectCityInfo(Command& command) {
+    auto arguments = std::make_shared<CityInfoArguments>();
+    command.set("folder", arguments->folder);
+    command.set("--json", arguments->json);
+    return [arguments] { return runCityInfo(*arguments); };
+}
+
+Action connectCityExtract(Command& command) {
+    auto arguments = std::make_shared<CityInfoArguments>();
+    command.set("folder", arguments->folder);
+    command.set("--output", arguments->output);
+    command.set("--tile", arguments->tiles);
+    command.set("--id", arguments->ids);
+    command.set("--box", arguments->box);
+    command.set("--detail", arguments->detail);
+    return [arguments] { return runCityExtract(*arguments); };
+}
+
+}  // namespace svt::cli

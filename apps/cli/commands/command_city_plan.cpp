@@ -1,0 +1,61 @@
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+#include <apps/cli/output/version.hpp>
+
+#include <svt/city/city_plan.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::cli {
+namespace {
+
+struct CityPlanArguments {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output;
+    city::PlanOptions options;
+    std::string crs;
+    bool verbose = false;
+};
+
+int runCityPlan(CityPlanArguments& arguments) {
+    const auto crs = parseCrs(arguments.crs);
+    if (!crs) return fail(crs.error());
+    city::PlanOptions& options = arguments.options;
+    options.city.crs = *crs;
+    options.program = programOfCity();
+    const auto files = city::cityInputs(arguments.inputs);
+    if (!files) return fail(files.error());
+    Diagnostics diagnostics;
+    std::optional<TerminalProgress> progress(std::in_place);
+    options.progress = progress->get();
+    const auto plan = city::makePlan(*files, arguments.output, options, diagnostics);
+    progress.reset();
+    printDiagnostics(diagnostics, arguments.verbose);
+    if (!plan) return fail(plan.error());
+    if (!isQuiet())
+        fmt::print("{}: {} features of {} files in {} tiles and {} packs; {} replicas, {} left out; {}\n",
+                   arguments.output.string(), plan->features, plan->files.size(), plan->tiles.size(), plan->packs,
+                   plan->replicas, plan->skipped, plan->crsName.empty() ? "no CRS" : plan->crsName);
+    return kDone;
+}
+
+}  // namespace
+
+std::string programOfCity() { return fmt::format("{} {}", versionNumber(), buildFacts().commit); }
+
+Action connectCityPlan(Command& command) {
+    auto arguments = std::make_shared<CityPlanArguments>();
+    command.set("input", arguments->inputs);
+    command.set("--output", arguments->output);
+    command.set("--spacing", arguments->options.city.spacing);
+    command.set("--lod", arguments->options.city.lod);
+    command.set("--crs", arguments->crs);
+    command.set("--tasks", arguments->options.tasks);
+    command.set("--threads", arguments->options.threads);
+    command.set("--verbose", arguments->verbose);
+    return [arguments] { return runCityPlan(*arguments); };
+}
+
+}  // namespace svt::cli

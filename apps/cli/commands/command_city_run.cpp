@@ -1,0 +1,172 @@
+#include <apps/cli/city/run_packs.hpp>
+#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/output/json_output.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+
+#include <svt/city/city_folder.hpp>
+#include <svt/city/city_plan.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace svt::cli {
+namespace {
+
+struct CityRunArguments {
+    std::filesystem::path folder;
+    city::PackOptions options;
+    int jobs = 0;
+    std::uint32_t task = 0, tasks = 0;
+    bool json = false, isProven = false;
+};
+
+std::shared_ptr<CityRunArguments> arguments(Command& command) {
+    auto result = std::make_shared<CityRunArguments>();
+    command.set("folder", result->folder);
+    return result;
+}
+
+void connectLimits(Command& command, CityRunArguments& to) {
+    command.set("--tile-seconds", to.options.tileSeconds);
+    command.set("--feature-seconds", to.options.featureSeconds);
+}
+
+void tellSkipped(const std::vector<city::SkippedFeature>& skipped) {
+    constexpr std::size_t kShown = 12;
+    Diagnostics findings;
+    for (const city::SkippedFeature& feature : skipped)
+        findings.add(Severity::Warning, Code::FeatureSkipped,
+                     fmt::format("the feature at byte {} is left out: {}", feature.begin, feature.reason),
+                     {feature.file, 0, 0, {}});
+    printDiagnostics(findings, skipped.size() <= kShown);
+}
+
+// "0-3,7": packs as Slurm and people write them.
+std::string rangesOf(const std::vector<std::uint32_t>& numbers) {
+    std::string text;
+    for (std::size_t n = 0; n < numbers.size();) {
+        std::size_t end = n;
+        while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
+        text += fmt::format("{}{}", text.empty() ? "" : ",", numbers[n]);
+        if (end > n) text += fmt::format("-{}", numbers[end]);
+        n = end + 1;
+    }
+    return text;
+}
+
+int tellMissing(const std::filesystem::path& folder, const city::CityStatus& status) {
+    if (status.missing.empty()) return kDone;
+    return fail(Error(Code::CityIncomplete,
+                      fmt::format("{} of {} packs are not done: {}; 'svt city run {}' builds them",
+                                  status.missing.size(), status.packs, rangesOf(status.missing), folder.string()),
+                      {folder.string(), 0, 0, {}}));
+}
+
+int runCityRun(const CityRunArguments& arguments) {
+    const auto plan = city::readPlan(arguments.folder, programOfCity());
+    if (!plan) return fail(plan.error());
+    std::optional<TerminalProgress> progress(std::in_place);
+    const auto failed = runPacks(arguments.folder, *plan, arguments.jobs, arguments.options, progress->get());
+    if (Progress::isCancelled(progress->get()))
+        return fail(Error(Code::Cancelled, "stopped; what is done stays, and the same command goes on from there"));
+    // Whatever happened, so that what is done can be used.
+    const auto merged = city::mergeCity(arguments.folder, *plan, progress->get());
+    progress.reset();
+    for (const FailedPack& pack : failed) note(fmt::format("pack {}: {}", pack.pack, pack.messages));
+    if (!merged) return fail(merged.error());
+    tellSkipped(merged->skipped);
+    if (!isQuiet())
+        fmt::print("{}: {} buildings in {} of {} packs, {:.1f} MB; {} features left out\n", arguments.folder.string(),
+                   merged->buildings, merged->packs - merged->missing.size(), merged->packs,
+                   double(merged->bytes) / 1e6, merged->skipped.size() + plan->skipped);
+    return tellMissing(arguments.folder, *merged);
+}
+
+int runCityTask(const CityRunArguments& arguments) {
+    const auto plan = city::readPlan(arguments.folder, programOfCity());
+    if (!plan) return fail(plan.error());
+    const std::uint32_t tasks = arguments.tasks == 0 ? plan->tasks : arguments.tasks;
+    if (arguments.task >= tasks)
+        return fail(
+            Error(Code::BadArgument, fmt::format("task {}: there are {}, numbered from 0", arguments.task, tasks)));
+    int worst = kDone;
+    const auto [first, last] = plan->packsOf(arguments.task, tasks);
+    for (std::uint32_t pack = first; pack < last; ++pack) {
+        const auto report = city::runPack(arguments.folder, *plan, pack, arguments.options);
+        if (!report) {
+            worst = fail(report.error());
+            continue;  // the others do not depend on it
+        }
+        if (!isQuiet())
+            fmt::print("pack {}: {} buildings, {:.2f} MB, {} features left out\n", pack, report->buildings,
+                       double(report->bytes) / 1e6, report->skipped.size());
+    }
+    return worst;
+}
+
+int runCityMerge(const CityRunArguments& arguments) {
+    const auto plan = city::readPlan(arguments.folder, programOfCity());
+    if (!plan) return fail(plan.error());
+    const auto merged = city::mergeCity(arguments.folder, *plan);
+    if (!merged) return fail(merged.error());
+    if (!isQuiet())
+        fmt::print("{}: {} buildings in {} of {} packs\n", arguments.folder.string(), merged->buildings,
+                   merged->packs - merged->missing.size(), merged->packs);
+    return tellMissing(arguments.folder, *merged);
+}
+
+int runCityStatus(const CityRunArguments& arguments) {
+    const auto plan = city::readPlan(arguments.folder, {});
+    if (!plan) return fail(plan.error());
+    const city::CityStatus status = city::cityStatus(arguments.folder, *plan, arguments.isProven);
+    if (arguments.json) {
+        Json json{{"packs", status.packs},      {"tasks", plan->tasks},          {"missing", status.missing},
+                  {"bytes", status.bytes},      {"buildings", status.buildings}, {"features", plan->features},
+                  {"replicas", plan->replicas}, {"skipped", Json::array()}};
+        for (const city::SkippedFeature& feature : status.skipped)
+            json["skipped"].push_back({{"file", feature.file}, {"begin", feature.begin}, {"reason", feature.reason}});
+        print(json);
+        return kDone;
+    }
+    fmt::print("{} of {} packs are done: {} of {} buildings, {:.1f} MB; {} features left out\n",
+               status.packs - status.missing.size(), status.packs, status.buildings, plan->features,
+               double(status.bytes) / 1e6, status.skipped.size());
+    if (!status.missing.empty())
+        fmt::print("missing: {}\nsvt city run {}\n", rangesOf(status.missing), arguments.folder.string());
+    tellSkipped(status.skipped);
+    return kDone;
+}
+
+}  // namespace
+
+Action connectCityRun(Command& command) {
+    auto given = arguments(command);
+    command.set("--jobs", given->jobs);
+    connectLimits(command, *given);
+    return [given] { return runCityRun(*given); };
+}
+
+Action connectCityTask(Command& command) {
+    auto given = arguments(command);
+    command.set("task", given->task);
+    command.set("--of", given->tasks);
+    command.set("--threads", given->options.threads);
+    connectLimits(command, *given);
+    return [given] { return runCityTask(*given); };
+}
+
+Action connectCityMerge(Command& command) {
+    auto given = arguments(command);
+    return [given] { return runCityMerge(*given); };
+}
+
+Action connectCityStatus(Command& command) {
+    auto given = arguments(command);
+    command.set("--json", given->json);
+    command.set("--proven", given->isProven);
+    return [given] { return runCityStatus(*given); };
+}
+
+}  // namespace svt::cli
