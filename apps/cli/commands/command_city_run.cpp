@@ -43,6 +43,17 @@ void tellSkipped(const std::vector<city::SkippedFeature>& skipped) {
     printDiagnostics(findings, skipped.size() <= kShown);
 }
 
+// The reasons of some; status names all that are missing.
+void tellFailed(const std::vector<FailedPack>& failed) {
+    constexpr std::size_t kShown = 8;
+    for (std::size_t n = 0; n < std::min(kShown, failed.size()); ++n) {
+        std::string_view why = failed[n].messages;
+        while (why.ends_with('\n')) why.remove_suffix(1);
+        note(fmt::format("pack {}: {}", failed[n].pack, why));
+    }
+    if (failed.size() > kShown) note(fmt::format("{} more packs failed", failed.size() - kShown));
+}
+
 // "0-3,7": packs as Slurm and people write them.
 std::string rangesOf(const std::vector<std::uint32_t>& numbers) {
     std::string text;
@@ -74,7 +85,7 @@ int runCityRun(const CityRunArguments& arguments) {
     // Whatever happened, so that what is done can be used.
     const auto merged = city::mergeCity(arguments.folder, *plan, progress->get());
     progress.reset();
-    for (const FailedPack& pack : failed) note(fmt::format("pack {}: {}", pack.pack, pack.messages));
+    tellFailed(failed);
     if (!merged) return fail(merged.error());
     tellSkipped(merged->skipped);
     if (!isQuiet())

@@ -124,6 +124,17 @@ std::vector<std::string> joinedWords(int argc, char** argv) {
     return words;
 }
 
+// The commands whose first word is `word`, one on a line; empty: there are none.
+std::string commandsBelow(std::string_view word) {
+    std::string lines;
+    for (const CommandText& text : commandTexts()) {
+        if (text.name == word) return {};
+        if (text.name.starts_with(word) && text.name.substr(word.size()).starts_with("-"))
+            lines += fmt::format("  svt {} {:<10} {}\n", word, text.name.substr(word.size() + 1), text.help);
+    }
+    return lines;
+}
+
 // The parser with all commands.
 struct Parser {
     CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
@@ -203,8 +214,13 @@ double Command::number(const std::string& text) {
 
 int runCommandLine(int argc, char** argv, std::span<const CommandAction> commands) {
     Parser parser;
+    const std::vector<std::string> words = joinedWords(argc, argv);
+    if (const std::string below = words.empty() ? "" : commandsBelow(words.front()); !below.empty()) {
+        const bool isAsked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
+        fmt::print(isAsked ? stdout : stderr, "svt {}: one of\n{}", words.front(), below);
+        return isAsked ? flushed(kDone) : kUsage;
+    }
     try {
-        std::vector<std::string> words = joinedWords(argc, argv);
         parser.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them: last first
     } catch (const CLI::CallForHelp& help) {
         parser.app.exit(help);

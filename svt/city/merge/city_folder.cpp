@@ -73,7 +73,7 @@ Result<City> City::open(const std::filesystem::path& folder) {
     const auto version = from.take<std::uint32_t>();
     const auto refs = from.take<std::uint32_t>();
     const auto size = from.take<std::uint64_t>(), sum = from.take<std::uint64_t>();
-    if (magic != std::string_view("svtindx\0", 8) || version != 1 || size > kIndexPage ||
+    if (magic != std::string_view("svtindx\0", 8) || version != 1 || !from.isGood() || size > kIndexPage ||
         size != std::uint64_t{refs} * PageRef::kBytes || from.left() < size ||
         idHash(head.substr(kIndexHead, size)) != sum)
         return city.damaged("index.bin", "the root of the index is missing or damaged");

@@ -222,7 +222,7 @@ Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::f
                 Severity::Note, Code::Replica,
                 fmt::format("{} features stand in a file before with the same id and text; they are left out",
                             replicas[f]),
-                {survey.files[f].path, 0, 0, {}});
+                {files[f].string(), 0, 0, {}});
     }
     plan.features = tiling.order().size();
     tiling.cut(plan);

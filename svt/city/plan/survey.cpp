@@ -1,6 +1,7 @@
 #include <svt/city/plan/survey.hpp>
 
 #include <svt/city/base/sha256.hpp>
+#include <svt/model/building_model.hpp>
 
 #include <fmt/format.h>
 

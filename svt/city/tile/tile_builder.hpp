@@ -4,6 +4,7 @@
 
 #include <svt/city/city_pack.hpp>
 #include <svt/city/city_plan.hpp>
+#include <svt/model/building_model.hpp>
 #include <svt/pipeline/build_volume.hpp>
 
 #include <map>

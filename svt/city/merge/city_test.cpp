@@ -1,0 +1,335 @@
+// From files to a city and back: the same bytes whatever builds it, and what is damaged is named.
+#include <svt/city/base/sha256.hpp>
+#include <svt/city/city_folder.hpp>
+#include <svt/city/merge/index_file.hpp>
+#include <svt/city/tile/tile_builder.hpp>
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/samples/city_sample.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace svt::city {
+namespace {
+
+TEST(Sha256, AnswersAsTheStandardDoes) {
+    EXPECT_EQ(hexOf(digestOf("abc")), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(hexOf(digestOf("")), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    EXPECT_EQ(hexOf(digestOf("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq")),
+              "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+    Sha256 parts;
+    const std::string text(1'000'000, 'a');
+    for (std::size_t at = 0; at < text.size(); at += 777) parts.add(std::string_view(text).substr(at, 777));
+    const Digest digest = parts.finish();
+    EXPECT_EQ(hexOf(digest), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+    EXPECT_EQ(digestFromHex(hexOf(digest)), digest);
+    EXPECT_EQ(idHash("abc"), 0xba7816bf8f01cfeaull);
+}
+
+TEST(TileKey, HasATextAndAPlaceOnTheCurve) {
+    const TileKey key{9, -3, 754};
+    const auto read = TileKey::fromString(key.toString());
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, key);
+    for (const char* text : {"", "9", "9/1", "9/1/", "9/1/2/", "9/1/2 ", "11/0/0", "-1/0/0", "a/b/c"})
+        EXPECT_FALSE(TileKey::fromString(text)) << text;
+    // A tile begins where its south-western quarter does; the quarters follow in the order of the curve.
+    EXPECT_EQ(mortonOf({10, 1, 1}), mortonOf({9, 2, 2}));
+    EXPECT_LT(mortonOf({9, 2, 2}), mortonOf({9, 3, 2}));
+    EXPECT_LT(mortonOf({9, 3, 2}), mortonOf({9, 2, 3}));
+    EXPECT_LT(mortonOf({9, 3, 3}), mortonOf({10, 2, 0}));
+}
+
+TEST(Index, GivesBackWhatWasPutIn) {
+    std::vector<PlacedEntry> entries;
+    for (std::int32_t n = 0; n < 60'000; ++n) {
+        const TileKey tile{7 + n % 3, n % 251 - 100, n / 251};
+        entries.push_back({{tile, n % 2, std::uint32_t(n / 100), std::uint64_t(48 + 8 * n), std::uint64_t(100 + n),
+                            n % 50 - 9, n % 50 + 20, std::uint32_t(n % 256)},
+                           {n % 251, n / 251, n % 251 + 1, n / 251 + 1}});
+    }
+    const std::string bytes = indexBytes(entries);
+    const std::size_t root =
+        bytes[12] ? static_cast<unsigned char>(bytes[12]) + 256u * static_cast<unsigned char>(bytes[13]) : 0;
+    const auto refs = takeRefs(std::string_view(bytes).substr(kIndexHead, root * PageRef::kBytes));
+    ASSERT_TRUE(refs);
+    std::size_t found = 0;
+    for (const PageRef& ref : *refs) {
+        EXPECT_LE(ref.size, kIndexPage);
+        const auto page =
+            takeEntries(std::string_view(bytes).substr(kIndexHead + root * PageRef::kBytes + ref.offset, ref.size));
+        ASSERT_TRUE(page);
+        for (const IndexEntry& entry : *page) {
+            const auto n = static_cast<std::size_t>((entry.offset - 48) / 8);
+            ASSERT_LT(n, entries.size());
+            const IndexEntry& own = entries[n].entry;
+            EXPECT_TRUE(entry.tile == own.tile && entry.detail == own.detail && entry.pack == own.pack &&
+                        entry.size == own.size && entry.lowest == own.lowest && entry.highest == own.highest &&
+                        entry.buildings == own.buildings);
+            ++found;
+        }
+    }
+    EXPECT_EQ(found, entries.size());
+}
+
+class SmallCity : public ::testing::Test {
+protected:
+    void write(const std::filesystem::path& to, samples::CityProfile profile, int files) {
+        std::filesystem::create_directories(to);
+        const samples::CitySampleOptions options{profile, 96, files, 3};
+        for (int n = 0; n < files; ++n) {
+            std::string text;
+            ASSERT_TRUE(samples::writeCitySample(options, n, [&](std::string_view part) {
+                text += part;
+                return true;
+            }));
+            test::writeText(to / samples::citySampleFileName(options, n), text);
+        }
+    }
+    Plan plan(double spacing = 1) {
+        PlanOptions options;
+        options.city.spacing = spacing;
+        options.program = "test";
+        const std::filesystem::path input = folder / "files";
+        const auto files = cityInputs(std::span(&input, 1));
+        EXPECT_TRUE(files);
+        auto made = makePlan(*files, folder / "city", options, findings);
+        EXPECT_TRUE(made) << made.error().toString();
+        return *made;
+    }
+    void build(const Plan& made, const PackOptions& options = {}) {
+        for (std::uint32_t pack = 0; pack < made.packs; ++pack) {
+            const auto report = runPack(folder / "city", made, pack, options);
+            ASSERT_TRUE(report) << report.error().toString();
+        }
+        const auto merged = mergeCity(folder / "city", made);
+        ASSERT_TRUE(merged) << merged.error().toString();
+    }
+    City open() {
+        auto city = City::open(folder / "city");
+        EXPECT_TRUE(city) << city.error().toString();
+        return *city;
+    }
+    std::string bytes(const char* name) { return test::readText(folder / "city" / name); }
+
+    test::TemporaryFolder folder;
+    Diagnostics findings;
+};
+
+std::uint64_t voxelsOf(const volume::SemanticVolume& volume) {
+    std::uint64_t sum = 0;
+    for (const volume::Label& label : volume.labels.labels) sum += label.voxels;
+    return sum;
+}
+
+TEST_F(SmallCity, KeepsReplicasOnceAndEachBuilding) {
+    write(folder / "files", samples::CityProfile::Berlin, 4);
+    const Plan made = plan();
+    EXPECT_EQ(made.features, 96u);
+    EXPECT_GT(made.replicas, 0u);
+    EXPECT_GT(findings.count(Code::Replica), 0u);
+    build(made);
+    const City city = open();
+    EXPECT_EQ(city.buildings(), 96u);
+    const auto entries = city.find(0, {-1e9, -1e9, 1e9, 1e9});
+    ASSERT_TRUE(entries);
+    std::uint32_t buildings = 0;
+    for (const IndexEntry& entry : *entries) {
+        buildings += entry.buildings;
+        const auto volume = city.read(entry);
+        ASSERT_TRUE(volume);
+        // On the lattice of the city.
+        for (int axis = 0; axis < 3; ++axis) {
+            const double steps = volume->grid.origin()[axis] / city.spacing() - 0.5;
+            EXPECT_EQ(steps, std::round(steps));
+            EXPECT_EQ(std::fmod(steps, 4), 0);
+        }
+    }
+    EXPECT_EQ(buildings, 96u);
+}
+
+TEST_F(SmallCity, HasABuildingOfEachAtDetailOne) {
+    write(folder / "files", samples::CityProfile::Dutch, 1);
+    build(plan());
+    const City city = open();
+    const auto entries = city.find(1, {-1e9, -1e9, 1e9, 1e9});
+    ASSERT_TRUE(entries);
+    std::size_t buildings = 0;
+    for (const IndexEntry& entry : *entries) {
+        const auto coarse = city.read(entry);
+        ASSERT_TRUE(coarse);
+        EXPECT_EQ(coarse->grid.spacing(), (Vec3d{2, 2, 2}));
+        for (const volume::Label& label : coarse->labels.labels) {
+            ++buildings;
+            EXPECT_GT(label.voxels, 0u) << label.id;
+            EXPECT_EQ(label.parent, volume::kNoLabel);
+        }
+    }
+    EXPECT_EQ(buildings, 96u);
+}
+
+TEST_F(SmallCity, ExtractsByIdTileAndBox) {
+    write(folder / "files", samples::CityProfile::Berlin, 2);
+    build(plan());
+    const City city = open();
+    const auto all = extractVolume(city, {{}, {}, {-1e6, -1e7, -1e3, 1e6, 1e7, 1e4}, true, 0});
+    ASSERT_TRUE(all) << all.error().toString();
+    std::map<std::string, std::uint64_t> voxels;
+    std::uint64_t sum = 0;
+    for (std::uint32_t l = 0; l < all->labels.labels.size(); ++l) {
+        const volume::Label& label = all->labels.labels[l];
+        if (label.parent != volume::kNoLabel) continue;
+        std::uint64_t own = 0;
+        for (std::uint32_t below = l; below < label.subtreeEnd; ++below) own += all->labels.labels[below].voxels;
+        voxels[label.id] = own;
+        sum += own;
+    }
+    EXPECT_EQ(voxels.size(), 96u);
+    EXPECT_EQ(sum, voxelsOf(*all));
+    for (const auto& [id, own] : voxels) {
+        Extract extract;
+        extract.ids = {id};
+        const auto one = extractVolume(city, extract);
+        ASSERT_TRUE(one) << one.error().toString();
+        EXPECT_GE(voxelsOf(*one), own) << id;  // where two tiles fill a sample, the first has it
+    }
+    std::uint64_t ofTiles = 0;
+    const auto entries = city.find(0, {-1e9, -1e9, 1e9, 1e9});
+    for (const IndexEntry& entry : *entries) {
+        Extract extract;
+        extract.tiles = {entry.tile};
+        const auto tile = extractVolume(city, extract);
+        ASSERT_TRUE(tile);
+        ofTiles += voxelsOf(*tile);
+    }
+    EXPECT_GE(ofTiles, sum);
+    EXPECT_LE(double(ofTiles), double(sum) * 1.01);
+    Extract nobody;
+    nobody.ids = {"nobody"};
+    EXPECT_EQ(extractVolume(city, nobody).error().code(), Code::NothingSelected);
+}
+
+TEST_F(SmallCity, IsTheSameWheneverItIsBuilt) {
+    write(folder / "files", samples::CityProfile::Plateau, 2);
+    const Plan made = plan();
+    build(made);
+    const std::string pack = bytes("packs/00000.svtp"), index = bytes("index.bin"), ids = bytes("ids.bin"),
+                      json = bytes("city.json");
+    std::filesystem::remove_all(folder / "city" / "packs");
+    build(made);
+    EXPECT_EQ(bytes("packs/00000.svtp"), pack);
+    EXPECT_EQ(bytes("index.bin"), index);
+    EXPECT_EQ(bytes("ids.bin"), ids);
+    EXPECT_EQ(bytes("city.json"), json);
+}
+
+TEST_F(SmallCity, SkipsWhatIsProvenAndRepairsWhatIsNot) {
+    write(folder / "files", samples::CityProfile::Dutch, 1);
+    const Plan made = plan();
+    build(made);
+    const std::string good = bytes("packs/00000.svtp");
+    const auto written = std::filesystem::last_write_time(folder / "city" / "packs/00000.svtp");
+    ASSERT_TRUE(runPack(folder / "city", made, 0, {}));
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "city" / "packs/00000.svtp"), written);
+    std::string damaged = good;
+    damaged[damaged.size() / 2] ^= 1;
+    test::writeText(folder / "city" / "packs/00000.svtp", damaged);
+    EXPECT_EQ(cityStatus(folder / "city", made, false).missing.size(), 0u);
+    EXPECT_EQ(cityStatus(folder / "city", made, true).missing.size(), 1u);
+    ASSERT_TRUE(runPack(folder / "city", made, 0, {}));
+    EXPECT_EQ(bytes("packs/00000.svtp"), good);
+}
+
+// A feature that crashes, one that hangs: both are left out and named, all others are there.
+TEST_F(SmallCity, LeavesOutFeaturesThatCrashOrHang) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    const Plan made = plan();
+    PackOptions options;
+    options.tileSeconds = 5;
+    options.featureSeconds = 0.5;
+    options.beforeFeature = [](std::string_view text) {
+        if (text.find("BLDG_0000000300000011\"") != std::string_view::npos) std::raise(SIGKILL);
+        while (text.find("BLDG_0000000300000021\"") != std::string_view::npos)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    };
+    build(made, options);
+    const CityStatus status = cityStatus(folder / "city", made, true);
+    ASSERT_EQ(status.skipped.size(), 2u);
+    std::string reasons = status.skipped[0].reason + status.skipped[1].reason;
+    EXPECT_NE(reasons.find("signal 9"), std::string::npos) << reasons;
+    EXPECT_NE(reasons.find("took too long"), std::string::npos) << reasons;
+    EXPECT_EQ(status.buildings, 94u);
+    EXPECT_EQ(open().find("BLDG_0000000300000011")->size(), 0u);
+    EXPECT_EQ(open().find("BLDG_0000000300000012")->size(), 1u);
+}
+
+TEST_F(SmallCity, NoticesFilesThatHaveChanged) {
+    write(folder / "files", samples::CityProfile::Dutch, 1);
+    const Plan made = plan();
+    const std::filesystem::path file = folder / "files" / "00000.city.jsonl";
+    std::string text = test::readText(file);
+    text[text.size() - 20] = text[text.size() - 20] == '1' ? '2' : '1';
+    test::writeText(file, text);
+    EXPECT_EQ(runPack(folder / "city", made, 0, {}).error().code(), Code::InputChanged);
+    test::writeText(file, text + " ");
+    EXPECT_EQ(runPack(folder / "city", made, 0, {}).error().code(), Code::InputChanged);
+}
+
+TEST_F(SmallCity, RefusesPlansOfOthers) {
+    write(folder / "files", samples::CityProfile::Dutch, 1);
+    plan();
+    EXPECT_TRUE(readPlan(folder / "city", "test"));
+    EXPECT_EQ(readPlan(folder / "city", "other").error().code(), Code::PlanVersion);
+    EXPECT_EQ(readPlan(folder / "files", "test").error().code(), Code::BadPlan);
+    const std::string tiles = bytes("plan/tiles.bin"), json = bytes("plan/plan.json");
+    test::writeText(folder / "city/plan/tiles.bin", tiles.substr(1));
+    EXPECT_EQ(readPlan(folder / "city", "test").error().code(), Code::BadPlan);
+    std::string changed = tiles;
+    changed[32] ^= 1;  // the cost of a tile
+    test::writeText(folder / "city/plan/tiles.bin", changed);
+    EXPECT_EQ(readPlan(folder / "city", "test").error().code(), Code::BadPlan);
+    test::writeText(folder / "city/plan/tiles.bin", tiles);
+    test::writeText(folder / "city/plan/plan.json", json.substr(0, json.size() / 2));
+    EXPECT_EQ(readPlan(folder / "city", "test").error().code(), Code::BadPlan);
+}
+
+// Any changed byte of an index or a pack is an error with a name, or changes nothing.
+TEST_F(SmallCity, NamesDamage) {
+    write(folder / "files", samples::CityProfile::Dutch, 1);
+    build(plan());
+    const auto ask = [&]() -> std::string {
+        const auto city = City::open(folder / "city");
+        if (!city) return std::string(codeName(city.error().code()));
+        const auto volume = extractVolume(*city, {{}, {"NL.IMBAG.Pand.0000030000000005"}, {}, false, 0});
+        return volume ? "good " + std::to_string(voxelsOf(*volume)) : std::string(codeName(volume.error().code()));
+    };
+    const std::string good = ask();
+    ASSERT_TRUE(good.starts_with("good")) << good;
+    for (const char* name : {"index.bin", "ids.bin", "city.json", "packs/00000.svtp"}) {
+        const std::string text = bytes(name);
+        int named = 0;
+        for (std::size_t at = 0; at < text.size(); at += std::max<std::size_t>(1, text.size() / 60)) {
+            std::string damaged = text;
+            damaged[at] ^= 0x55;
+            test::writeText(folder / "city" / name, damaged);
+            const std::string answer = ask();
+            if (answer != good) ++named;
+            EXPECT_TRUE(answer == good || answer == "BadCity" || answer == "BadPack" || answer == "PlanVersion" ||
+                        (answer == "NothingSelected" && std::string_view(name) == "city.json"))
+                << name << " byte " << at << ": " << answer;
+            test::writeText(folder / "city" / name, text.substr(0, at));
+            EXPECT_NE(ask().substr(0, 4), "good") << name << " cut at " << at;
+        }
+        EXPECT_GT(named, 0) << name;
+        test::writeText(folder / "city" / name, text);
+    }
+    EXPECT_EQ(ask(), good);
+}
+
+}  // namespace
+}  // namespace svt::city
