@@ -161,7 +161,7 @@ private:
             bricks_ = &own.emplace(std::move(*made));
         }
         const CutPlane cut(plane_, axes_, volume_.grid);
-        std::vector<DrawingBorder> borders = joinEdges(cutPieces(*bricks_, cut, labels));
+        std::vector<DrawingBorder> borders = joinEdges(cutPieces(*bricks_, volume_.planes, cut, labels));
         const Vec3d spacing = volume_.grid.spacing();
         straighten(borders, 0.01 * std::min({spacing.x, spacing.y, spacing.z}) / cut.drawingUnit());
         const auto moved = [&](DrawingPoint p) { return placed({p.u * cut.drawingUnit(), p.v * cut.drawingUnit()}); };

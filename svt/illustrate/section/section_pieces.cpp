@@ -1,4 +1,5 @@
 #include <svt/illustrate/section/section_pieces.hpp>
+#include <svt/volume/face_borders.hpp>
 
 #include <algorithm>
 #include <array>
@@ -118,8 +119,13 @@ struct FaceEdge {
 
 class CellCutter {
 public:
-    CellCutter(const BrickVolume& bricks, const CutPlane& plane, std::span<const std::uint32_t> labelOfScalar)
-        : bricks_(bricks), plane_(plane), labelOfScalar_(labelOfScalar), outlines_(makeOutlines()) {}
+    CellCutter(const BrickVolume& bricks, std::span<const volume::FacePlane> faces, const CutPlane& plane,
+               std::span<const std::uint32_t> labelOfScalar)
+        : bricks_(bricks),
+          faces_({}, bricks.brickCount() * 8, faces),
+          plane_(plane),
+          labelOfScalar_(labelOfScalar),
+          outlines_(makeOutlines()) {}
 
     std::vector<PieceEdge> run() {
         // Rows of bricks run along the axis closest to the plane's normal, so that each row meets it in few bricks.
@@ -155,7 +161,7 @@ private:
     }
 
     // Set of the corners of [min, max] that are above the plane, as bits.
-    [[nodiscard]] std::size_t cornersAbove(Vec3i min, Vec3i max) const noexcept {
+    [[nodiscard]] std::size_t cornersAbove(Vec3d min, Vec3d max) const noexcept {
         std::size_t above = 0;
         for (int corner = 0; corner < 8; ++corner)
             if (plane_.isAbove((corner & 1) != 0 ? max.x : min.x, (corner & 2) != 0 ? max.y : min.y,
@@ -165,12 +171,12 @@ private:
     }
 
     // The section of [min, max], a part of the current brick.
-    [[nodiscard]] Piece pieceOf(std::size_t above, Vec3i min, Vec3i max) const noexcept {
+    [[nodiscard]] Piece pieceOf(std::size_t above, Vec3d min, Vec3d max) const noexcept {
         Piece piece;
         const Outline& outline = outlines_[above];
         for (std::size_t n = 0; n < outline.count; ++n) {
             const BoxEdge& edge = kEdges[outline.edges[n]];
-            const Vec3i corner{(edge.lower & 1) != 0 ? max.x : min.x, (edge.lower & 2) != 0 ? max.y : min.y,
+            const Vec3d corner{(edge.lower & 1) != 0 ? max.x : min.x, (edge.lower & 2) != 0 ? max.y : min.y,
                                (edge.lower & 4) != 0 ? max.z : min.z};
             // A face of the part is on a face of the brick if their planes coincide.
             std::uint8_t faces = 0;
@@ -187,29 +193,57 @@ private:
     void cutBrick(Vec3i at) {
         low_ = at * 8;
         for (int axis = 0; axis < 3; ++axis) high_[axis] = std::min(low_[axis] + 8, bricks_.dimension()[axis]);
-        const std::size_t above = cornersAbove(low_, high_);
+        const std::size_t above = cornersAbove(toDouble(low_), toDouble(high_));
         if (above == 0 || above == 255) return;
         brick_ = at;
         const BrickVolume::Entry entry = bricks_.entry(at.x, at.y, at.z);
         if (entry.isCoded()) {
             cutCoded(entry, above);
         } else if (entry.isMixed()) {
-            cutVoxels(entry);
+            cutVoxels();
         } else if (const std::uint32_t label = labelOf(bricks_.box(entry).scalar); label != volume::kNoLabel) {
-            emit(pieceOf(above, low_, high_), label);
+            emit(pieceOf(above, toDouble(low_), toDouble(high_)), label);
         }
     }
 
-    void cutVoxels(BrickVolume::Entry entry) {
-        const BrickVolume::MixedBrick mixed = bricks_.mixedBrick(entry);
-        for (std::int32_t k = low_.z; k < high_.z; ++k)
-            for (std::int32_t j = low_.y; j < high_.y; ++j)
-                for (std::int32_t i = low_.x; i < high_.x; ++i) {
-                    const std::uint32_t label = labelOf(mixed.scalarAt(i & 7, j & 7, k & 7));
-                    if (label == volume::kNoLabel) continue;
-                    const Vec3i min{i, j, k}, max{i + 1, j + 1, k + 1};
+    // The voxels of the current brick along an axis: where each begins and ends.
+    struct Spans {
+        struct Span {
+            std::int32_t voxel = 0;
+            double min = 0, max = 0;
+        };
+        std::array<Span, 10> spans;
+        std::size_t count = 0;
+    };
+
+    // Borders lie on the model's faces. Where the face for the side of the brick lies inside it, what is before it has the
+    // labels of the voxel beyond.
+    [[nodiscard]] Spans spansAlong(int axis) const {
+        Spans spans;
+        double at = low_[axis];
+        for (std::int32_t border = low_[axis]; border <= high_[axis]; ++border) {
+            double place = border;
+            const bool isOuter = border == 0 || border == bricks_.dimension()[axis];
+            if (!isOuter)
+                if (const auto face = faces_.find(axis, border, low_); face && face->normal[axis] == 1)
+                    place = std::clamp(-face->offset, double(low_[axis]), double(high_[axis]));
+            if (place > at) spans.spans[spans.count++] = {border - 1, at, place};
+            at = place;
+        }
+        if (at < high_[axis]) spans.spans[spans.count++] = {high_[axis], at, double(high_[axis])};
+        return spans;
+    }
+
+    void cutVoxels() {
+        const Spans x = spansAlong(0), y = spansAlong(1), z = spansAlong(2);
+        for (std::size_t k = 0; k < z.count; ++k)
+            for (std::size_t j = 0; j < y.count; ++j)
+                for (std::size_t i = 0; i < x.count; ++i) {
+                    const auto &a = x.spans[i], &b = y.spans[j], &c = z.spans[k];
+                    const Vec3d min{a.min, b.min, c.min}, max{a.max, b.max, c.max};
                     const std::size_t above = cornersAbove(min, max);
-                    if (above != 0 && above != 255) emit(pieceOf(above, min, max), label);
+                    if (above == 0 || above == 255) continue;
+                    emit(pieceOf(above, min, max), labelOf(bricks_.scalarAt(a.voxel, b.voxel, c.voxel)));
                 }
     }
 
@@ -220,7 +254,7 @@ private:
             std::size_t sides = 0;
         };
         std::array<Part, std::size_t{1} << BrickVolume::kMaxSides> parts;
-        parts[0] = {pieceOf(above, low_, high_), 0};
+        parts[0] = {pieceOf(above, toDouble(low_), toDouble(high_)), 0};
         std::size_t count = 1, bit = 1;
         const auto split = [&](Vec3d normal, double offset) {
             const std::size_t before = count;
@@ -330,6 +364,7 @@ private:
     }
 
     const BrickVolume& bricks_;
+    const volume::FaceBorders faces_;
     const CutPlane& plane_;
     std::span<const std::uint32_t> labelOfScalar_;
     std::array<Outline, 256> outlines_;
@@ -366,8 +401,7 @@ CutPlane::CutPlane(const SectionPlane& plane, const PlaneAxes& axes, const volum
     drawingUnit_ = std::ldexp(1.0, std::ilogb(extent) + 1 - 29);
 }
 
-Vec3d CutPlane::crossing(int axis, Vec3i corner) const noexcept {
-    Vec3d voxel{double(corner.x), double(corner.y), double(corner.z)};
+Vec3d CutPlane::crossing(int axis, Vec3d voxel) const noexcept {
     voxel[axis] = 0;
     voxel[axis] = -heightOf(voxel) / gradient_[axis];
     return voxel;
@@ -378,9 +412,9 @@ DrawingPoint CutPlane::quantized(Vec3d voxel) const noexcept {
             static_cast<std::int32_t>(std::floor((dot(vOfVoxel_, voxel) + vOffset_) / drawingUnit_ + 0.5))};
 }
 
-std::vector<PieceEdge> cutPieces(const BrickVolume& bricks, const CutPlane& plane,
-                                 std::span<const std::uint32_t> labelOfScalar) {
-    return CellCutter(bricks, plane, labelOfScalar).run();
+std::vector<PieceEdge> cutPieces(const BrickVolume& bricks, std::span<const volume::FacePlane> faces,
+                                 const CutPlane& plane, std::span<const std::uint32_t> labelOfScalar) {
+    return CellCutter(bricks, faces, plane, labelOfScalar).run();
 }
 
 }  // namespace svt::illustrate

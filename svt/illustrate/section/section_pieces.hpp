@@ -20,12 +20,12 @@ public:
 
     /// Whether a corner of voxels is above the plane, on the side to which the axes' normal points. Corners on the
     /// plane count as on the side that is cut away.
-    [[nodiscard]] bool isAbove(std::int32_t i, std::int32_t j, std::int32_t k) const noexcept {
+    [[nodiscard]] bool isAbove(double i, double j, double k) const noexcept {
         return gradient_.x * i + gradient_.y * j + gradient_.z * k + offset_ > 0;
     }
     /// Intersection of the plane with the line along `axis` through a corner; the same for all pieces that share the
     /// line.
-    [[nodiscard]] Vec3d crossing(int axis, Vec3i corner) const noexcept;
+    [[nodiscard]] Vec3d crossing(int axis, Vec3d corner) const noexcept;
     /// Gradient of the height above the plane: metres per voxel along each axis.
     [[nodiscard]] Vec3d gradient() const noexcept { return gradient_; }
     [[nodiscard]] double heightOf(Vec3d voxel) const noexcept { return dot(gradient_, voxel) + offset_; }
@@ -41,9 +41,11 @@ private:
 };
 
 /// Edges of all pieces that have a label. Where pieces meet, their edges have the same end points: each edge between
-/// two labels appears once in each direction.
+/// two labels appears once in each direction. Borders of voxels that stand for faces of the model across an axis lie on these.
+/// \param faces          the planes of the model's faces
 /// \param labelOfScalar  entry per scalar: the label, or kNoLabel for what is not drawn
-[[nodiscard]] std::vector<PieceEdge> cutPieces(const volume::BrickVolume& bricks, const CutPlane& plane,
+[[nodiscard]] std::vector<PieceEdge> cutPieces(const volume::BrickVolume& bricks,
+                                               std::span<const volume::FacePlane> faces, const CutPlane& plane,
                                                std::span<const std::uint32_t> labelOfScalar);
 
 }  // namespace svt::illustrate

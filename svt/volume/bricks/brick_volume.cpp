@@ -3,6 +3,7 @@
 #include <svt/core/parallel.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/bricks/code_boxes.hpp>
+#include <svt/volume/bricks/face_cuts.hpp>
 
 #include <fmt/format.h>
 
@@ -195,9 +196,9 @@ public:
 
     // Fills boxes, planes and codedPatterns of the tile. Returns the entries by place: index of the scalar, or
     // kCodedBit and the box, or kVoxelsBit and the pattern.
-    std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes) {
+    std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes, const ColumnVolume& columns) {
         codeIndex_.assign(places_.patternOf.size(), TileBoxes::kNone);
-        if (faces == BrickFaces::Planes && !tile_.patterns.empty()) codeBricks(planes);
+        if (faces == BrickFaces::Planes) codeBricks(planes, columns);
         std::vector<std::uint32_t> index;
         index.reserve(codeIndex_.size());
         std::size_t place = 0;
@@ -219,7 +220,7 @@ public:
     }
 
 private:
-    void codeBricks(std::span<const FacePlane> planes) {
+    void codeBricks(std::span<const FacePlane> planes, const ColumnVolume& columns) {
         std::vector<std::uint8_t> kinds;
         std::vector<BrickCode> codes;
         std::vector<std::uint32_t> byCuts;  // by pattern: its code, or kNone
@@ -244,7 +245,11 @@ private:
                 codes.push_back(std::move(placed.code));
             }
         }
-        tile_.boxes = findCodeBoxes(places_, codeIndex_, codes, tile_.planes);
+        TileBrickCodes coded{std::move(codeIndex_), std::move(codes), std::move(tile_.planes)};
+        moveCutsToFaces(places_, tile_.patterns, planes, columns, coded);
+        codeIndex_ = std::move(coded.codeIndex);
+        tile_.planes = std::move(coded.planes);
+        tile_.boxes = findCodeBoxes(places_, codeIndex_, coded.codes, tile_.planes);
     }
 
     std::uint32_t uniformPattern(Scalar scalar) {
@@ -667,7 +672,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
             tileBricks[n] = TileBricker(tiles[n], width, height, volume.brickCount_.z).make();
             TileCoding coding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
                               {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z});
-            merger.placeTile(n, coding.run(options.faces, planes.of(n)));
+            merger.placeTile(n, coding.run(options.faces, planes.of(n), columns));
             progress.add();
         }
     });

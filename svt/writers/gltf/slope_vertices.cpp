@@ -14,7 +14,7 @@ using volume::BrickPlane;
 using volume::BrickVolume;
 using volume::kNoLabel;
 
-constexpr std::size_t kMaxPlanes = 2;
+constexpr std::size_t kMaxPlanes = 3;
 constexpr double kFarthest = 1;  // voxels
 
 bool isInside(Vec3i voxel, Vec3i dimension) {
@@ -46,26 +46,30 @@ Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec
 }
 
 // The smallest step, along unconstrained axes only, from `point` onto all planes; nothing if they do not meet nearby.
+// It is a sum of the normals, which Gauss finds from their dot products.
 std::optional<Vec3d> stepOnto(std::span<const BrickPlane> planes, Vec3d point, std::uint32_t fixedAxes) {
+    const std::size_t count = planes.size();
     std::array<Vec3d, kMaxPlanes> normal;
-    std::array<double, kMaxPlanes> distance{};
-    for (std::size_t p = 0; p < planes.size(); ++p) {
+    std::array<std::array<double, kMaxPlanes + 1>, kMaxPlanes> row{};
+    for (std::size_t p = 0; p < count; ++p) {
         normal[p] = planes[p].normal;
-        distance[p] = dot(planes[p].normal, point) + planes[p].offset;
+        row[p][count] = -(dot(planes[p].normal, point) + planes[p].offset);
         for (int axis = 0; axis < 3; ++axis)
             if (((fixedAxes >> axis) & 1u) != 0) normal[p][axis] = 0;
     }
-    Vec3d step{};
-    const double aa = dot(normal[0], normal[0]);
-    if (planes.size() == 1) {
-        if (aa < 1e-6) return std::nullopt;
-        step = normal[0] * (-distance[0] / aa);
-    } else {
-        const double ab = dot(normal[0], normal[1]), bb = dot(normal[1], normal[1]), determinant = aa * bb - ab * ab;
-        if (determinant < 1e-3 * aa * bb || determinant < 1e-9) return std::nullopt;
-        step = normal[0] * ((ab * distance[1] - bb * distance[0]) / determinant) +
-               normal[1] * ((ab * distance[0] - aa * distance[1]) / determinant);
+    for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t q = 0; q < count; ++q) row[p][q] = dot(normal[p], normal[q]);
+    for (std::size_t p = 0; p < count; ++p) {
+        // What is left of a square of a normal when the others are taken out: 0 where planes are parallel.
+        if (!(row[p][p] > (p == 0 ? 1e-6 : 1e-3 * dot(normal[p], normal[p])))) return std::nullopt;
+        for (std::size_t q = 0; q < count; ++q) {
+            if (q == p) continue;
+            const double part = row[q][p] / row[p][p];
+            for (std::size_t n = p; n <= count; ++n) row[q][n] -= part * row[p][n];
+        }
     }
+    Vec3d step{};
+    for (std::size_t p = 0; p < count; ++p) step = step + normal[p] * (row[p][count] / row[p][p]);
     if (!(length(step) <= kFarthest)) return std::nullopt;
     return step;
 }

@@ -1,0 +1,418 @@
+#include <svt/volume/bricks/face_cuts.hpp>
+#include <svt/volume/face_borders.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace svt::volume {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+// Voxels: a plane so near to the border of voxels is left to a cut.
+constexpr double kSame = 1.0 / 256;
+
+// Sides of a brick while its code is made: first cuts, then planes.
+struct SideList {
+    struct Side {
+        int axis = -1;         // of a cut
+        std::uint8_t cut = 0;  // voxels of the brick below it
+        std::uint32_t plane = kNone;
+        [[nodiscard]] bool isCut() const noexcept { return plane == kNone; }
+    };
+    std::array<Side, BrickVolume::kMaxSides> sides{};
+    std::size_t count = 0;
+
+    [[nodiscard]] std::size_t planeCount() const noexcept {
+        std::size_t planes = 0;
+        for (std::size_t s = 0; s < count; ++s) planes += sides[s].isCut() ? 0 : 1;
+        return planes;
+    }
+    [[nodiscard]] bool hasCut(int axis) const noexcept {
+        return std::any_of(sides.begin(), sides.begin() + std::ptrdiff_t(count),
+                           [&](const Side& side) { return side.isCut() && side.axis == axis; });
+    }
+    [[nodiscard]] bool hasPlane(std::uint32_t plane) const noexcept {
+        return std::any_of(sides.begin(), sides.begin() + std::ptrdiff_t(count),
+                           [&](const Side& side) { return side.plane == plane; });
+    }
+    bool addPlane(std::uint32_t plane) noexcept {
+        if (hasPlane(plane)) return true;
+        if (planeCount() == BrickVolume::kMaxPlanes) return false;
+        sides[count++] = {-1, 0, plane};
+        return true;
+    }
+};
+
+SideList sidesOf(const BrickCode& code) noexcept {
+    SideList list;
+    for (int axis = 0; axis < 3; ++axis)
+        if (const std::uint8_t cut = code.cut[static_cast<std::size_t>(axis)]; cut != 0)
+            list.sides[list.count++] = {axis, cut, kNone};
+    for (const std::uint32_t plane : code.plane)
+        if (plane != BrickVolume::kNoPlane) list.sides[list.count++] = {-1, 0, plane};
+    return list;
+}
+
+// The code of sides in any order: `scalars` by combination in the order of `list`.
+BrickCode codeOf(const SideList& list, const std::vector<Scalar>& scalars) {
+    BrickCode code;
+    std::array<std::size_t, BrickVolume::kMaxSides> order{};
+    for (std::size_t s = 0; s < list.count; ++s) order[s] = s;
+    std::stable_sort(order.begin(), order.begin() + std::ptrdiff_t(list.count), [&](std::size_t a, std::size_t b) {
+        const auto key = [&](std::size_t s) { return list.sides[s].isCut() ? list.sides[s].axis : 3; };
+        return key(a) < key(b);
+    });
+    std::size_t planes = 0;
+    for (std::size_t s = 0; s < list.count; ++s) {
+        const SideList::Side& side = list.sides[order[s]];
+        if (side.isCut())
+            code.cut[static_cast<std::size_t>(side.axis)] = side.cut;
+        else
+            code.plane[planes++] = side.plane;
+    }
+    code.sideScalars.resize(std::size_t{1} << list.count);
+    for (std::size_t part = 0; part < code.sideScalars.size(); ++part) {
+        std::size_t from = 0;
+        for (std::size_t s = 0; s < list.count; ++s)
+            if (((part >> s) & 1u) != 0) from |= std::size_t{1} << order[s];
+        code.sideScalars[part] = scalars[from];
+    }
+    return code;
+}
+
+// A brick and a layer of samples around it.
+struct Around {
+    static constexpr std::size_t kWidth = 10;
+    Vec3i min, max;  // of the samples known, -1 to 9
+    std::array<Scalar, kWidth * kWidth * kWidth> scalars{};
+    [[nodiscard]] static std::size_t at(Vec3i p) noexcept {
+        return static_cast<std::size_t>(p.x + 1) +
+               kWidth * (static_cast<std::size_t>(p.y + 1) + kWidth * static_cast<std::size_t>(p.z + 1));
+    }
+    template <class Body>
+    void forEach(const Body& body) const {
+        for (std::int32_t z = min.z; z < max.z; ++z)
+            for (std::int32_t y = min.y; y < max.y; ++y)
+                for (std::int32_t x = min.x; x < max.x; ++x) body(Vec3i{x, y, z});
+    }
+};
+
+class CutMover {
+public:
+    CutMover(const TilePlaces& places, const std::vector<BrickPattern>& patterns, const FaceBorders& faces,
+             const ColumnVolume& columns, TileBrickCodes& tile)
+        : places_(places), patterns_(patterns), faces_(faces), columns_(columns), tile_(tile) {}
+
+    void run() {
+        forEachPlace([&](Vec3i at) { replaceCuts(at); });
+        forEachPlace([&](Vec3i at) { takeFacesAtSides(at); });
+    }
+
+private:
+    struct SideFace {
+        int axis = 0;
+        bool isUpper = false;
+        BrickPlane plane;
+    };
+
+    template <class Body>
+    void forEachPlace(const Body& body) const {
+        for (std::int32_t z = 0; z < places_.count.z; ++z)
+            for (std::int32_t y = 0; y < places_.count.y; ++y)
+                for (std::int32_t x = 0; x < places_.count.x; ++x) body(Vec3i{x, y, z});
+    }
+    [[nodiscard]] std::size_t place(Vec3i at) const noexcept { return places_.at(at.x, at.y, at.z); }
+    [[nodiscard]] Vec3i corner(Vec3i at) const noexcept { return places_.origin + at * 8; }
+
+    std::uint32_t numberOf(const BrickPlane& plane) {
+        const auto known = std::find(tile_.planes.rbegin(), tile_.planes.rend(), plane);
+        if (known != tile_.planes.rend()) return static_cast<std::uint32_t>(tile_.planes.rend() - known) - 1;
+        tile_.planes.push_back(plane);
+        return static_cast<std::uint32_t>(tile_.planes.size() - 1);
+    }
+
+    // The number of the face's plane at a border; kNone if there is none, or the border is where it lies anyway.
+    std::uint32_t faceAt(int axis, std::int32_t border, Vec3i at) {
+        const auto plane = faces_.find(axis, border, corner(at));
+        if (!plane || std::abs(plane->offset + border) < kSame) return kNone;
+        return numberOf(*plane);
+    }
+
+    // Border at which a plane of a code cuts between voxels; nullopt if it is another plane.
+    static std::optional<std::pair<int, std::int32_t>> borderOf(const BrickPlane& plane) noexcept {
+        for (int axis = 0; axis < 3; ++axis)
+            if (plane.normal[axis] == 1 && plane.offset == std::floor(plane.offset))
+                return std::pair{axis, static_cast<std::int32_t>(-plane.offset)};
+        return std::nullopt;
+    }
+
+    void replaceCuts(Vec3i at) {
+        std::uint32_t& index = tile_.codeIndex[place(at)];
+        if (index == kNone) return;
+        SideList list = sidesOf(tile_.codes[index]);
+        // What becomes of each side: the number of a plane, or kNone.
+        std::array<std::uint32_t, BrickVolume::kMaxSides> becomes;
+        becomes.fill(kNone);
+        bool isAny = false;
+        for (std::size_t s = 0; s < list.count; ++s) {
+            const SideList::Side side = list.sides[s];
+            if (side.isCut()) {
+                becomes[s] = faceAt(side.axis, corner(at)[side.axis] + side.cut, at);
+            } else if (const auto border = borderOf(tile_.planes[side.plane])) {
+                becomes[s] = faceAt(border->first, border->second, at);
+            }
+            isAny = isAny || becomes[s] != kNone;
+        }
+        if (!isAny) return;
+        const auto [known, isNew] = replaced_.try_emplace({index, becomes}, kNone);
+        if (isNew) {
+            std::size_t room = BrickVolume::kMaxPlanes - list.planeCount();
+            for (std::size_t s = 0; s < list.count; ++s) {
+                if (becomes[s] == kNone || list.hasPlane(becomes[s])) continue;
+                if (list.sides[s].isCut() && room-- == 0) break;
+                list.sides[s] = {-1, 0, becomes[s]};
+            }
+            known->second = static_cast<std::uint32_t>(tile_.codes.size());
+            const std::vector<Scalar> scalars = tile_.codes[index].sideScalars;
+            tile_.codes.push_back(codeOf(list, scalars));
+        }
+        index = known->second;
+    }
+
+    // Faces in the half voxel at the sides of a brick, whose samples are those of the bricks beside it.
+    void takeFacesAtSides(Vec3i at) {
+        const bool isUniform = places_.patternOf[place(at)] == TilePlaces::kUniform;
+        if (tile_.codeIndex[place(at)] == kNone && !isUniform) return;
+        std::array<SideFace, 6> faces;
+        std::size_t count = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const bool isUpper : {false, true}) {
+                const std::int32_t border = corner(at)[axis] + (isUpper ? 8 : 0);
+                if (border <= 0 || border >= columns_.dimension()[axis]) continue;
+                const auto plane = faces_.find(axis, border, corner(at));
+                if (!plane) continue;
+                const double away = -plane->offset - border;
+                if (plane->normal[axis] != 1 || (isUpper ? -away : away) < kSame) continue;
+                faces[count++] = {axis, isUpper, *plane};
+            }
+        if (count == 0 || isAloneAmongEquals(at, std::span(faces).first(count))) return;
+        if (codeAround(at, std::span(faces).first(count))) return;
+        if (count == 1) return;
+        // Not all of them together: one after the other.
+        std::array<SideFace, 6> taken;
+        std::size_t takenCount = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            taken[takenCount] = faces[n];
+            if (codeAround(at, std::span(taken).first(takenCount + 1))) ++takenCount;
+        }
+    }
+
+    // A quick test that spares most bricks the rest: all around is one label.
+    [[nodiscard]] bool isAloneAmongEquals(Vec3i at, std::span<const SideFace> faces) const noexcept {
+        if (places_.patternOf[place(at)] != TilePlaces::kUniform) return false;
+        Vec3i min = at, max = at;
+        for (const SideFace& face : faces) (face.isUpper ? max : min)[face.axis] += face.isUpper ? 1 : -1;
+        for (std::int32_t z = min.z; z <= max.z; ++z)
+            for (std::int32_t y = min.y; y <= max.y; ++y)
+                for (std::int32_t x = min.x; x <= max.x; ++x) {
+                    if (x < 0 || y < 0 || z < 0 || x >= places_.count.x || y >= places_.count.y || z >= places_.count.z)
+                        return false;
+                    const std::size_t other = places_.at(x, y, z);
+                    if (places_.patternOf[other] != TilePlaces::kUniform ||
+                        places_.scalarOf[other] != places_.scalarOf[place(at)])
+                        return false;
+                }
+        return true;
+    }
+
+    [[nodiscard]] Scalar scalarAt(Vec3i voxel) const noexcept {
+        const Vec3i n = columns_.dimension();
+        const Vec3i inside{std::min(voxel.x, n.x - 1), std::min(voxel.y, n.y - 1), std::min(voxel.z, n.z - 1)};
+        const Vec3i away = inside - places_.origin;
+        const Vec3i at{away.x >> 3, away.y >> 3, away.z >> 3};
+        if (at.x < 0 || at.y < 0 || at.x >= places_.count.x || at.y >= places_.count.y)
+            return columns_.scalarAt(inside.x, inside.y, inside.z);
+        const std::size_t number = places_.at(at.x, at.y, at.z);
+        if (places_.patternOf[number] == TilePlaces::kUniform) return places_.scalarOf[number];
+        const BrickPattern& pattern = patterns_[places_.patternOf[number]];
+        const std::size_t word = static_cast<std::size_t>(away.z & 7);
+        const int bit = (away.x & 7) + 8 * (away.y & 7);
+        std::size_t index = 0;
+        for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)
+            index |= static_cast<std::size_t>((pattern.bitPlanes[8 * p + word] >> bit) & 1u) << p;
+        return pattern.palette[index];
+    }
+
+    // Codes a brick so that its labels hold for the samples around it, too, on the sides of `faces`.
+    bool codeAround(Vec3i at, std::span<const SideFace> faces) {
+        around_.min = {0, 0, 0};
+        around_.max = {8, 8, 8};
+        for (const SideFace& face : faces) (face.isUpper ? around_.max[face.axis] = 9 : around_.min[face.axis] = -1);
+        around_.forEach([&](Vec3i p) { around_.scalars[Around::at(p)] = scalarAt(corner(at) + p); });
+        const std::uint32_t own = tile_.codeIndex[place(at)];
+        SideList list = own == kNone ? SideList{} : sidesOf(tile_.codes[own]);
+        for (const SideFace& face : faces)
+            if (!list.addPlane(numberOf(face.plane))) return false;
+        if (!findScalars(at, list)) {
+            if (!addMissingSides(at, list) || !findScalars(at, list)) return false;
+        }
+        dropNeedless(list);
+        if (list.count == 0) return true;
+        BrickCode code = codeOf(list, scalars_);
+        if (own != kNone && code == tile_.codes[own]) return true;
+        if (const auto same =
+                std::find(tile_.codes.rbegin(),
+                          tile_.codes.rbegin() + std::min<std::ptrdiff_t>(32, std::ssize(tile_.codes)), code);
+            same != tile_.codes.rend() && *same == code) {
+            tile_.codeIndex[place(at)] = static_cast<std::uint32_t>(tile_.codes.rend() - same) - 1;
+            return true;
+        }
+        tile_.codeIndex[place(at)] = static_cast<std::uint32_t>(tile_.codes.size());
+        tile_.codes.push_back(std::move(code));
+        return true;
+    }
+
+    // The side combination of each sample around the brick.
+    void findCombinations(Vec3i at, const SideList& list) {
+        const Vec3d first = toDouble(corner(at)) + Vec3d{0.5, 0.5, 0.5};
+        std::array<std::array<std::uint8_t, Around::kWidth>, 3> bits{};  // of sides across an axis
+        std::uint32_t oblique = 0;
+        for (std::size_t s = 0; s < list.count; ++s) {
+            const SideList::Side& side = list.sides[s];
+            int axis = side.axis;
+            double border = side.cut;
+            if (!side.isCut()) {
+                const BrickPlane& plane = tile_.planes[side.plane];
+                for (int n = 0; n < 3; ++n)
+                    if (plane.normal[n] == 1) axis = n;
+                if (axis < 0)
+                    oblique |= 1u << s;
+                else
+                    border = -plane.offset - corner(at)[axis];
+            }
+            if (axis < 0) continue;
+            for (int n = -1; n < 9; ++n)
+                if (n + 0.5 > border)
+                    bits[static_cast<std::size_t>(axis)][static_cast<std::size_t>(n + 1)] |=
+                        static_cast<std::uint8_t>(1u << s);
+        }
+        around_.forEach([&](Vec3i p) {
+            auto all = static_cast<std::uint32_t>(bits[0][std::size_t(p.x + 1)] | bits[1][std::size_t(p.y + 1)] |
+                                                  bits[2][std::size_t(p.z + 1)]);
+            for (std::uint32_t rest = oblique; rest != 0; rest &= rest - 1) {
+                const int s = std::countr_zero(rest);
+                const BrickPlane& plane = tile_.planes[list.sides[std::size_t(s)].plane];
+                if (dot(plane.normal, first + toDouble(p)) + plane.offset > 0) all |= 1u << s;
+            }
+            combinations_[Around::at(p)] = static_cast<std::uint8_t>(all);
+        });
+    }
+
+    // The label of each side combination; false if one has samples of two. Those without samples take that of the
+    // nearest, see findSideScalars() of the coder.
+    bool findScalars(Vec3i at, const SideList& list) {
+        findCombinations(at, list);
+        const std::size_t count = std::size_t{1} << list.count;
+        scalars_.assign(count, 0);
+        std::uint64_t known = 0;
+        bool isValid = true;
+        around_.forEach([&](Vec3i p) {
+            const std::size_t combination = combinations_[Around::at(p)];
+            const Scalar scalar = around_.scalars[Around::at(p)];
+            if (((known >> combination) & 1u) == 0) {
+                scalars_[combination] = scalar;
+                known |= std::uint64_t{1} << combination;
+            } else if (scalars_[combination] != scalar) {
+                isValid = false;
+            }
+        });
+        if (!isValid) return false;
+        const auto distance = [&](std::size_t differing) {
+            std::size_t sum = 0;
+            for (std::size_t s = 0; s < list.count; ++s)
+                if (((differing >> s) & 1u) != 0)
+                    sum += isAcross(list.sides[s]) ? 1 : std::size_t{8} << (list.count - s);
+            return sum;
+        };
+        for (std::size_t combination = 0; combination < count; ++combination) {
+            if (((known >> combination) & 1u) != 0) continue;
+            std::size_t nearest = count;
+            for (std::size_t other = 0; other < count; ++other)
+                if (((known >> other) & 1u) != 0 &&
+                    (nearest == count || distance(other ^ combination) < distance(nearest ^ combination)))
+                    nearest = other;
+            scalars_[combination] = scalars_[nearest];
+        }
+        return true;
+    }
+    [[nodiscard]] bool isAcross(const SideList::Side& side) const noexcept {
+        if (side.isCut()) return true;
+        const Vec3d n = tile_.planes[side.plane].normal;
+        return n.x == 1 || n.y == 1 || n.z == 1;
+    }
+
+    // Adds sides where labels around the brick change and nothing tells it yet; false if there are too many.
+    bool addMissingSides(Vec3i at, SideList& list) {
+        for (int axis = 0; axis < 3; ++axis) {
+            std::uint32_t borders = 0;
+            around_.forEach([&](Vec3i p) {
+                if (p[axis] == around_.min[axis]) return;
+                Vec3i before = p;
+                --before[axis];
+                if (around_.scalars[Around::at(p)] != around_.scalars[Around::at(before)] &&
+                    combinations_[Around::at(p)] == combinations_[Around::at(before)])
+                    borders |= 1u << p[axis];
+            });
+            for (; borders != 0; borders &= borders - 1) {
+                const auto border = std::countr_zero(borders);
+                if (border < 1 || border > 7) return false;
+                const std::uint32_t face = faceAt(axis, corner(at)[axis] + border, at);
+                if (face != kNone && list.addPlane(face)) continue;
+                if (list.hasCut(axis) || list.count == list.sides.size()) return false;
+                list.sides[list.count++] = {axis, static_cast<std::uint8_t>(border), kNone};
+            }
+        }
+        return true;
+    }
+
+    // Drops sides across which no label changes.
+    void dropNeedless(SideList& list) {
+        for (std::size_t s = list.count; s-- > 0;) {
+            const std::size_t bit = std::size_t{1} << s;
+            bool isNeeded = false;
+            for (std::size_t part = 0; part < scalars_.size(); ++part)
+                isNeeded = isNeeded || scalars_[part] != scalars_[part ^ bit];
+            if (isNeeded) continue;
+            std::vector<Scalar> rest;
+            for (std::size_t part = 0; part < scalars_.size(); ++part)
+                if ((part & bit) == 0) rest.push_back(scalars_[part]);
+            scalars_ = std::move(rest);
+            std::copy(list.sides.begin() + std::ptrdiff_t(s) + 1, list.sides.begin() + std::ptrdiff_t(list.count),
+                      list.sides.begin() + std::ptrdiff_t(s));
+            --list.count;
+        }
+    }
+
+    const TilePlaces& places_;
+    const std::vector<BrickPattern>& patterns_;
+    const FaceBorders& faces_;
+    const ColumnVolume& columns_;
+    TileBrickCodes& tile_;
+    std::map<std::pair<std::uint32_t, std::array<std::uint32_t, BrickVolume::kMaxSides>>, std::uint32_t> replaced_;
+    Around around_;
+    std::array<std::uint8_t, Around::kWidth * Around::kWidth * Around::kWidth> combinations_{};
+    std::vector<Scalar> scalars_;  // by side combination
+};
+
+}  // namespace
+
+void moveCutsToFaces(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
+                     std::span<const FacePlane> faces, const ColumnVolume& columns, TileBrickCodes& tile) {
+    const FaceBorders byBorder(places.origin, places.count * 8, faces);
+    if (!byBorder.isEmpty()) CutMover(places, patterns, byBorder, columns, tile).run();
+}
+
+}  // namespace svt::volume
