@@ -113,6 +113,19 @@ struct DimensionChain {
     friend bool operator==(const DimensionChain&, const DimensionChain&) = default;
 };
 
+/// How a door opens, as plans show it.
+struct DoorSwing {
+    /// A quarter of a circle, counter-clockwise.
+    struct Arc {
+        PlanePoint center, from, to;
+    };
+    std::uint32_t label = 0;
+    std::vector<std::vector<PlanePoint>> lines;  ///< open leaves, arrows
+    std::vector<Arc> arcs;
+};
+/// An arc as 12 chords.
+[[nodiscard]] std::vector<PlanePoint> pointsOf(const DoorSwing::Arc& arc);
+
 /// Total of one class.
 struct ClassArea {
     std::string className;
@@ -128,6 +141,7 @@ struct SectionDrawing {
     std::vector<SectionLine> lines;          ///< by label
     std::vector<BeyondLine> beyond;          ///< by kind, then label
     std::vector<DimensionChain> dimensions;  ///< by side and row; only where asked for, and of plans
+    std::vector<DoorSwing> doors;            ///< by label; of plans, where the model tells how doors open
     std::vector<ClassArea> classes;          ///< by name
     double area = 0;                         ///< of all components, m2
     double drawingUnit = 0;                  ///< all coordinates are integer multiples of it, metres
@@ -161,8 +175,9 @@ struct SectionOptions {
     BeyondOptions beyond;  ///< what stands behind the plane, and above it
     bool dimensions =
         false;  ///< chains of dimensions around plans, see findDimensions() in dimension/dimension_chains.hpp
-    bool useMeshes = true;  ///< cut the meshes that the volume keeps; false: always the voxels
-    int threads = 0;        ///< 0: all cores; the result does not depend on it
+    bool doorSwings = true;  ///< plans: how doors open, see findDoorSwings() in section/door_swings.hpp
+    bool useMeshes = true;   ///< cut the meshes that the volume keeps; false: always the voxels
+    int threads = 0;         ///< 0: all cores; the result does not depend on it
     /// If given, queries of show and hide that select nothing are no error, but are told here.
     std::vector<std::string>* nothing = nullptr;
 };

@@ -24,6 +24,7 @@ struct SectionPlane {
 /// Parses a plane through `volume`, one of
 ///     z=1.2  z>1.2      cut away above 1.2 m, measured along the grid's z axis from its lower corner; x and y likewise
 ///     z<1.2             cut away below
+///     z=abs(112.3)      the same in coordinates of the model's CRS; x and y only where the grid is not turned
 ///     storey=EG+1.1     cut away above 1.1 m over the floor of that storey (by name or id; see Query for what is one);
 ///                       without a number, above 1 m
 ///     A,B,C,D           cut away where A x + B y + C z + D > 0; world axes, metres from the grid's lower corner

@@ -1,11 +1,13 @@
 #pragma once
 /// \file
-/// A section drawing as DXF (ASCII, version 2000), in metres of the drawing's plane: u of its axes is x, v is y.
+/// A section drawing as DXF (ASCII, version 2000), in metres of the drawing's plane (u of its axes is x, v is y) or of the
+/// world.
 ///
-/// One layer per class, named after the class, and the layer TEXT for names. Each ring is a closed LWPOLYLINE,
-/// including holes; room names are TEXT entities. The transform back to the model's CRS is given in comments (group
-/// 999) at the start. Text is in the code page named in the header, 1252; other characters are written as \U+XXXX.
-/// Version 2000 is the oldest that states its unit, and all programs read it.
+/// Layers by IFC type, else class and function, or after ISO 13567-2. Each ring is a closed LWPOLYLINE, including holes, and
+/// a HATCH fills them; room names are TEXT entities, doors blocks, dimensions DIMENSION entities with blocks. The transform back
+/// to the model's CRS is given in comments (group 999) at the start. Text is in the code page named in the header,
+/// 1252; other characters are written as \U+XXXX. Version 2000 is the oldest that states its unit, and all programs
+/// read it.
 
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
@@ -16,12 +18,20 @@
 
 namespace svt::writers {
 
+struct DxfOptions {
+    bool isoLayers = false;  ///< names of layers after ISO 13567-2: `A-21----E-`
+    /// Coordinates of the model's CRS, also of upright drawings, which then stand in space. Dimensions are left in plans alone.
+    bool world = false;
+};
+
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
-[[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
+[[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                  const DxfOptions& options = {});
 
 /// Writes the same as a file, all or nothing.
 /// \return bytes written, or CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing,
-                                             const volume::SemanticVolume& volume, const std::filesystem::path& path);
+                                             const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                                             const DxfOptions& options = {});
 
 }  // namespace svt::writers

@@ -24,14 +24,15 @@ struct SectionArguments {
     std::vector<std::string> show, hide;
     double minArea = 0;
     illustrate::BeyondOptions beyond;
+    writers::DxfOptions dxf;
     bool dimensions = false, noRooms = false, json = false, verbose = false;
     BuildArguments build;
 };
 
 Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                   const std::filesystem::path& path, double scale) {
+                                   const std::filesystem::path& path, double scale, const writers::DxfOptions& dxf) {
     const std::string ending = endingOf(path);
-    if (ending == ".dxf") return writers::writeDxf(drawing, volume, path);
+    if (ending == ".dxf") return writers::writeDxf(drawing, volume, path, dxf);
     if (ending == ".geojson") return writers::writeGeojson(drawing, volume, path);
     writers::SvgOptions options;
     options.scale = scale;
@@ -86,7 +87,8 @@ int runSection(const SectionArguments& arguments) {
                                       "--no-rooms and --min-area",
                                       arguments.plane.empty() ? "1.1 m above the lowest floor" : arguments.plane)));
     for (const std::filesystem::path& path : arguments.outputs)
-        if (auto written = writeDrawing(*drawing, *volume, path, *scale); !written) return fail(written.error());
+        if (auto written = writeDrawing(*drawing, *volume, path, *scale, arguments.dxf); !written)
+            return fail(written.error());
     for (const std::filesystem::path& path : arguments.tables) {
         const std::string text = endingOf(path) == ".csv" ? writers::makeSectionCsv(*drawing, *volume)
                                                           : writers::makeSectionJson(*drawing, *volume);
@@ -109,6 +111,8 @@ Action connectSection(Command& command) {
     command.set("--hidden", arguments->beyond.hidden);
     command.set("--above", arguments->beyond.above);
     command.set("--dimensions", arguments->dimensions);
+    command.set("--iso-layers", arguments->dxf.isoLayers);
+    command.set("--world", arguments->dxf.world);
     command.set("--scale", arguments->scale);
     command.set("--hide", arguments->hide);
     command.set("--show", arguments->show);

@@ -8,6 +8,7 @@
 #include <svt/core/file.hpp>
 #include <svt/illustrate/sheet_set.hpp>
 #include <svt/writers/dxf_drawing.hpp>
+#include <svt/writers/sheet_geopackage.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
@@ -27,6 +28,7 @@ struct SheetsArguments {
     std::string scale;
     std::optional<std::string> paper, language;
     std::vector<std::string> hide;
+    writers::DxfOptions dxf;
     bool noAbove = false, noDimensions = false, noTables = false, verbose = false;
     BuildArguments build;
 };
@@ -115,11 +117,12 @@ std::string fileNameOf(const writers::SheetContent& content, std::size_t number)
 }
 
 Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
-                            const std::filesystem::path& folder) {
+                            const std::filesystem::path& folder, const writers::DxfOptions& options) {
     if (auto made = makeFolder(folder); !made) return made;
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
-        if (auto written = writers::writeDxf(content.views[n].drawing, volume, path); !written) return written.error();
+        if (auto written = writers::writeDxf(content.views[n].drawing, volume, path, options); !written)
+            return written.error();
     }
     return {};
 }
@@ -164,14 +167,15 @@ int runSheets(const SheetsArguments& arguments) {
     const auto sheets = writers::makeSvgSheets(*content, *volume, options);
     if (!sheets) return fail(sheets.error());
     if (!arguments.output.empty()) {
-        const auto pdf = writers::makePdfSheets(*content, *volume, options);
-        if (!pdf) return fail(pdf.error());
-        if (auto written = writeFileAtomically(arguments.output, *pdf); !written) return fail(written.error());
+        const auto bytes = endingOf(arguments.output) == ".gpkg" ? writers::makeSheetGeoPackage(*content, *volume)
+                                                                 : writers::makePdfSheets(*content, *volume, options);
+        if (!bytes) return fail(bytes.error());
+        if (auto written = writeFileAtomically(arguments.output, *bytes); !written) return fail(written.error());
     }
     if (!arguments.folder.empty())
         if (auto written = writeSvgFolder(*sheets, arguments.folder); !written) return fail(written.error());
     if (!arguments.dxfFolder.empty())
-        if (auto written = writeDxfFolder(*content, *volume, arguments.dxfFolder); !written)
+        if (auto written = writeDxfFolder(*content, *volume, arguments.dxfFolder, arguments.dxf); !written)
             return fail(written.error());
     if (!arguments.setOutput.empty())
         if (auto written = writeFileAtomically(arguments.setOutput, illustrate::writeSheetSet(*set)); !written)
@@ -196,6 +200,8 @@ Action connectSheets(Command& command) {
     command.set("--scale", arguments->scale);
     command.set("--paper", arguments->paper);
     command.set("--hide", arguments->hide);
+    command.set("--iso-layers", arguments->dxf.isoLayers);
+    command.set("--world", arguments->dxf.world);
     command.set("--no-above", arguments->noAbove);
     command.set("--no-dimensions", arguments->noDimensions);
     command.set("--no-tables", arguments->noTables);

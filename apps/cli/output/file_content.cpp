@@ -22,6 +22,7 @@ constexpr FileFormat kFormats[] = {
     {"svt", ".svt", FileContent::Volume},
     {"svg", ".svg", FileContent::Svg},
     {"pdf", ".pdf", FileContent::Pdf},
+    {"gpkg", ".gpkg", FileContent::GeoPackage},
     {"webm", ".webm", FileContent::Webm},
     {"mp4", ".mp4", FileContent::Mp4},
     {"gif", ".gif", FileContent::Gif},
@@ -137,6 +138,7 @@ FileContent contentOf(std::string_view head) {
     if (head.starts_with("#usda "sv)) return FileContent::Usd;
     if (head.starts_with("VOX \x96"sv) || head.starts_with("VOX \xc8"sv)) return FileContent::Vox;
     if (head.starts_with(" BDV\0\0\0\0"sv)) return FileContent::Vdb;
+    if (head.starts_with("SQLite format 3\0"sv)) return FileContent::GeoPackage;
     if (head.starts_with("PAR1"sv)) return FileContent::Parquet;
     if (head.starts_with("II*\0"sv) || head.starts_with("II+\0"sv) || head.starts_with("MM\0"sv))
         return FileContent::Tiff;
@@ -185,6 +187,7 @@ std::string_view contentName(FileContent content) noexcept {
         case FileContent::Tiff: return "a TIFF";
         case FileContent::Svg: return "an SVG drawing";
         case FileContent::Pdf: return "a PDF";
+        case FileContent::GeoPackage: return "a SQLite database";
         case FileContent::Webm: return "a WebM film";
         case FileContent::Mp4: return "an MP4 film";
         case FileContent::Gif: return "a GIF";

@@ -28,6 +28,7 @@ enum class FileContent : std::uint8_t {
     Tiff,
     Svg,
     Pdf,
+    GeoPackage,
     Webm,
     Mp4,
     Gif,

@@ -4,6 +4,7 @@
 #include <svt/illustrate/beyond/lines_beyond.hpp>
 #include <svt/illustrate/dimension/dimension_chains.hpp>
 #include <svt/illustrate/exact/body_cells.hpp>
+#include <svt/illustrate/section/door_swings.hpp>
 #include <svt/illustrate/section/draw_labels.hpp>
 #include <svt/illustrate/section/exact_section.hpp>
 #include <svt/illustrate/section/section_rings.hpp>
@@ -216,7 +217,8 @@ SectionDrawing drawVoxels(const volume::SemanticVolume& volume, const volume::Br
     const Vec3d spacing = volume.grid.spacing();
     drawing.drawingUnit = cut.drawingUnit();
     drawing.tolerance = options.tolerance >= 0 ? options.tolerance : 0.01 * std::min({spacing.x, spacing.y, spacing.z});
-    std::vector<DrawingBorder> borders = joinEdges(cutPieces(bricks, cut, drawnLabelOfScalar(volume.labels, isDrawn)));
+    std::vector<DrawingBorder> borders =
+        joinEdges(cutPieces(bricks, volume.planes, cut, drawnLabelOfScalar(volume.labels, isDrawn)));
     // At least 1.5 drawing units: rounded points may be off their line by a drawing unit.
     straighten(borders, std::max(drawing.tolerance / drawing.drawingUnit, 1.5));
     return DrawingMaker(volume, std::move(drawing), options.smallestArea, {}, 0).make(borders);
@@ -277,6 +279,7 @@ Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const vo
         if (*drawing) {
             addLinesBeyond(**drawing, volume, isDrawn, options.beyond, options.threads);
             if (options.dimensions) (*drawing)->dimensions = findDimensions(**drawing, volume);
+            if (options.doorSwings) (*drawing)->doors = findDoorSwings(**drawing, volume);
             return std::move(**drawing);
         }
     }
@@ -292,6 +295,7 @@ Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const vo
     drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
     addLinesBeyond(drawing, volume, isDrawn, options.beyond, options.threads);
     if (options.dimensions) drawing.dimensions = findDimensions(drawing, volume);
+    if (options.doorSwings) drawing.doors = findDoorSwings(drawing, volume);
     return drawing;
 }
 

@@ -145,16 +145,25 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
         return Error(Code::BadSection, fmt::format("the section '{}': {}", text, reason));
     };
     const std::string expected =
-        "expected z=1.2, y<3 or x>4 (metres from the lower corner), storey=NAME+1.1, or A,B,C,D with "
+        "expected z=1.2, y<3 or x>4 (metres from the lower corner), z=abs(112.3) (in the CRS), storey=NAME+1.1, or "
+        "A,B,C,D with "
         "A x + B y + C z + D > 0 cut away";
     SectionPlane plane;
     const std::string copy(text);
     const std::size_t at = copy.find_first_of("=<>");
     if (at == 1 && std::string_view("xyz").find(copy[0]) != std::string_view::npos) {
-        const auto value = parseNumbers(copy.substr(2), 1);
+        const bool isAbsolute = copy.compare(2, 4, "abs(") == 0 && copy.ends_with(')');
+        const auto value = parseNumbers(isAbsolute ? copy.substr(6, copy.size() - 7) : copy.substr(2), 1);
         if (!value) return badSection(expected);
-        const Vec3d axis = grid.axes()[static_cast<std::size_t>(copy[0] - 'x')];
-        plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value)[0]};
+        const int number = copy[0] - 'x';
+        const Vec3d axis = grid.axes()[static_cast<std::size_t>(number)];
+        if (isAbsolute && std::abs(axis[number]) < 1 - 1e-12)
+            return badSection(
+                fmt::format("the grid is turned, so {} has no coordinate of its own in the CRS; give "
+                            "metres from the lower corner",
+                            copy[0]));
+        const double from = isAbsolute ? dot(axis, grid.origin()) : 0;
+        plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * ((*value)[0] - from)};
     } else if (copy.rfind("storey=", 0) == 0) {
         // Split at the last sign, if a number follows; names may contain signs.
         const std::size_t sign = copy.find_last_of("+-");

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <unordered_set>
 
@@ -136,6 +137,8 @@ private:
         if (product.kind == ProductKind::Element && !fields[8].enumeration().empty() &&
             fields[8].enumeration().size() > 1)
             feature.attributes.push_back({"predefinedType", std::string(fields[8].enumeration()), ""});
+        if (product.ifcType == "IfcDoor" || product.ifcType == "IfcDoorStandardCase")
+            addDoorOperation(product.record, properties, feature);
         if (const auto host = structure_.filled.find(product.record); host != structure_.filled.end())
             if (auto id = file_.fieldsOf(host->second)[0].string())
                 feature.attributes.push_back({"fills", std::move(*id), ""});
@@ -144,6 +147,26 @@ private:
         const auto parent = product.parent == Product::kNoProduct ? model::kNoFeature : featureOf_[product.parent];
         featureOf_.resize(structure_.products.size(), model::kNoFeature);
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
+    }
+
+    // How a door opens is told by itself (IFC4) or by its type or style (2x3); to which side, by the y axis of its placement.
+    void addDoorOperation(RecordIndex door, const Properties& properties, model::Feature& feature) const {
+        const auto known = [](string_view operation) { return operation.size() > 1 && operation != "NOTDEFINED"; };
+        string_view operation = file_.fieldsOf(door)[11].enumeration();
+        for (const RecordIndex type : properties.typesOf(door)) {
+            if (known(operation)) break;
+            const string_view name = file_.typeName(type);
+            if (name == "IFCDOORTYPE") operation = file_.fieldsOf(type)[10].enumeration();
+            if (name == "IFCDOORSTYLE") operation = file_.fieldsOf(type)[8].enumeration();
+        }
+        if (!known(operation)) return;
+        feature.attributes.push_back({"operationType", std::string(operation), ""});
+        std::vector<std::string> lost;
+        const Vec3d towards = map_.mapFromProject.direction(placementOf(door, lost).y);
+        if (!lost.empty() || !(std::hypot(towards.x, towards.y) > 0)) return;
+        const double degrees = std::atan2(towards.x, towards.y) * 180 / std::numbers::pi;
+        const double rounded = std::round(degrees * 1000) / 1000;
+        feature.attributes.push_back({"opensTowards", rounded < 0 ? rounded + 360 : rounded + 0.0, "deg"});
     }
 
     // The name of a space is its number in the plan, its long name what people call it. A zone that somebody occupies is a

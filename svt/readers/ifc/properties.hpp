@@ -20,6 +20,9 @@ public:
     /// `materialLayers`, `classification`. A property of the object takes the place of one of its type.
     void append(RecordIndex object, std::vector<Attribute>& attributes) const;
 
+    /// Types that define an object.
+    [[nodiscard]] const std::vector<RecordIndex>& typesOf(RecordIndex object) const { return of(types_, object); }
+
     /// Materials, layer sets and usages of an object, else of its type.
     [[nodiscard]] const std::vector<RecordIndex>& materialsOf(RecordIndex object) const;
 

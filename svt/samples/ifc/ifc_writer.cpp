@@ -50,6 +50,26 @@ bool overlaps(const Bounds& a, const Bounds& b) {
            b.min.z < a.max.z;
 }
 
+bool isSwingDoor(const Component& component) {
+    return component.kind == Kind::Door && component.function == "door" && component.solids.size() == 2;
+}
+
+// Axes of a door: x along it, y to the side with which its leaf is flush, where it opens to. The hinges are on the left as
+// one looks that way, at the origin.
+Frame doorFrame(const Component& component) {
+    const Bounds all = samples::boundsOf(component.solids[0]), leaf = samples::boundsOf(component.solids[1]);
+    const bool isAlongX = all.max.x - all.min.x > all.max.y - all.min.y;
+    const auto low = isAlongX ? leaf.min.y - all.min.y : leaf.min.x - all.min.x;
+    const auto high = isAlongX ? all.max.y - leaf.max.y : all.max.x - leaf.max.x;
+    const double way = high < low ? 1 : -1;
+    Frame frame;
+    frame.y = isAlongX ? Vec3d{0, way, 0} : Vec3d{way, 0, 0};
+    frame.x = cross(frame.y, frame.z);
+    frame.origin = {double(frame.x.x + frame.y.x > 0 ? all.min.x : all.max.x),
+                    double(frame.x.y + frame.y.y > 0 ? all.min.y : all.max.y), double(all.min.z)};
+    return frame;
+}
+
 bool isSameShape(const Piece& a, const Piece& b) { return a.from == b.from && a.to == b.to && a.sides == b.sides; }
 
 Bounds boundsOf(const Solid& solid, const Piece& piece) {
@@ -193,7 +213,7 @@ private:
         const Component& component = placed_->plan->components[c];
         LayeredBody layers = layersOf(*placed_->plan, component);
         Frame frame = layers.frame;
-        if (layers.layers.empty()) frame = Frame{};
+        if (layers.layers.empty()) frame = isSwingDoor(component) ? doorFrame(component) : Frame{};
         const auto storey = std::size_t(std::max(component.storey, 0));
         Frame inStorey = frame;
         if (component.storey >= 0) inStorey.origin = inStorey.origin - Vec3d{0, 0, storeyLift_[storey]};
@@ -289,7 +309,10 @@ private:
         if (component.kind == Kind::Window || component.kind == Kind::Door) {
             const Bounds bounds = samples::boundsOf(component.solids.front());
             const double wide = double(std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y));
-            tail = "," + stepNumber(double(bounds.max.z - bounds.min.z)) + "," + stepNumber(wide) + ",.NOTDEFINED.,$,$";
+            tail = "," + stepNumber(double(bounds.max.z - bounds.min.z)) + "," + stepNumber(wide) +
+                   (isSwingDoor(component)
+                        ? (wide > 1300 ? ",.DOOR.,.DOUBLE_DOOR_SINGLE_SWING.,$" : ",.DOOR.,.SINGLE_SWING_LEFT.,$")
+                        : ",.NOTDEFINED.,$,$");
         }
         return records_.rooted(type.type, id, stepText(name) + head + "," + stepText(id) + tail);
     }

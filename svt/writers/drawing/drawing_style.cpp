@@ -54,6 +54,12 @@ std::pair<PlanePoint, PlanePoint> drawnBox(const illustrate::SectionDrawing& dra
         add(line.from);
         add(line.to);
     }
+    for (const illustrate::DoorSwing& door : drawing.doors) {
+        for (const auto& line : door.lines)
+            for (const PlanePoint p : line) add(p);
+        for (const auto& arc : door.arcs)
+            for (const PlanePoint p : {arc.from, arc.to}) add(p);
+    }
     if (!(low.u <= high.u)) return {};
     return {low, high};
 }

@@ -2,15 +2,19 @@
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
+#include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/drawing/dxf_parts.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <iterator>
-#include <limits>
+#include <numbers>
+#include <tuple>
 
 namespace svt::writers {
 namespace {
@@ -85,38 +89,22 @@ constexpr double kDimensionScale = 10;  // millimetres on paper per metre
 constexpr const char* kDimensionLayer = "DIMENSIONS";
 
 class DxfWriter {
-    // The looks of a dimension.
-    struct DimensionBlock {
+    // The looks of a dimension, or a door.
+    struct Block {
         std::string record, begin, end;  // handles
         std::string name, entities;
+        bool isAnonymous = true;
     };
 
 public:
-    DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume)
-        : drawing_(drawing), volume_(volume) {
-        double low = std::numeric_limits<double>::infinity();
-        low_ = {low, low};
-        high_ = {-low, -low};
-        for (const auto& component : drawing.components)
-            for (const auto& polygon : component.polygons)
-                for (const PlanePoint p : polygon.outer) {
-                    low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
-                    high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
-                }
-        for (const auto& line : drawing.lines)
-            for (const PlanePoint p : line.points) {
-                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
-                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
-            }
-        for (const illustrate::BeyondLine& line : drawing.beyond) {
-            for (const PlanePoint p : {line.from, line.to}) {
-                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
-                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
-            }
-            hasKind_[static_cast<std::size_t>(line.kind)] = true;
-        }
-        if (drawing.components.empty() && drawing.beyond.empty()) low_ = high_ = {};
-        dimensions_ = placeDimensions(drawing, {low_, high_}, kDimensionScale);
+    DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+              const DxfOptions& options)
+        : drawing_(drawing), volume_(volume), options_(options), style_(drawing, volume, kDimensionScale) {
+        findObjectAxes();
+        std::tie(low_, high_) = drawnBox(drawing);
+        for (const illustrate::BeyondLine& line : drawing.beyond) hasKind_[static_cast<std::size_t>(line.kind)] = true;
+        if (!options.world || isPlan(drawing, volume.grid))
+            dimensions_ = placeDimensions(drawing, {low_, high_}, kDimensionScale);
         for (const DimensionMark& mark : dimensions_.marks)
             for (const PlanePoint p : {inMetres(mark.line.from), inMetres(mark.line.to)}) {
                 low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
@@ -155,7 +143,9 @@ private:
         const illustrate::PlaneAxes& axes = drawing_.axes;
         tag(999, dxfText(volume_.modelName.empty() ? volume_.source : volume_.modelName) + ", " +
                      planeText(drawing_, volume_.grid));
-        tag(999, "world = origin + u * x + v * y, metres" +
+        tag(999, (options_.world
+                      ? std::string("coordinates of the world; the drawing lies at origin + u * x + v * y, metres")
+                      : std::string("world = origin + u * x + v * y, metres")) +
                      (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)));
         tag(999, "origin " + vector(axes.origin, 6));
         tag(999, "u " + vector(axes.u, 15));
@@ -171,12 +161,11 @@ private:
         variable("$INSUNITS", 70, "6");     // metres
         variable("$MEASUREMENT", 70, "1");  // metric
         variable("$LUNITS", 70, "2");       // decimal
+        const Vec3d a = placed(low_), b = placed(high_);
         tag(9, "$EXTMIN");
-        point(10, low_);
-        tag(30, "0");
+        point(10, {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)});
         tag(9, "$EXTMAX");
-        point(10, high_);
-        tag(30, "0");
+        point(10, {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)});
         endSection();
         section("CLASSES");
         endSection();
@@ -190,6 +179,37 @@ private:
     void point(int code, PlanePoint p) {
         number(code, p.u);
         number(code + 10, p.v);
+    }
+    void point(int code, Vec3d p) {
+        number(code, p.x);
+        number(code + 10, p.y);
+        number(code + 20, p.z);
+    }
+
+    // Flat entities in the world have axes of their own, which follow from their normal (the "arbitrary axis").
+    void findObjectAxes() {
+        if (!options_.world) return;
+        normal_ = drawing_.axes.normal;
+        const bool isUpright = std::abs(normal_.x) < 1.0 / 64 && std::abs(normal_.y) < 1.0 / 64;
+        objectX_ = normalized(cross(isUpright ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1}, normal_));
+        objectY_ = normalized(cross(normal_, objectX_));
+        elevation_ = dot(normal_, drawing_.axes.origin);
+        turnDegrees_ =
+            std::atan2(dot(drawing_.axes.u, objectY_), dot(drawing_.axes.u, objectX_)) * 180 / std::numbers::pi;
+    }
+    // A point for entities in space, such as LINE.
+    [[nodiscard]] Vec3d placed(PlanePoint p) const noexcept {
+        return options_.world ? drawing_.axes.worldFromPlane(p) : Vec3d{p.u, p.v, 0};
+    }
+    // A point for flat entities, in their own axes.
+    [[nodiscard]] PlanePoint flat(PlanePoint p) const noexcept {
+        if (!options_.world) return p;
+        const Vec3d world = drawing_.axes.worldFromPlane(p);
+        return {dot(world, objectX_), dot(world, objectY_)};
+    }
+    void extrusion() {
+        if (!options_.world || normal_ == Vec3d{0, 0, 1}) return;
+        point(210, normal_);
     }
 
     void table(const char* name, const char* handle, int count) {
@@ -240,8 +260,7 @@ private:
         record("VPORT", "21", "1", "AcDbViewportTableRecord", "*Active");
         const double width = std::max(high_.u - low_.u, 1.0), height = std::max(high_.v - low_.v, 1.0);
         for (const auto& [code, p] :
-             {std::pair(10, PlanePoint{0, 0}), std::pair(11, PlanePoint{1, 1}),
-              std::pair(12, PlanePoint{0.5 * (low_.u + high_.u), 0.5 * (low_.v + high_.v)}),
+             {std::pair(10, PlanePoint{0, 0}), std::pair(11, PlanePoint{1, 1}), std::pair(12, viewCenter()),
               std::pair(13, PlanePoint{0, 0}), std::pair(14, PlanePoint{1, 1}), std::pair(15, PlanePoint{1, 1}),
               std::pair(16, PlanePoint{0, 0}), std::pair(17, PlanePoint{0, 0})}) {
             point(code, p);
@@ -252,6 +271,11 @@ private:
         number(41, 1.5);
         number(42, 50);
         endTable();
+    }
+
+    [[nodiscard]] PlanePoint viewCenter() const noexcept {
+        const Vec3d middle = placed({0.5 * (low_.u + high_.u), 0.5 * (low_.v + high_.v)});
+        return {middle.x, middle.y};
     }
 
     void lineTypeTable() {
@@ -285,36 +309,33 @@ private:
     }
 
     void layerTable() {
-        const auto kinds = static_cast<int>(std::count(std::begin(hasKind_), std::end(hasKind_), true));
-        table("LAYER", "3", static_cast<int>(layers_.size()) + 2 + kinds + (blocks_.empty() ? 0 : 1));
-        const auto layer = [&](std::string_view handle, std::string_view name, int color,
-                               const char* lineType = "Continuous", int width = -3) {
+        table("LAYER", "3", static_cast<int>(layers_.size()) + 1);
+        const auto layer = [&](std::string_view handle, std::string_view name, int color, const char* lineType,
+                               int width) {
             record("LAYER", handle, "3", "AcDbLayerTableRecord", name);
             tag(62, color);
             tag(6, lineType);
             tag(370, width);
             tag(390, "F");
         };
-        layer("25", "0", 7);
-        layer("26", "TEXT", 7);
-        if (!blocks_.empty()) layer(newHandle(), kDimensionLayer, 7, "Continuous", 13);
-        for (const auto& [name, className] : layers_) layer(newHandle(), name, colorOf(className));
-        for (const BeyondStyle& style : kBeyondStyles)
-            if (hasKind_[static_cast<std::size_t>(style.kind)])
-                layer(newHandle(), style.layer, style.color, style.lineType, kBeyondWidth);
+        layer("25", "0", 7, "Continuous", -3);
+        for (const Layer& known : layers_) layer(newHandle(), known.name, known.color, known.lineType, known.width);
         endTable();
     }
 
     void textStyleTable() {
-        table("STYLE", "4", 1);
-        record("STYLE", "27", "4", "AcDbTextStyleTableRecord", "Standard");
-        tag(40, "0");
-        tag(41, "1");
-        tag(50, "0");
-        tag(71, 0);
-        tag(42, "2.5");
-        tag(3, "arial.ttf");
-        tag(4, "");
+        table("STYLE", "4", 3);
+        for (const auto& [handle, name] :
+             {std::pair("27", "Standard"), std::pair("2F", "SVT_NAMES"), std::pair("30", "SVT_DIMENSIONS")}) {
+            record("STYLE", handle, "4", "AcDbTextStyleTableRecord", name);
+            tag(40, "0");
+            tag(41, "1");
+            tag(50, "0");
+            tag(71, 0);
+            tag(42, "2.5");
+            tag(3, "arial.ttf");
+            tag(4, "");
+        }
         endTable();
     }
 
@@ -329,7 +350,7 @@ private:
             tag(2, name);
             tag(340, "0");
         }
-        for (const DimensionBlock& block : blocks_) {
+        for (const Block& block : blocks_) {
             tag(0, "BLOCK_RECORD");
             tag(5, block.record);
             tag(330, "9");
@@ -343,13 +364,13 @@ private:
 
     void blocks() {
         section("BLOCKS");
-        addBlock({"1A", "2A", "2B", "*Model_Space", ""}, 0);
-        addBlock({"1B", "2C", "2D", "*Paper_Space", ""}, 0);
-        for (const DimensionBlock& block : blocks_) addBlock(block, 1);  // anonymous
+        addBlock({"1A", "2A", "2B", "*Model_Space", "", false}, 0);
+        addBlock({"1B", "2C", "2D", "*Paper_Space", "", false}, 0);
+        for (const Block& block : blocks_) addBlock(block, block.isAnonymous ? 1 : 0);
         endSection();
     }
 
-    void addBlock(const DimensionBlock& block, int flags) {
+    void addBlock(const Block& block, int flags) {
         tag(0, "BLOCK");
         tag(5, block.begin);
         tag(330, block.record);
@@ -358,7 +379,7 @@ private:
         tag(100, "AcDbBlockBegin");
         tag(2, block.name);
         tag(70, flags);
-        point(10, {0, 0});
+        point(10, PlanePoint{0, 0});
         tag(30, "0");
         tag(3, block.name);
         tag(1, "");
@@ -397,7 +418,9 @@ private:
         tag(90, static_cast<int>(points.size()));
         tag(70, isClosed ? 1 : 0);
         number(43, 0);
-        for (const PlanePoint p : points) point(10, p);
+        if (options_.world) number(38, elevation_);
+        for (const PlanePoint p : points) point(10, flat(p));
+        extrusion();
         extendedData(component);
     }
 
@@ -421,40 +444,55 @@ private:
     }
 
     void beyond(const illustrate::BeyondLine& line) {
-        entity("LINE", kBeyondStyles[static_cast<std::size_t>(line.kind)].layer);
+        const BeyondStyle& style = kBeyondStyles[static_cast<std::size_t>(line.kind)];
+        entity("LINE", layerFor(style.layer, style.color, style.lineType, kBeyondWidth));
         tag(100, "AcDbLine");
-        point(10, line.from);
-        tag(30, "0");
-        point(11, line.to);
-        tag(31, "0");
+        point(10, placed(line.from));
+        point(11, placed(line.to));
         tag(1001, "SVT");
         tag(1000, dxfText(volume_.labels.labels[line.label].id).substr(0, kMostCharacters));
     }
 
     void text(PlanePoint at, double height, std::string_view content) {
-        entity("TEXT", "TEXT");
+        entity("TEXT", layerFor(options_.isoLayers ? isoLayerOf(DxfContent::Text) : "TEXT", 7));
         tag(100, "AcDbText");
-        point(10, at);
-        tag(30, "0");
+        point(10, flat(at));
+        number(30, elevation_);
         number(40, height);
         tag(1, content);
+        if (turnDegrees_ != 0) number(50, turnDegrees_);
+        tag(7, "SVT_NAMES");
         tag(72, 1);  // centred at the second point
-        point(11, at);
-        tag(31, "0");
+        point(11, flat(at));
+        number(31, elevation_);
+        extrusion();
         tag(100, "AcDbText");
         tag(73, 2);
     }
 
+    // The name of a layer, which is added to the table where it is new.
+    const std::string& layerFor(const std::string& name, int color, const char* lineType = "Continuous",
+                                int width = -3) {
+        const auto known = std::ranges::find(layers_, name, &Layer::name);
+        if (known != layers_.end()) return known->name;
+        layers_.push_back({name, lineType, color, width});
+        return layers_.back().name;
+    }
+    const std::string& layerOf(std::uint32_t label, DxfContent content) {
+        const volume::Label& of = volume_.labels.labels[label];
+        if (options_.isoLayers)
+            return layerFor(isoLayerOf(of, content), content == DxfContent::Hatch ? 8 : colorOf(of.className));
+        if (content == DxfContent::Hatch) return layerFor(dxfLayerOf(of) + "_HATCH", 8);
+        return layerFor(dxfLayerOf(of), colorOf(of.className));
+    }
+
     void entities() {
         section("ENTITIES");
-        for (const illustrate::ClassArea& group : drawing_.classes) {
-            const std::string layer = plainName(group.className);
-            if (std::ranges::find(layers_, layer, &Layer::name) == layers_.end())
-                layers_.push_back({layer, group.className});
-        }
+        for (const illustrate::SectionComponent& component : drawing_.components)
+            for (const illustrate::SectionPolygon& polygon : component.polygons) hatch(component.label, polygon);
         for (const illustrate::SectionComponent& component : drawing_.components) {
             const volume::Label& label = volume_.labels.labels[component.label];
-            const std::string layer = plainName(label.className);
+            const std::string layer = layerOf(component.label, DxfContent::Element);
             for (const illustrate::SectionPolygon& polygon : component.polygons) {
                 polyline(polygon.outer, true, layer, component);
                 for (const illustrate::Ring& hole : polygon.holes) polyline(hole, true, layer, component);
@@ -464,23 +502,120 @@ private:
             if (model::isSpace(label.className)) name(component, shownName(label));
         }
         for (const illustrate::BeyondLine& line : drawing_.beyond) beyond(line);
+        for (const illustrate::DoorSwing& swing : drawing_.doors) door(swing);
         for (const DimensionMark& mark : dimensions_.marks) dimension(mark);
         endSection();
     }
 
+    void hatch(std::uint32_t label, const illustrate::SectionPolygon& polygon) {
+        const DxfHatch* const pattern = dxfHatchOf(style_.hatchOf(label));
+        if (pattern == nullptr) return;
+        entity("HATCH", layerOf(label, DxfContent::Hatch));
+        tag(100, "AcDbHatch");
+        point(10, Vec3d{0, 0, elevation_});
+        point(210, options_.world ? normal_ : Vec3d{0, 0, 1});
+        tag(2, pattern->name);
+        tag(70, 0);  // a pattern
+        tag(71, 0);
+        tag(91, static_cast<int>(1 + polygon.holes.size()));
+        const auto path = [&](const illustrate::Ring& ring, int kind) {
+            tag(92, kind);
+            tag(72, 0);
+            tag(73, 1);
+            tag(93, static_cast<int>(ring.size()));
+            for (const PlanePoint p : ring) point(10, flat(p));
+            tag(97, 0);
+        };
+        path(polygon.outer, 1 + 2);  // external, a polyline
+        for (const illustrate::Ring& hole : polygon.holes) path(hole, 16 + 2);
+        tag(75, 0);
+        tag(76, 0);  // its own lines
+        number(52, 0);
+        number(41, 1);
+        tag(77, 0);
+        tag(78, static_cast<int>(pattern->lines.size()));
+        for (const DxfHatchLine& line : pattern->lines) {
+            const double angle = line.degrees * std::numbers::pi / 180;
+            number(53, line.degrees);
+            number(43, line.x);
+            number(44, line.y);
+            number(45, -line.distance * std::sin(angle));
+            number(46, line.distance * std::cos(angle));
+            tag(79, line.dash > 0 ? 2 : 0);
+            if (line.dash > 0) {
+                number(49, line.dash);
+                number(49, -line.gap);
+            }
+        }
+        tag(98, 0);
+    }
+
+    // A block with leaves and arcs about the first hinge, and where it is inserted.
+    void door(const illustrate::DoorSwing& swing) {
+        const std::string& layer = layerOf(swing.label, DxfContent::Element);
+        const std::string inBlock = layer;
+        Block block{newHandle(), newHandle(), newHandle(), fmt::format("DOOR_{}", ++doorCount_), {}, false};
+        const PlanePoint base = flat(swing.lines.front().front());
+        const auto local = [&](PlanePoint p) {
+            const PlanePoint at = flat(p);
+            return PlanePoint{at.u - base.u, at.v - base.v};
+        };
+        const std::string before = std::move(dxf_);
+        dxf_.clear();
+        owner_ = block.record;
+        for (const auto& points : swing.lines)
+            for (std::size_t n = 0; n + 1 < points.size(); ++n) {
+                entity("LINE", inBlock);
+                tag(100, "AcDbLine");
+                point(10, local(points[n]));
+                tag(30, "0");
+                point(11, local(points[n + 1]));
+                tag(31, "0");
+            }
+        for (const illustrate::DoorSwing::Arc& arc : swing.arcs) {
+            const PlanePoint center = local(arc.center), from = local(arc.from), to = local(arc.to);
+            const auto degrees = [&](PlanePoint p) {
+                const double turn = std::atan2(p.v - center.v, p.u - center.u) * 180 / std::numbers::pi;
+                return turn < -1e-9 ? turn + 360 : turn;
+            };
+            entity("ARC", inBlock);
+            tag(100, "AcDbCircle");
+            point(10, center);
+            tag(30, "0");
+            number(40, std::hypot(from.u - center.u, from.v - center.v));
+            tag(100, "AcDbArc");
+            number(50, degrees(from));
+            number(51, degrees(to));
+        }
+        block.entities = std::move(dxf_);
+        dxf_ = before;
+        owner_ = "1A";
+        entity("INSERT", inBlock);
+        tag(100, "AcDbBlockReference");
+        tag(2, block.name);
+        point(10, base);
+        number(30, elevation_);
+        extrusion();
+        tag(1001, "SVT");
+        tag(1000, dxfText(volume_.labels.labels[swing.label].id).substr(0, kMostCharacters));
+        blocks_.push_back(std::move(block));
+    }
+
+    [[nodiscard]] const std::string& dimensionLayer() {
+        return layerFor(options_.isoLayers ? isoLayerOf(DxfContent::Dimension) : kDimensionLayer, 7, "Continuous", 13);
+    }
+
     void line(const MarkLine& drawn) {
-        entity("LINE", kDimensionLayer);
+        entity("LINE", dimensionLayer());
         tag(100, "AcDbLine");
-        point(10, inMetres(drawn.from));
-        tag(30, "0");
-        point(11, inMetres(drawn.to));
-        tag(31, "0");
+        point(10, placed(inMetres(drawn.from)));
+        point(11, placed(inMetres(drawn.to)));
     }
     static PlanePoint inMetres(PlanePoint p) noexcept { return {p.u / kDimensionScale, p.v / kDimensionScale}; }
 
     // A DIMENSION, and the block that says how it looks, as programs write both.
     void dimension(const DimensionMark& mark) {
-        DimensionBlock block{newHandle(), newHandle(), newHandle(), fmt::format("*D{}", blocks_.size() + 1), {}};
+        Block block{newHandle(), newHandle(), newHandle(), fmt::format("*D{}", blocks_.size() + 1), {}, true};
         const std::string before = std::move(dxf_);
         dxf_.clear();
         owner_ = block.record;
@@ -495,37 +630,34 @@ private:
         block.entities = std::move(dxf_);
         dxf_ = before;
         owner_ = "1A";
-        entity("DIMENSION", kDimensionLayer);
+        entity("DIMENSION", dimensionLayer());
         tag(100, "AcDbDimension");
         tag(2, block.name);
-        point(10, inMetres(mark.line.to));
-        tag(30, "0");
-        point(11, at);
-        tag(31, "0");
+        point(10, placed(inMetres(mark.line.to)));
+        point(11, placed(at));
         tag(70, 32 + 128);  // linear; its block is its own; the place of the text is set
         tag(1, mark.text.text.empty() ? " " : dxfText(mark.text.text));
         tag(3, "Standard");
         tag(100, "AcDbAlignedDimension");
-        point(13, inMetres(mark.line.from));
-        tag(33, "0");
-        point(14, inMetres(mark.line.to));
-        tag(34, "0");
-        tag(50, isUpright ? "90" : "0");
+        point(13, placed(inMetres(mark.line.from)));
+        point(14, placed(inMetres(mark.line.to)));
+        number(50, (isUpright ? 90 : 0) + turnDegrees_);
         tag(100, "AcDbRotatedDimension");
         blocks_.push_back(std::move(block));
     }
 
     void dimensionNumber(const DimensionMark& mark, PlanePoint at) {
-        entity("TEXT", kDimensionLayer);
+        entity("TEXT", dimensionLayer());
         tag(100, "AcDbText");
-        point(10, at);
-        tag(30, "0");
+        point(10, flat(at));
+        number(30, elevation_);
         number(40, 0.73 * mark.text.size / kDimensionScale);  // height of capitals
         tag(1, dxfText(mark.text.text));
-        if (mark.text.isUpright) tag(50, "90");
+        if (mark.text.isUpright || turnDegrees_ != 0) number(50, (mark.text.isUpright ? 90 : 0) + turnDegrees_);
+        tag(7, "SVT_DIMENSIONS");
         tag(72, 1);  // centred on the baseline at the second point
-        point(11, at);
-        tag(31, "0");
+        point(11, flat(at));
+        number(31, elevation_);
         tag(100, "AcDbText");
         tag(73, 0);
     }
@@ -546,28 +678,36 @@ private:
     }
 
     struct Layer {
-        std::string name, className;
+        std::string name;
+        const char* lineType;
+        int color, width;
     };
     const illustrate::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
+    DxfOptions options_;
+    DrawingStyle style_;
+    Vec3d normal_{0, 0, 1}, objectX_{1, 0, 0}, objectY_{0, 1, 0};
+    double elevation_ = 0, turnDegrees_ = 0;
+    int doorCount_ = 0;
     PlanePoint low_, high_;
-    std::vector<Layer> layers_;
-    bool hasKind_[3] = {};  // of lines beyond the cut
+    std::deque<Layer> layers_;  // in order of first use
+    bool hasKind_[3] = {};      // of lines beyond the cut
     DimensionMarks dimensions_;
-    std::vector<DimensionBlock> blocks_;
+    std::vector<Block> blocks_;
     unsigned nextHandle_ = 0x100;
     std::string owner_ = "1A", dxf_;
 };
 
 }  // namespace
 
-std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    return DxfWriter(drawing, volume).write();
+std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                    const DxfOptions& options) {
+    return DxfWriter(drawing, volume, options).write();
 }
 
 Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                               const std::filesystem::path& path) {
-    return writeFileAtomically(path, makeDxf(drawing, volume));
+                               const std::filesystem::path& path, const DxfOptions& options) {
+    return writeFileAtomically(path, makeDxf(drawing, volume, options));
 }
 
 }  // namespace svt::writers

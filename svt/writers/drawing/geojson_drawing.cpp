@@ -101,6 +101,31 @@ void appendBeyond(std::string& json, const illustrate::SectionDrawing& drawing, 
     }
 }
 
+// How doors open: a feature per door.
+void appendDoors(std::string& json, const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    for (const illustrate::DoorSwing& door : drawing.doors) {
+        const volume::Label& label = volume.labels.labels[door.label];
+        json += ",\n{\"type\":\"Feature\",\"properties\":{";
+        appendMember(json, "id", label.id);
+        json += ',';
+        appendMember(json, "class", label.className);
+        json += ',';
+        appendMember(json, "name", label.name);
+        json += ",\"swing\":true},\"geometry\":{\"type\":\"MultiLineString\",\"coordinates\":[";
+        std::vector<std::vector<illustrate::PlanePoint>> lines = door.lines;
+        for (const illustrate::DoorSwing::Arc& arc : door.arcs) lines.push_back(illustrate::pointsOf(arc));
+        for (std::size_t n = 0; n < lines.size(); ++n) {
+            json += n == 0 ? "[" : ",[";
+            for (std::size_t p = 0; p < lines[n].size(); ++p) {
+                if (p > 0) json += ',';
+                appendVector(json, drawing.axes.worldFromPlane(lines[n][p]), 6);
+            }
+            json += ']';
+        }
+        json += "]}}";
+    }
+}
+
 }  // namespace
 
 std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
@@ -137,6 +162,7 @@ std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume:
         json += '}';
     }
     appendBeyond(json, drawing, volume, isFirst);
+    appendDoors(json, drawing, volume);
     return json + "\n]}\n";
 }
 

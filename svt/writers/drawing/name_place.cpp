@@ -63,6 +63,13 @@ std::optional<NamePlace> placeName(const illustrate::SectionComponent& component
     }
     for (const illustrate::BeyondLine& line : drawing.beyond)
         if (meets({line.from, line.to}, all)) crossing.push_back({line.from, line.to});
+    for (const illustrate::DoorSwing& door : drawing.doors) {
+        std::vector<std::vector<PlanePoint>> parts = door.lines;
+        for (const auto& arc : door.arcs) parts.push_back(illustrate::pointsOf(arc));
+        for (const auto& line : parts)
+            for (std::size_t n = 0; n + 1 < line.size(); ++n)
+                if (meets({line[n], line[n + 1]}, all)) crossing.push_back({line[n], line[n + 1]});
+    }
     const double halfWidth = 0.5 * (size * width + 0.8) / millimetres,
                  halfHeight = 0.5 * (size * lines + 0.8) / millimetres;
     const auto countCrossings = [&](PlanePoint p) {

@@ -54,6 +54,7 @@ public:
         addBeyond();
         addBorders();
         addLines();
+        addDoors();
         addNames();
         addDimensions();
         addTitle();
@@ -76,13 +77,21 @@ private:
             svg_ += (n == 0 ? "M" : n == 1 ? "L" : " ") + pointText(points[n]);
     }
 
+    // A group that Inkscape knows as a layer.
+    [[nodiscard]] std::string layer(std::string_view classes, std::string_view label) {
+        return fmt::format("<g id=\"layer-{}\" class=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
+                           ++layers_, classes, xmlAttribute(label));
+    }
+
     void begin() {
         const std::string width = shortNumber(width_, 3), height = shortNumber(height_, 3);
         svg_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
         svg_ += fmt::format(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+            "xmlns:svt=\"urn:svt:drawing\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
             width, height);
         svg_ += fmt::format("<title>{}, {}</title>\n", xmlAttribute(modelName()), planeText(drawing_, volume_.grid));
+        addMetadata();
         svg_ +=
             "<style>\n"
             "text { font-family: 'Liberation Sans', Arial, Helvetica, sans-serif; fill: #000 }\n"
@@ -90,6 +99,7 @@ private:
             ".thin { stroke-width: 0.13 }\n"
             ".bold { stroke-width: 0.5 }\n"
             ".dashed { stroke-dasharray: 1.5 1 }\n"
+            ".swing { fill: none; stroke: #000; stroke-width: 0.25; stroke-linecap: round; stroke-linejoin: round }\n"
             ".names { text-anchor: middle }\n";
         // Widths and lengths after ISO 128-2: narrow lines; dashes of 12 widths; long dashes of 24 with two dots.
         if (!drawing_.beyond.empty())
@@ -120,6 +130,23 @@ private:
         svg_ += fmt::format("</defs>\n<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", width, height);
     }
 
+    // Where the drawing lies in the world: world = origin + u * metres to the right + v * metres up.
+    void addMetadata() {
+        const illustrate::PlaneAxes& axes = drawing_.axes;
+        const auto vector = [](Vec3d v, int decimals) {
+            return fmt::format("{} {} {}", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
+                               shortNumber(v.z, decimals));
+        };
+        const PlanePoint corner{low_.u - left_ / millimetres_, high_.v + top_ / millimetres_};
+        svg_ += fmt::format(
+            "<metadata><svt:drawing scale=\"{}\" crs=\"{}\" origin=\"{}\" u=\"{}\" v=\"{}\" normal=\"{}\" "
+            "corner=\"{} {}\"{}/></metadata>\n",
+            shortNumber(scale_, 6), xmlAttribute(volume_.crsName), vector(axes.origin, 6), vector(axes.u, 15),
+            vector(axes.v, 15), vector(axes.normal, 15), shortNumber(corner.u, 6), shortNumber(corner.v, 6),
+            isPlan(drawing_, volume_.grid) ? fmt::format(" height=\"{}\"", shortNumber(drawing_.plane.point.z, 6))
+                                           : std::string());
+    }
+
     [[nodiscard]] bool isUsed(Hatch hatch) const {
         return std::ranges::any_of(drawing_.components,
                                    [&](const SectionComponent& c) { return style_.hatchOf(c.label) == hatch; });
@@ -138,8 +165,11 @@ private:
     void addComponents() {
         for (const illustrate::ClassArea& group : drawing_.classes) {
             const std::string name = plainName(group.className);
-            svg_ += fmt::format("<g class=\"{}\" data-class=\"{}\" data-area=\"{}\">\n", name,
-                                xmlAttribute(group.className), shortNumber(group.area, 4));
+            svg_ += fmt::format(
+                "<g id=\"layer-{}\" class=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\" data-class=\"{}\" "
+                "data-area=\"{}\">\n",
+                ++layers_, name, xmlAttribute(group.className), xmlAttribute(group.className),
+                shortNumber(group.area, 4));
             for (const SectionComponent& component : drawing_.components)
                 if (labelOf(component.label).className == group.className) addComponent(component, name);
             svg_ += "</g>\n";
@@ -168,7 +198,7 @@ private:
 
     void addBorders() {
         for (const bool bold : {false, true}) {
-            svg_ += fmt::format("<g class=\"{}\">\n", bold ? "bold" : "thin");
+            svg_ += layer(bold ? "bold" : "thin", bold ? "Outlines" : "Thin outlines");
             for (const SectionBorder& border : drawing_.borders) {
                 // Thin between two cut parts and around fillings and furniture; no line between two rooms.
                 if (isSpace(border.left) && isSpace(border.right)) continue;
@@ -187,7 +217,7 @@ private:
         const std::vector<illustrate::BeyondLine>& lines = drawing_.beyond;
         for (std::size_t n = 0; n < lines.size();) {
             const illustrate::BeyondKind kind = lines[n].kind;
-            svg_ += fmt::format("<g class=\"beyond {}\">\n", beyondName(kind));
+            svg_ += layer(fmt::format("beyond {}", beyondName(kind)), fmt::format("Beyond: {}", beyondName(kind)));
             while (n < lines.size() && lines[n].kind == kind) {
                 const std::uint32_t label = lines[n].label;
                 svg_ += fmt::format("<path class=\"{}\" data-id=\"{}\" d=\"", plainName(labelOf(label).className),
@@ -203,7 +233,7 @@ private:
     // Objects without inside: as bold as what they stand for, once on top of all borders.
     void addLines() {
         if (drawing_.lines.empty()) return;
-        svg_ += "<g class=\"lines\">\n";
+        svg_ += layer("lines", "Lines");
         for (const illustrate::SectionLine& line : drawing_.lines) {
             const volume::Label& label = labelOf(line.label);
             const bool isVirtual = label.className == "ClosureSurface";
@@ -219,6 +249,26 @@ private:
         svg_ += "</g>\n";
     }
 
+    // How doors open: a group each, with the open leaves and the arcs that they swing through.
+    void addDoors() {
+        if (drawing_.doors.empty()) return;
+        svg_ += layer("doors", "Doors");
+        for (const illustrate::DoorSwing& door : drawing_.doors) {
+            svg_ += fmt::format("<path class=\"swing\" data-id=\"{}\" d=\"", xmlAttribute(labelOf(door.label).id));
+            for (const auto& line : door.lines) addLine(line);
+            svg_ += "\"/>\n";
+            if (door.arcs.empty()) continue;
+            svg_ += fmt::format("<path class=\"thin\" data-id=\"{}\" d=\"", xmlAttribute(labelOf(door.label).id));
+            for (const illustrate::DoorSwing::Arc& arc : door.arcs) {
+                const double radius = millimetres_ * std::hypot(arc.from.u - arc.center.u, arc.from.v - arc.center.v);
+                svg_ += fmt::format("M{}A{} {} 0 0 0 {}", pointText(arc.from), shortNumber(radius, 3),
+                                    shortNumber(radius, 3), pointText(arc.to));
+            }
+            svg_ += "\"/>\n";
+        }
+        svg_ += "</g>\n";
+    }
+
     static double lengthOf(const std::vector<PlanePoint>& points) {
         double length = 0;
         for (std::size_t n = 0; n + 1 < points.size(); ++n)
@@ -227,7 +277,7 @@ private:
     }
 
     void addNames() {
-        svg_ += "<g class=\"names\">\n";
+        svg_ += layer("names", "Names");
         for (const SectionComponent& component : drawing_.components) {
             if (!isSpace(component.label) || component.polygons.empty()) continue;
             const std::string& name = shownName(labelOf(component.label));
@@ -259,7 +309,7 @@ private:
             return fmt::format("M{} {}L{} {}", shortNumber(x0, 3), shortNumber(y0, 3), shortNumber(x1, 3),
                                shortNumber(y1, 3));
         };
-        svg_ += "<g class=\"dimensions\">\n";
+        svg_ += layer("dimensions", "Dimensions");
         for (const DimensionMark& mark : placed.marks) {
             svg_ += fmt::format("<path class=\"thin\" data-length=\"{}\" d=\"{}", shortNumber(mark.metres, 4),
                                 lineText(mark.line));
@@ -284,8 +334,9 @@ private:
 
     void addTitle() {
         const double top = height_ - kTitleHeight - 2, right = width_ - kMargin;
-        svg_ += fmt::format("<g class=\"title\">\n<path class=\"thin\" d=\"M{} {}H{}\"/>\n", shortNumber(kMargin, 3),
-                            shortNumber(top, 3), shortNumber(right, 3));
+        svg_ +=
+            layer("title", "Title") + fmt::format("<path class=\"thin\" d=\"M{} {}H{}\"/>\n", shortNumber(kMargin, 3),
+                                                  shortNumber(top, 3), shortNumber(right, 3));
         addText(kMargin, top + 6, 3.5, modelName(), " font-weight=\"bold\"");
         addText(kMargin, top + 11, 2.5,
                 fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(scale_, 2)));
@@ -310,6 +361,7 @@ private:
     DrawingStyle style_;
     PlanePoint low_, high_;
     double drawnWidth_ = 0, drawnHeight_ = 0, width_ = 0, height_ = 0, left_ = 0, top_ = 0;
+    int layers_ = 0;
     std::string svg_;
 };
 

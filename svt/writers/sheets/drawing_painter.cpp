@@ -14,7 +14,8 @@ namespace {
 using illustrate::PlanePoint;
 using render::Hatch;
 
-constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35;  // millimetres: widths of ISO 128-2
+constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35,
+                 kLeaf = 0.25;  // millimetres: widths of ISO 128-2
 
 class DrawingPainter {
 public:
@@ -32,6 +33,7 @@ public:
              {illustrate::BeyondKind::Visible, illustrate::BeyondKind::Hidden, illustrate::BeyondKind::Above})
             addBeyond(kind);
         inLayer("Outlines", [&] { addBorders(); });
+        if (!drawing_.doors.empty()) inLayer("Doors", [&] { addDoors(); });
         inLayer("Names", [&] { addNames(); });
         if (!drawing_.dimensions.empty()) inLayer("Dimensions", [&] { addDimensions(); });
     }
@@ -100,6 +102,16 @@ private:
         canvas_.stroke(dashed, {kThin, LineType::Dashed});
         canvas_.stroke(thin, {kThin});
         canvas_.stroke(bold, {kBold});
+    }
+
+    void addDoors() {
+        std::vector<PaperPath> leaves, arcs;
+        for (const illustrate::DoorSwing& door : drawing_.doors) {
+            for (const auto& line : door.lines) leaves.push_back(pathOf(line, false));
+            for (const auto& arc : door.arcs) arcs.push_back(pathOf(illustrate::pointsOf(arc), false));
+        }
+        canvas_.stroke(leaves, {kLeaf});
+        canvas_.stroke(arcs, {kThin});
     }
 
     void addNames() {

@@ -1,0 +1,41 @@
+#pragma once
+/// \file
+/// Names of layers and patterns of hatches in DXF drawings.
+
+#include <svt/render/hatch.hpp>
+#include <svt/volume/label_table.hpp>
+
+#include <span>
+#include <string>
+
+namespace svt::writers {
+
+/// One family of parallel lines of a hatch, metres in the drawing at a scale of 1:100.
+struct DxfHatchLine {
+    double degrees;
+    double x, y;       ///< a point of one of the lines
+    double distance;   ///< between lines
+    double dash, gap;  ///< 0: continuous
+};
+struct DxfHatch {
+    render::Hatch hatch;
+    const char* name;
+    std::span<const DxfHatchLine> lines;
+};
+/// The pattern that stands for a hatch; nullptr for none.
+[[nodiscard]] const DxfHatch* dxfHatchOf(render::Hatch hatch) noexcept;
+
+/// What a layer holds, in the names of ISO 13567-2: the field "presentation".
+enum class DxfContent : char { Element = 'E', Hatch = 'H', Text = 'T', Dimension = 'D' };
+
+/// The layer of a component: its `ifcType`, else its class, with its function where that is a word:
+/// `IfcWall`, `BuildingConstructiveElement_wall`, `Door`.
+[[nodiscard]] std::string dxfLayerOf(const volume::Label& label);
+
+/// The layer of a component after ISO 13567-2, ten characters: agent `A-`, element by the table of CI/SfB (`21----` external
+/// walls), presentation (`E-`).
+[[nodiscard]] std::string isoLayerOf(const volume::Label& label, DxfContent content);
+/// The same for content that is of no component: texts, dimensions.
+[[nodiscard]] std::string isoLayerOf(DxfContent content);
+
+}  // namespace svt::writers

@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// A SQLite database in memory, as a file's bytes. The library is loaded with the first use, as cairo's is, so that it needs
+/// neither headers nor a link.
+
+#include <svt/core/result.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace svt::writers {
+
+using SqliteValue = std::variant<std::monostate, std::int64_t, double, std::string, std::vector<std::byte>>;
+
+/// Errors are kept, and returned by bytes().
+class SqliteDatabase {
+public:
+    virtual ~SqliteDatabase() = default;
+    /// Runs statements without results.
+    virtual void run(const std::string& statements) = 0;
+    /// Adds a row to a table: a value for each column.
+    virtual void insert(std::string_view table, const std::vector<SqliteValue>& row) = 0;
+    /// The database as a file, or CannotWrite. Equal statements give equal bytes with the same release of SQLite.
+    [[nodiscard]] virtual Result<std::string> bytes() = 0;
+};
+
+/// An empty database, or CannotWrite if the library is missing.
+[[nodiscard]] Result<std::unique_ptr<SqliteDatabase>> makeSqliteDatabase();
+
+}  // namespace svt::writers
