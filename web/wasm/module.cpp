@@ -5,10 +5,12 @@
 
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/sheet_set.hpp>
 #include <svt/illustrate/view.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/geojson_drawing.hpp>
 #include <svt/writers/section_table.hpp>
+#include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/svg_drawing.hpp>
 
 #include <emscripten.h>
@@ -200,14 +202,19 @@ Result<Reply> labels(const Arguments& arguments) {
     return Reply(std::move(*png));
 }
 
-// (plane, format) -> the file's bytes
+// (plane, format, {beyond, above, dimensions}) -> the file's bytes
 Result<Reply> drawing(const Arguments& arguments) {
     const volume::SemanticVolume& volume = session->volume();
     const auto plane = illustrate::parseSectionPlane(arguments.text(0), volume);
     if (!plane) return plane.error();
-    const auto drawn = illustrate::drawSection(volume, *plane);
+    const Json& wanted = arguments.at(2);
+    illustrate::SectionOptions options;
+    options.beyond.visible = wanted.is_object() && wanted.value("beyond", false);
+    options.beyond.above = wanted.is_object() && wanted.value("above", false);
+    options.dimensions = wanted.is_object() && wanted.value("dimensions", false);
+    const auto drawn = illustrate::drawSection(volume, *plane, options);
     if (!drawn) return drawn.error();
-    if (drawn->components.empty())
+    if (drawn->components.empty() && drawn->beyond.empty())
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
     const std::string format = arguments.text(1);
@@ -217,6 +224,38 @@ Result<Reply> drawing(const Arguments& arguments) {
     if (format == "csv") return Reply(writers::makeSectionCsv(*drawn, volume));
     return Error(Code::BadArgument,
                  fmt::format("there is no drawing as '{}'; possible are svg, dxf, geojson, csv", format));
+}
+
+// ("en" or "de") -> the sheets as `svt sheets --svg` writes them: SVG documents. Needs the font.
+Result<Reply> sheets(const Arguments& arguments) {
+    if (!hasFont()) return Error(Code::BadArgument, "sheets cannot be drawn without their font; give it first");
+    const volume::SemanticVolume& volume = session->volume();
+    auto chosen = illustrate::chooseSheetViews(volume);
+    if (!chosen) return chosen.error();
+    const auto language = arguments.text(0) == "de" ? writers::SheetLanguage::German : writers::SheetLanguage::English;
+    writers::SheetContent content;
+    content.levels = std::move(chosen->levels);
+    const illustrate::SheetSet set = illustrate::sheetSetOf(*chosen, volume);
+    std::vector<int> groups;  // by view
+    for (const illustrate::SetSheet& sheet : set.sheets) {
+        groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
+        content.groups.push_back({sheet.title, sheet.scale});
+    }
+    for (illustrate::SheetView& view : chosen->views) {
+        illustrate::SectionOptions options;
+        options.smallestArea = 1e-4;
+        options.beyond = view.beyond;
+        options.dimensions = view.kind == illustrate::ViewKind::Plan;
+        auto drawn = illustrate::drawSection(volume, view.plane, options);
+        if (!drawn) return drawn.error();
+        content.views.push_back({std::move(view), std::move(*drawn), groups[content.views.size()]});
+    }
+    const auto areas = illustrate::measureFloorAreas(volume, content.levels);
+    if (!areas) return areas.error();
+    content.tables = writers::makeAreaTables(*areas, content.levels, language);
+    const auto made = writers::makeSvgSheets(content, volume, {0, "A3", language, {}});
+    if (!made) return made.error();
+    return Reply(Json(*made).dump());
 }
 
 struct Call {
@@ -238,7 +277,8 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"view", view},
                            {"picture", picture},
                            {"labels", labels},
-                           {"drawing", drawing}};
+                           {"drawing", drawing},
+                           {"sheets", sheets}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);

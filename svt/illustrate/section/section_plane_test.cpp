@@ -49,6 +49,20 @@ TEST(SectionPlane, AxesCountFromTheLowerCorner) {
     EXPECT_DOUBLE_EQ(parseSectionPlane("x=0.5", volume)->point.x, 100.5);
 }
 
+TEST(SectionPlane, CoordinatesOfTheCrsAreAbsolute) {
+    auto volume = twoStoreys();
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("z=abs(31.2)", volume)), 31.2);
+    EXPECT_DOUBLE_EQ(parseSectionPlane("x<abs(100.5)", volume)->point.x, 100.5);
+    EXPECT_EQ(parseSectionPlane("x<abs(100.5)", volume)->normal, (Vec3d{-1, 0, 0}));
+    for (const char* const wrong : {"z=abs(1.2)", "z=abs()", "z=abs(31", "z=abs31.2", "z=abs(31.2)x"})
+        EXPECT_EQ(parseSectionPlane(wrong, volume).error().code(), Code::BadSection) << wrong;
+    // Axes of a turned grid have no coordinate of their own, but for the height.
+    volume.grid = *volume::Grid::fromParts({5, 5, 21}, {0.25, 0.25, 0.25}, {100, 200, 30},
+                                           {Vec3d{0.6, 0.8, 0}, Vec3d{-0.8, 0.6, 0}, Vec3d{0, 0, 1}});
+    EXPECT_EQ(parseSectionPlane("x=abs(100.5)", volume).error().code(), Code::BadSection);
+    EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("z=abs(31.2)", volume)), 31.2);
+}
+
 TEST(SectionPlane, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
     auto volume = twoStoreys();
     volume::Label empty;

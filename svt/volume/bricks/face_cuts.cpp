@@ -38,6 +38,11 @@ struct SideList {
         return std::any_of(sides.begin(), sides.begin() + std::ptrdiff_t(count),
                            [&](const Side& side) { return side.plane == plane; });
     }
+    [[nodiscard]] std::size_t find(std::uint32_t plane) const noexcept {
+        std::size_t s = 0;
+        while (s < count && sides[s].plane != plane) ++s;
+        return s;
+    }
     bool addPlane(std::uint32_t plane) noexcept {
         if (hasPlane(plane)) return true;
         if (planeCount() == BrickVolume::kMaxPlanes) return false;
@@ -92,11 +97,21 @@ struct Around {
         return static_cast<std::size_t>(p.x + 1) +
                kWidth * (static_cast<std::size_t>(p.y + 1) + kWidth * static_cast<std::size_t>(p.z + 1));
     }
+    // All known samples but those of the brick itself.
     template <class Body>
-    void forEach(const Body& body) const {
+    void forEachBeside(const Body& body) const {
         for (std::int32_t z = min.z; z < max.z; ++z)
-            for (std::int32_t y = min.y; y < max.y; ++y)
-                for (std::int32_t x = min.x; x < max.x; ++x) body(Vec3i{x, y, z});
+            for (std::int32_t y = min.y; y < max.y; ++y) {
+                const bool isOwnRow = z >= 0 && z < 8 && y >= 0 && y < 8;
+                for (std::int32_t x = min.x; x < max.x; ++x) {
+                    if (isOwnRow && x == 0) x = 8;
+                    if (x < max.x) body(Vec3i{x, y, z});
+                }
+            }
+    }
+    [[nodiscard]] bool isKnown(Vec3i p) const noexcept {
+        const auto isOwn = [](std::int32_t n) { return n >= 0 && n < 8; };
+        return p.x >= min.x && p.y >= min.y && p.z >= min.z && !(isOwn(p.x) && isOwn(p.y) && isOwn(p.z));
     }
 };
 
@@ -199,6 +214,7 @@ private:
                 faces[count++] = {axis, isUpper, *plane};
             }
         if (count == 0 || isAloneAmongEquals(at, std::span(faces).first(count))) return;
+        if (count == 1 && isSameBeyond(at, faces[0])) return;
         if (codeAround(at, std::span(faces).first(count))) return;
         if (count == 1) return;
         // Not all of them together: one after the other.
@@ -228,6 +244,23 @@ private:
         return true;
     }
 
+    // Whether the samples on both sides of a side of the brick are the same.
+    [[nodiscard]] bool isSameBeyond(Vec3i at, const SideFace& face) const noexcept {
+        const int b = (face.axis + 1) % 3, c = (face.axis + 2) % 3;
+        Vec3i voxel = corner(at);
+        voxel[face.axis] += face.isUpper ? 7 : 0;
+        for (int q = 0; q < 8; ++q)
+            for (int p = 0; p < 8; ++p) {
+                Vec3i own = voxel;
+                own[b] += p;
+                own[c] += q;
+                Vec3i beyond = own;
+                beyond[face.axis] += face.isUpper ? 1 : -1;
+                if (scalarAt(own) != scalarAt(beyond)) return false;
+            }
+        return true;
+    }
+
     [[nodiscard]] Scalar scalarAt(Vec3i voxel) const noexcept {
         const Vec3i n = columns_.dimension();
         const Vec3i inside{std::min(voxel.x, n.x - 1), std::min(voxel.y, n.y - 1), std::min(voxel.z, n.z - 1)};
@@ -246,16 +279,28 @@ private:
         return pattern.palette[index];
     }
 
-    // Codes a brick so that its labels hold for the samples around it, too, on the sides of `faces`.
+    // Codes a brick so that its labels hold for the samples beside it, too, on the sides of `faces`.
     bool codeAround(Vec3i at, std::span<const SideFace> faces) {
         around_.min = {0, 0, 0};
         around_.max = {8, 8, 8};
         for (const SideFace& face : faces) (face.isUpper ? around_.max[face.axis] = 9 : around_.min[face.axis] = -1);
-        around_.forEach([&](Vec3i p) { around_.scalars[Around::at(p)] = scalarAt(corner(at) + p); });
+        around_.forEachBeside([&](Vec3i p) { around_.scalars[Around::at(p)] = scalarAt(corner(at) + p); });
         const std::uint32_t own = tile_.codeIndex[place(at)];
-        SideList list = own == kNone ? SideList{} : sidesOf(tile_.codes[own]);
-        for (const SideFace& face : faces)
-            if (!list.addPlane(numberOf(face.plane))) return false;
+        SideList list;
+        if (own == kNone) {
+            ownScalars_.assign(1, places_.scalarOf[place(at)]);
+        } else {
+            list = sidesOf(tile_.codes[own]);
+            ownScalars_ = tile_.codes[own].sideScalars;
+        }
+        nearMask_ = insideBits_ = 0;
+        for (const SideFace& face : faces) {
+            const std::uint32_t plane = numberOf(face.plane);
+            if (!list.addPlane(plane)) return false;
+            const std::size_t bit = std::size_t{1} << list.find(plane);
+            nearMask_ |= bit;
+            if (!face.isUpper) insideBits_ |= bit;
+        }
         if (!findScalars(at, list)) {
             if (!addMissingSides(at, list) || !findScalars(at, list)) return false;
         }
@@ -263,10 +308,9 @@ private:
         if (list.count == 0) return true;
         BrickCode code = codeOf(list, scalars_);
         if (own != kNone && code == tile_.codes[own]) return true;
-        if (const auto same =
-                std::find(tile_.codes.rbegin(),
-                          tile_.codes.rbegin() + std::min<std::ptrdiff_t>(32, std::ssize(tile_.codes)), code);
-            same != tile_.codes.rend() && *same == code) {
+        const auto end = tile_.codes.rbegin() + std::min<std::ptrdiff_t>(32, std::ssize(tile_.codes));
+        const auto same = std::find(tile_.codes.rbegin(), end, code);
+        if (same != end) {
             tile_.codeIndex[place(at)] = static_cast<std::uint32_t>(tile_.codes.rend() - same) - 1;
             return true;
         }
@@ -275,7 +319,7 @@ private:
         return true;
     }
 
-    // The side combination of each sample around the brick.
+    // The side combination of each sample beside the brick.
     void findCombinations(Vec3i at, const SideList& list) {
         const Vec3d first = toDouble(corner(at)) + Vec3d{0.5, 0.5, 0.5};
         std::array<std::array<std::uint8_t, Around::kWidth>, 3> bits{};  // of sides across an axis
@@ -299,7 +343,7 @@ private:
                     bits[static_cast<std::size_t>(axis)][static_cast<std::size_t>(n + 1)] |=
                         static_cast<std::uint8_t>(1u << s);
         }
-        around_.forEach([&](Vec3i p) {
+        around_.forEachBeside([&](Vec3i p) {
             auto all = static_cast<std::uint32_t>(bits[0][std::size_t(p.x + 1)] | bits[1][std::size_t(p.y + 1)] |
                                                   bits[2][std::size_t(p.z + 1)]);
             for (std::uint32_t rest = oblique; rest != 0; rest &= rest - 1) {
@@ -319,7 +363,13 @@ private:
         scalars_.assign(count, 0);
         std::uint64_t known = 0;
         bool isValid = true;
-        around_.forEach([&](Vec3i p) {
+        // Between the planes at its sides the brick stays as it was.
+        for (std::size_t combination = 0; combination < count; ++combination) {
+            if ((combination & nearMask_) != insideBits_) continue;
+            scalars_[combination] = ownScalars_[combination & (ownScalars_.size() - 1)];
+            known |= std::uint64_t{1} << combination;
+        }
+        around_.forEachBeside([&](Vec3i p) {
             const std::size_t combination = combinations_[Around::at(p)];
             const Scalar scalar = around_.scalars[Around::at(p)];
             if (((known >> combination) & 1u) == 0) {
@@ -358,10 +408,10 @@ private:
     bool addMissingSides(Vec3i at, SideList& list) {
         for (int axis = 0; axis < 3; ++axis) {
             std::uint32_t borders = 0;
-            around_.forEach([&](Vec3i p) {
-                if (p[axis] == around_.min[axis]) return;
+            around_.forEachBeside([&](Vec3i p) {
                 Vec3i before = p;
                 --before[axis];
+                if (!around_.isKnown(before)) return;
                 if (around_.scalars[Around::at(p)] != around_.scalars[Around::at(before)] &&
                     combinations_[Around::at(p)] == combinations_[Around::at(before)])
                     borders |= 1u << p[axis];
@@ -404,7 +454,8 @@ private:
     std::map<std::pair<std::uint32_t, std::array<std::uint32_t, BrickVolume::kMaxSides>>, std::uint32_t> replaced_;
     Around around_;
     std::array<std::uint8_t, Around::kWidth * Around::kWidth * Around::kWidth> combinations_{};
-    std::vector<Scalar> scalars_;  // by side combination
+    std::vector<Scalar> scalars_, ownScalars_;   // by side combination; the latter before the planes at its sides
+    std::size_t nearMask_ = 0, insideBits_ = 0;  // bits of planes at its sides, and those of the brick's own samples
 };
 
 }  // namespace

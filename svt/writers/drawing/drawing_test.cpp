@@ -8,9 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace svt::writers {
 namespace {
@@ -150,6 +153,81 @@ TEST(DxfDrawing, IsPairsOfCodesAndValuesWithHandlesUsedOnce) {
     EXPECT_EQ(value, "EOF");
     EXPECT_EQ(entities["LWPOLYLINE"], 3);  // the wall, its hole, the room
     EXPECT_EQ(entities["TEXT"], 2);        // name and area
+}
+
+// Positions of all points of a kind of entity.
+std::vector<std::array<double, 2>> pointsIn(const std::string& dxf, const std::string& kind) {
+    std::istringstream in(dxf);
+    std::vector<std::array<double, 2>> points;
+    std::string code, value, current;
+    double x = 0;
+    while (std::getline(in, code) && std::getline(in, value)) {
+        if (std::stoi(code) == 0) current = value;
+        if (current != kind) continue;
+        if (std::stoi(code) == 10) x = std::stod(value);
+        if (std::stoi(code) == 20) points.push_back({x, std::stod(value)});
+    }
+    return points;
+}
+
+TEST(DxfDrawing, HatchesWhatIsCutAndFollowsTheRings) {
+    const auto volume = roomInWalls();
+    const std::string dxf = makeDxf(planOf(volume), volume);
+    EXPECT_EQ(countOf(dxf, "\nHATCH\n"), 1u);  // the wall with its hole, not the room
+    EXPECT_NE(dxf.find("SVT_GENERAL"), std::string::npos);
+    // Elevation, four corners of the wall, four of the hole.
+    EXPECT_EQ(pointsIn(dxf, "HATCH").size(), 9u);
+    EXPECT_NE(dxf.find("\nWall_Surface_HATCH\n"), std::string::npos);
+}
+
+TEST(DxfDrawing, NamesLayersAfterIso13567WhereAsked) {
+    auto volume = roomInWalls();
+    const std::string iso = makeDxf(planOf(volume), volume, {.isoLayers = true, .world = false});
+    for (const char* const layer : {"A-22----E-", "A-22----H-", "A-90SPACE-", "A-------T-"})
+        EXPECT_NE(iso.find(std::string("\n  8\n") + layer + "\n"), std::string::npos) << layer;
+    volume.labels.labels[0].attributes.push_back({"ifcType", std::string("IfcWall"), ""});
+    EXPECT_NE(makeDxf(planOf(volume), volume).find("\n  8\nIfcWall\n"), std::string::npos);
+}
+
+TEST(DxfDrawing, StandsInTheWorldWhereAsked) {
+    const auto volume = roomInWalls();
+    const DxfOptions world{.isoLayers = false, .world = true};
+    for (const auto& p : pointsIn(makeDxf(planOf(volume), volume, world), "LWPOLYLINE")) {
+        EXPECT_TRUE(p[0] >= 499999.9 && p[0] <= 500004) << p[0];
+        EXPECT_TRUE(p[1] >= 5399999.9 && p[1] <= 5400003) << p[1];
+    }
+    // Upright: seen from the south, x is east, y is up; the plane lies 1.5 m from the corner.
+    const auto section = *illustrate::drawSection(volume, {{0, -1, 0}, volume.grid.origin() + Vec3d{0, 1.5, 0}});
+    const std::string dxf = makeDxf(section, volume, world);
+    for (const auto& p : pointsIn(dxf, "LWPOLYLINE")) {
+        EXPECT_TRUE(p[0] >= 499999.9 && p[0] <= 500004) << p[0];
+        EXPECT_TRUE(p[1] >= 99.9 && p[1] <= 102) << p[1];
+    }
+    EXPECT_NE(dxf.find("\n220\n-1\n"), std::string::npos);
+    EXPECT_NE(dxf.find("\n 38\n-5400001.5\n"), std::string::npos);
+}
+
+TEST(DxfDrawing, HasABlockForEachDoor) {
+    auto volume = roomInWalls();
+    auto drawing = planOf(volume);
+    drawing.doors.push_back({0, {{{1, 0}, {1, 0.8}}}, {{{1, 0}, {1.8, 0}, {1, 0.8}}}});
+    const std::string dxf = makeDxf(drawing, volume);
+    EXPECT_EQ(countOf(dxf, "\nINSERT\n"), 1u);
+    EXPECT_NE(dxf.find("\nDOOR_1\n"), std::string::npos);
+    EXPECT_NE(dxf.find("\nAcDbCircle\n 10\n0\n 20\n0\n 30\n0\n 40\n0.8\n100\nAcDbArc\n 50\n0\n 51\n90\n"),
+              std::string::npos);
+    EXPECT_EQ(pointsIn(dxf, "INSERT").front(), (std::array<double, 2>{1, 0}));
+    const std::string svg = *makeSvg(drawing, volume);
+    EXPECT_NE(svg.find("<path class=\"swing\" data-id=\"wall,1\""), std::string::npos);
+    EXPECT_NE(svg.find("A8 8 0 0 0 "), std::string::npos);
+}
+
+TEST(SvgDrawing, SaysWhereItLiesAndHasLayers) {
+    const auto volume = roomInWalls();
+    const std::string svg = *makeSvg(planOf(volume), volume);
+    EXPECT_NE(svg.find("crs=\"urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783\""), std::string::npos);
+    EXPECT_NE(svg.find("height=\"101.03\""), std::string::npos);
+    EXPECT_NE(svg.find("inkscape:groupmode=\"layer\" inkscape:label=\"Wall Surface\""), std::string::npos);
 }
 
 TEST(DxfDrawing, SaysUnitsAndWritesNamesInItsCodePage) {

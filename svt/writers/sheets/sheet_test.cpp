@@ -1,6 +1,7 @@
 /// Sheets of boxes whose places on paper are known.
 
 #include <svt/writers/drawing/dimension_marks.hpp>
+#include <svt/writers/sheet_geopackage.hpp>
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
@@ -48,6 +49,27 @@ DrawnView wallView(ViewKind kind, const std::string& name, double width, double 
     drawing.borders.push_back({border, 0, volume::kNoLabel});
     drawing.classes.push_back({"WallSurface", 1, width * height});
     return view;
+}
+
+TEST(SheetGeoPackage, IsADatabaseOfTheSameBytesEachTime) {
+    const auto volume = wallVolume();
+    SheetContent content;
+    content.views.push_back(wallView(ViewKind::Plan, "EG", 4, 3));
+    content.views.push_back(wallView(ViewKind::Section, "A", 4, 3));
+    const auto package = makeSheetGeoPackage(content, volume);
+    ASSERT_TRUE(package) << package.error().message();
+    EXPECT_TRUE(package->starts_with(std::string("SQLite format 3\0", 16)));
+    EXPECT_EQ(package->substr(68, 4), "GPKG");  // the application id of a GeoPackage
+    EXPECT_EQ(*makeSheetGeoPackage(content, volume), *package);
+    // The polygons: a header with code of the CRS and extent, and the extent of the drawing itself.
+    const auto header = [](std::int32_t reference, std::array<double, 4> extent) {
+        std::string bytes("GP\0\3", 4);
+        bytes.append(reinterpret_cast<const char*>(&reference), 4);
+        bytes.append(reinterpret_cast<const char*>(extent.data()), 32);
+        return bytes;
+    };
+    EXPECT_NE(package->find(header(25832, {500000, 500004, 5400000, 5400003})), std::string::npos);
+    EXPECT_NE(package->find(header(-1, {0, 4, 0, 3})), std::string::npos);
 }
 
 TEST(TilePath, CommandsBecomeSteps) {

@@ -1,5 +1,6 @@
 // The built page in a real browser, used as people use it; what it says is checked against the `svt` command.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -572,7 +573,25 @@ describe("tools", () => {
       svt("section", at("house.svt"), ...(format === "CSV" ? ["-o", at("x.svg"), "--table", file] : ["-o", file]), "--plane", `z>${Number(height.toFixed(4))}`);
       assert.deepEqual(bytes.toString("utf8"), readFileSync(file, "utf8"), format);
     }
+    for (const part of ["beyond", "above", "dimensions"]) await page.locator(`#draw-${part}`).check();
+    const { bytes } = await saved(() => page.getByRole("button", { name: "Export as SVG" }).click());
+    svt("section", at("house.svt"), "-o", at("whole.svg"), "--plane", `z>${Number(height.toFixed(4))}`, "--beyond", "--above", "--dimensions");
+    assert.equal(bytes.toString("utf8"), readFileSync(at("whole.svg"), "utf8"), "with what stands beyond");
+    const picture = await saved(() => page.getByRole("button", { name: "Export as PNG" }).click());
+    assert.equal(picture.bytes.subarray(1, 4).toString("latin1"), "PNG");
+    assert.ok(picture.bytes.readUInt32BE(16) > 1500, "300 pixels to the inch");
     await page.getByRole("button", { name: "Remove plane 1" }).click();
+  });
+
+  it("export sheets as the command makes them", async () => {
+    const { bytes, name } = await saved(() => page.locator("#draw-sheets").click());
+    assert.equal(name, "sheets.zip");
+    writeFileSync(at("sheets.zip"), bytes);
+    execFileSync("python3", ["-m", "zipfile", "-e", at("sheets.zip"), at("unzipped")]);
+    svt("sheets", at("house.svt"), "--svg", at("sheets"));
+    const names = readdirSync(at("sheets")).sort();
+    assert.deepEqual(readdirSync(at("unzipped")).sort(), names);
+    for (const sheet of names) assert.equal(readFileSync(at(`unzipped/${sheet}`), "utf8"), readFileSync(at(`sheets/${sheet}`), "utf8"), sheet);
   });
 
   it("move a lens with the mouse and pin it", async () => {

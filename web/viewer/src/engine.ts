@@ -151,6 +151,13 @@ export interface Stretch {
 }
 
 export type DrawingFormat = "svg" | "dxf" | "geojson" | "csv";
+
+/** What a drawing has beside the cut: what stands behind it, what is cut away, chains of dimensions (in plans). */
+export interface DrawingParts {
+  beyond: boolean;
+  above: boolean;
+  dimensions: boolean;
+}
 export type EngineKind = "webgl2" | "cpu";
 
 export interface FrameReport {
@@ -211,5 +218,7 @@ export interface Engine {
   /** A picture as PNG, drawn by the CPU caster, bit-identical to `svt render`. */
   picture(scene: Scene): Promise<ArrayBuffer>;
   /** The section through the volume as drawn by `svt section`. */
-  drawing(plane: string, format: DrawingFormat): Promise<ArrayBuffer>;
+  drawing(plane: string, format: DrawingFormat, parts?: DrawingParts): Promise<ArrayBuffer>;
+  /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */
+  sheets(language: "en" | "de"): Promise<string[]>;
 }

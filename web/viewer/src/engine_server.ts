@@ -52,5 +52,6 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     view: refuse,
     picture: async (scene) => (await drawn(scene)).arrayBuffer(),
     drawing: refuse,
+    sheets: refuse,
   };
 }

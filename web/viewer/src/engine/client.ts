@@ -1,7 +1,7 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import { kCancelled } from "../engine";
 import type {
-  DrawingFormat, Effects, Engine, EngineError, EngineKind, FeatureProperties, FrameReport, Pick, Scene, SceneCamera,
+  DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FrameReport, Pick, Scene, SceneCamera,
   Stretch, VolumeInfo,
 } from "../engine";
 import type { Answer, Calls, Request } from "./protocol";
@@ -88,8 +88,11 @@ class WorkerEngine implements Engine {
   picture(scene: Scene): Promise<ArrayBuffer> {
     return this.ask("picture", [scene]);
   }
-  drawing(plane: string, format: DrawingFormat): Promise<ArrayBuffer> {
-    return this.ask("drawing", [plane, format]);
+  drawing(plane: string, format: DrawingFormat, parts?: DrawingParts): Promise<ArrayBuffer> {
+    return this.ask("drawing", [plane, format, parts ?? null]);
+  }
+  sheets(language: "en" | "de"): Promise<string[]> {
+    return this.ask("sheets", [language]);
   }
 
   private drawNext(): void {

@@ -61,7 +61,11 @@ export class Drawer {
   /** The font is fetched when words are first drawn. */
   async prepare(scene: Scene): Promise<void> {
     const hasWords = scene.names?.length || scene.title || scene.colorBy || scene.scaleBar || scene.northArrow;
-    if (this.hasFont || !hasWords) return;
+    if (hasWords) await this.fetchFont();
+  }
+
+  async fetchFont(): Promise<void> {
+    if (this.hasFont) return;
     const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
     if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
     this.svt.call("font", [], new Uint8Array(await response.arrayBuffer()));

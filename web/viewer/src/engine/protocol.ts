@@ -1,6 +1,6 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
 import type { Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
-import type { DrawingFormat, FeatureProperties, FrameReport, VolumeInfo } from "../engine";
+import type { DrawingFormat, DrawingParts, FeatureProperties, FrameReport, VolumeInfo } from "../engine";
 
 /** Arguments and result of each call. */
 export interface Calls {
@@ -15,7 +15,8 @@ export interface Calls {
   properties: { args: [id: string]; result: FeatureProperties };
   view: { args: [query: string, preset: string | null, camera: SceneCamera]; result: SceneCamera };
   picture: { args: [scene: Scene]; result: ArrayBuffer };
-  drawing: { args: [plane: string, format: DrawingFormat]; result: ArrayBuffer };
+  drawing: { args: [plane: string, format: DrawingFormat, parts: DrawingParts | null]; result: ArrayBuffer };
+  sheets: { args: [language: "en" | "de"]; result: string[] };
 }
 
 export interface Drawn {

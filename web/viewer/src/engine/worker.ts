@@ -59,6 +59,9 @@ async function answer(request: Request): Promise<void> {
       const bytes = copied(svt.call(name, args));
       return post({ id, result: bytes }, [bytes]);
     }
+    case "sheets":
+      await drawerOf(svt).fetchFont();
+    // falls through
     default:
       return post({ id, result: json(svt.call(name, args)) });
   }

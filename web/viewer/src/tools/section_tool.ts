@@ -1,21 +1,29 @@
 /** Section planes: their positions and drawings. */
 
 import { css, html, nothing } from "lit";
-import type { DrawingFormat } from "../engine";
+import type { DrawingFormat, DrawingParts } from "../engine";
 import { regionOf } from "../state/scene_of";
 import type { Section, SectionAxis } from "../state/view_state";
-import { help, number, t } from "../texts";
-import { save } from "../ui/files";
+import { help, language, number, t } from "../texts";
+import { pngOf, save, zipOf } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { keptApart, rangeOf } from "./plane_outline";
 
 const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
-const kFormats: DrawingFormat[] = ["svg", "dxf", "geojson", "csv"];
+const kFormats = ["svg", "dxf", "png", "geojson", "csv"] as const;
+type FileFormat = (typeof kFormats)[number];
+/** Pixels of a PNG for each CSS pixel of its SVG: 300 to the inch. */
+const kPngScale = 300 / 96;
+const kParts = [["beyond", "drawBeyond"], ["above", "drawAbove"], ["dimensions", "drawDimensions"]] as const;
 /** Height at which plans are cut: above the floor, over window sills. */
 const kPlanHeight = 1.1;
 
 export class SectionTool extends Part {
+  /** What the next drawings have beside the cut. */
+  private parts: DrawingParts = { beyond: false, above: false, dimensions: false };
+  private isDrawing = false;
+
   static override styles = [
     controls,
     css`
@@ -49,7 +57,34 @@ export class SectionTool extends Part {
         <button class=${sections.length ? "" : "loud"} id="add-plane" @click=${() => this.add()}>${icon("plus", 16)}${t("addPlane")}</button>
         <label class="check" title=${help("/hatches/show")}><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
       </div>
+      ${this.drawingParts()}
     `;
+  }
+
+  private drawingParts() {
+    const { info } = this.session;
+    if (!info) return nothing;
+    const lacks = !info.hasMeshes;
+    return html`<div class="row small drawings" role="group" aria-label=${t("drawnToo")}><span class="quiet grow">${t("drawnToo")}</span>${kParts.map(
+      ([part, text]) => html`<label class="check"><input type="checkbox" id="draw-${part}" ?disabled=${lacks && part !== "dimensions"} .checked=${this.parts[part]}
+        @change=${(e: Event) => { this.parts = { ...this.parts, [part]: (e.target as HTMLInputElement).checked }; }} />${t(text)}</label>`,
+    )}</div>
+    <div class="row"><button id="draw-sheets" title=${t("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets()}>${t("sheets")}</button></div>`;
+  }
+
+  private async sheets(): Promise<void> {
+    const { session } = this;
+    this.isDrawing = true;
+    this.requestUpdate();
+    try {
+      const sheets = await session.engine!.sheets(language());
+      save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip");
+    } catch (error) {
+      session.fail(error);
+    } finally {
+      this.isDrawing = false;
+      this.requestUpdate();
+    }
   }
 
   private storeys() {
@@ -139,11 +174,12 @@ export class SectionTool extends Part {
     this.session.set({ sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }] });
   }
 
-  private async export(n: number, format: DrawingFormat): Promise<void> {
+  private async export(n: number, format: FileFormat): Promise<void> {
     const { session } = this;
+    const drawn: DrawingFormat = format === "png" ? "svg" : format;
     try {
-      const bytes = await session.engine!.drawing(regionOf(session.state.sections[n]!), format);
-      save(bytes, `section-${n + 1}.${format}`);
+      const bytes = await session.engine!.drawing(regionOf(session.state.sections[n]!), drawn, this.parts);
+      save(format === "png" ? await pngOf(bytes, kPngScale) : bytes, `section-${n + 1}.${format}`);
     } catch (error) {
       session.fail(error);
     }

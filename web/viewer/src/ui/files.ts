@@ -1,7 +1,7 @@
 /** File downloads, and text for the clipboard. */
 
 const kKinds: Record<string, string> = {
-  svg: "image/svg+xml", png: "image/png", csv: "text/csv", json: "application/json", geojson: "application/geo+json",
+  svg: "image/svg+xml", png: "image/png", csv: "text/csv", json: "application/json", geojson: "application/geo+json", zip: "application/zip",
 };
 
 export function save(data: ArrayBuffer | string, name: string): void {
@@ -22,4 +22,67 @@ export async function copy(text: string): Promise<boolean> {
   } catch {
     return false;
   }
+}
+
+/** An SVG as a picture; `scale` pixels for each of its CSS pixels. */
+export async function pngOf(svg: ArrayBuffer, scale: number): Promise<ArrayBuffer> {
+  const url = URL.createObjectURL(new Blob([svg], { type: kKinds["svg"]! }));
+  try {
+    const image = new Image();
+    image.src = url;
+    await image.decode();
+    const canvas = new OffscreenCanvas(Math.ceil(image.naturalWidth * scale), Math.ceil(image.naturalHeight * scale));
+    canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
+    return await (await canvas.convertToBlob({ type: "image/png" })).arrayBuffer();
+  } finally {
+    URL.revokeObjectURL(url);
+  }
+}
+
+/** A ZIP archive of texts, not compressed, dated 1980-01-01, so that equal texts give equal bytes. */
+export function zipOf(files: { name: string; text: string }[]): ArrayBuffer {
+  const parts: Uint8Array[] = [], directory: Uint8Array[] = [];
+  const encoder = new TextEncoder();
+  let offset = 0;
+  for (const file of files) {
+    const name = encoder.encode(file.name), data = encoder.encode(file.text);
+    // Shared by both headers: version, flags, method, time and date, checksum, sizes, length of the name, of extra fields.
+    const common = new DataView(new ArrayBuffer(26));
+    common.setUint16(0, 20, true);
+    common.setUint16(8, 0x21, true);
+    common.setUint32(10, checksumOf(data), true);
+    common.setUint32(14, data.length, true);
+    common.setUint32(18, data.length, true);
+    common.setUint16(22, name.length, true);
+    const shared = new Uint8Array(common.buffer);
+    parts.push(Uint8Array.of(0x50, 0x4b, 3, 4), shared, name, data);
+    const rest = new DataView(new ArrayBuffer(14));
+    rest.setUint32(10, offset, true);
+    directory.push(Uint8Array.of(0x50, 0x4b, 1, 2, 20, 0), shared, new Uint8Array(rest.buffer), name);
+    offset += 30 + name.length + data.length;
+  }
+  const size = directory.reduce((sum, part) => sum + part.length, 0);
+  const end = new DataView(new ArrayBuffer(22));
+  end.setUint32(0, 0x06054b50, true);
+  end.setUint16(8, files.length, true);
+  end.setUint16(10, files.length, true);
+  end.setUint32(12, size, true);
+  end.setUint32(16, offset, true);
+  const all = new Uint8Array(offset + size + 22);
+  let at = 0;
+  for (const part of [...parts, ...directory, new Uint8Array(end.buffer)]) {
+    all.set(part, at);
+    at += part.length;
+  }
+  return all.buffer;
+}
+
+/** CRC-32 of ISO 3309. */
+function checksumOf(data: Uint8Array): number {
+  let sum = 0xffffffff;
+  for (const byte of data) {
+    sum ^= byte;
+    for (let bit = 0; bit < 8; ++bit) sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+  }
+  return ~sum >>> 0;
 }
