@@ -470,7 +470,8 @@ constexpr Option kSection[] = {
     {.name = "--plane",
      .value = "PLANE",
      .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
-     .help = "z=1.2, y<3, x>4, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres from the lower corner",
+     .help = "z=1.2, y<3, x>4, z=abs(112.3) in the CRS, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres "
+             "from the lower corner",
      .group = "Drawing"},
     {.name = "--elevation",
      .choices = "north|east|south|west",
