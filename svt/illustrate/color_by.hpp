@@ -5,6 +5,7 @@
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/model/query.hpp>
+#include <svt/volume/semantic_volume.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -35,16 +36,30 @@ struct Coloring {
     ColorScale scale;
 };
 
-/// Colours the rows where `isShown` by a key of the query language: class, id, name, storey, volume, voxels, or an
+/// Colours the rows where `isShown` by a key of the query language: class, id, name, storey, volume, area, voxels, or an
 /// attribute, which a row without it has from the nearest feature above it. Values that are all numbers get viridis,
 /// which grows lighter evenly and is told apart by all eyes (van der Walt and Smith 2015); others, among them up to 18
 /// codes that read like numbers, the palette "muted" (Tol 2021), and lighter shades of it from the tenth value on; values
 /// beyond the 18th, and rows without a value, are gray. `volume` counts m3.
 /// \param isShown  by row: 1 if it takes part; colours and ends of the ramp are chosen for these alone
+/// \param areas    by row: m2, for the key `area`, or 0 where only an attribute may say it; empty: nowhere known
 /// \return the colours; BadArgument if no shown row has the key, naming those that there are
 /// Cost: O(rows * (attributes + depth of the tree)).
 [[nodiscard]] Result<Coloring> colorBy(std::string_view key, std::span<const model::QueryRow> rows,
-                                       std::span<const std::uint8_t> isShown);
+                                       std::span<const std::uint8_t> isShown,
+                                       std::span<const double> areas = {});
+
+/// The areas that colorBy() wants for its key, by label: floor areas of rooms, see measureFloorAreas(). Empty for other
+/// keys, or an error of findLevels() or measureFloorAreas().
+[[nodiscard]] Result<std::vector<double>> areasFor(std::string_view key, const volume::SemanticVolume& volume);
+
+/// Gives each label its owner as an attribute `owner`, for colours and queries: what the table lists has the owner that it
+/// says, a wall or slab that belongs to one owner alone has that one, and what several divide is "shared".
+/// \param table  CSV, see analyze::parseOwners()
+/// \param file   name of the table, for messages
+/// \return an error of parseOwners()
+[[nodiscard]] Result<void> addOwnerAttributes(volume::SemanticVolume& volume, std::string_view table,
+                                              std::string_view file, int threads = 0);
 
 /// Colour of a ramp's value, as colorBy() gives it; sRGB.
 [[nodiscard]] Vec3f rampColor(const ColorScale& scale, double value);

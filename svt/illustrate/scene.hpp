@@ -12,6 +12,7 @@
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,6 +76,7 @@ struct ScenePass {
     std::vector<SceneLines> lines;
     VolumeForm form{};
     std::vector<std::string> meshes;  ///< queries, or size<M: drawn as the model's meshes instead of voxels
+    bool hasCells = false;            ///< each voxel, or cell of a level, is drawn as a box with edges
     friend bool operator==(const ScenePass&, const ScenePass&) = default;
 };
 
@@ -104,6 +106,26 @@ struct Motion {
     friend bool operator==(const Motion&, const Motion&) = default;
 };
 
+/// A small picture in a corner of the picture, with a frame in the picture around what it shows.
+struct Inset {
+    enum class Corner : std::uint8_t { TopRight, BottomRight, TopLeft, BottomLeft };
+
+    Corner corner = Corner::TopRight;
+    double size = 0.3;  ///< share of the picture's width and height, 0.05 to 0.5
+    std::string title;
+    bool hasMark = true;        ///< the frame around what it shows, and lines to it
+    std::string scene = "{}";   ///< JSON object: its members that differ from the picture's, see insetScene()
+    friend bool operator==(const Inset&, const Inset&) = default;
+};
+
+/// Where the sun stands: the key light, with shadows. See sun.hpp.
+struct Sun {
+    std::string time;           ///< "2026-06-21 15:00", with "Z" or "+02:00" where it is not the zone of the meridian
+    std::optional<std::array<double, 2>> place;  ///< latitude and longitude, degrees; unset: of the model
+    double size = 0.53;         ///< diameter of its disc in degrees, 0 to 20: how soft shadows are
+    friend bool operator==(const Sun&, const Sun&) = default;
+};
+
 struct Scene {
     std::int32_t width = 1280, height = 720;  ///< pixels
     int samples = 4;                          ///< rays per pixel
@@ -119,9 +141,13 @@ struct Scene {
     std::optional<float> ambientOcclusion;
     std::vector<std::string> names;  ///< queries: labels with name tags beside the picture, see name_tags.hpp
     std::string colorBy;             ///< see color_by.hpp; with a legend. Empty: colours by style
+    bool hasLegend = true;           ///< where there is colorBy
     std::string title;               ///< written into the picture; empty: none
     bool hasScaleBar = false;        ///< parallel cameras only
     bool hasNorthArrow = false;
+    double explode = 0;  ///< metres by which storeys are drawn apart, see exploded.hpp
+    std::optional<Sun> sun;
+    std::vector<Inset> insets;
     std::vector<ScenePass> passes{ScenePass{}};
     std::optional<Motion> motion;
 
@@ -146,6 +172,11 @@ void addHighlight(Scene& scene, const std::vector<std::string>& queries, Context
 /// \param margin  metres left free around them
 void addCutaway(Scene& scene, const std::string& query, double margin);
 
+/// The scene of an inset: that of the picture with the members that the inset gives instead. Size, camera, title, scale
+/// bar, north arrow, names, legend, motion and further insets are its own, and the look of lines is the picture's.
+/// \return the scene, of the inset's size, or an error of parseScene()
+[[nodiscard]] Result<Scene> insetScene(const Scene& scene, const Inset& inset);
+
 /// The forms that the passes of a scene draw, each once, in the order of first use. At least one.
 [[nodiscard]] std::vector<VolumeForm> volumeForms(const Scene& scene);
 /// The frame that shows `scene` on `volume`. Pass::volume is an index into volumeForms(scene).
@@ -164,6 +195,9 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 [[nodiscard]] Result<Scene> parseScene(std::string_view json, const std::string& name = "scene");
 /// Writes the JSON form. Equal scenes give equal bytes; members with default values are left out.
 [[nodiscard]] std::string writeScene(const Scene& scene);
+
+/// The JSON of a scene that has this camera and nothing else.
+[[nodiscard]] std::string cameraJson(const SceneCamera& camera);
 
 [[nodiscard]] std::string_view lookName(Look look) noexcept;
 [[nodiscard]] std::optional<Look> lookFromName(std::string_view name) noexcept;

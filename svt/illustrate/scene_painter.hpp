@@ -63,6 +63,12 @@ public:
     /// As the first paint(), with another renderer.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
+    /// The painter of the volume with storeys drawn `distance` apart, made when first asked for; itself for 0. It lives until
+    /// another distance is asked for.
+    /// \return the painter, or an error of explodeStoreys()
+    [[nodiscard]] Result<ScenePainter*> apart(double distance);
+    [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
+
     /// A form of the volume for the frame `spec`. It lives as long as the painter.
     [[nodiscard]] Result<render::DrawnVolume> form(const VolumeForm& form, const render::FrameSpec& spec);
 
@@ -70,6 +76,11 @@ private:
     // The volume or a shell of it, with its bricks and levels of detail.
     struct Forms;
     Result<Forms*> findForms(std::optional<ShellLevel> shell);
+    struct Apart;
+    using Paint = std::function<Result<Painting>(const Scene&)>;
+    [[nodiscard]] Result<void> addInsets(const Scene& scene, const Paint& paint, Painting& painting) const;
+    [[nodiscard]] Result<Painting> paintPlain(const Scene& scene, const Draw& draw);
+    [[nodiscard]] Result<Painting> draftPlain(const Scene& scene, const render::CastOptions& options);
     [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,
                                           render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
                                           const Draw& draw) const;
@@ -79,6 +90,7 @@ private:
     std::vector<std::string>* nothing_ = nullptr;
     const Progress* progress_ = nullptr;
     std::vector<std::unique_ptr<Forms>> forms_;
+    std::unique_ptr<Apart> apart_;
 };
 
 }  // namespace svt::illustrate

@@ -48,6 +48,8 @@ struct Light {
     float key = 0.60f;                 ///< >= 0
     float ambient = 0.56f;             ///< >= 0; key + ambient near 1.1 uses the full tonal range
     float ambientOcclusion = 0.6f;     ///< 0..1: how much corners are darkened; 0 switches it off
+    bool hasShadows = false;           ///< what is opaque keeps the key light from what is behind; CPU only
+    double size = 0.53;                ///< diameter of the key light in degrees, 0..20: how soft shadows are
     friend bool operator==(const Light&, const Light&) = default;
 };
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -164,9 +165,32 @@ Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Sce
     if (!arguments.highlights.empty()) addHighlight(scene, arguments.highlights, context);
     if (!arguments.cutaway.empty()) addCutaway(scene, arguments.cutaway, 0.15);
     if (arguments.contextLevel && scene.passes.size() == 2) scene.passes.front().form.level = arguments.contextLevel;
+    for (illustrate::ScenePass& any : scene.passes) any.hasCells = any.hasCells || arguments.hasCells;
     for (illustrate::ScenePass& any : scene.passes)
         if (arguments.level && !any.form.level) any.form.level = arguments.level;
     return {};
+}
+
+// An inset for each query: in the corners from the right, or from the left where a legend stands at the right.
+void addInsets(const SceneArguments& arguments, Scene& scene) {
+    using enum illustrate::Inset::Corner;
+    constexpr illustrate::Inset::Corner kFromRight[] = {TopRight, BottomRight, TopLeft, BottomLeft};
+    constexpr illustrate::Inset::Corner kFromLeft[] = {BottomLeft, TopLeft, BottomRight, TopRight};
+    for (const std::string& query : arguments.insets) {
+        illustrate::Inset inset;
+        for (const auto corner : scene.colorBy.empty() ? kFromRight : kFromLeft) {
+            inset.corner = corner;
+            if (std::none_of(scene.insets.begin(), scene.insets.end(),
+                             [&](const illustrate::Inset& other) { return other.corner == corner; }))
+                break;
+        }
+        Scene own;
+        own.camera.preset = scene.camera.preset;
+        own.camera.isParallel = scene.camera.isParallel;
+        own.camera.around = query;
+        inset.scene = illustrate::cameraJson(own.camera);
+        scene.insets.push_back(inset);
+    }
 }
 
 Result<Scene> readScene(const std::filesystem::path& file) {
@@ -221,6 +245,18 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (!colorBy.empty()) scene.colorBy = colorBy;
     scene.names.insert(scene.names.end(), names.begin(), names.end());
     if (auto added = addPass(*this, frame, frames, scene); !added) return added.error();
+    if (insets.size() + scene.insets.size() > 4)
+        return Error(Code::BadArgument, fmt::format("{} insets; a picture has 4 corners", insets.size() + scene.insets.size()));
+    addInsets(*this, scene);
+    if (explode) scene.explode = *explode;
+    if (!sunTime.empty()) {
+        if (!scene.sun) scene.sun.emplace();
+        scene.sun->time = sunTime;
+    }
+    if (place.size() == 2) {
+        if (!scene.sun) return Error(Code::BadArgument, "--place says where the sun shines; --sun says when");
+        scene.sun->place = {place[0], place[1]};
+    }
     if (turn || seconds || rate) {
         if (!scene.motion) scene.motion.emplace();
         if (turn) scene.motion->turn = *turn;
@@ -268,6 +304,12 @@ void SceneArguments::connect(Command& command) {
     command.set("--title", title);
     command.set("--scale-bar", hasScaleBar);
     command.set("--north-arrow", hasNorthArrow);
+    command.set("--inset", insets);
+    command.set("--explode", explode);
+    command.set("--cells", hasCells);
+    command.set("--owners", owners);
+    command.set("--sun", sunTime);
+    command.set("--place", place);
     command.set("--wireframe", wireframe);
     command.set("--hidden-lines", hiddenLines);
     command.set("--wire-width", wireWidth);

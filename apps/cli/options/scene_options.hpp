@@ -15,15 +15,15 @@ namespace svt::cli {
 
 /// Options not given are taken from the scene file, or else from the scene's defaults.
 struct SceneArguments {
-    std::filesystem::path sceneFile;
+    std::filesystem::path sceneFile, owners;
     std::optional<std::string> camera, fit, size, background, look;
-    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes;
+    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes, insets;
     std::optional<std::string> wireframe, wireColor;
-    std::string hiddenLines, colorBy, title;
-    bool hasScaleBar = false, hasNorthArrow = false;
-    std::optional<double> wireWidth;
+    std::string hiddenLines, colorBy, title, sunTime;
+    bool hasScaleBar = false, hasNorthArrow = false, hasCells = false;
+    std::optional<double> wireWidth, explode;
     std::string cut, keep, lens, cutaway, around, context, shell;
-    std::vector<double> eye, target;
+    std::vector<double> eye, target, place;
     std::optional<int> samples, dpi, level, contextLevel, rate;
     std::optional<double> edges, lineWidth, cutWidth, hatchSpacing, fov, zoom, turn, seconds;
     int dpiByDefault = 0;

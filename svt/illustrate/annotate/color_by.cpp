@@ -41,7 +41,8 @@ struct Value {
 
 class ValueFinder {
 public:
-    ValueFinder(std::string_view key, std::span<const model::QueryRow> rows) : key_(key), rows_(rows) {}
+    ValueFinder(std::string_view key, std::span<const model::QueryRow> rows, std::span<const double> areas)
+        : key_(key), rows_(rows), areas_(areas) {}
 
     [[nodiscard]] std::optional<Value> of(std::uint32_t row) const {
         const model::QueryRow& own = rows_[row];
@@ -50,6 +51,7 @@ public:
         if (equalsIgnoringCase(key_, "name")) return own.name.empty() ? std::optional<Value>() : textOf(own.name);
         if (equalsIgnoringCase(key_, "volume")) return Value{fmt::format("{}", own.volume), "m3", false};
         if (equalsIgnoringCase(key_, "voxels")) return Value{fmt::format("{}", own.voxels), "", false};
+        if (row < areas_.size() && areas_[row] > 0) return Value{fmt::format("{}", areas_[row]), "m2", false};
         const bool isStorey = equalsIgnoringCase(key_, "storey");
         return firstAbove(row, [&](const model::QueryRow& above) -> std::optional<Value> {
             if (!isStorey) return attributeOf(above);
@@ -89,6 +91,7 @@ private:
     static constexpr std::size_t kMostAbove = 64;  // hostile models: groups in groups
     std::string_view key_;
     std::span<const model::QueryRow> rows_;
+    std::span<const double> areas_;
 };
 
 std::optional<double> numberOf(const std::string& text) {
@@ -110,8 +113,8 @@ Error nothingToColor(std::string_view key, std::span<const model::QueryRow> rows
     if (some.size() > 12) some.resize(12);
     return {Code::BadArgument,
             fmt::format("nothing that is visible has '{}' to be coloured by; possible are class, name, storey, "
-                        "volume, voxels{}{}{}",
-                        key, some.empty() ? "" : ", ", fmt::join(some, ", "), names.size() > 12 ? ", ..." : "")};
+                        "volume, area (of rooms), voxels{}{}{}{}",
+                        key, equalsIgnoringCase(key, "owner") ? ", owner with a table of owners (--owners)" : "", some.empty() ? "" : ", ", fmt::join(some, ", "), names.size() > 12 ? ", ..." : "")};
 }
 
 void colorByRamp(const std::vector<std::optional<Value>>& values, Coloring& coloring) {
@@ -164,8 +167,8 @@ Vec3f rampColor(const ColorScale& scale, double value) {
 }
 
 Result<Coloring> colorBy(std::string_view key, std::span<const model::QueryRow> rows,
-                         std::span<const std::uint8_t> isShown) {
-    const ValueFinder finder(key, rows);
+                         std::span<const std::uint8_t> isShown, std::span<const double> areas) {
+    const ValueFinder finder(key, rows, areas);
     std::vector<std::optional<Value>> values(rows.size());
     Coloring coloring;
     coloring.colors.assign(rows.size(), kGray);

@@ -4,9 +4,11 @@
 #include <svt/illustrate/annotate/legend.hpp>
 #include <svt/illustrate/annotate/name_tags.hpp>
 #include <svt/illustrate/hatches.hpp>
+#include <svt/illustrate/inset/inset_frame.hpp>
 #include <svt/illustrate/scene/region.hpp>
 #include <svt/illustrate/scene/vector_shapes.hpp>
 #include <svt/illustrate/scene/visible_points.hpp>
+#include <svt/illustrate/sun.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/render/camera_presets.hpp>
 
@@ -24,6 +26,8 @@ using volume::Label;
 using volume::LabelTable;
 
 constexpr std::array<std::string_view, 4> kLookNames{"plain", "paper", "blueprint", "dark"};
+// Light of sun and sky: shadows are to be seen, and what is in them.
+constexpr float kSunKey = 0.85f, kSunAmbient = 0.46f;
 constexpr float kGhostOpacity = 0.22f;
 constexpr float kGhostGray = 0.7f;  // how much of a ghost's colour is lost
 // What stops less light per metre is air, such as a room.
@@ -86,6 +90,21 @@ void applyLook(const Scene& scene, render::FrameSpec& spec) {
     if (scene.ambientOcclusion) spec.light.ambientOcclusion = *scene.ambientOcclusion;
 }
 
+// The sun instead of the light beside the camera. Below the horizon it gives none, and the sky alone is left.
+Result<void> applySun(const Scene& scene, const volume::SemanticVolume& volume, render::FrameSpec& spec) {
+    if (!scene.sun) return {};
+    const auto sunlight = sunlightOf(*scene.sun, volume);
+    if (!sunlight) return sunlight.error();
+    render::Light& light = spec.light;
+    light.space = render::Light::Space::World;
+    light.direction = sunlight->direction;
+    light.size = scene.sun->size;
+    light.hasShadows = true;
+    light.key = sunlight->position.elevation > 0 ? kSunKey : 0;
+    light.ambient = kSunAmbient;
+    return {};
+}
+
 // The part of a grid in a box of samples, for fitting cameras.
 volume::Grid gridOf(const analyze::SampleBox& box, const volume::Grid& grid) {
     Vec3i dimension;
@@ -116,6 +135,17 @@ Result<ToShow> wholeOrAround(const SceneCamera& wanted, const volume::SemanticVo
     return ToShow{gridOf(*box, volume.grid), {}};
 }
 
+// Moves a camera to the right, so that what it shows stands further left, by a share of the picture's height.
+void moveAside(double share, render::Camera& camera) {
+    const Vec3d forward = camera.target - camera.eye;
+    const double height = camera.projection == render::Camera::Projection::Orthographic
+                              ? camera.orthographicHeight
+                              : 2 * std::tan(camera.verticalFovDegrees * std::numbers::pi / 360) * length(forward);
+    const Vec3d by = normalized(cross(forward, camera.up)) * (share * height);
+    camera.eye = camera.eye + by;
+    camera.target = camera.target + by;
+}
+
 Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, const ToShow& toShow) {
     const SceneCamera& wanted = scene.camera;
     if (!(wanted.zoom > 0 && std::isfinite(wanted.zoom)))
@@ -132,8 +162,13 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, co
         wanted.isParallel ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
     options.verticalFovDegrees = wanted.fieldOfView;
     if (!scene.names.empty()) options.sideMargin = nameMargin(scene.width, scene.height);
-    if (!scene.colorBy.empty())
+    if (!scene.colorBy.empty() && scene.hasLegend)
         options.sideMargin = std::max(options.sideMargin, legendMargin(scene.width, scene.height));
+    const InsetMargins insets = insetMargins(scene);
+    // Of a picture that is moved aside, so that the free parts of both sides are as wide as what stands there.
+    const double left = std::max({options.sideMargin, options.margin, insets.left});
+    const double right = std::max({options.sideMargin, options.margin, insets.right});
+    options.sideMargin = std::min(0.45, (left + right) / 2);
     auto camera = toShow.points.empty() ? render::cameraPreset(wanted.preset, toShow.grid, options)
                                         : render::cameraPreset(wanted.preset, toShow.points, grid.axes(), options);
     if (!camera) return camera;
@@ -141,6 +176,7 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, co
     if (wanted.target) camera->target = grid.origin() + *wanted.target;
     camera->eye = camera->target + (camera->eye - camera->target) / wanted.zoom;
     camera->orthographicHeight /= wanted.zoom;
+    if (left != right && !wanted.eye && !wanted.target) moveAside((right - left) / 2 * options.aspect, *camera);
     return camera;
 }
 
@@ -259,7 +295,9 @@ Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& vo
                 if (labels[l].count > 0 && looks[l].opacity > least && !looks[l].isGhost) isShown[l] = 1;
         if (std::count(isShown.begin(), isShown.end(), 1) != 0) break;
     }
-    auto coloring = colorBy(scene.colorBy, rows.get(), isShown);
+    const auto areas = areasFor(scene.colorBy, volume);
+    if (!areas) return areas.error();
+    auto coloring = colorBy(scene.colorBy, rows.get(), isShown, *areas);
     if (!coloring) return coloring.error();
     for (auto& looks : all)
         for (std::size_t l = 0; l < labels.size(); ++l)
@@ -407,6 +445,7 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
         return Error(Code::BadCamera,
                      "a scale bar needs a parallel view (--ortho); in perspective what is near is larger");
     applyLook(scene, spec);
+    if (auto lit = applySun(scene, volume, spec); !lit) return lit.error();
     const auto toShow = wholeOrAround(scene.camera, volume, rows);
     if (!toShow) return toShow.error();
     const auto camera = cameraOf(scene, volume.grid, *toShow);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace svt::illustrate {
@@ -25,6 +26,10 @@ constexpr std::pair<render::HiddenLines, std::string_view> kHidden[] = {{render:
                                                                         {render::HiddenLines::Dashed, "dashed"}};
 constexpr std::pair<Motion::Pace, std::string_view> kPaces[] = {{Motion::Pace::Smooth, "smooth"},
                                                                 {Motion::Pace::Even, "even"}};
+constexpr std::pair<Inset::Corner, std::string_view> kCorners[] = {{Inset::Corner::TopRight, "top-right"},
+                                                                   {Inset::Corner::BottomRight, "bottom-right"},
+                                                                   {Inset::Corner::TopLeft, "top-left"},
+                                                                   {Inset::Corner::BottomLeft, "bottom-left"}};
 constexpr std::pair<Join, std::string_view> kJoins[] = {
     {Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}};
 
@@ -171,6 +176,7 @@ void readPass(Reader& read, const Json& json, const std::string& path, ScenePass
         if (key == "cut") read.text(value, at, pass.cut);
         if (key == "keep") read.text(value, at, pass.keep);
         if (key == "meshes") read.texts(value, at, pass.meshes);
+        if (key == "cells") read.flag(value, at, pass.hasCells);
         if (key == "level") read.number(value, at, pass.form.level.emplace());
         if (std::string level; key == "shell" && read.choice(value, at, "level of hulls", level))
             pass.form.shell = shellLevelFromName(level);
@@ -244,6 +250,44 @@ void readMotion(Reader& read, const Json& json, Motion& motion) {
                                               motion.keys.back().at, motion.seconds));
 }
 
+void readSun(Reader& read, const Json& json, Sun& sun) {
+    if (!read.object(json, "/sun")) return;
+    if (!json.contains("time")) return read.fail("/sun", "needs \"time\", such as \"2026-06-21 15:00\"");
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = "/sun/" + key;
+        if (key == "time") read.text(value, at, sun.time);
+        if (key == "size") read.number(value, at, sun.size);
+        if (key != "place") continue;
+        if (!value.is_array() || value.size() != 2) return read.fail(at, "expected [latitude, longitude] in degrees");
+        auto& place = sun.place.emplace();
+        for (std::size_t n = 0; n < 2; ++n) read.number(value[n], fmt::format("{}/{}", at, n), sceneMember(at), place[n]);
+    }
+}
+
+void readInset(Reader& read, const Json& json, const std::string& path, Inset& inset) {
+    if (!read.object(json, path)) return;
+    for (const auto& [key, value] : json.items()) {
+        const std::string at = path + "/" + key;
+        if (key == "corner") read.choice(value, at, "corner", kCorners, inset.corner);
+        if (key == "size") read.number(value, at, inset.size);
+        if (key == "title") read.text(value, at, inset.title);
+        if (key == "mark") read.flag(value, at, inset.hasMark);
+        if (key != "scene") continue;
+        if (!value.is_object()) return read.fail(at, "expected an object with members of a scene");
+        for (const char* member : {"size", "motion", "insets"})
+            if (value.contains(member)) return read.fail(at + "/" + member, "an inset has none of its own; leave it out");
+        inset.scene = value.dump();
+    }
+}
+
+void readInsets(Reader& read, const Json& json, Scene& scene) {
+    const std::size_t most = std::size(kCorners);
+    if (!json.is_array() || json.size() > most)
+        return read.fail("/insets", fmt::format("expected an array of at most {} insets", most));
+    for (std::size_t n = 0; n < json.size() && read.isFine(); ++n)
+        readInset(read, json[n], fmt::format("/insets/{}", n), scene.insets.emplace_back());
+}
+
 void readScene(Reader& read, const Json& json, Scene& scene) {
     if (!read.object(json, "")) return;
     for (const auto& [key, value] : json.items()) {
@@ -263,6 +307,10 @@ void readScene(Reader& read, const Json& json, Scene& scene) {
         if (key == "scaleBar") read.flag(value, at, scene.hasScaleBar);
         if (key == "northArrow") read.flag(value, at, scene.hasNorthArrow);
         if (key == "colorBy") read.text(value, at, scene.colorBy);
+        if (key == "legend") read.flag(value, at, scene.hasLegend);
+        if (key == "explode") read.number(value, at, scene.explode);
+        if (key == "sun") readSun(read, value, scene.sun.emplace());
+        if (key == "insets") readInsets(read, value, scene);
         if (key == "camera") readCamera(read, value, scene.camera);
         if (key == "background") read.color(value, at, scene.background);
         if (key == "transparent") read.flag(value, at, scene.isTransparent);
@@ -308,6 +356,25 @@ Json jsonOf(const Motion& motion) {
     return json;
 }
 
+Json jsonOf(const Sun& sun) {
+    Json json{{"time", sun.time}};
+    if (sun.place) json["place"] = {(*sun.place)[0], (*sun.place)[1]};
+    if (sun.size != Sun().size) json["size"] = sun.size;
+    return json;
+}
+
+Json jsonOf(const Inset& inset) {
+    const Inset plain;
+    Json json = Json::object();
+    for (const auto& [corner, name] : kCorners)
+        if (corner == inset.corner && corner != plain.corner) json["corner"] = name;
+    if (inset.size != plain.size) json["size"] = inset.size;
+    if (!inset.title.empty()) json["title"] = inset.title;
+    if (!inset.hasMark) json["mark"] = false;
+    json["scene"] = Json::parse(inset.scene, nullptr, false);
+    return json;
+}
+
 // The shortest decimal number that reads back as the same float.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
@@ -343,6 +410,7 @@ Json jsonOf(const ScenePass& pass) {
     if (pass.form.level) json["level"] = *pass.form.level;
     for (const SceneLines& lines : pass.lines) json["lines"].push_back(jsonOf(lines));
     if (!pass.meshes.empty()) json["meshes"] = pass.meshes;
+    if (pass.hasCells) json["cells"] = true;
     return json;
 }
 
@@ -356,7 +424,32 @@ Result<Scene> parseScene(std::string_view json, const std::string& name) {
     readScene(read, parsed, scene);
     if (!read.isFine()) return read.error();
     if (auto checked = checkMotion(scene, name); !checked) return checked.error();
+    for (const Inset& inset : scene.insets)
+        if (const auto made = insetScene(scene, inset); !made) return made.error();
     return scene;
+}
+
+std::string cameraJson(const SceneCamera& camera) { return Json{{"camera", jsonOf(camera)}}.dump(); }
+
+Result<Scene> insetScene(const Scene& scene, const Inset& inset) {
+    Scene base = scene;
+    base.camera = {};
+    base.insets.clear();
+    base.motion.reset();
+    base.names.clear();
+    base.title.clear();
+    base.hasScaleBar = base.hasNorthArrow = base.hasLegend = false;
+    Json json = Json::parse(writeScene(base), nullptr, false);
+    json.merge_patch(Json::parse(inset.scene, nullptr, false));
+    auto made = parseScene(json.dump(), "scene of an inset");
+    if (!made) return made;
+    const auto share = [&](std::int32_t pixels) {
+        return std::max(16, static_cast<std::int32_t>(std::lround(inset.size * pixels)));
+    };
+    made->width = share(scene.width);
+    made->height = share(scene.height);
+    if (!inset.title.empty()) made->title = inset.title;
+    return made;
 }
 
 std::string writeScene(const Scene& scene) {
@@ -369,6 +462,10 @@ std::string writeScene(const Scene& scene) {
     if (scene.hasScaleBar) json["scaleBar"] = true;
     if (scene.hasNorthArrow) json["northArrow"] = true;
     if (!scene.colorBy.empty()) json["colorBy"] = scene.colorBy;
+    if (!scene.hasLegend) json["legend"] = false;
+    if (scene.explode != 0) json["explode"] = scene.explode;
+    if (scene.sun) json["sun"] = jsonOf(*scene.sun);
+    for (const Inset& inset : scene.insets) json["insets"].push_back(jsonOf(inset));
     if (scene.camera != plain.camera) json["camera"] = jsonOf(scene.camera);
     if (scene.background) json["background"] = image::colorText(*scene.background);
     if (scene.isTransparent) json["transparent"] = true;

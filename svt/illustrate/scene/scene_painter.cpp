@@ -3,6 +3,8 @@
 #include <svt/illustrate/annotate/legend.hpp>
 #include <svt/illustrate/annotate/marks.hpp>
 #include <svt/illustrate/annotate/name_tags.hpp>
+#include <svt/illustrate/exploded.hpp>
+#include <svt/illustrate/inset/inset_frame.hpp>
 #include <svt/illustrate/shell.hpp>
 
 #include <algorithm>
@@ -46,6 +48,14 @@ struct ScenePainter::Forms {
     const volume::SemanticVolume* volume = nullptr;
     std::optional<volume::BrickVolume> bricks;
     std::optional<std::vector<volume::LodLevel>> levels;
+};
+
+struct ScenePainter::Apart {
+    double distance;
+    volume::SemanticVolume volume;
+    ScenePainter painter;
+    Apart(double by, volume::SemanticVolume lifted, int threads)
+        : distance(by), volume(std::move(lifted)), painter(volume, threads) {}
 };
 
 ScenePainter::ScenePainter(const volume::SemanticVolume& volume, int threads) : volume_(volume), threads_(threads) {}
@@ -96,7 +106,57 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
     return paint(scene, byCasting(options));
 }
 
+Result<ScenePainter*> ScenePainter::apart(double distance) {
+    if (distance == 0) return this;
+    if (!apart_ || apart_->distance != distance) {
+        auto lifted = explodeStoreys(volume_, distance, threads_);
+        if (!lifted) return lifted.error();
+        apart_ = std::make_unique<Apart>(distance, std::move(*lifted), threads_);
+    }
+    apart_->painter.nothing_ = nothing_;
+    apart_->painter.progress_ = progress_;
+    return &apart_->painter;
+}
+
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
+    const auto painter = apart(scene.explode);
+    if (!painter) return painter.error();
+    const Paint paintOne = [&](const Scene& one) { return (*painter)->paintPlain(one, draw); };
+    auto painting = paintOne(scene);
+    if (!painting) return painting;
+    if (auto added = addInsets(scene, paintOne, *painting); !added) return added.error();
+    return painting;
+}
+
+// Draws the insets, and marks in the picture what they show. An inset that shows most of the picture is an overview: there
+// the mark says where the picture is.
+Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Painting& painting) const {
+    constexpr double kOverview = 0.7;
+    const Vec3f color{0.80f, 0.16f, 0.12f}, halo = textColors(painting.spec.background).halo;
+    std::optional<render::Frame> whole;  // the picture without insets
+    for (const Inset& inset : scene.insets) {
+        const auto own = insetScene(scene, inset);
+        if (!own) return own.error();
+        auto small = paint(*own);
+        if (!small) return small.error();
+        if (!whole) whole = painting.frame;
+        std::optional<PictureBox> shown;
+        if (inset.hasMark) shown = boxOfSeen(small->frame, small->spec, volume_.grid, painting.spec);
+        const auto back = boxOfSeen(*whole, painting.spec, volume_.grid, small->spec);
+        const auto seen = boxOfSeen(*whole, painting.spec, volume_.grid, painting.spec);
+        const bool isOverview = shown && seen && back && shown->width() >= kOverview * seen->width() &&
+                                shown->height() >= kOverview * seen->height() && back->width() < small->spec.width &&
+                                back->height() < small->spec.height;
+        if (isOverview) {
+            drawMark(*back, color, halo, small->frame.color);
+            shown.reset();
+        }
+        drawInset(small->frame, insetPlace(scene, inset), shown, color, halo, painting.frame);
+    }
+    return {};
+}
+
+Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) {
     const analyze::LabelRows rows(volume_.labels, nothing_);
     ColorScale scale;
     auto spec = makeFrameSpec(scene, volume_, rows, &scale);
@@ -111,6 +171,16 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
+    const auto painter = apart(scene.explode);
+    if (!painter) return painter.error();
+    const Paint paintOne = [&](const Scene& one) { return (*painter)->draftPlain(one, options); };
+    auto painting = paintOne(scene);
+    if (!painting) return painting;
+    if (auto added = addInsets(scene, paintOne, *painting); !added) return added.error();
+    return painting;
+}
+
+Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::CastOptions& options) {
     const analyze::LabelRows rows(volume_.labels, nothing_);
     ColorScale scale;
     auto spec = makeFrameSpec(scene, volume_, rows, &scale);
@@ -138,7 +208,7 @@ Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRo
     Painting painting{std::move(*frame), std::move(spec)};
     const TextColors colors = textColors(painting.spec.background);
     auto& image = painting.frame.color;
-    if (!scene.colorBy.empty()) drawLegend(scale, colors.text, colors.halo, image);
+    if (!scene.colorBy.empty() && scene.hasLegend) drawLegend(scale, colors.text, colors.halo, image);
     if (!scene.title.empty()) drawTitle(scene.title, colors.text, colors.halo, image);
     if (scene.hasScaleBar) drawScaleBar(painting.spec.camera, colors.text, colors.halo, image);
     if (scene.hasNorthArrow) drawNorthArrow(painting.spec.camera, colors.text, colors.halo, image);

@@ -41,6 +41,8 @@ Result<void> checkLook(const FrameSpec& spec) {
     if (!(light.key >= 0 && light.key <= 100) || !(light.ambient >= 0 && light.ambient <= 100) ||
         !isShare(light.ambientOcclusion))
         return Error(Code::BadFrame, "key and ambient light must be 0 to 100, ambient occlusion 0 to 1");
+    if (!(light.size >= 0 && light.size <= 20))
+        return Error(Code::BadFrame, "the diameter of the key light must be 0 to 20 degrees");
     if (!isColor(spec.background.top) || !isColor(spec.background.bottom) || !isShare(spec.background.alpha))
         return Error(Code::BadFrame, "colours and alpha of the background must be 0 to 1");
     const auto isWidth = [](float width) { return width >= 0 && width <= BorderLines::kMaxWidth; };

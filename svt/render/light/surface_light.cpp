@@ -17,13 +17,13 @@ Surface SurfaceLight::at(const LinearStyle& style, const SurfaceHit& hit) const 
     const bool isOpen = !style.isBody || surface.isAroundEye || frame_.spec.light.ambientOcclusion <= 0;
     const Vec3d point = hit.origin + hit.direction * hit.from;
     surface.light =
-        lightOn(surface.normal, hit.view, isOpen ? 1 : openness(point, surface.outwardIndex, surface.cavity));
+        lightOn(surface.normal, hit.view, isOpen ? 1 : openness(point, surface.outwardIndex, surface.cavity), point);
     return surface;
 }
 
 double SurfaceLight::lightSurface(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept {
     const bool isOpen = !style.isBody || frame_.spec.light.ambientOcclusion <= 0;
-    return lightOn(normal, view, isOpen ? 1 : openness(point, volume_.directions.outwardIndex(normal), 0));
+    return lightOn(normal, view, isOpen ? 1 : openness(point, volume_.directions.outwardIndex(normal), 0), point);
 }
 
 Surface SurfaceLight::findNormal(const LinearStyle& style, const SurfaceHit& hit) const {
@@ -77,10 +77,17 @@ double SurfaceLight::openness(Vec3d point, Vec3d outwardIndex, double cavity) co
     return 1 - double(frame_.spec.light.ambientOcclusion) * occlusion;
 }
 
+double SurfaceLight::unshaded(Vec3d point, Vec3d normal) const noexcept {
+    // Turned away from the light: nothing to look up.
+    if (frame_.shadows.isEmpty() || !(dot(normal, frame_.towardsLight) > 0)) return 1;
+    return frame_.shadows.lightAt(volume_.grid.worldFromIndex(point - Vec3d{0.5, 0.5, 0.5}), normal);
+}
+
 // Key light, sky and a little light from the viewer, all attenuated by occlusion (`open`).
-double SurfaceLight::lightOn(Vec3d normal, Vec3d view, double open) const noexcept {
+double SurfaceLight::lightOn(Vec3d normal, Vec3d view, double open, Vec3d point) const noexcept {
     const Light& light = frame_.spec.light;
-    const double key = std::max(0.0, dot(normal, frame_.towardsLight));
+    double key = std::max(0.0, dot(normal, frame_.towardsLight));
+    if (!frame_.shadows.isEmpty()) key = key * unshaded(point, normal);
     const double facing = std::max(0.0, dot(normal, view));
     const double sky = kSkyAside + kSkyAbove * normal.z;
     return double(light.ambient) * open * (kSkyShare * sky + kViewerShare * facing) +

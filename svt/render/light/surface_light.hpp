@@ -47,9 +47,14 @@ public:
     /// \param point   voxel space
     [[nodiscard]] double lightSurface(const LinearStyle& style, Vec3d normal, Vec3d view, Vec3d point) const noexcept;
 
+    /// Share of the key light that reaches a surface; 1 without shadows.
+    /// \param point   voxel space
+    /// \param normal  world space, unit length
+    [[nodiscard]] double unshaded(Vec3d point, Vec3d normal) const noexcept;
+
 private:
     [[nodiscard]] const SurfaceNormal& normalAt(Vec3i voxel, int axis, int sign) const;
-    [[nodiscard]] double lightOn(Vec3d normal, Vec3d view, double open) const noexcept;
+    [[nodiscard]] double lightOn(Vec3d normal, Vec3d view, double open, Vec3d point) const noexcept;
     [[nodiscard]] double openness(Vec3d point, Vec3d outwardIndex, double cavity) const noexcept;
 
     const PreparedFrame& frame_;

@@ -165,6 +165,7 @@ void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
     PacketPass packetPass = prepared;
     packetPass.surface = &PacketCaster::shadeSurface;
     packetPass.fragment = &PacketCaster::blendFragment;
+    if (!frame_.shadows.isEmpty()) packetPass.unshaded = &PacketCaster::shareOfLight;
     withColor_ = packetPass.withColor;
     // All other members are read only where depth is finite.
     for (auto& color : seen_.color) color.fill(0);
@@ -344,6 +345,15 @@ void PacketCaster::writeSample(std::size_t ray, Sample& sample) const noexcept {
         drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
     }
     if (sample.isCap) hatchCap(frame_, pass_, rays_.u[ray], rays_.v[ray], sample);
+}
+
+double PacketCaster::shareOfLight(void* context, const PacketPoint& point) {
+    auto& caster = *static_cast<PacketCaster*>(context);
+    const std::size_t n = point.lane;
+    const PacketRays& rays = caster.rays_;
+    const auto of = [n](const Lanes<double>(&lanes)[3]) { return Vec3d{lanes[0][n], lanes[1][n], lanes[2][n]}; };
+    const SurfaceLight light(caster.frame_, caster.pass_, caster.cache_);
+    return light.unshaded(of(rays.origin) + of(rays.direction) * point.from, point.normal);
 }
 
 Surface PacketCaster::shadeSurface(void* context, const PacketSurface& surface) {

@@ -66,6 +66,7 @@ private:
     void writeSample(std::size_t ray, Sample& sample) const noexcept;
     void addFragment(std::size_t ray);
     static void blendFragment(void* context, std::size_t ray);
+    [[nodiscard]] static double shareOfLight(void* context, const PacketPoint& point);
     [[nodiscard]] static Surface shadeSurface(void* context, const PacketSurface& surface);
 
     const PreparedFrame& frame_;

@@ -93,6 +93,13 @@ struct PacketSurface {
     bool isVoxel;
 };
 
+/// A surface whose shadow the kernel asks PacketPass::unshaded for.
+struct PacketPoint {
+    std::size_t lane;
+    double from;   ///< t of the ray
+    Vec3d normal;  ///< world space, unit length
+};
+
 /// Surface::normal and Surface::outwardIndex of one side of a plane.
 struct PacketFace {
     double normal[3], outwardIndex[3], unused[2];
@@ -123,6 +130,8 @@ struct PacketPass {
     bool withColor = true;   ///< false: label and depth only; rays end at the first label
     /// Normal and light of a surface that the kernel does not shade.
     Surface (*surface)(void* context, const PacketSurface& surface) = nullptr;
+    /// Share of the key light that reaches a surface of a ray; null: all of it, everywhere.
+    double (*unshaded)(void* context, const PacketPoint& point) = nullptr;
     bool hasFragments = false;  ///< rays may meet lines or meshes; else samples.lines and nextFragment are not read
     /// Blends the next fragment of a ray into its sample.
     void (*fragment)(void* context, std::size_t ray) = nullptr;

@@ -230,7 +230,7 @@ private:
     // Opaque runs end their rays; all of the group are lit together here.
     HWY_NOINLINE void addOpaque() {
         const M unlit = hn::And(isOpaque_, isUnlit_);
-        if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(openness()), light_);
+        if (any(unlit)) light_ = hn::IfThenElse(unlit, lightOn(unlit, openness(), runStart_), light_);
         add(isOpaque_, transmittance_, runStart_, styleOf(runScalar_, isOpaque_));
     }
 
@@ -281,12 +281,32 @@ private:
         return hn::IfThenElse(inside, value, hn::Mul(zero, one));
     }
 
+    // As SurfaceLight::unshaded().
+    HWY_NOINLINE V unshaded(M lanes, V from) const {
+        const D d;
+        const DI di;
+        alignas(64) std::int64_t wanted[hn::MaxLanes(D())];
+        alignas(64) double t[hn::MaxLanes(D())], normal[3][hn::MaxLanes(D())], shares[hn::MaxLanes(D())];
+        hn::Store(hn::IfThenElseZero(toInts(lanes), hn::Set(di, 1)), di, wanted);
+        hn::Store(from, d, t);
+        hn::Store(normal_.x, d, normal[0]);
+        hn::Store(normal_.y, d, normal[1]);
+        hn::Store(normal_.z, d, normal[2]);
+        for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
+            shares[lane] = wanted[lane] == 0
+                               ? 1
+                               : pass_.unshaded(context_, {first_ + lane, t[lane],
+                                                           {normal[0][lane], normal[1][lane], normal[2][lane]}});
+        return hn::Load(d, shares);
+    }
+
     // As SurfaceLight::lightOn().
-    HWY_INLINE V lightOn(V open) const {
+    HWY_INLINE V lightOn(M lanes, V open, V from) const {
         const D d;
         const V zero = hn::Zero(d);
         const V3 view = loadV3(rays_.view, first_);
-        const V key = hn::Max(zero, dot(normal_, broadcast(pass_.towardsLight)));
+        V key = hn::Max(zero, dot(normal_, broadcast(pass_.towardsLight)));
+        if (pass_.unshaded != nullptr) key = hn::Mul(key, unshaded(lanes, from));
         const V facing = hn::Max(zero, dot(normal_, view));
         const V sky = hn::Add(hn::Set(d, kSkyAside), hn::Mul(hn::Set(d, kSkyAbove), normal_.z));
         const V ambient =
@@ -387,7 +407,7 @@ private:
         needsNormal = hn::Or(needsNormal, hn::And(isVoxel, andNot(isOblique, lanes)));
         const M special = hn::And(lanes, hn::Or(hn::Or(isCap, isNowhere), hn::And(isBody, needsNormal)));
         const M glass = andNot(opaque, lanes);
-        if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(one), light_);
+        if (any(glass)) light_ = hn::IfThenElse(glass, lightOn(glass, one, t_), light_);
         if (any(special)) shadeSpecialSurfaces(special, scalar, isVoxel, faceAxis);
     }
 

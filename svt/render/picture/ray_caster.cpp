@@ -111,6 +111,11 @@ Result<PreparedFrame> prepareFrame(std::span<const DrawnVolume> volumes, const F
     }
     if (!frame.isAdaptive) frame.lineSamples = std::round(std::sqrt(spec.samplesPerPixel));
     frame.towardsLight = towardsLight(spec.light, frame.rays());
+    if (spec.light.hasShadows && spec.light.key > 0) {
+        auto shadows = ShadowMaps::make(volumes, spec, frame.towardsLight, options);
+        if (!shadows) return shadows.error();
+        frame.shadows = std::move(*shadows);
+    }
     frame.hatchColor = image::linearFromSrgb(spec.hatches.color);
     for (const Pass& pass : spec.passes) {
         auto prepared = preparedPass(pass, frame, volumes[pass.volume]);

@@ -10,6 +10,7 @@
 #include <svt/render/pass_shapes.hpp>
 #include <svt/render/pass_table.hpp>
 #include <svt/render/prepare/direction_table.hpp>
+#include <svt/render/prepare/shadow_maps.hpp>
 #include <svt/render/prepare/visible_hull.hpp>
 #include <svt/render/ray_caster.hpp>
 
@@ -68,6 +69,7 @@ struct PreparedFrame {
     std::vector<PreparedVolume> volumes{};  ///< at least one
     std::vector<PreparedPass> passes{};
     Vec3d towardsLight{};  ///< world space, unit length
+    ShadowMaps shadows{};  ///< empty: none
     Vec3f hatchColor{};    ///< linear light
     bool isReference = false;
     bool isAdaptive = false;  ///< several samples only in pixels that differ from a neighbour

@@ -47,6 +47,8 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
     cutReach_ = reachOf(spec.borders.cutWidth, side_);
     margin_ = spec.borders.strength > 0 ? std::max(lineReach_, cutReach_ > 1 ? 2 * cutReach_ : 1) : 0;
 
+    if (spec.light.hasShadows)
+        return Error(Code::BadFrame, "shadows of the sun are drawn by the CPU alone; leave out --gl");
     passes_.resize(spec.passes.size());
     passNeeds_.clear();
     for (std::size_t n = 0; n < passes_.size(); ++n) {

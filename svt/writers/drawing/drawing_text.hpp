@@ -2,6 +2,8 @@
 /// \file
 /// Text helpers shared by the drawing writers: numbers, names and a description of the plane.
 
+#include <svt/crs/crs_name.hpp>
+
 #include <svt/illustrate/section_drawing.hpp>
 
 #include <cstdint>
@@ -34,8 +36,6 @@ namespace svt::writers {
 /// True if the section plane is horizontal.
 [[nodiscard]] bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
-/// The number in the first "EPSG" of a CRS name ("urn:ogc:def:crs:EPSG::25832", "EPSG:25832",
-/// "http://www.opengis.net/def/crs/EPSG/0/25832"), or 0.
-[[nodiscard]] std::uint32_t epsgCodeOf(std::string_view crsName) noexcept;
+using crs::epsgCodeOf;
 
 }  // namespace svt::writers

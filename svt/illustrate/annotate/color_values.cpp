@@ -1,0 +1,40 @@
+#include <svt/illustrate/color_by.hpp>
+
+#include <svt/analyze/contacts.hpp>
+#include <svt/analyze/owners.hpp>
+#include <svt/core/text.hpp>
+#include <svt/illustrate/floor_areas.hpp>
+#include <svt/illustrate/sheet_views.hpp>
+
+namespace svt::illustrate {
+
+Result<std::vector<double>> areasFor(std::string_view key, const volume::SemanticVolume& volume) {
+    std::vector<double> areas;
+    if (!equalsIgnoringCase(key, "area")) return areas;
+    const auto measured = measureFloorAreas(volume, findLevels(volume));
+    if (!measured) return measured.error();
+    areas.resize(volume.labels.labels.size(), 0);
+    for (const RoomArea& room : measured->rooms) areas[room.label] = room.area;
+    return areas;
+}
+
+Result<void> addOwnerAttributes(volume::SemanticVolume& volume, std::string_view table, std::string_view file,
+                                int threads) {
+    const auto owners = analyze::parseOwners(table, file, volume.labels);
+    if (!owners) return owners.error();
+    const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
+    std::vector<std::string> names(volume.labels.labels.size());
+    for (std::size_t l = 0; l < names.size(); ++l)
+        if (owners->ofLabel[l] != analyze::kNoOwner) names[l] = owners->names[owners->ofLabel[l]];
+    for (const auto& component : analyze::divideByOwners(volume, contacts, *owners).components) {
+        std::string& name = names[component.label];
+        for (const analyze::OwnerShare& share : component.shares)
+            if (share.owner != analyze::kNoOwner && share.volume > 0)
+                name = name.empty() ? owners->names[share.owner] : "shared";
+    }
+    for (std::size_t l = 0; l < names.size(); ++l)
+        if (!names[l].empty()) volume.labels.labels[l].attributes.push_back({"owner", names[l], ""});
+    return {};
+}
+
+}  // namespace svt::illustrate
